@@ -1,0 +1,29 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace zoneplate {
+
+/// What kind of thing went wrong; the command line turns it into its exit code.
+enum class Trouble {
+  Failed,  ///< rendering or another run-time failure (exit 1)
+  Usage,   ///< a wrong option, value or combination (exit 2)
+  Input,   ///< an input that is missing, corrupt or unsupported (exit 3)
+  Output,  ///< an output that cannot be written (exit 4)
+};
+
+/// The one exception of the library: the world (a file, a scene, an argument) is wrong.
+///
+/// The message is one line that names the place, what was found and what was wanted:
+/// `chair.gltf: mesh 3: POSITION holds 12 bytes, wants 36 (3 vertices)`.
+class Error : public std::runtime_error {
+ public:
+  Error(Trouble trouble, const std::string& message) : std::runtime_error(message), trouble_(trouble) {}
+  Trouble trouble() const { return trouble_; }
+
+ private:
+  Trouble trouble_;
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,2 @@
+#include "zoneplate/base/file.h"
+namespace zoneplate {}

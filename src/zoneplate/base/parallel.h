@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace zoneplate {
+
+/// Calls `body(i)` for every i in [0, count), on the threads of the innermost `with_threads`.
+///
+/// Each call may run on any thread, in any order; a body writes only what belongs to its i. The first
+/// exception thrown by a body is rethrown here, after which the remaining calls may be skipped.
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// Calls `body(begin, end)` over consecutive ranges of at most `grain` items that cover [0, count).
+///
+/// The ranges are the same for every number of threads: [0, grain), [grain, 2 grain), ...
+void parallel_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+
+/// Runs `body` with `threads` threads at most (0: as many as the machine has cores it may use).
+void with_threads(int threads, const std::function<void()>& body);
+
+/// The index of the calling thread within the innermost `with_threads`, in [0, thread_limit()).
+int thread_index();
+
+/// The greatest number of threads that `parallel_for` may use here.
+int thread_limit();
+
+}  // namespace zoneplate

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+namespace zoneplate {
+
+/// Surface points that are shaded together: one material, any triangles, structure of arrays.
+///
+/// A point is one (pixel, triangle) pair, or one (sample, triangle) pair at rate *sample*. Every loop over a batch
+/// treats entries independently, so a point's colour never depends on its neighbours. Entries [count, padded()) repeat
+/// the last point, so that loops may run in whole groups of 8.
+///
+/// Units     x, y: the point in 1/256 pixel from the picture's top-left corner; b: perspective-correct barycentric
+/// weights
+///           that sum to one; dbdx, dbdy: their change per pixel (per sample spacing at rate *sample*).
+struct Batch {
+  static constexpr int capacity = 128;
+  static constexpr int group = 8;
+
+  int count = 0;
+  int material = 0;                               ///< index into Scene::materials
+  alignas(64) std::uint32_t triangle[capacity];   ///< triangle id, in draw order over the whole frame
+  alignas(64) std::uint32_t instance[capacity];   ///< index into Scene::instances
+  alignas(64) std::uint32_t primitive[capacity];  ///< primitive number within its mesh
+  alignas(64) std::uint32_t vertex[3][capacity];  ///< the mesh's vertices to which b belongs (lines: a, b, b)
+  alignas(64) std::int32_t x[capacity], y[capacity];
+  alignas(64) std::int32_t is_front[capacity];  ///< 1 if the front face is seen, else 0
+  alignas(64) float depth[capacity];            ///< reversed depth of the point
+  alignas(64) float b[3][capacity];
+  alignas(64) float dbdx[3][capacity], dbdy[3][capacity];
+
+  int padded() const { return (count + group - 1) / group * group; }
+};
+
+/// What shading gives for a batch. Colour is linear and premultiplied. The rest is filled when asked for.
+struct Shaded {
+  alignas(64) float r[Batch::capacity], g[Batch::capacity], b[Batch::capacity], a[Batch::capacity];
+  alignas(64) float normal[3][Batch::capacity];  ///< world space, unit length, towards the viewer's side
+  alignas(64) float uv[2][Batch::capacity];      ///< the base colour's texture coordinate
+  alignas(64) float albedo[3][Batch::capacity];  ///< linear base colour
+};
+
+}  // namespace zoneplate

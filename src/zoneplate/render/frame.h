@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate {
+
+/// The data passes that may be stored beside the colour; what nobody asks for costs nothing.
+struct Planes {
+  bool depth = false, normal = false, albedo = false, uv = false;
+  bool object_id = false, material_id = false, primitive_id = false, coverage = false;
+  bool samples = false;  ///< colour, depth and triangle id of every sample
+
+  bool any_pixel_plane() const {
+    return depth || normal || albedo || uv || object_id || material_id || primitive_id || coverage;
+  }
+};
+
+/// One rendered picture, before the method's last word and before tone mapping.
+///
+/// Shape     all planes have the picture's size, or are empty where they were not asked for.
+/// Space     colour is linear and premultiplied, without the background.
+/// Edges     a pixel's data come from the nearest opaque or masked surface among its samples, never from an average of
+///           two; `coverage` is the share of its samples that any such surface owns. Blended surfaces write colour
+///           only.
+struct Frame {
+  static constexpr std::uint32_t no_id = 0xffffffffu;
+
+  LinearImage color;            ///< resolved inside the tiles with the method's weights
+  Plane<float> depth;           ///< distance along the view axis, world units; +infinity where nothing is
+  Plane<float> reversed_depth;  ///< as tested: 1 near, 0 far
+  Plane<float3> normal;         ///< world space, unit length, towards the viewer
+  Plane<float3> albedo;         ///< linear base colour
+  Plane<float2> uv;
+  Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
+  Plane<float> coverage;
+
+  std::vector<LinearImage> sample_color;              ///< by sample
+  std::vector<Plane<float>> sample_depth;             ///< reversed
+  std::vector<Plane<std::uint32_t>> sample_triangle;  ///< triangle id, no_id where nothing is
+};
+
+}  // namespace zoneplate

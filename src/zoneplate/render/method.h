@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/render/frame.h"
+#include "zoneplate/signal/samples.h"
+
+namespace zoneplate {
+
+/// How often a surface is shaded.
+enum class Rate {
+  Surface,  ///< once per pixel and triangle (multisampling)
+  Sample,   ///< once per sample (supersampling)
+};
+
+/// What a method wants of the renderer for one frame.
+///
+/// The tile resolves colour while it is in cache: the mean of the samples with `weights`. A method that needs more than
+/// the pixel asks for planes, and only then are they stored.
+struct Request {
+  SamplePattern samples = {SamplePosition{}};
+  Rate rate = Rate::Surface;
+  std::vector<float> weights;  ///< one a sample; empty: all equal
+  Planes planes;
+};
+
+/// An antialiasing method at work on one sequence of frames. Override what the method changes.
+class Resolver {
+ public:
+  virtual ~Resolver() = default;
+  virtual Request ask(int /*frame*/) { return {}; }
+  virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }               ///< before tone mapping
+  virtual DisplayImage finish(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
+};
+
+/// One parameter of a method: a whole number in [low, high] (or one of `choices` where there are any), or a name
+/// out of `names`.
+struct Param {
+  std::string_view name, meaning;
+  int value = 0, low = 0, high = 0;
+  std::span<const int> choices = {};
+  std::span<const std::string_view> names = {};  ///< where not empty, the value is a name; the default is names[value]
+};
+
+/// The values that a user gave to a method's parameters, the others at their defaults.
+class Settings {
+ public:
+  /// Parses `n=4,pattern=halton`. Errors: Trouble::Usage naming an unknown parameter or a value out of range.
+  Settings(std::string_view method, std::span<const Param> params, std::string_view text);
+
+  int integer(std::string_view name) const;
+  std::string_view chosen(std::string_view name) const;
+  bool is_given(std::string_view name) const;
+
+ private:
+  struct Value {
+    int number = 0;
+    bool given = false;
+  };
+  std::span<const Param> params_;
+  std::map<std::string_view, Value> values_;
+};
+
+/// A row of the catalogue; each method's file makes its own.
+struct Method {
+  std::string_view name, summary, source;
+  std::span<const Param> params = {};
+  std::function<std::unique_ptr<Resolver>(const Settings&)> make;
+};
+
+/// The name nearest to `word` by edit distance, or empty if none is near; for "did you mean".
+std::string_view closest(std::string_view word, std::span<const std::string_view> names);
+
+/// Makes the resolver of a text such as `msaa:n=4` from a catalogue.
+///
+/// Errors    Trouble::Usage naming an unknown method (and the closest one), parameter or value.
+std::unique_ptr<Resolver> make_resolver(std::span<const Method> catalogue, std::string_view text);
+
+}  // namespace zoneplate

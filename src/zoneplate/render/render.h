@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/render/frame.h"
+#include "zoneplate/render/method.h"
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+/// A part of the picture, in its pixels.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+enum class EdgeRule {
+  TopLeft,  ///< a sample on a shared edge belongs to exactly one triangle
+  Inside,   ///< for teaching: every triangle owns its edges
+};
+
+enum class Visibility {
+  ZBuffer,
+  Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
+};
+
+/// How a scene becomes a frame; what does not depend on an antialiasing method.
+struct RenderOptions {
+  int width = 800, height = 600;
+  std::optional<Crop> crop;  ///< the frame has the crop's size and the whole picture's bits
+  EdgeRule edge_rule = EdgeRule::TopLeft;
+  Visibility visibility = Visibility::ZBuffer;
+  bool cull_back_faces = true;  ///< of single-sided materials
+  float3 environment{0, 0, 0};  ///< radiance of a constant environment
+  bool raw_colors = false;      ///< images are not decoded from sRGB
+  bool sample_footprint =
+      true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
+  float point_size = 1, line_width = 1;  ///< pixels
+  Isa isa = best_isa();
+};
+
+/// Where time went and how much was done.
+struct RenderCounts {
+  double prepare_ms = 0, geometry_ms = 0, tiles_ms = 0;
+  std::uint64_t triangles = 0;         ///< given
+  std::uint64_t triangles_set_up = 0;  ///< after culling and clipping
+  std::uint64_t shaded = 0;            ///< points shaded
+};
+
+/// Renders one frame of a scene as `request` asks, on the threads of the innermost `with_threads`.
+///
+/// Exact     the same bits for any number of threads and any Isa; triangle order does not matter (equal depths: the
+///           earlier triangle wins).
+Frame render(const Scene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
+             RenderCounts* counts = nullptr);
+
+}  // namespace zoneplate

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+struct BuiltinScene {
+  std::string name;     ///< as given on the command line, before any ':'
+  std::string summary;  ///< one line for `zoneplate list`
+  std::string params;   ///< its parameters with defaults, "triangles=10000", or empty
+};
+
+/// The scenes that are made in code, in the order in which they are listed.
+std::span<const BuiltinScene> builtin_scenes();
+
+/// Makes the scene of a text such as `teapot` or `sphere:triangles=1000`; nothing if no built-in scene has that name.
+///
+/// Errors    Trouble::Usage naming an unknown parameter or a value out of range.
+std::optional<Scene> make_builtin_scene(const std::string& text);
+
+}  // namespace zoneplate

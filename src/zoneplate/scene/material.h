@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate {
+
+enum class Wrap { Repeat, Mirror, Clamp };
+
+/// How texels of one level are combined, and how levels are (None: level 0 only).
+enum class TexelFilter { Nearest, Linear };
+enum class LevelFilter { None, Nearest, Linear };
+
+struct Sampler {
+  Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;
+  TexelFilter magnify = TexelFilter::Linear;
+  TexelFilter minify = TexelFilter::Linear;
+  LevelFilter level = LevelFilter::Linear;
+  bool operator==(const Sampler&) const = default;
+};
+
+/// A decoded image file: straight alpha, codes as stored in the file.
+struct TextureImage {
+  std::string name;  ///< the file or image it came from, for messages
+  Rgba8Image pixels;
+};
+
+/// A use of an image in one slot of a material. `image` < 0: no texture, the factor stands alone.
+///
+/// The coordinate is (offset + rotation(angle) * (scale * uv)), KHR_texture_transform's order: uv is scaled, then
+/// rotated counter-clockwise in a +v-up sense as the extension's matrix says, then moved.
+struct TextureUse {
+  int image = -1;  ///< index into Scene::images
+  Sampler sampler;
+  int uv_set = 0;  ///< 0 or 1
+  float2 offset{0, 0}, scale{1, 1};
+  float rotation = 0;
+};
+
+enum class AlphaMode { Opaque, Mask, Blend };
+enum class ShadingModel { MetallicRoughness, BlinnPhong, Phong, Unlit };
+
+/// What a surface is made of. Factors are linear; base colour and emissive images are sRGB, the others linear.
+struct Material {
+  std::string name;
+  ShadingModel model = ShadingModel::MetallicRoughness;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  float alpha_cutoff = 0.5f;  ///< a masked surface is there where alpha >= cutoff
+  bool double_sided = false;
+
+  float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
+  TextureUse base_color_texture;
+  float3 emissive{0, 0, 0};
+  TextureUse emissive_texture;
+  TextureUse normal_texture;
+  float normal_scale = 1;
+  TextureUse occlusion_texture;  ///< red channel
+  float occlusion_strength = 1;
+
+  float metallic = 1, roughness = 1;      ///< metallic-roughness only
+  TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
+  float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka, times the ambient light
+  float3 specular{0, 0, 0};               ///< (Blinn-)Phong only: Ks
+  float exponent = 32;                    ///< (Blinn-)Phong only: Ns
+};
+
+}  // namespace zoneplate

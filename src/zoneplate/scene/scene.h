@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "zoneplate/scene/camera.h"
+#include "zoneplate/scene/light.h"
+#include "zoneplate/scene/material.h"
+#include "zoneplate/scene/mesh.h"
+
+namespace zoneplate {
+
+/// One placement of a mesh in the world. Meshes of one node share its `object` number.
+struct Instance {
+  int mesh = 0;
+  int object = 0;  ///< index into Scene::objects
+  float4x4 world_from_object;
+};
+
+/// Everything that a picture is made of, flat: no hierarchy is left.
+///
+/// Requires  every index is in range; `materials` is not empty when there are meshes.
+struct Scene {
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<std::string> objects;  ///< names, for ids
+  std::vector<Material> materials;
+  std::vector<TextureImage> images;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  float3 ambient_light{0, 0, 0};      ///< (Blinn-)Phong's constant ambient term, times Material::ambient
+  std::vector<std::string> warnings;  ///< what was passed over at load, one line each
+
+  /// The world-space bounds of all instances (only of vertices that a primitive uses).
+  Box bounds() const;
+};
+
+/// What a loader may consume.
+struct LoadLimits {
+  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes of decoded scene data (--max-memory)
+  std::uint64_t pixels = std::uint64_t{1} << 28;  ///< of one image (--max-pixels)
+  double seconds = 60;                            ///< for one import
+  int node_depth = 256;
+  bool allow_path = false;  ///< may open files outside the model's own folder (--allow-path)
+};
+
+}  // namespace zoneplate
