@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "zoneplate/scene/angle.h"
+
 namespace zoneplate {
 namespace {
 
@@ -37,10 +39,10 @@ Axes view_axes(const AutoFit& fit) {
   const Point front = normalize(towards - up * dot(towards, up));
   const Point side = cross(up, front);
 
-  const double ca = std::cos(static_cast<double>(fit.azimuth)), sa = std::sin(static_cast<double>(fit.azimuth));
-  const double ce = std::cos(static_cast<double>(fit.elevation)), se = std::sin(static_cast<double>(fit.elevation));
-  const Point back = (front * ca + side * sa) * ce + up * se;
-  const Point right = side * ca - front * sa;
+  const SineCosine a = sine_cosine(static_cast<double>(fit.azimuth));
+  const SineCosine e = sine_cosine(static_cast<double>(fit.elevation));
+  const Point back = (front * a.cosine + side * a.sine) * e.cosine + up * e.sine;
+  const Point right = side * a.cosine - front * a.sine;
   return {right, cross(back, right), back};
 }
 
@@ -135,7 +137,8 @@ Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit) {
     camera.half_height = static_cast<float>(std::max({half_y, half_x / aspect, least}) / share);
     eye.z = nearest + diagonal;
   } else {
-    const double slope = std::tan(static_cast<double>(fit.vertical_fov) / 2) * share;
+    const SineCosine half_fov = sine_cosine(static_cast<double>(fit.vertical_fov) / 2);
+    const double slope = half_fov.sine / half_fov.cosine * share;
     eye.z = std::max({distance_for(c.x, c.z, slope * aspect), distance_for(c.y, c.z, slope), nearest + least});
     eye.x = centred(c.x, c.z, eye.z);
     eye.y = centred(c.y, c.z, eye.z);
