@@ -39,7 +39,6 @@ Scene fill_scene(const char* name, AlphaMode alpha) {
   material.model = ShadingModel::Unlit;
   material.alpha_mode = alpha;
   material.double_sided = true;
-  material.base_color = {0.80f, 0.55f, 0.30f, 1};
   material.base_color_texture.image = 0;
   scene.materials.push_back(material);
   add_object(scene, name, quads());

@@ -51,7 +51,8 @@ Scene make_cyclic(std::span<const std::int64_t>) {
       return float3{cosine[i] * p.x - sine[i] * p.y, sine[i] * p.x + cosine[i] * p.y, p.z};
     };
     add_triangle(scene, names[i],
-                 {turned({-1.5f, -0.45f, -0.5f}), turned({1.2f, -0.8f, 0.5f}), turned({1.2f, -0.1f, 0.5f})}, codes[i]);
+                 {turned({-1.9f, -0.45f, -0.5f}), turned({1.2f, -0.75f, 0.5f}), turned({1.2f, -0.15f, 0.5f})},
+                 codes[i]);
   }
   scene.cameras.push_back(camera_at({0, 0, 5}, {0, 0, 0}, quarter_pi, 0.1f, 50));
   return scene;
