@@ -16,7 +16,7 @@ struct Surroundings {
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< images are taken as they are, not decoded from sRGB (--color-management raw)
-  Isa isa = best_isa();
+  Isa isa = best_isa();           ///< every one gives the same bits
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.
