@@ -84,7 +84,8 @@ void add_environment(const float radiance[3], Points& p) {
   const Vector<F> all{F(radiance[0]), F(radiance[1]), F(radiance[2])};
   for (int i = 0; i < p.count; i += F::lanes) {
     const F nv = dot(Vector<F>::load(p.normal, i), Vector<F>::load(p.to_viewer, i));
-    const auto reflected = metallic_environment(metallic_at<F>(p, i), max(nv, F(0.0f)));
+    const auto reflected = metallic_environment(Vector<F>::load(p.base, i), F::load(p.metallic + i),
+                                                F::load(p.roughness + i), min(max(nv, F(0.0f)), F(1.0f)));
     add(p.sum, all * F::load(p.occlusion + i) * reflected, i);
   }
 }
