@@ -55,9 +55,10 @@ std::string usage_line(const Syntax& syntax) {
 }
 
 [[noreturn]] void refuse_unknown(const Syntax& syntax, const std::string& given) {
-  std::vector<std::string> names{"--help", "-h"};
+  std::vector<std::string> names{"--help"};
   for (const Option& option : syntax.options)
-    for (const std::string& name : names_of(option)) names.push_back(name);
+    for (const std::string& name : names_of(option))
+      if (name.starts_with("--")) names.push_back(name);
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string name = given.substr(0, given.find('='));
   const std::string_view near = closest(name, views);
@@ -72,9 +73,8 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   CLI::App app;
   app.set_help_flag();
   app.allow_extras();
-  bool wants_short_help = false, wants_full_help = false;
-  app.add_flag("-h", wants_short_help);
-  app.add_flag("--help", wants_full_help);
+  const CLI::Option* short_help_switch = app.add_flag("-h");
+  const CLI::Option* full_help_switch = app.add_flag("--help");
   app.add_option("operands", syntax.found_operands)->expected(-1);
 
   std::vector<const CLI::Option*> parsers;
@@ -96,17 +96,21 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   } catch (const CLI::ParseError& error) {
     throw Error(Trouble::Usage, error.what());
   }
-  for (const std::string& extra : app.remaining()) refuse_unknown(syntax, extra);
-  if (wants_short_help || wants_full_help) {
-    print(wants_full_help ? full_help(syntax) : short_help(syntax));
+  for (const std::string& extra : app.remaining())
+    if (extra != "--") refuse_unknown(syntax, extra);
+  if (short_help_switch->count() + full_help_switch->count() > 0) {
+    print(full_help_switch->count() > 0 ? full_help(syntax) : short_help(syntax));
     return false;
   }
 
   for (std::size_t i = 0; i < parsers.size(); ++i) {
     if (parsers[i]->count() == 0) continue;
     const Option& option = syntax.options[i];
+    const std::string& text = parsers[i]->results().back();
+    if (option.value.empty() && text != "true")
+      throw Error(Trouble::Usage, names_of(option).front() + " takes no value");
     try {
-      option.set(option.value.empty() ? "" : parsers[i]->results().back());
+      option.set(option.value.empty() ? "" : text);
     } catch (const Error& error) {
       throw Error(error.trouble(), names_of(option).front() + ": " + error.what());
     }

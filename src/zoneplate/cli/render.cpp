@@ -43,8 +43,6 @@ void check_writable(const std::string& output) {
   }
   const std::filesystem::path path(output);
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(Trouble::Output, output + ": is a directory");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw Error(Trouble::Output, fmt::format("{}: {}: {}", output, folder, std::strerror(errno)));
 }
@@ -166,7 +164,7 @@ void run_render(std::span<const std::string> arguments) {
     Scene scene = load_scene(args.input, args.limits);
     summary.times.emplace_back("read", read_watch.ms());
 
-    const bool has_own_view = args.input.find('.') == std::string::npos && !scene.cameras.empty();
+    const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
     if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
     const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
     const Camera camera = choose_camera(scene, args.view, aspect);

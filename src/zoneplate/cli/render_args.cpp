@@ -16,28 +16,21 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr const char* examples =
-    "  zoneplate teapot -o teapot.png\n"
-    "  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n"
-    "  zoneplate render chair.glb -o chair.png --camera-azimuth-angle 120 --no-background\n"
-    "  zoneplate render chair.obj -o - --quiet | display\n"
-    "  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
+    "  zoneplate teapot -o teapot.png\n  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n  "
+    "zoneplate render chair.glb -o chair.png --camera-azimuth-angle 120 --no-background\n  zoneplate render chair.obj "
+    "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
 
 constexpr const char* notes =
-    "IN is a .gltf, .glb or .obj file, or a built-in scene (zoneplate list scenes). OUT ends in .png; - is stdout.\n"
-    "Data passes are written beside OUT: chair.png, chair.depth.png.\n"
-    "\n"
-    "Camera: without any camera option the whole scene is shown three-quarter from above (azimuth 30, elevation\n"
-    "20 degrees, view angle 30); built-in scenes that have a camera use it. Cameras of a file are used with\n"
-    "--camera-index only. Azimuth and elevation choose the direction of the whole-scene view, 0 and 0 being the\n"
-    "front; with a position or an index they turn that camera about its focal point.\n"
-    "\n"
-    "Light: a scene without lights gets a key, a fill and a back light that follow the camera, and a dim constant\n"
-    "environment that metals mirror; any light in the file or an --environment switches them off.\n"
-    "\n"
-    "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
-    "\n"
-    "Exit codes: 0 done, 1 failed while rendering, 2 wrong usage, 3 input missing, corrupt or unsupported,\n"
-    "4 output cannot be written, 128+n ended by signal n. No partial file is ever left.\n";
+    "IN is a .gltf, .glb or .obj file, or a built-in scene (zoneplate list scenes). OUT ends in .png; - is "
+    "stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: without any camera option the "
+    "whole scene is shown three-quarter from above (azimuth 30, elevation\n20 degrees, view angle 30); built-in scenes "
+    "that have a camera use it. Cameras of a file are used with\n--camera-index only. Azimuth and elevation choose the "
+    "direction of the whole-scene view, 0 and 0 being the\nfront; with a position or an index they turn that camera "
+    "about its focal point.\n\nLight: a scene without lights gets a key, a fill and a back light that follow the "
+    "camera, and a dim constant\nenvironment that metals mirror; any light in the file or an --environment switches "
+    "them off.\n\nColours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n\nExit codes: 0 done, 1 failed while "
+    "rendering, 2 wrong usage, 3 input missing, corrupt or unsupported,\n4 output cannot be written, 128+n ended by "
+    "signal n. No partial file is ever left.\n";
 
 float radians(const std::string& text, double low, double high) {
   return static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180);
@@ -94,31 +87,32 @@ std::vector<Option> picture_options(RenderArgs& a) {
   return {
       {"--output,-o", "OUT", "The picture to write: a .png file, or - for stdout", group, true,
        [&](auto& text) { a.output = text; }},
-      {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600", group, true,
+      {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600; default 800,600", group, true,
        [&](auto& text) {
          const int2 size = parse_size(text, max_side);
          a.options.width = size.x, a.options.height = size.y;
        }},
-      {"--anti-aliasing,--aa", "METHOD", "Method with its parameters, as ssaa:n=4 (zoneplate list methods); msaa:n=8",
-       group, true, [&](auto& text) { a.method = text; }},
-      {"--background-color,--background", "COLOR", "Shown behind the scene; #333333", group, true,
+      {"--anti-aliasing,--aa", "METHOD",
+       "Method with its parameters, as ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
+       [&](auto& text) { a.method = text; }},
+      {"--background-color,--background", "COLOR", "Shown behind the scene; default #333333", group, true,
        [&](auto& text) { a.background = parse_color(text); }},
       {"--no-background", "", "Leave the picture transparent where nothing is", group, true,
        [&](auto&) { a.display.is_transparent = true; }},
-      {"--tone-mapping", "CURVE", "none, aces or neutral; none", group, false,
+      {"--tone-mapping", "CURVE", "none, aces or neutral; default none", group, false,
        [&](auto& text) {
          constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral};
          a.display.mapping = curves[parse_choice(text, {"none", "aces", "neutral"})];
        }},
-      {"--exposure", "STOPS", "Brighter by a factor 2 for each stop, darker where negative; 0", group, false,
+      {"--exposure", "STOPS", "Brighter by a factor 2 for each stop, darker where negative; default 0", group, false,
        [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
       {"--crop", "X,Y,W,H", "Write only this part, with the same bits as in the whole picture", group, false,
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
        "Data passes to write too: depth, normal, albedo, uv, object-id, material-id, primitive-id, coverage", group,
        false, [&](auto& text) { a.aovs = parse_aovs(text); }},
-      {"--color-management", "MODE", "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; srgb",
-       group, false,
+      {"--color-management", "MODE",
+       "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
        [&](auto& text) {
          a.display.raw = a.options.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
        }},
@@ -128,22 +122,22 @@ std::vector<Option> picture_options(RenderArgs& a) {
 std::vector<Option> camera_options(RenderArgs& a) {
   const std::string group = "Camera";
   return {
-      {"--camera-azimuth-angle", "DEG", "Direction about the up axis, from the front to the right; 30", group, true,
-       [&](auto& text) { a.view.azimuth = radians(text, -360, 360); }},
-      {"--camera-elevation-angle", "DEG", "Direction above the horizon; 20", group, true,
+      {"--camera-azimuth-angle", "DEG", "Direction about the up axis, from the front to the right; default 30", group,
+       true, [&](auto& text) { a.view.azimuth = radians(text, -360, 360); }},
+      {"--camera-elevation-angle", "DEG", "Direction above the horizon; default 20", group, true,
        [&](auto& text) { a.view.elevation = radians(text, -90, 90); }},
       {"--camera-position", "X,Y,Z", "The eye", group, false,
        [&](auto& text) { a.view.position = parse_triple(text); }},
-      {"--camera-focal-point", "X,Y,Z", "What the eye looks at; the centre of the scene", group, false,
+      {"--camera-focal-point", "X,Y,Z", "What the eye looks at; default the centre of the scene", group, false,
        [&](auto& text) { a.view.focal_point = parse_triple(text); }},
-      {"--camera-view-up", "X,Y,Z", "What is upwards in the picture; the up axis", group, false,
+      {"--camera-view-up", "X,Y,Z", "What is upwards in the picture; default the up axis", group, false,
        [&](auto& text) { a.view.view_up = parse_triple(text); }},
-      {"--camera-view-angle", "DEG", "Vertical angle of view; 30", group, false,
+      {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
        [&](auto& text) { a.view.view_angle = radians(text, 0.01, 179); }},
       {"--camera-orthographic", "", "Parallel projection", group, false, [&](auto&) { a.view.is_orthographic = true; }},
       {"--camera-index", "N", "The camera number N of the scene, from 0", group, false,
        [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
-      {"--up", "AXIS", "The scene's upward axis: +Y, +Z, ...; +Y", group, false,
+      {"--up", "AXIS", "The scene's upward axis: +Y, +Z, ...; default +Y", group, false,
        [&](auto& text) { a.view.up = parse_up(text); }},
   };
 }
@@ -157,15 +151,15 @@ std::vector<Option> scene_options(RenderArgs& a) {
                                             ShadingModel::MetallicRoughness, ShadingModel::Unlit};
          a.look.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
        }},
-      {"--light-intensity", "FACTOR", "Multiplies every light; 1", group, false,
+      {"--light-intensity", "FACTOR", "Multiplies every light; default 1", group, false,
        [&](auto& text) { a.look.light_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--environment", "COLOR", "Light of one colour from all sides, in place of the default lights", group, false,
        [&](auto& text) { a.look.environment = linear_color(text); }},
       {"--no-cull", "", "Draw the back faces of single-sided materials too", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
-      {"--point-size", "PX", "Side of the squares that points are drawn as; 1", group, false,
+      {"--point-size", "PX", "Side of the squares that points are drawn as; default 1", group, false,
        [&](auto& text) { a.options.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
-      {"--line-width", "PX", "Width of lines; 1", group, false,
+      {"--line-width", "PX", "Width of lines; default 1", group, false,
        [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
   };
 }
@@ -173,11 +167,12 @@ std::vector<Option> scene_options(RenderArgs& a) {
 std::vector<Option> teaching_options(RenderArgs& a) {
   const std::string group = "For teaching";
   return {
-      {"--edge-rule", "RULE", "top-left, or inside: a triangle owns all of its edges; top-left", group, false,
+      {"--edge-rule", "RULE", "top-left, or inside: a triangle owns all of its edges; default top-left", group, false,
        [&](auto& text) {
          a.options.edge_rule = parse_choice(text, {"top-left", "inside"}) == 0 ? EdgeRule::TopLeft : EdgeRule::Inside;
        }},
-      {"--visibility", "RULE", "z-buffer, or painter: far triangles first, no depth test; z-buffer", group, false,
+      {"--visibility", "RULE", "z-buffer, or painter: far triangles first, no depth test; default z-buffer", group,
+       false,
        [&](auto& text) {
          a.options.visibility =
              parse_choice(text, {"z-buffer", "painter"}) == 0 ? Visibility::ZBuffer : Visibility::Painter;
@@ -190,20 +185,20 @@ std::vector<Option> run_options(RenderArgs& a) {
   return {
       {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
-      {"--isa", "SET", "Instruction set: scalar, sse4 or avx2, all with the same bits; the best", group, false,
+      {"--isa", "SET", "Instruction set: scalar, sse4 or avx2, all with the same bits; default the best", group, false,
        [&](auto& text) { a.options.isa = parse_isa(text); }},
       {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
        [&](auto&) { a.wants_json = true; }},
-      {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; auto", group, false,
+      {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; default auto", group, false,
        [&](auto& text) { a.progress = parse_progress(text); }},
       {"--quiet,-q", "", "Say nothing but errors", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
       {"--verbose,-v", "", "Say what was done, and how long it took", group, false,
        [&](auto&) { a.verbosity = Verbosity::Verbose; }},
-      {"--max-memory", "BYTES", "Refuse scenes and pictures that need more, as 512M; 4G", group, false,
+      {"--max-memory", "BYTES", "Refuse scenes and pictures that need more, as 512M; default 4G", group, false,
        [&](auto& text) { a.limits.memory = parse_bytes(text); }},
-      {"--max-pixels", "N", "Refuse textures of more pixels, as 16M; 256M", group, false,
+      {"--max-pixels", "N", "Refuse textures of more pixels, as 16M; default 256M", group, false,
        [&](auto& text) { a.limits.pixels = parse_bytes(text); }},
-      {"--max-import-seconds", "S", "Give up reading the scene after this time; 60", group, false,
+      {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
        [&](auto& text) { a.limits.seconds = parse_number(text, 0.001, 1e6); }},
       {"--allow-path", "", "Let a model use files outside its own folder", group, false,
        [&](auto&) { a.limits.allow_path = true; }},
@@ -216,6 +211,9 @@ void check_output(const RenderArgs& args) {
     if (!args.aovs.empty()) throw Error(Trouble::Usage, "--aov writes files beside OUT, which cannot be -");
     return;
   }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(args.output, ignored))
+    throw Error(Trouble::Output, args.output + ": is a directory");
   if (!args.output.ends_with(".png") && !args.output.ends_with(".PNG"))
     throw Error(Trouble::Usage, fmt::format("--output: {} is not a format that can be written (.png)", args.output));
 }

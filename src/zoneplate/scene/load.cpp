@@ -1,5 +1,6 @@
 #include "zoneplate/scene/load.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -28,6 +29,12 @@ std::string lower_case(std::string text) {
 }  // namespace
 
 std::span<const SceneFormat> scene_formats() { return formats; }
+
+bool is_builtin_scene(std::string_view name) {
+  const std::string_view stem = name.substr(0, name.find(':'));
+  const auto scenes = builtin_scenes();
+  return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) { return scene.name == stem; });
+}
 
 Scene load_scene(const std::string& name, const LoadLimits& limits) {
   if (std::optional<Scene> scene = make_builtin_scene(name)) return std::move(*scene);

@@ -16,6 +16,9 @@ struct SceneFormat {
 /// The file formats that `load_scene` reads.
 std::span<const SceneFormat> scene_formats();
 
+/// True for the name of a built-in scene, with or without parameters.
+bool is_builtin_scene(std::string_view name);
+
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".
 ///
 /// A built-in scene goes before a file of the same name, which is reached as "./teapot".
