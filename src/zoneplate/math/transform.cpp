@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "zoneplate/math/angle.h"
+
 namespace zoneplate {
 
 float4x4 translation(float3 t) {
@@ -27,8 +29,8 @@ float4x4 rotation(Quaternion q) {
 
 float4x4 rotation(float3 axis, float angle) {
   const float3 a = normalize(axis, {0, 1, 0});
-  const float s = static_cast<float>(std::sin(static_cast<double>(angle) / 2));
-  const float c = static_cast<float>(std::cos(static_cast<double>(angle) / 2));
+  const SineCosine half = sine_cosine(static_cast<double>(angle) / 2);
+  const auto s = static_cast<float>(half.sine), c = static_cast<float>(half.cosine);
   return rotation(Quaternion{a.x * s, a.y * s, a.z * s, c});
 }
 
@@ -44,7 +46,8 @@ float4x4 look_at(float3 eye, float3 target, float3 up) {
 }
 
 float4x4 perspective(float vertical_fov, float aspect, float near, float far) {
-  const double t = std::tan(static_cast<double>(vertical_fov) / 2);
+  const SineCosine half = sine_cosine(static_cast<double>(vertical_fov) / 2);
+  const double t = half.sine / half.cosine;
   const double n = near, f = far;
   // z_clip = a z_view + b with z/w = 1 at z_view = -n and 0 at -f; in the limit of an infinite far plane a = 0, b = n.
   const double a = std::isinf(f) ? 0.0 : n / (f - n);

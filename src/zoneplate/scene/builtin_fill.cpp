@@ -1,5 +1,5 @@
 // 32 textured quads, each larger than a 16:9 picture, from back to front: every pixel is drawn 32 times.
-#include "zoneplate/scene/angle.h"
+#include "zoneplate/math/angle.h"
 #include "zoneplate/scene/builtin_bench.h"
 
 namespace zoneplate {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/scene/angle.h"
+#include "zoneplate/math/angle.h"
 #include "zoneplate/scene/builtin_bench.h"
 
 namespace zoneplate {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "zoneplate/scene/angle.h"
+#include "zoneplate/math/angle.h"
 
 namespace zoneplate {
 namespace {

@@ -1,4 +1,4 @@
-#include "zoneplate/scene/angle.h"
+#include "zoneplate/math/angle.h"
 
 #include <gtest/gtest.h>
 
