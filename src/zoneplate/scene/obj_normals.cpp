@@ -138,9 +138,8 @@ float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t position,
   } else {
     for (std::uint32_t i = begin; i < end; ++i) {
       const Share& other = n.shares[i];
-      const bool is_smooth =
-          other.smoothing == self.smoothing &&
-          (self.smoothing != smooth_by_angle || i == own || dot(other.normal, self.normal) > cos_50);
+      const bool is_smooth = other.smoothing == self.smoothing &&
+                             (self.smoothing != smooth_by_angle || i == own || dot(other.normal, self.normal) > cos_50);
       if (is_smooth) sum += other.normal * other.angle;
     }
   }
