@@ -356,7 +356,7 @@ TEST_F(ObjModel, SurvivesAnyChange) {
   for (std::uint32_t seed = 0; seed < 4000; ++seed) {
     std::string changed = text;
     const std::uint32_t changes = 1 + hash(seed, 1) % 6;
-    for (std::uint32_t i = 0; i < changes; ++i) {
+    for (std::uint32_t i = 0; i < changes && !changed.empty(); ++i) {
       const std::size_t at = hash(seed, 2, i) % changed.size();
       const char piece = pieces[hash(seed, 3, i) % pieces.size()];
       switch (hash(seed, 4, i) % 5) {
