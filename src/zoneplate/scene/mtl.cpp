@@ -147,7 +147,7 @@ class MtlReader {
     const bool is_map = key.substr(0, 4) == "map_" || key == "bump" || key == "disp" || key == "decal" || key == "refl";
     // Ka's map is nearly always Kd's, and only ambient light would show it.
     if (is_map && key != "map_ka" && key != "map_aat") return m.unsupported.push_back(key);
-    constexpr std::array known = {"ni",  "tf",    "sharpness", "km",      "ps",      "pc", "pcr",
+    constexpr std::array known = {"ni",    "tf",     "sharpness", "km",      "ps",     "pc",      "pcr",
                                   "aniso", "anisor", "map_ka",    "map_aat", "xalpha", "spectral"};
     if (std::find(known.begin(), known.end(), key) == known.end())
       warn(fmt::format("'{}' is not known and passed over", key.substr(0, 40)));

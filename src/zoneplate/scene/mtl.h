@@ -20,12 +20,12 @@ struct MtlTexture {
 /// What an MTL file says of a material; colours are as in the file.
 struct MtlMaterial {
   std::string name;
-  std::optional<float3> diffuse, ambient, specular, emissive;       ///< Kd Ka Ks Ke
-  std::optional<float> exponent, opacity, transparency;             ///< Ns d Tr
-  std::optional<float> roughness, metallic;                         ///< Pr Pm
-  std::optional<int> illumination;                                  ///< illum
-  MtlTexture diffuse_map, emissive_map, opacity_map, normal_map;    ///< map_Kd map_Ke map_d norm
-  std::vector<std::string> unsupported;                             ///< keys of maps that are not drawn
+  std::optional<float3> diffuse, ambient, specular, emissive;     ///< Kd Ka Ks Ke
+  std::optional<float> exponent, opacity, transparency;           ///< Ns d Tr
+  std::optional<float> roughness, metallic;                       ///< Pr Pm
+  std::optional<int> illumination;                                ///< illum
+  MtlTexture diffuse_map, emissive_map, opacity_map, normal_map;  ///< map_Kd map_Ke map_d norm
+  std::vector<std::string> unsupported;                           ///< keys of maps that are not drawn
 };
 
 /// Reads the materials of an MTL file. What is wrong in it is passed over with a warning that names `file` and line.

@@ -51,8 +51,8 @@ ObjLayout lay_out(const ObjFile& file, const std::string& unnamed) {
     std::uint32_t begin = 0;
     const auto add_run = [&](std::uint32_t end) {
       if (end == begin) return;
-      layout.runs.push_back({static_cast<std::uint32_t>(c), begin, end, objects.number(object),
-                             materials.number(material), smoothing});
+      layout.runs.push_back(
+          {static_cast<std::uint32_t>(c), begin, end, objects.number(object), materials.number(material), smoothing});
       begin = end;
     };
     for (const ObjState& state : chunk.states) {

@@ -153,7 +153,9 @@ class Builder {
   }
 
  private:
-  std::size_t bytes() const { return table_.bytes() + index_.capacity() * sizeof(index_[0]) + table_.keys().size() * 48; }
+  std::size_t bytes() const {
+    return table_.bytes() + index_.capacity() * sizeof(index_[0]) + table_.keys().size() * 48;
+  }
 
   float4 color_of(std::size_t position) const {
     const float4 c = file_.colors[position];

@@ -15,8 +15,8 @@ struct ObjMesh {
 };
 
 struct ObjMeshes {
-  std::vector<ObjMesh> meshes;   ///< in the order of their first elements; none is empty
-  std::uint64_t not_finite = 0;  ///< elements that were dropped for a vertex that is not finite
+  std::vector<ObjMesh> meshes;    ///< in the order of their first elements; none is empty
+  std::uint64_t not_finite = 0;   ///< elements that were dropped for a vertex that is not finite
   std::uint64_t too_concave = 0;  ///< polygons of too many corners to be cut rightly
 };
 

@@ -1,6 +1,7 @@
 #include "zoneplate/scene/obj_normals.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/scene/triangulate.h"
 
 namespace zoneplate {
@@ -15,8 +17,9 @@ namespace {
 
 constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256;
+constexpr std::uint32_t none = 0xffffffffu;
 
-/// A corner that needs a normal, as its neighbours about the position see it.
+/// A corner that needs a normal, as its neighbours at the same place see it.
 struct Share {
   float3 normal;  ///< of its face
   float angle;
@@ -54,13 +57,30 @@ float angle_between(float3 a, float3 b) {
   return atan2(length(cross(p, q)), dot(p, q));
 }
 
-/// All that is needed to smooth, by position: the shares of the positions' corners, in the order of the file.
+/// For each position the first one of the file that is at the same place.
+std::vector<std::uint32_t> first_at_place(const std::vector<float3>& positions) {
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * positions.size() + 1), none), first(positions.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    const float3 p = positions[i] + float3{0, 0, 0};  // -0 becomes 0
+    std::size_t slot =
+        hash(std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z));
+    for (slot &= table.size() - 1; table[slot] != none && positions[table[slot]] != p;)
+      slot = (slot + 1) & (table.size() - 1);
+    if (table[slot] == none && is_finite(p)) table[slot] = i;
+    first[i] = table[slot] == none ? i : table[slot];
+  }
+  return first;
+}
+
+/// All that is needed to smooth, by place: the shares of the corners there, in the order of the file.
 struct Neighbours {
-  std::vector<std::uint32_t> first;  ///< of each position's shares; one more than there are positions
+  std::vector<std::uint32_t> place;  ///< of each position
+  std::vector<std::uint32_t> first;  ///< of each place's shares; one more than there are positions
   std::vector<Share> shares;
   std::vector<std::vector<std::uint32_t>> slot;  ///< of each chunk's corners: its own share, or none
+
+  std::size_t place_of(const ObjCorner& corner) const { return place[static_cast<std::size_t>(corner.position)]; }
 };
-constexpr std::uint32_t none = 0xffffffffu;
 
 /// Calls `body(chunk, element, smoothing)` for each face that needs normals, in the order of the file.
 template <class Body>
@@ -72,18 +92,24 @@ void for_each_face(const ObjFile& file, const std::vector<ObjRun>& runs, const B
   }
 }
 
-/// Finds the place of every share: counted by position, then in the order of the file.
+/// Finds where every share goes: counted by place, then in the order of the file.
 Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, ObjBudget& budget) {
   Neighbours n;
+  const bool are_needed = std::any_of(runs.begin(), runs.end(), [&](const ObjRun& run) {
+    const auto& elements = file.chunks[run.chunk].elements;
+    return std::any_of(elements.begin() + run.begin, elements.begin() + run.end,
+                       [&](const ObjElement& e) { return needs_normals(file, file.chunks[run.chunk], e); });
+  });
+  if (!are_needed) return n;
+  budget.take(file.positions.size() * 6 * sizeof(std::uint32_t));
+  n.place = first_at_place(file.positions);
   std::vector<std::uint32_t> count(file.positions.size() + 1);
   std::uint64_t all = 0;
   for_each_face(file, runs, [&](std::uint32_t c, const ObjElement& e, std::uint32_t) {
     all += e.count;
-    for (std::uint32_t i = 0; i < e.count; ++i)
-      ++count[static_cast<std::size_t>(file.chunks[c].corners[e.first + i].position)];
+    for (std::uint32_t i = 0; i < e.count; ++i) ++count[n.place_of(file.chunks[c].corners[e.first + i])];
   });
-  if (all == 0) return n;
-  budget.take(all * (sizeof(Share) + sizeof(std::uint32_t) + sizeof(float3)) + count.size() * 4);
+  budget.take(all * (sizeof(Share) + sizeof(std::uint32_t) + sizeof(float3)));
   std::uint32_t sum = 0;
   for (std::uint32_t& c : count) sum += std::exchange(c, sum);
   n.first = count;
@@ -93,7 +119,7 @@ Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, Ob
     const ObjChunk& chunk = file.chunks[c];
     if (n.slot[c].empty()) n.slot[c].assign(chunk.corners.size(), none);
     for (std::uint32_t i = 0; i < e.count; ++i)
-      n.slot[c][e.first + i] = count[static_cast<std::size_t>(chunk.corners[e.first + i].position)]++;
+      n.slot[c][e.first + i] = count[n.place_of(chunk.corners[e.first + i])]++;
   });
   return n;
 }
@@ -116,7 +142,7 @@ void fill_shares(const ObjFile& file, const ObjRun& run, Neighbours& n) {
   }
 }
 
-/// Sums of positions where so many faces meet that comparing each with each would take too long.
+/// Sums of places where so many faces meet that comparing each with each would take too long.
 using Crowds = std::map<std::pair<std::size_t, std::uint32_t>, float3>;
 
 Crowds sum_crowds(const Neighbours& n) {
@@ -128,19 +154,18 @@ Crowds sum_crowds(const Neighbours& n) {
   return sums;
 }
 
-float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t position, std::uint32_t own) {
+float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t place, std::uint32_t own) {
   const Share& self = n.shares[own];
   if (self.smoothing == 0) return self.normal;
-  const std::uint32_t begin = n.first[position], end = n.first[position + 1];
+  const std::uint32_t begin = n.first[place], end = n.first[place + 1];
   float3 sum;
   if (end - begin > most_compared) {
-    sum = crowds.at({position, self.smoothing});
+    sum = crowds.at({place, self.smoothing});
   } else {
     for (std::uint32_t i = begin; i < end; ++i) {
       const Share& other = n.shares[i];
-      const bool is_smooth =
-          other.smoothing == self.smoothing &&
-          (self.smoothing != smooth_by_angle || i == own || dot(other.normal, self.normal) > cos_50);
+      const bool is_smooth = other.smoothing == self.smoothing &&
+                             (self.smoothing != smooth_by_angle || i == own || dot(other.normal, self.normal) > cos_50);
       if (is_smooth) sum += other.normal * other.angle;
     }
   }
@@ -163,7 +188,7 @@ std::vector<std::vector<float3>> missing_normals(const ObjFile& file, const std:
     normals[c].resize(chunk.corners.size());
     for (std::size_t i = 0; i < chunk.corners.size(); ++i)
       if (n.slot[c][i] != none && !has_normal(file, chunk.corners[i]))
-        normals[c][i] = smoothed(n, crowds, static_cast<std::size_t>(chunk.corners[i].position), n.slot[c][i]);
+        normals[c][i] = smoothed(n, crowds, n.place_of(chunk.corners[i]), n.slot[c][i]);
   });
   budget.check_time();
   return normals;

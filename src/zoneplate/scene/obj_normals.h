@@ -19,9 +19,10 @@ inline constexpr std::uint32_t smooth_by_angle = 0xffffffffu;
 
 /// The normals that the file does not give, for each corner of each chunk; empty where a chunk has them all.
 ///
-/// A corner's normal is the sum of the unit normals of the faces about its position that are smooth with its own,
-/// each times the face's angle there: those of its smoothing group, or those that bend away from it by less than
-/// 50°; with smoothing off its own face's alone. A face without area has the normal +Y.
+/// A corner's normal is the sum of the unit normals of the faces about its place that are smooth with its own, each
+/// times the face's angle there (vertices at exactly one place are one, as where patches of a surface meet): those of
+/// its smoothing group, or those that bend away from it by less than 50°; with smoothing off its own face's alone. A
+/// face without area has the normal +Y.
 ///
 /// Edges     a corner with a normal in the file keeps it (its entry is zero); where more than 256 faces meet,
 ///           smoothing by angle takes all of them.

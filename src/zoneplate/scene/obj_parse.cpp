@@ -96,12 +96,12 @@ class ChunkReader {
     if (word == "usemtl") return add_state(ObjStateKind::Material, words);
     if (word == "s") return add_state(ObjStateKind::Smoothing, words);
     if (word == "mtllib") return add_state(ObjStateKind::Library, words);
-    constexpr std::string_view silent[] = {"lod",      "bevel",      "c_interp",  "d_interp", "mg",     "maplib",
-                                           "usemap",   "shadow_obj", "trace_obj", "call",     "csh"};
+    constexpr std::string_view silent[] = {"lod",    "bevel",      "c_interp",  "d_interp", "mg", "maplib",
+                                           "usemap", "shadow_obj", "trace_obj", "call",     "csh"};
     if (std::find(std::begin(silent), std::end(silent), word) != std::end(silent)) return;
-    constexpr std::string_view free_form[] = {"vp",   "cstype", "deg",  "bmat",  "step", "curv", "curv2", "surf",
-                                              "parm", "trim",   "hole", "scrv",  "sp",   "end",  "con",   "ctech",
-                                              "stech", "bzp",   "bsp",  "res",   "cdc",  "cdp"};
+    constexpr std::string_view free_form[] = {"vp",    "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",
+                                              "parm",  "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech",
+                                              "stech", "bzp",    "bsp",  "res",  "cdc",  "cdp"};
     const bool is_free_form = std::find(std::begin(free_form), std::end(free_form), word) != std::end(free_form);
     note(is_free_form ? ObjNote::FreeForm : ObjNote::Unknown, word);
   }
@@ -150,40 +150,52 @@ class ChunkReader {
     // In double, so that neither long nor short normals are lost.
     const double x = v[0], y = v[1], z = v[2], length = std::sqrt(x * x + y * y + z * z);
     const bool is_fine = std::isfinite(length) && length > 0;
-    file_.normals[at_.normals++] = is_fine ? float3{static_cast<float>(x / length), static_cast<float>(y / length),
-                                                    static_cast<float>(z / length)}
-                                           : float3{0, 0, 0};
+    file_.normals[at_.normals++] =
+        is_fine ? float3{static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)}
+                : float3{0, 0, 0};
   }
 
+  struct Index {
+    std::int64_t given = 0;
+    std::int32_t found = -1;  ///< -1 where there is none
+  };
+
   /// The next index of a corner's text: absolute from 1, or negative from the last one so far.
-  std::int32_t read_index(const char*& at, const char* end, std::uint64_t so_far, std::uint64_t all, const char* what,
-                          const char* of) const {
+  Index read_index(const char*& at, const char* end, std::uint64_t so_far, std::uint64_t all, const char* what) const {
     std::int64_t value = 0;
-    if (at != end && *at == '+') ++at;
-    const auto [stop, trouble] = std::from_chars(at, end, value);
+    const char* const begin = at != end && *at == '+' ? at + 1 : at;
+    const auto [stop, trouble] = std::from_chars(begin, end, value);
     if (trouble == std::errc::invalid_argument)
       fail(fmt::format("{}: '{}' is not an index", what, std::string_view(at, static_cast<std::size_t>(end - at))));
     at = stop;
+    if (trouble != std::errc{}) value = std::numeric_limits<std::int64_t>::max();
     const std::int64_t index = value < 0 ? static_cast<std::int64_t>(so_far) + value : value - 1;
-    if (trouble != std::errc{} || value == 0 || index < 0 || index >= static_cast<std::int64_t>(all))
-      fail(fmt::format("{} index {} out of range ({} {})", what, trouble == std::errc{} ? value : 0, all, of));
-    return static_cast<std::int32_t>(index);
+    const bool is_there = index >= 0 && index < static_cast<std::int64_t>(all);
+    return {value, is_there ? static_cast<std::int32_t>(index) : -1};
   }
 
-  ObjCorner read_corner(std::string_view word, const char* what) const {
+  std::int32_t read_optional_index(const char*& at, const char* end, std::uint64_t so_far, std::uint64_t all,
+                                   const char* what, ObjNote missing) {
+    const std::int32_t found = read_index(at, end, so_far, all, what).found;
+    if (found < 0) note(missing, what);
+    return found;
+  }
+
+  ObjCorner read_corner(std::string_view word, const char* what) {
     const char* at = word.data();
     const char* const end = at + word.size();
     ObjCorner corner;
-    corner.position = read_index(at, end, at_.positions, file_.positions.size(), what, "vertices");
+    const Index position = read_index(at, end, at_.positions, file_.positions.size(), what);
+    if (position.found < 0)
+      fail(fmt::format("{} index {} out of range ({} vertices)", what, position.given, file_.positions.size()));
+    corner.position = position.found;
     if (at != end && *at == '/') {
       ++at;
       if (at != end && *at != '/')
-        corner.uv = read_index(at, end, at_.uvs, file_.uvs.size(), "texture coordinate", "texture coordinates");
-      if (at != end && *at == '/') {
-        ++at;
-        if (at != end)
-          corner.normal = read_index(at, end, at_.normals, file_.normals.size(), "normal", "normals");
-      }
+        corner.uv = read_optional_index(at, end, at_.uvs, file_.uvs.size(), "texture coordinate", ObjNote::NoSuchUv);
+      if (at != end && *at == '/' && ++at != end)
+        corner.normal =
+            read_optional_index(at, end, at_.normals, file_.normals.size(), "normal", ObjNote::NoSuchNormal);
     }
     if (at != end) fail(fmt::format("{}: '{}' is not v, v/vt, v//vn or v/vt/vn", what, word.substr(0, 40)));
     return corner;
@@ -200,8 +212,7 @@ class ChunkReader {
       return note(ObjNote::FewCorners, what);
     }
     if (chunk_.corners.size() >= most_items) fail("too many corners in one statement");
-    chunk_.elements.push_back(
-        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n) & 0x3fffffffu, kind});
+    chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), kind});
   }
 
   void add_state(ObjStateKind kind, LineWords& words) {

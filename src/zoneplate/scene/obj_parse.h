@@ -18,13 +18,12 @@ struct ObjCorner {
   bool operator==(const ObjCorner&) const = default;
 };
 
-enum class ObjKind : std::uint32_t { Face, Line, Point };
+enum class ObjKind : std::uint8_t { Face, Line, Point };
 
 /// A face, a polyline or a set of points: `count` corners of its chunk from `first` on.
 struct ObjElement {
-  std::uint32_t first;
-  std::uint32_t count : 30;
-  ObjKind kind : 2;
+  std::uint32_t first = 0, count = 0;
+  ObjKind kind = ObjKind::Face;
 };
 
 /// What is said between the elements and holds for those that follow.
@@ -36,7 +35,7 @@ struct ObjState {
 };
 
 /// Things passed over; counted, with the first place of each.
-enum class ObjNote { FewCorners, FreeForm, Unknown, UvNotFinite };
+enum class ObjNote { FewCorners, FreeForm, Unknown, UvNotFinite, NoSuchUv, NoSuchNormal };
 struct ObjTally {
   std::uint64_t count = 0, line = 0;
   std::string word;
@@ -47,7 +46,7 @@ struct ObjChunk {
   std::vector<ObjCorner> corners;
   std::vector<ObjElement> elements;
   std::vector<ObjState> states;
-  std::array<ObjTally, 4> notes;  ///< by ObjNote
+  std::array<ObjTally, 6> notes;  ///< by ObjNote
 };
 
 struct ObjFile {
@@ -80,7 +79,9 @@ class ObjBudget {
 
 /// Reads the statements of an OBJ file, in parallel.
 ///
-/// Errors    Trouble::Input naming file, line and cause: a number that is none, too few numbers, an index out of range.
+/// Edges     a corner that names a texture coordinate or normal that is not there has none, with a note.
+/// Errors    Trouble::Input naming file, line and cause: a number that is none, too few numbers, a vertex that is not
+///           there.
 ObjFile parse_obj(std::string_view text, ObjBudget& budget);
 
 }  // namespace zoneplate

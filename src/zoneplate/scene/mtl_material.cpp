@@ -1,0 +1,200 @@
+#include "zoneplate/scene/mtl_material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/scene/gltf_uri.h"
+#include "zoneplate/scene/image_file.h"
+
+namespace zoneplate {
+namespace {
+
+float linear(float code) { return code <= 1 ? decode_srgb(std::max(0.0f, code)) : code; }
+float3 linear(float3 code) { return {linear(code.x), linear(code.y), linear(code.z)}; }
+
+std::string with_slashes(std::string_view name) {
+  std::string out(name);
+  std::replace(out.begin(), out.end(), '\\', '/');
+  if (out.size() >= 2 && out.front() == '"' && out.back() == '"') out = out.substr(1, out.size() - 2);
+  return out;
+}
+
+/// A file's name as a URI, which is what find_path takes.
+std::string to_uri(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == '%' ? std::string("%25") : std::string(1, c);
+  return out;
+}
+
+bool is_file(const std::string& path) {
+  std::error_code trouble;
+  return std::filesystem::is_regular_file(path, trouble);
+}
+
+/// How opaque a texel of an opacity map is: its alpha where the map has any, else its luma (Rec. 709, in codes).
+class Opacity {
+ public:
+  explicit Opacity(const Rgba8Image& map) : map_(map) {
+    const auto values = map.values();
+    has_alpha_ = std::any_of(values.begin(), values.end(), [](Rgba8 p) { return p.a != 255; });
+  }
+  std::uint8_t operator()(int x, int y) const {
+    const Rgba8 p = map_(x, y);
+    return has_alpha_ ? p.a : static_cast<std::uint8_t>((p.r * 2126 + p.g * 7152 + p.b * 722 + 5000) / 10000);
+  }
+
+ private:
+  const Rgba8Image& map_;
+  bool has_alpha_ = false;
+};
+
+/// The colour image with the map as its alpha, at the colour image's size; white where there is no colour image.
+Rgba8Image with_alpha(const Rgba8Image* color, const Rgba8Image& map) {
+  Rgba8Image out = color != nullptr ? *color : Rgba8Image(map.width(), map.height(), {255, 255, 255, 255});
+  const Opacity opacity(map);
+  const auto scaled = [](int i, int to, int from) { return static_cast<int>(std::int64_t{i} * to / from); };
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x)
+      out(x, y).a = opacity(scaled(x, map.width(), out.width()), scaled(y, map.height(), out.height()));
+  return out;
+}
+
+TextureUse use_of(const MtlTexture& texture, int image) {
+  TextureUse use;
+  use.image = image;
+  if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = Wrap::Clamp;
+  // v_file = offset + scale × (1 - v), and ours is one less that.
+  use.scale = texture.scale;
+  use.offset = {texture.offset.x, 1 - texture.scale.y - texture.offset.y};
+  return use;
+}
+
+TextureUse load_texture(const MtlTexture& texture, const std::string& within, ObjFolder& folder) {
+  return texture.file.empty() ? TextureUse{} : use_of(texture, folder.image(within, texture.file));
+}
+
+/// A factor over an image: one that is missing, or black (as some programs write it), is white.
+float3 factor(const std::optional<float3>& color, bool has_image, float3 otherwise, const MtlMaterial& mtl,
+              const char* key, ObjFolder& folder) {
+  if (!has_image) return color ? linear(*color) : otherwise;
+  if (!color) return {1, 1, 1};
+  if (*color != float3{0, 0, 0}) return linear(*color);
+  folder.scene().warnings.push_back(
+      fmt::format("{}: material {}: {} is black over an image, taken as white", folder.budget().file(), mtl.name, key));
+  return {1, 1, 1};
+}
+
+/// Puts the opacity map into the base colour image, a new one.
+void add_opacity(const MtlMaterial& mtl, const std::string& within, ObjFolder& folder, Material& material) {
+  if (mtl.opacity_map.file.empty()) return;
+  const int map = folder.image(within, mtl.opacity_map.file);
+  if (map < 0) return;
+  std::vector<TextureImage>& images = folder.scene().images;
+  TextureUse& base = material.base_color_texture;
+  const Rgba8Image* color = base.image >= 0 ? &images[static_cast<std::size_t>(base.image)].pixels : nullptr;
+  const TextureImage& mask = images[static_cast<std::size_t>(map)];
+  const Rgba8Image& sized = color != nullptr ? *color : mask.pixels;
+  folder.budget().take(sized.values().size() * sizeof(Rgba8));
+  TextureImage both{mask.name, with_alpha(color, mask.pixels)};
+  const auto values = both.pixels.values();
+  if (std::all_of(values.begin(), values.end(), [](Rgba8 p) { return p.a == 255; })) return;
+  if (color == nullptr) base = use_of(mtl.opacity_map, 0);
+  base.image = static_cast<int>(images.size());
+  images.push_back(std::move(both));
+  material.alpha_mode = AlphaMode::Blend;
+}
+
+void warn_of_maps(const MtlMaterial& mtl, ObjFolder& folder) {
+  if (mtl.unsupported.empty()) return;
+  std::string keys;
+  for (const std::string& key : mtl.unsupported) keys += (keys.empty() ? "" : ", ") + key;
+  folder.scene().warnings.push_back(
+      fmt::format("{}: material {}: not drawn: {}", folder.budget().file(), mtl.name, keys));
+}
+
+}  // namespace
+
+std::optional<std::string> ObjFolder::find_file(const std::string& within, std::string_view name) const {
+  const std::string path = with_slashes(name);
+  const bool has_drive = path.size() > 1 && path[1] == ':';
+  const bool is_absolute = has_drive || (!path.empty() && path[0] == '/');
+  const std::string last = path.substr(path.find_last_of('/') + 1);
+  const std::string tries[] = {is_absolute ? path : within + path, path, within + last, last};
+  for (const std::string& attempt : tries) {
+    const auto found = find_path(folder_, to_uri(attempt), budget_.limits().allow_path);
+    if (found && is_file(*found)) return found;
+  }
+  return std::nullopt;
+}
+
+int ObjFolder::image(const std::string& within, const std::string& name) {
+  const std::optional<std::string> path = find_file(within, name);
+  const auto [entry, is_new] = images_.try_emplace(path.value_or("missing " + name), -1);
+  if (is_new) entry->second = load(name, path);
+  return entry->second;
+}
+
+int ObjFolder::load(const std::string& name, const std::optional<std::string>& path) {
+  try {
+    if (!path) throw Error(Trouble::Input, name + ": not found in the model's folder");
+    const FileBytes file(*path, budget_.limits().memory);
+    const std::optional<int2> size = find_image_size(file.bytes());
+    if (size) budget_.take(static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
+    scene_.images.push_back({name, decode_image(file.bytes(), name, budget_.limits().pixels)});
+    return static_cast<int>(scene_.images.size()) - 1;
+  } catch (const Error& error) {
+    budget_.take(0);  // what is over the budget stays an error
+    scene_.warnings.push_back(fmt::format("{}: texture {}", budget_.file(), error.what()));
+    return -1;
+  }
+}
+
+Material plain_material(const std::string& name) {
+  Material material;
+  material.name = name;
+  material.model = ShadingModel::BlinnPhong;
+  material.double_sided = true;
+  material.base_color = {0.8f, 0.8f, 0.8f, 1};
+  material.ambient = {1, 1, 1};
+  return material;
+}
+
+Material make_material(const MtlMaterial& mtl, const std::string& within, ObjFolder& folder) {
+  Material m = plain_material(mtl.name);
+  m.base_color_texture = load_texture(mtl.diffuse_map, within, folder);
+  m.emissive_texture = load_texture(mtl.emissive_map, within, folder);
+  m.normal_texture = load_texture(mtl.normal_map, within, folder);
+  m.normal_scale = mtl.normal_map.strength;
+
+  const float3 base = factor(mtl.diffuse, m.base_color_texture.image >= 0, {0.8f, 0.8f, 0.8f}, mtl, "Kd", folder);
+  const float opacity = mtl.opacity.value_or(1 - mtl.transparency.value_or(0));
+  m.base_color = {base.x, base.y, base.z, std::clamp(opacity, 0.0f, 1.0f)};
+  if (m.base_color.w < 1) m.alpha_mode = AlphaMode::Blend;
+  m.emissive = factor(mtl.emissive, m.emissive_texture.image >= 0, {0, 0, 0}, mtl, "Ke", folder);
+  if (mtl.ambient) {
+    const float3 a = linear(*mtl.ambient);
+    m.ambient = {base.x > 0 ? a.x / base.x : 0, base.y > 0 ? a.y / base.y : 0, base.z > 0 ? a.z / base.z : 0};
+  }
+
+  const int illumination = mtl.illumination.value_or(2);
+  if (illumination > 1) m.specular = linear(mtl.specular.value_or(float3{0, 0, 0}));
+  m.exponent = std::clamp(mtl.exponent.value_or(32), 1.0f, 1e5f);
+  if (illumination == 0) m.model = ShadingModel::Unlit;
+  if (mtl.roughness || mtl.metallic) {
+    m.model = ShadingModel::MetallicRoughness;
+    m.roughness = std::clamp(mtl.roughness.value_or(1), 0.0f, 1.0f);
+    m.metallic = std::clamp(mtl.metallic.value_or(0), 0.0f, 1.0f);
+  }
+  add_opacity(mtl, within, folder, m);
+  warn_of_maps(mtl, folder);
+  return m;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/scene/mtl.h"
+#include "zoneplate/scene/obj_parse.h"
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+/// The files about a model: its material libraries and images, found and opened within its folder.
+class ObjFolder {
+ public:
+  /// `folder` is that of the model; nothing outside it is opened unless the limits allow it.
+  ObjFolder(std::string folder, ObjBudget& budget, Scene& scene)
+      : folder_(std::move(folder)), budget_(budget), scene_(scene) {}
+
+  /// The file of that name as a material library writes it, seen from the folder `within` the model's ("" or "sub/").
+  ///
+  /// Backslashes are slashes. A name that leads elsewhere or to nothing is looked for in the model's folder by its
+  /// last part, as models keep the paths of the machine that wrote them.
+  std::optional<std::string> find_file(const std::string& within, std::string_view name) const;
+
+  /// The number of the image in Scene::images, which is loaded at its first use; -1, with a warning, if there is none.
+  int image(const std::string& within, const std::string& name);
+
+  ObjBudget& budget() { return budget_; }
+  Scene& scene() { return scene_; }
+
+ private:
+  int load(const std::string& name, const std::optional<std::string>& path);
+
+  std::string folder_;
+  ObjBudget& budget_;
+  Scene& scene_;
+  std::map<std::string, int> images_;  ///< by path, or by name where there is no file
+};
+
+/// A material of an MTL file as ours, its images loaded. `within` is the folder of the MTL file, as for find_file.
+///
+/// Kd, Ka, Ks and Ke are taken as sRGB codes, since programs write the colours there that they show. What is above 1
+/// stays as it is. Blinn-Phong with Ka in proportion to Kd; illum 0 is unlit, illum 1 without highlights; with Pr or
+/// Pm, metallic-roughness. A black Kd or Ke under an image counts as white, with a warning. d below 1, or a map_d that
+/// is not opaque, makes the material blended; map_d becomes the alpha of the base colour image. All surfaces are
+/// double-sided: OBJ has no other.
+Material make_material(const MtlMaterial& mtl, const std::string& within, ObjFolder& folder);
+
+/// The material of surfaces that name none: light grey, without highlights.
+Material plain_material(const std::string& name);
+
+}  // namespace zoneplate
