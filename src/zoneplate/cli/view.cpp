@@ -8,6 +8,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/scene/fit.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -58,7 +59,7 @@ void enclose(Camera& camera, const Box& box) {
   camera.near = std::max(nearest - margin, camera.far * 1e-5f);
 }
 
-Camera base_camera(const Scene& scene, const View& view, const Box& box, float aspect) {
+Camera base_camera(const Scene& scene, const View& view, float aspect) {
   if (!view.index) {
     AutoFit fit;
     fit.up = view.up;
@@ -68,7 +69,7 @@ Camera base_camera(const Scene& scene, const View& view, const Box& box, float a
       if (view.azimuth) fit.azimuth = *view.azimuth;
       if (view.elevation) fit.elevation = *view.elevation;
     }
-    return fit_camera(box, aspect, fit);
+    return fit_camera(scene, aspect, fit);
   }
   const int count = static_cast<int>(scene.cameras.size());
   if (*view.index >= count)
@@ -83,7 +84,7 @@ Camera base_camera(const Scene& scene, const View& view, const Box& box, float a
 Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   const Box box = scene.bounds();
   const float3 centre = box.empty() ? float3{} : box.centre();
-  Camera camera = base_camera(scene, view, box, aspect);
+  Camera camera = base_camera(scene, view, aspect);
   const bool turns = (view.azimuth || view.elevation) && (view.index || view.position);
   const bool changes_lens = view.index && (view.view_angle || view.is_orthographic);
   if (!view.position && !view.focal_point && !view.view_up && !turns && !changes_lens) return camera;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "zoneplate/math/angle.h"
 
@@ -46,17 +47,18 @@ Axes view_axes(const AutoFit& fit) {
   return {right, cross(back, right), back};
 }
 
-struct Corners {
-  std::array<double, 8> x, y, z;
+/// The points along the camera's axes, from the middle of their box.
+struct Places {
+  std::vector<double> x, y, z;
 };
 
 /// Where the eye must stand sideways so that the slopes (v - e) / (distance - z) reach equally far to both sides.
 ///
 /// The sum of the greatest and the least slope falls strictly with e: bisection, to the last bit that matters.
-double centred(const std::array<double, 8>& v, const std::array<double, 8>& z, double distance) {
+double centred(std::span<const double> v, std::span<const double> z, double distance) {
   const auto lopsided = [&](double e) {
     double low = (v[0] - e) / (distance - z[0]), high = low;
-    for (std::size_t i = 1; i < 8; ++i) {
+    for (std::size_t i = 1; i < v.size(); ++i) {
       const double slope = (v[i] - e) / (distance - z[i]);
       low = std::min(low, slope), high = std::max(high, slope);
     }
@@ -70,10 +72,10 @@ double centred(const std::array<double, 8>& v, const std::array<double, 8>& z, d
   return (left + right) / 2;
 }
 
-/// The least distance at which every corner's slope can be within ±`slope` of the axis.
-double distance_for(const std::array<double, 8>& v, const std::array<double, 8>& z, double slope) {
+/// The least distance at which every point's slope can be within ±`slope` of the axis.
+double distance_for(std::span<const double> v, std::span<const double> z, double slope) {
   double right = v[0] + slope * z[0], left = -v[0] + slope * z[0];
-  for (std::size_t i = 1; i < 8; ++i) {
+  for (std::size_t i = 1; i < v.size(); ++i) {
     right = std::max(right, v[i] + slope * z[i]);
     left = std::max(left, -v[i] + slope * z[i]);
   }
@@ -102,12 +104,14 @@ float4x4 Camera::clip_from_camera(float picture_aspect) const {
   return m;
 }
 
-Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit) {
+Camera fit_camera(std::span<const float3> points, float picture_aspect, const AutoFit& fit) {
   Camera camera;
   camera.name = "fit";
   camera.is_orthographic = fit.is_orthographic;
   camera.vertical_fov = fit.vertical_fov;
   const Axes axes = view_axes(fit);
+  Box box;
+  for (const float3 point : points) box.add(point);
   const Point low = to_point(box.low), high = to_point(box.high);
   const Point origin = box.empty() ? Point{} : (low + high) * 0.5;
   const double diagonal = box.empty() ? 0 : std::sqrt(dot(high - low, high - low));
@@ -117,36 +121,42 @@ Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit) {
     return camera;
   }
 
-  Corners c;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const Point p = to_point(box.corner(static_cast<int>(i))) - origin;
-    c.x[i] = dot(p, axes.right), c.y[i] = dot(p, axes.above), c.z[i] = dot(p, axes.back);
+  Places at;
+  for (const float3 point : points) {
+    const Point p = to_point(point) - origin;
+    at.x.push_back(dot(p, axes.right)), at.y.push_back(dot(p, axes.above)), at.z.push_back(dot(p, axes.back));
   }
-  const double nearest = *std::max_element(c.z.begin(), c.z.end());
-  const double farthest = *std::min_element(c.z.begin(), c.z.end());
+  const auto [farthest, nearest] = std::minmax_element(at.z.begin(), at.z.end());
   const double share = 1 - 2 * static_cast<double>(fit.margin);
   const double aspect = picture_aspect;
 
-  // The box is symmetric about its centre, so an orthographic eye needs no move sideways. A box without extent across
-  // the view (a line seen end on) would have no distance or height of its own: a thousandth of its size is the least.
+  // Points without extent across the view (a line seen end on) would have no distance or height of their own: a
+  // thousandth of their size is the least.
   const double least = diagonal / 1000;
   Point eye;
   if (fit.is_orthographic) {
-    const double half_x = *std::max_element(c.x.begin(), c.x.end());
-    const double half_y = *std::max_element(c.y.begin(), c.y.end());
-    camera.half_height = static_cast<float>(std::max({half_y, half_x / aspect, least}) / share);
-    eye.z = nearest + diagonal;
+    const auto [left, right] = std::minmax_element(at.x.begin(), at.x.end());
+    const auto [bottom, top] = std::minmax_element(at.y.begin(), at.y.end());
+    camera.half_height =
+        static_cast<float>(std::max({(*top - *bottom) / 2, (*right - *left) / 2 / aspect, least}) / share);
+    eye = {(*left + *right) / 2, (*bottom + *top) / 2, *nearest + diagonal};
   } else {
     const SineCosine half_fov = sine_cosine(static_cast<double>(fit.vertical_fov) / 2);
     const double slope = half_fov.sine / half_fov.cosine * share;
-    eye.z = std::max({distance_for(c.x, c.z, slope * aspect), distance_for(c.y, c.z, slope), nearest + least});
-    eye.x = centred(c.x, c.z, eye.z);
-    eye.y = centred(c.y, c.z, eye.z);
+    eye.z = std::max({distance_for(at.x, at.z, slope * aspect), distance_for(at.y, at.z, slope), *nearest + least});
+    eye.x = centred(at.x, at.z, eye.z);
+    eye.y = centred(at.y, at.z, eye.z);
   }
   place(camera, axes, origin, eye);
-  camera.near = static_cast<float>((eye.z - nearest) / 2);
-  camera.far = static_cast<float>((eye.z - farthest) * 1.5);
+  camera.near = static_cast<float>((eye.z - *nearest) / 2);
+  camera.far = static_cast<float>((eye.z - *farthest) * 1.5);
   return camera;
+}
+
+Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit) {
+  std::array<float3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners[i] = box.corner(static_cast<int>(i));
+  return fit_camera(std::span<const float3>(corners.data(), box.empty() ? 0 : 8), picture_aspect, fit);
 }
 
 }  // namespace zoneplate

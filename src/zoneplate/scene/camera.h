@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "zoneplate/math/box.h"
@@ -21,7 +22,7 @@ struct Camera {
   float4x4 clip_from_camera(float picture_aspect) const;
 };
 
-/// The default view: three-quarter, from the front right and above, the whole box in the picture.
+/// The default view: three-quarter, from the front right and above, the whole scene in the picture.
 struct AutoFit {
   float azimuth = 0.5235988f;    ///< radians about +Y from the front (+Z), towards +X
   float elevation = 0.3490659f;  ///< radians above the horizon
@@ -31,11 +32,14 @@ struct AutoFit {
   float3 up{0, 1, 0};
 };
 
-/// The camera that shows all of `box` in the given direction, as near as the margin allows.
+/// The camera that shows all of `points` in the given direction, as near as the margin allows.
 ///
-/// The eight corners of the box are projected; the eye moves along the view axis until the tightest corner lies on the
-/// margin, and sideways so that the free space is the same left and right, above and below. Near and far are put
-/// around the box. An empty or single-point box gets a camera 1 unit away.
+/// The eye moves along the view axis until the tightest point lies on the margin, and sideways so that the free space
+/// is the same left and right, above and below. Near and far are put around the points. No point, or a single one, gets
+/// a camera 1 unit away.
+Camera fit_camera(std::span<const float3> points, float picture_aspect, const AutoFit& fit);
+
+/// The same for the eight corners of a box.
 Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit);
 
 }  // namespace zoneplate

@@ -10,7 +10,7 @@ struct Lamp {
   float lux;
 };
 constexpr Lamp lamps[] = {
-    {"key", {-0.45f, 0.55f, 0.85f}, 2.2f}, {"fill", {0.9f, -0.15f, 0.6f}, 0.4f}, {"back", {0.2f, 0.8f, -0.7f}, 1.0f}};
+    {"key", {-0.45f, 0.55f, 0.85f}, 2.2f}, {"fill", {0.9f, -0.15f, 0.6f}, 0.4f}, {"back", {0.2f, 0.8f, -0.7f}, 0.7f}};
 
 }  // namespace
 

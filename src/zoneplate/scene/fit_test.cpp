@@ -1,0 +1,60 @@
+#include "zoneplate/scene/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "zoneplate/math/random.h"
+#include "zoneplate/math/transform.h"
+
+namespace zoneplate {
+namespace {
+
+// A thousand points in a long tilted shape, whose box is much larger than what it holds.
+Scene cloud() {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.topology = Topology::Points;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const float a = unit_float(hash(i, 1)), b = unit_float(hash(i, 2)), c = unit_float(hash(i, 3));
+    mesh.position.push_back({4 * a + b, 3 * a - c, 2 * b - a});
+    mesh.index.push_back(i);
+  }
+  mesh.position.push_back({100, 100, 100});  // no primitive uses it
+  scene.materials.emplace_back();
+  scene.instances.resize(2);
+  scene.instances[1].world_from_object = translation({-1, 2, 0.5f});
+  return scene;
+}
+
+TEST(FitScene, TouchesTheMarginAndIsCentred) {
+  const Scene scene = cloud();
+  for (const float aspect : {0.5f, 1.0f, 1.8f})
+    for (const bool is_orthographic : {false, true}) {
+      const AutoFit fit{.is_orthographic = is_orthographic};
+      const Camera camera = fit_camera(scene, aspect, fit);
+      const float4x4 clip_from_world = camera.clip_from_camera(aspect) * inverse(camera.world_from_camera);
+      float left = 2, right = -2, bottom = 2, top = -2;
+      for (const Instance& instance : scene.instances)
+        for (const std::uint32_t i : scene.meshes[0].index) {
+          const float3 p = transform_point(instance.world_from_object, scene.meshes[0].position[i]);
+          const float4 q = clip_from_world * float4{p.x, p.y, p.z, 1};
+          EXPECT_GT(q.z, 0);
+          EXPECT_LT(q.z, q.w);
+          left = std::min(left, q.x / q.w), right = std::max(right, q.x / q.w);
+          bottom = std::min(bottom, q.y / q.w), top = std::max(top, q.y / q.w);
+        }
+      EXPECT_NEAR(std::max({-left, right, -bottom, top}), 0.9f, 1e-4f);
+      EXPECT_NEAR(left + right, 0, 0.04f);
+      EXPECT_NEAR(bottom + top, 0, 0.04f);
+    }
+}
+
+TEST(FitScene, AnEmptySceneHasACamera) {
+  const Camera camera = fit_camera(Scene{}, 1, {});
+  EXPECT_GT(camera.near, 0);
+  EXPECT_GT(camera.far, camera.near);
+}
+
+}  // namespace
+}  // namespace zoneplate
