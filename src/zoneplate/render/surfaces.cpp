@@ -1,5 +1,6 @@
 #include "zoneplate/render/surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace zoneplate {
@@ -10,16 +11,15 @@ float2 half_extent(float pixels, const RenderOptions& o) {
   return {pixels / static_cast<float>(o.width), pixels / static_cast<float>(o.height)};
 }
 
-/// The unit direction of a segment on the screen, in pixels, from what of it is in front of the eye.
+/// The unit direction of a segment on the screen, in pixels. Of one that crosses the eye's plane, of its part in front.
 float2 screen_direction(float4 a, float4 b, const RenderOptions& o) {
-  constexpr float least_w = 1e-6f;
-  const auto toward = [](float4 from, float4 to) {
-    const float t = (least_w - from.w) / (to.w - from.w);
-    return from + (to - from) * t;
+  const float least_w = 1e-3f * std::max(std::abs(a.w), std::abs(b.w));
+  const auto moved = [&](float4 behind, float4 front) {
+    return front + (behind - front) * ((front.w - least_w) / (front.w - behind.w));
   };
-  if (a.w < least_w && b.w < least_w) return {1, 0};
-  if (a.w < least_w) a = toward(b, a);
-  if (b.w < least_w) b = toward(a, b);
+  if (std::max(a.w, b.w) <= least_w) return {1, 0};
+  if (a.w < least_w) a = moved(a, b);
+  if (b.w < least_w) b = moved(b, a);
   const float2 d{(b.x / b.w - a.x / a.w) * static_cast<float>(o.width),
                  (b.y / b.w - a.y / a.w) * static_cast<float>(o.height)};
   const float n = length(d);
