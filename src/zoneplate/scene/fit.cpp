@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/scene/angle.h"
+#include "zoneplate/math/angle.h"
 
 namespace zoneplate {
 namespace {
