@@ -89,8 +89,9 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   const JsonView spot = json.object("spot");
   light.inner_cone = spot.number("innerConeAngle", 0.0f);
   light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
-  if (!(light.inner_cone >= 0 && light.inner_cone < light.outer_cone && light.outer_cone <= 1.5707964f))
+  if (!(light.inner_cone >= 0 && light.outer_cone > 0 && light.outer_cone <= 1.5707964f))
     spot.fail("wants 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+  light.inner_cone = std::min(light.inner_cone, 0.999f * light.outer_cone);  // common exporters write equal angles
   return light;
 }
 

@@ -220,6 +220,10 @@ std::vector<float4> read_color(GltfFile& file, const JsonView& owner, const char
   return read_vectors<float4>(file, find_vectors(file, owner, key, "VEC4", "VEC3"), range, {0, 0, 0, 1});
 }
 
+std::vector<float4> read_color_change(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {
+  return read_vectors<float4>(file, find_vectors(file, owner, key, "VEC4", "VEC3"), range, {});
+}
+
 std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const char* key) {
   const Accessor a = find_vectors(file, owner, key, "MAT4", "MAT4");
   if (a.layout.type != Float) a.json.fail("componentType is not 5126 (float)");

@@ -27,6 +27,8 @@ std::vector<float3> read_float3(GltfFile& file, const JsonView& owner, const cha
 std::vector<float4> read_float4(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 /// RGB or RGBA; alpha is 1 where it is missing.
 std::vector<float4> read_color(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
+/// The difference of two colours: alpha is 0 where it is missing.
+std::vector<float4> read_color_change(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const char* key);
 /// Vertex indices: unsigned integers of 1, 2 or 4 bytes.
 std::vector<std::uint32_t> read_indices(GltfFile& file, const JsonView& owner, const char* key);

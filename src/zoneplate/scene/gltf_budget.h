@@ -31,8 +31,8 @@ class GltfBudget {
   /// Errors    Trouble::Input when the time is up.
   void check_time() const {
     if (clock_.ms() > limits_.seconds * 1000)
-      throw Error(Trouble::Input,
-                  file_ + ": takes longer to load than the limit of " + std::to_string(limits_.seconds) + " s");
+      throw Error(Trouble::Input, file_ + ": takes longer to load than the limit of " +
+                                      std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) + " ms");
   }
 
  private:

@@ -141,8 +141,7 @@ TEST(GltfDamage, AnyByteChanged) {
   int refused = 0;
   for (int i = 0; i < 4000; ++i) {
     std::vector<std::uint8_t> bytes = good;
-    for (auto n = 1 + random() % 3; n > 0; --n)
-      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    for (auto n = 1 + random() % 3; n > 0; --n) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     refused += load_soundly(file.write(bytes)) != "";
     if (HasFatalFailure()) FAIL() << "case " << i;
   }

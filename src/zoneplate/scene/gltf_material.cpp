@@ -164,16 +164,17 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
   file.budget().check_time();
   const JsonView json = file.root().element("images", i, "image");
   EncodedImage out;
+  std::string name = json.text("name");
   if (const auto view = json.find_index("bufferView", file.count("bufferViews"))) {
     out.data.bytes = file.view(*view);
   } else {
     const std::string uri = json.text("uri");
     if (uri.empty()) json.fail("has neither uri nor bufferView");
     out.data = file.load_uri(json, uri);
-    if (!uri.starts_with("data:")) out.name = uri;
+    if (name.empty() && !uri.starts_with("data:")) name = uri;
   }
-  out.name = json.text("name", out.name.empty() ? "image " + std::to_string(i) : out.name);
-  out.place = json.place() + (out.name.starts_with("image ") ? "" : " " + quoted(out.name));
+  out.place = json.place() + (name.empty() ? "" : " " + quoted(name));
+  out.name = name.empty() ? "image " + std::to_string(i) : name;
 
   // The pixels are counted here, one image after the other, so that the answer does not depend on the threads.
   const auto size = find_image_size(out.data.bytes);

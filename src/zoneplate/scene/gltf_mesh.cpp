@@ -77,7 +77,7 @@ void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mes
       p.file.budget().give_back(deltas.size() * sizeof(deltas[0]));
       if (deltas.size() != mesh.position.size())
         target.fail(std::string(key) + " has " + std::to_string(count_elements(p.file, target, key)) +
-                    " elements, POSITION has " + std::to_string(count_elements(p.file, p.attributes, "POSITION")));
+                    " elements, wants " + std::to_string(count_elements(p.file, p.attributes, "POSITION")));
       return deltas;
     };
     add_scaled(mesh.position, read("POSITION", read_float3), weights[t]);
@@ -87,7 +87,7 @@ void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mes
     add_scaled(mesh.tangent, turned, weights[t]);
     add_scaled(mesh.uv0, read("TEXCOORD_0", read_float2), weights[t]);
     add_scaled(mesh.uv1, read("TEXCOORD_1", read_float2), weights[t]);
-    add_scaled(mesh.color, read("COLOR_0", read_color), weights[t]);
+    add_scaled(mesh.color, read("COLOR_0", read_color_change), weights[t]);
   }
 }
 
@@ -228,8 +228,9 @@ void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   budget.check_time();
   budget.take(working + m.index.size() * (vertex_size(m) + sizeof(float4)));
   const std::uint64_t most = m.index.size() * (vertex_size(m) + sizeof(float4));
+  const std::uint64_t before = m.position.size() * vertex_size(m);
   make_tangents(m, normal_texture->uv_set);
-  budget.give_back(working + most - m.position.size() * sizeof(float4));
+  budget.give_back(working + most + before - m.position.size() * vertex_size(m));
 }
 
 Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, std::span<const float> weights,

@@ -177,12 +177,30 @@ TEST(GltfMesh, MorphTargetsAtTheirDefaultWeights) {
   EXPECT_EQ(two[1].position[1], (float3{1, 1, 1}));
 }
 
+TEST(GltfMesh, MorphTargetsOfEveryAttribute) {
+  GltfMaker m;
+  const std::string move = m.floats("VEC3", {0, 0, 2, 0, 0, 2, 0, 0, 2}),
+                    turn = m.floats("VEC3", {1, 0, 0, 1, 0, 0, 1, 0, 0});
+  const std::string shift = m.floats("VEC2", {4, 2, 4, 2, 4, 2});
+  m.meshes = R"({"primitives":[{"attributes":{"POSITION":)" + m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}) +
+             R"(,"NORMAL":)" + m.floats("VEC3", {0, 0, 0.5f, 0, 0, 0.5f, 0, 0, 0.5f}) + R"(,"TEXCOORD_0":)" + shift +
+             R"(,"COLOR_0":)" + m.floats("VEC4", {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}) +
+             R"(},"targets":[{"POSITION":)" + move + R"(,"NORMAL":)" + turn + R"(,"TEXCOORD_0":)" + shift +
+             R"(,"COLOR_0":)" + turn + R"(}]}],"weights":[0.5]})";
+  const Mesh mesh = load(m).meshes.at(0);
+  EXPECT_EQ(mesh.position[1], (float3{1, 0, 1}));
+  EXPECT_NEAR(mesh.normal[0].x, std::sqrt(0.5f), 1e-6f);
+  EXPECT_NEAR(mesh.normal[0].z, std::sqrt(0.5f), 1e-6f);
+  EXPECT_EQ(mesh.uv0[2], (float2{6, 3}));
+  EXPECT_EQ(mesh.color[0], (float4{1.5f, 1, 1, 1}));
+}
+
 TEST(GltfMesh, MorphTargetErrors) {
   GltfMaker m;
   m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
   m.floats("VEC3", {0, 0, 2, 0, 0, 2});
   m.meshes = R"({"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1}]}],"weights":[1]})";
-  EXPECT_EQ(error_of(m), "mesh 0 primitive 0 target 0: POSITION has 2 elements, POSITION has 3");
+  EXPECT_EQ(error_of(m), "mesh 0 primitive 0 target 0: POSITION has 2 elements, wants 3");
   m.meshes = R"({"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1}]}],"weights":[1,1]})";
   EXPECT_EQ(error_of(m), "mesh 0 primitive 0: has 1 morph targets, but 2 weights are given");
 }
