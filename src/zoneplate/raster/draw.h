@@ -23,10 +23,13 @@ enum class Surface {
 struct Draw {
   std::span<const float3> position;
   float4x4 clip_from_object;
-  std::span<const float4> clip;           ///< used where it is not empty
-  std::span<const std::uint32_t> index;   ///< three a triangle
-  std::span<const std::uint32_t> source;  ///< the mesh's vertex of every drawn vertex; empty: the vertex itself
-  int triangles_per_primitive = 1;
+  std::span<const float4> clip;          ///< used where it is not empty
+  std::span<const std::uint32_t> index;  ///< three a triangle
+
+  /// Lines and points are drawn as two triangles each. Their attributes run from the mesh's vertex `ends[2 i]` of
+  /// primitive i to `ends[2 i + 1]`, and a drawn vertex stands at its `share` of that way. Empty for triangles.
+  std::span<const std::uint32_t> ends;
+  std::span<const float> share;
 
   Surface surface = Surface::Opaque;
   bool culls_back_faces = false;
@@ -36,6 +39,7 @@ struct Draw {
 
   std::size_t vertices() const { return clip.empty() ? position.size() : clip.size(); }
   std::size_t triangles() const { return index.size() / 3; }
+  std::uint32_t primitive_of(std::uint32_t triangle) const { return ends.empty() ? triangle : triangle / 2; }
   float4 clip_position(std::uint32_t v) const {
     return clip.empty() ? clip_from_object * float4{position[v].x, position[v].y, position[v].z, 1} : clip[v];
   }

@@ -47,16 +47,16 @@ void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint
       const Draw& d = projected_.draws[draw];
       const auto local = static_cast<std::uint32_t>(id - begin);
       facing = face_of(projected_, draw, id, target_.viewport);
-      primitive = local / static_cast<std::uint32_t>(d.triangles_per_primitive);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = d.index[3 * static_cast<std::size_t>(local) + k];
-        vertex[k] = d.source.empty() ? v : d.source[v];
-      }
+      primitive = d.primitive_of(local);
+      for (std::size_t k = 0; k < 3; ++k)
+        vertex[k] = d.ends.empty() ? d.index[3 * static_cast<std::size_t>(local) + k]
+                                   : d.ends[2 * static_cast<std::size_t>(primitive) + std::min<std::size_t>(k, 1)];
     }
     const Draw& d = projected_.draws[draw];
     batch_.triangle[i] = static_cast<std::uint32_t>(id);
     batch_.instance[i] = d.instance;
     batch_.primitive[i] = primitive;
+    batch_draw_[i] = draw;
     batch_.x[i] = point.x;
     batch_.y[i] = point.y;
     batch_.is_front[i] = facing.is_clockwise == d.is_mirrored ? 1 : 0;
@@ -68,6 +68,24 @@ void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint
     }
   }
   interpolate_.interpolate(planes_, target_.viewport, target_.spacing, batch_);
+  weigh_ends();
+}
+
+void PointBatcher::weigh_ends() {
+  // Of a line the weights of the quad's corners become those of its two ends.
+  for (int i = 0; i < batch_.padded(); ++i) {
+    const auto id = static_cast<std::int32_t>(batch_.triangle[i]);
+    const std::size_t draw = batch_draw_[i];
+    const Draw& d = projected_.draws[draw];
+    if (d.ends.empty()) continue;
+    const std::size_t first = 3 * static_cast<std::size_t>(id - projected_.first_triangle[draw]);
+    const auto weigh = [&](float(&b)[3][Batch::capacity]) {
+      float far = 0, sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) far += b[k][i] * d.share[d.index[first + k]], sum += b[k][i];
+      b[0][i] = sum - far, b[1][i] = far, b[2][i] = 0;
+    };
+    weigh(batch_.b), weigh(batch_.dbdx), weigh(batch_.dbdy);
+  }
 }
 
 template <class Use>

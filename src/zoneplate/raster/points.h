@@ -42,6 +42,7 @@ class PointBatcher {
   template <class Use>
   void for_batches(std::span<const Point> points, Use use);
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
+  void weigh_ends();
 
   const ProjectedDraws& projected_;
   const PointShader& shader_;
@@ -52,6 +53,7 @@ class PointBatcher {
   std::vector<std::uint32_t> order_, material_;
   Batch batch_;
   BatchPlanes planes_;
+  std::size_t batch_draw_[Batch::capacity];  ///< by point of the batch
   Shaded shaded_batch_;
 };
 

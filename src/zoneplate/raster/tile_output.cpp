@@ -29,7 +29,7 @@ void TileRenderer::note_nearest() {
       put(target_.reversed_depth, x, y, nearest.depth);
       put(target_.instance, x, y, draw.instance);
       put(target_.material, x, y, static_cast<std::uint32_t>(draw.material));
-      put(target_.primitive, x, y, local / static_cast<std::uint32_t>(draw.triangles_per_primitive));
+      put(target_.primitive, x, y, draw.primitive_of(local));
       if (target_.normal) put(target_.normal, x, y, data_.normal[p]);
       if (target_.uv) put(target_.uv, x, y, data_.uv[p]);
       if (target_.albedo) put(target_.albedo, x, y, data_.albedo[p]);

@@ -17,7 +17,8 @@ struct SceneDraws {
   /// What the draws of lines and points look at; kept here because a draw only views its arrays.
   struct Quads {
     std::vector<float4> clip;
-    std::vector<std::uint32_t> index, source;
+    std::vector<std::uint32_t> index, ends;
+    std::vector<float> share;
   };
   std::vector<Quads> quads;
 };
