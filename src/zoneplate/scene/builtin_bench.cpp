@@ -80,7 +80,7 @@ void BenchMesh::add_quad(const float3 (&corner)[4], float3 normal, const float2 
     mesh.normal.push_back(normal);
     mesh.uv0.push_back(uv[k]);
   }
-  for (const std::uint32_t k : {0, 1, 2, 0, 2, 3}) mesh.index.push_back(first + k);
+  for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.index.push_back(first + k);
 }
 
 void fill_grid(std::span<std::uint32_t> index, std::uint32_t first, int nx, int ny) {

@@ -377,7 +377,9 @@ TEST_F(ObjModel, SurvivesAnyChange) {
       }
     }
     try {
-      expect_sound(load(changed, limits));
+      Scene scene;
+      with_threads(1, [&] { scene = load(changed, limits); });
+      expect_sound(scene);
     } catch (const Error& error) {
       ASSERT_EQ(error.trouble(), Trouble::Input) << error.what();
     }
