@@ -17,7 +17,9 @@ void change_model(Material& material, ShadingModel model) {
   // Source: Karis, Specular BRDF Reference, 2013 (alpha = r², exponent = 2 / alpha² - 2).
   if (is_phong(model) && !is_phong(material.model)) {
     const float alpha = std::max(0.05f, material.roughness * material.roughness);
-    const float share = material.metallic, dielectric = 0.04f * (1 - share);
+    // With a texture of metalness the factor says nothing of the surface as a whole: it is taken for a dielectric.
+    const float share = material.metallic_roughness_texture.image < 0 ? material.metallic : 0;
+    const float dielectric = 0.04f * (1 - share);
     const float3 color = xyz(material.base_color);
     material.ambient = color;
     material.specular = color * share + float3{dielectric, dielectric, dielectric};
@@ -37,6 +39,12 @@ float3 apply_look(Scene& scene, const Camera& camera, const Look& look) {
   float3 environment = look.environment.value_or(float3{0, 0, 0});
   if (scene.lights.empty() && !look.environment) {
     scene.lights = default_lights(camera);
+    // (Blinn-)Phong's diffuse term has no 1 / π: the same lamps are that much weaker for a scene made of it, so that a
+    // white surface comes out alike in every model.
+    constexpr float pi = 3.14159265f;
+    const auto is_made_of_it = [](const Material& m) { return is_phong(m.model); };
+    if (!scene.materials.empty() && std::all_of(scene.materials.begin(), scene.materials.end(), is_made_of_it))
+      for (Light& light : scene.lights) light.intensity /= pi;
     environment = {default_environment, default_environment, default_environment};
   }
   for (Light& light : scene.lights) light.intensity *= look.light_intensity;

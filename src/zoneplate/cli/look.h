@@ -16,7 +16,8 @@ struct Look {
 /// Applies the options to the scene, and answers the radiance of the constant environment.
 ///
 /// A scene without lights gets the default ones and their environment (scene/default_lights.h), unless the options
-/// give an environment. The environment is also the ambient light of (Blinn-)Phong materials where the scene has none.
+/// give an environment; a scene of (Blinn-)Phong materials gets them divided by π, which its diffuse term lacks. The
+/// environment is also the ambient light of (Blinn-)Phong materials where the scene has none.
 float3 apply_look(Scene& scene, const Camera& camera, const Look& look);
 
 /// Gives a material another model, and the nearest parameters that model has.

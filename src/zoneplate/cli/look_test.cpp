@@ -16,6 +16,15 @@ TEST(ApplyLook, LightsASceneThatHasNoLight) {
   EXPECT_EQ(scene.ambient_light, dim);
 }
 
+TEST(ApplyLook, APhongSceneIsAsBrightAsAnyOther) {
+  Scene phong, physical;
+  phong.materials.push_back({.model = ShadingModel::BlinnPhong});
+  physical.materials.push_back({.model = ShadingModel::MetallicRoughness});
+  apply_look(phong, {}, {});
+  apply_look(physical, {}, {});
+  EXPECT_FLOAT_EQ(phong.lights[0].intensity * 3.14159265f, physical.lights[0].intensity);
+}
+
 TEST(ApplyLook, LeavesAFilesOwnLightAlone) {
   Scene scene;
   scene.lights.resize(1);
