@@ -361,6 +361,41 @@ TEST(Surface, TheSecondCoordinatesServeTheSlotsThatNameThem) {
   EXPECT_EQ(color_of(scene, {}, {1, 0, 0}), (float4{0, 1, 0, 1}));
 }
 
+TEST(Surface, EachSlotLooksUpItsOwnTexels) {
+  Scene scene = one_triangle();
+  Material& m = scene.materials[0];
+  m.model = ShadingModel::BlinnPhong;
+  m.ambient = m.emissive = {1, 1, 1};
+  Rgba8Image halves(2, 1), wide(4, 1, {0, 0, 255, 255});
+  halves(0, 0) = {255, 0, 0, 255}, halves(1, 0) = {0, 255, 0, 255};
+  wide(1, 0) = {0, 255, 255, 255};
+  scene.images = {{"", halves}, {"", wide}};
+  const Sampler nearest{.magnify = TexelFilter::Nearest};
+  const Surroundings surroundings{.ambient_light = {1, 1, 1}};
+  m.base_color_texture = {.image = 0, .sampler = nearest};
+  const float3 at{0.75f, 0.25f, 0};  // u = 0.25
+
+  m.emissive_texture = m.base_color_texture;
+  EXPECT_EQ(color_of(scene, surroundings, at), (float4{2, 0, 0, 1}));
+  m.emissive_texture.offset = {0.5f, 0};
+  EXPECT_EQ(color_of(scene, surroundings, at), (float4{1, 1, 0, 1}));
+  m.emissive_texture = {.image = 1, .sampler = nearest};
+  EXPECT_EQ(color_of(scene, surroundings, at), (float4{1, 1, 1, 1}));
+  m.emissive_texture = {.image = 0, .sampler = {}};
+  EXPECT_EQ(color_of(scene, surroundings, at), (float4{2, 0, 0, 1}));
+}
+
+TEST(Surface, AlphaStaysBetweenZeroAndOne) {
+  Scene scene = one_triangle();
+  scene.materials[0].model = ShadingModel::Unlit;
+  scene.materials[0].alpha_mode = AlphaMode::Blend;
+  scene.materials[0].base_color = {0.5f, 0.25f, 1, 3};
+  EXPECT_EQ(color_of(scene, {}), (float4{0.5f, 0.25f, 1, 1}));
+  float alpha[Batch::capacity];
+  SurfaceShader(scene, {}).alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
+  EXPECT_EQ(alpha[0], 1.0f);
+}
+
 TEST(Surface, MeshesWithoutNormalsAreUnlit) {
   Scene scene = one_triangle();
   scene.materials[0].base_color = {0.5f, 0.25f, 1, 1};
