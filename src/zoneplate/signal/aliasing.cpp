@@ -106,7 +106,7 @@ AliasFigures predict_aliases(const Kernel& kernel, double factor) {
   assert(factor >= 1);
   std::vector<PixelWeights> phases;
   std::vector<double> centres;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 20; ++i) {
     const double centre = (i + 0.5) * factor - 0.5;
     centres.push_back(centre - std::floor(centre));
     phases.push_back(pixel_weights(kernel, centres.back(), factor));
@@ -117,7 +117,7 @@ AliasFigures predict_aliases(const Kernel& kernel, double factor) {
     double square = 0, linear = 0, length = 0;
   };
   const auto up_to = [&](double f) {
-    constexpr int steps = 200;
+    constexpr int steps = 100;
     Sums sums{0, 0, f};
     for (int i = 0; i < steps; ++i) {
       const MeanResponse r = response_of(phases, centres, f * (i + 0.5) / steps);
