@@ -1,0 +1,18 @@
+#pragma once
+
+#include "zoneplate/image/plane.h"
+
+namespace zoneplate {
+
+/// A plane as the sum of a part whose opposite edges meet and a smooth part that takes the jumps between them.
+///
+/// The spectrum of the periodic part has no cross through the origin, and needs no window that would hide the borders.
+/// The smooth part is the mean-free solution of the periodic Poisson equation whose source is the jump across each
+/// edge. Exact     periodic + smooth is the plane within 1 unit in the last place. Cost      one transform there and
+/// back. Source    Moisan, Periodic plus Smooth Image Decomposition, J. Mathematical Imaging and Vision 39, 2011.
+struct PeriodicSmooth {
+  Plane<float> periodic, smooth;
+};
+PeriodicSmooth split_periodic_smooth(const Plane<float>& plane);
+
+}  // namespace zoneplate

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+
+namespace zoneplate {
+
+/// The one inner loop of every filter in space: weighted sums of rows.
+///
+/// `narrow`: out[i] = (…(w[0] rows[0][first + i] + w[1] rows[1][first + i]) + …) in float, for i in [0, n).
+/// `wide`: the same with products and sums in double, rounded to float once; with weights that sum to 1 a constant
+/// stays that constant to the bit.
+///
+/// A filter along rows gives the same row shifted by one element a tap; one along columns gives neighbouring rows.
+/// Requires  taps >= 1; `out` overlaps no row.
+/// Exact     each element alone, products and sums separate and in the order of the taps: the same bits on every
+///           instruction set.
+struct RowSumKernels {
+  void (*narrow)(const float* const* rows, std::size_t first, const float* weights, std::size_t taps, float* out,
+                 std::size_t n);
+  void (*wide)(const float* const* rows, std::size_t first, const double* weights, std::size_t taps, float* out,
+               std::size_t n);
+};
+
+namespace scalar {
+extern const RowSumKernels row_sum_kernels;
+}
+namespace N_SSE4 {
+extern const RowSumKernels row_sum_kernels;
+}
+namespace N_AVX2 {
+extern const RowSumKernels row_sum_kernels;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace zoneplate {
+
+/// A wave of period 1 between -1 and 1.
+enum class Wave {
+  Square,    ///< 1 on (0, ½), -1 on (½, 1), 0 at the jumps
+  Sawtooth,  ///< rises from -1 to 1, 0 at the jump
+  Triangle,  ///< 0 at 0, 1 at ¼, -1 at ¾
+};
+
+const char* name_of(Wave wave);
+/// Errors    Trouble::Usage for another name than square, sawtooth, triangle.
+Wave parse_wave(std::string_view name);
+
+double wave_value(Wave wave, double x);
+
+/// The coefficient b of the wave's harmonic n >= 1: wave(x) = Σ b_n sin(2πn x). All three waves are odd.
+double harmonic(Wave wave, int n);
+
+/// Σ of the harmonics 1 to `highest`: its overshoot at a jump tends to 8.949 % of the jump and does not go away
+/// (Gibbs).
+double partial_sum(Wave wave, int highest, double x);
+
+/// The frequency in (-rate/2, rate/2] whose cosine and sine have the same samples as those of `frequency`.
+///
+/// A wheel of n spokes that turns `frequency` spokes a frame seems to turn by apparent_frequency(frequency, 1).
+double apparent_frequency(double frequency, double rate);
+
+/// The frequency in [0, rate/2] at which `frequency` is seen: |apparent_frequency|.
+double folded_frequency(double frequency, double rate);
+
+/// The positive frequencies up to `highest` that cannot be told from `frequency` at this rate, rising.
+std::vector<double> aliases_of(double frequency, double rate, double highest);
+
+/// What is left of the contrast of a wave that moves `cycles` periods while the shutter is open: |sinc(cycles)|.
+double shutter_contrast(double cycles);
+
+/// The band in which the copies of a spectrum of this bandwidth overlap when sampled at this rate; empty: low >= high.
+struct Band {
+  double low = 0, high = 0;
+};
+Band overlap_of_copies(double bandwidth, double rate);
+
+}  // namespace zoneplate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/image/plane.h"
+#include "zoneplate/signal/spec.h"
+
+namespace zoneplate {
+
+/// A window: what a signal is multiplied with before its spectrum is taken, so that its ends meet.
+struct Window {
+  std::string name;                       ///< the text it was made from: "kaiser:beta=8"
+  std::function<double(double t)> value;  ///< for t in [0, 1]; 1 at ½, symmetric
+};
+
+struct WindowEntry {
+  std::string_view name;
+  std::string_view summary;
+  std::string_view source;
+  std::vector<SpecParam> params;
+  std::function<double(double t)> (*make)(std::span<const double> params);
+};
+
+/// none, hann, hamming, blackman, kaiser, tukey.
+std::span<const WindowEntry> windows();
+
+/// Errors    Trouble::Usage for an unknown name or parameter, or a value out of its range.
+Window make_window(std::string_view text);
+
+/// The window at the centres of n pixels: value((k + ½) / n).
+std::vector<double> sampled(const Window& window, int n);
+
+/// The mean of the samples: what a wave's peak in the spectrum is multiplied with.
+double coherent_gain(std::span<const double> samples);
+
+/// n Σ w² / (Σ w)²: the width in bins of a filter without a window that passes as much noise; 1.5 for Hann.
+double noise_bandwidth(std::span<const double> samples);
+
+/// The plane times the window along x and along y.
+Plane<float> windowed(const Plane<float>& plane, const Window& window);
+
+}  // namespace zoneplate
