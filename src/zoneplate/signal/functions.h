@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+namespace zoneplate {
+
+/// Elementary functions in double precision for filters and transforms.
+///
+/// Exact     + - × / √ and comparisons only, in a written order: the same bits on every compiler and machine, which
+///           the C library does not give (its sin has variants per processor). Within 4 units in the last place of
+///           the result unless a function says otherwise.
+
+struct SinCos {
+  double sin = 0, cos = 1;
+};
+
+/// sin(πx) and cos(πx); exact zeros and ones at multiples of ½.
+SinCos sin_cos_pi(double x);
+double sin_pi(double x);
+double cos_pi(double x);
+
+/// cos(2πk / n) and sin(2πk / n); the angle is reduced in integers, so that great k lose nothing.
+///
+/// Requires  0 <= k < n < 2^60.
+SinCos unit_root(std::uint64_t k, std::uint64_t n);
+
+/// sin(πx) / (πx), 1 at 0.
+double sinc(double x);
+
+/// e^x; 0 below -708, infinity above 709.
+double natural_exp(double x);
+
+/// ln x for finite x > 0.
+double natural_log(double x);
+
+/// The angle of (x, y) in [-π, π]; 0 for (0, 0).
+double angle_of(double y, double x);
+
+/// 2/√π ∫_0^x e^(-t²) dt. Within 2e-15.
+double error_function(double x);
+
+/// The modified Bessel function of the first kind, order 0, for |x| <= 100 by its power series.
+double bessel_i0(double x);
+
+}  // namespace zoneplate
