@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
-#include "zoneplate/math/elementary.h"
 #include "zoneplate/metrics/metric.h"
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -139,10 +139,11 @@ double transform(const std::vector<double>& spread, double frequency) {
   double re = 0, im = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double place = static_cast<double>(i + 1) - static_cast<double>(spread.size()) / 2;  // bins from the edge
-    const double window = 0.54 + 0.46 * cos_turns(place / static_cast<double>(spread.size()));
+    const double window = 0.54 + 0.46 * cos_pi(2 * place / static_cast<double>(spread.size()));
     const double change = (spread[i + 1] - spread[i]) * window;
-    re += change * cos_turns(frequency * place / bins_a_pixel);
-    im += change * cos_turns(frequency * place / bins_a_pixel - 0.25);
+    const SinCos wave = sin_cos_pi(2 * frequency * place / bins_a_pixel);
+    re += change * wave.cos;
+    im += change * wave.sin;
   }
   return std::sqrt(re * re + im * im);
 }
@@ -210,7 +211,7 @@ std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
   if (!spread) return std::nullopt;
 
   EdgeResponse edge;
-  edge.angle_deg = std::abs(atan2(static_cast<float>(line->slope), 1.0f)) * 180 / pi;
+  edge.angle_deg = std::abs(angle_of(line->slope, 1)) * 180 / std::numbers::pi;
   edge.spread = std::move(*spread);
   normalize_step(edge.spread);
   for (std::size_t i = 0; i < edge.spread.size(); ++i) {

@@ -12,7 +12,7 @@
 
 #include "zoneplate/metrics/flip_color.h"
 #include "zoneplate/metrics/flip_filters.h"
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/reduce.h"
 
 namespace zoneplate::metrics {
@@ -115,20 +115,18 @@ Plane<Seen> look(const LinearImage& image, const Tile& tile, const FlipFilters& 
 /// Colour error in [0, 1]: differences up to 0.4 of the greatest take 0.95 of the range.
 double color_error(Triple a, Triple b, double greatest) {
   constexpr double exponent = 0.7, knee = 0.4, knee_value = 0.95;
-  const double d = precise_power(hyab(a, b), exponent);
+  const double d = power(hyab(a, b), exponent);
   const double bend = knee * greatest;
   return d < bend ? d * knee_value / bend : knee_value + (d - bend) / (greatest - bend) * (1 - knee_value);
 }
 
 /// The greatest colour difference of the gamut, between its green and its blue.
-double greatest_difference() {
-  return precise_power(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), 0.7);
-}
+double greatest_difference() { return power(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), 0.7); }
 
 double error_between(const Seen& a, const Seen& b, double greatest) {
   const double color = color_error(a.color, b.color, greatest);
   const double feature = std::max(std::abs(a.edge - b.edge), std::abs(a.point - b.point));
-  return precise_power(color, 1 - std::sqrt(feature / std::sqrt(2.0)));
+  return power(color, 1 - std::sqrt(feature / std::sqrt(2.0)));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/metrics/power.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -12,7 +12,7 @@ constexpr Triple white = {0.950428545, 1, 1.088900371};
 /// CIELAB's compression: a cube root, straight near black.
 double compress(double t) {
   constexpr double delta = 6.0 / 29;
-  return t > delta * delta * delta ? precise_cube_root(t) : t / (3 * delta * delta) + 4.0 / 29;
+  return t > delta * delta * delta ? cube_root(t) : t / (3 * delta * delta) + 4.0 / 29;
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
 namespace {
+
+constexpr double pi = std::numbers::pi;
 
 Taps make_taps(int radius, const std::function<double(double)>& weight) {
   Taps taps;
@@ -35,7 +38,7 @@ void normalize_parts(Taps& taps) {
 std::function<double(double)> sensitivity(double a, double b, double pixels_per_degree) {
   return [=](double i) {
     const double degrees = i / pixels_per_degree;
-    return std::sqrt(a * std::sqrt(pi / b)) * precise_exp(-pi * pi * degrees * degrees / b);
+    return std::sqrt(a * std::sqrt(pi / b)) * natural_exp(-pi * pi * degrees * degrees / b);
   };
 }
 
@@ -60,7 +63,7 @@ FlipFilters make_flip_filters(double ppd) {
   // Edges and points of the width that the eye sees best, 0.082 degrees.
   const double sigma = 0.5 * 0.082 * ppd;
   f.feature_radius = static_cast<int>(std::ceil(3 * sigma));
-  const auto gaussian = [sigma](double x) { return precise_exp(-x * x / (2 * sigma * sigma)); };
+  const auto gaussian = [sigma](double x) { return natural_exp(-x * x / (2 * sigma * sigma)); };
   f.smooth = make_taps(f.feature_radius, gaussian);
   f.slope = make_taps(f.feature_radius, [&](double x) { return -x * gaussian(x); });
   f.bend = make_taps(f.feature_radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); });

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "zoneplate/metrics/flip.h"
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/reduce.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -24,10 +26,8 @@ double light_near_white() {
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
-double log2_of(double x) { return precise_log(x) * 1.4426950408889634; }
-
 LinearImage expose(const LinearImage& image, double exposure) {
-  const double factor = precise_exp(exposure * 0.69314718055994530942);
+  const double factor = natural_exp(exposure * std::numbers::ln2);
   const auto shown = [factor](float v) { return v > 0 ? static_cast<float>(aces(factor * v)) : 0.0f; };
   LinearImage out(image.width(), image.height());
   parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row) {
@@ -56,7 +56,7 @@ std::vector<double> flip_exposures(const LinearImage& reference) {
   const double median = std::max(darkest, *middle);
 
   const double white = light_near_white();
-  const double start = log2_of(white / greatest), stop = log2_of(white / median);
+  const double start = binary_log(white / greatest), stop = binary_log(white / median);
   const int count = std::max(2, static_cast<int>(std::ceil(stop - start)));
   std::vector<double> exposures;
   for (int i = 0; i < count; ++i) exposures.push_back(start + (stop - start) * i / (count - 1));

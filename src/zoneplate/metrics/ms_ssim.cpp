@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "zoneplate/metrics/metric.h"
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/ssim.h"
 
 namespace zoneplate::metrics {
@@ -36,7 +36,7 @@ double multiscale_similarity(const Plane<double>& reference, const Plane<double>
     const Similarity s = structural_similarity(a, b);
     const bool is_last = scale + 1 == scale_weights.size();
     const double mean = std::max(0.0, is_last ? s.ssim : s.contrast);
-    product *= mean == 1 ? 1 : precise_power(mean, scale_weights[scale]);
+    product *= mean == 1 ? 1 : power(mean, scale_weights[scale]);
     if (!is_last) a = half_size(a), b = half_size(b);
   }
   return product;

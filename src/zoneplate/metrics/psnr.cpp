@@ -4,14 +4,16 @@
 #include "zoneplate/metrics/psnr.h"
 
 #include <limits>
+#include <numbers>
 
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/mse.h"
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/metrics/power.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
 
-double psnr_of_mse(double mse) { return mse > 0 ? -10 * precise_log10(mse) : std::numeric_limits<double>::infinity(); }
+double psnr_of_mse(double mse) { return mse > 0 ? -10 * decimal_log(mse) : std::numeric_limits<double>::infinity(); }
 
 double peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test) {
   return psnr_of_mse(mean_squared_error(reference, test));
@@ -19,7 +21,7 @@ double peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& t
 
 double pool_psnr(std::span<const double> frames) {
   double mse = 0;
-  for (const double psnr : frames) mse += precise_exp(psnr * -0.23025850929940457);  // ln 10 / 10
+  for (const double psnr : frames) mse += natural_exp(psnr * -std::numbers::ln10 / 10);
   return psnr_of_mse(mse / static_cast<double>(frames.size()));
 }
 

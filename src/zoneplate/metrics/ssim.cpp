@@ -9,8 +9,8 @@
 #include <cassert>
 
 #include "zoneplate/metrics/metric.h"
-#include "zoneplate/metrics/precise.h"
 #include "zoneplate/metrics/reduce.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -36,7 +36,7 @@ Window gaussian_window() {
   Window window{};
   double sum = 0;
   for (int i = -radius; i <= radius; ++i) {
-    window[static_cast<std::size_t>(i + radius)] = precise_exp(-i * i / (2 * 1.5 * 1.5));
+    window[static_cast<std::size_t>(i + radius)] = natural_exp(-i * i / (2 * 1.5 * 1.5));
     sum += window[static_cast<std::size_t>(i + radius)];
   }
   for (double& w : window) w /= sum;

@@ -5,10 +5,12 @@
 // Not symmetric: pixels that are empty in the test picture do not count.
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "zoneplate/metrics/metric.h"
-#include "zoneplate/metrics/precise.h"
+#include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/reduce.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -52,7 +54,7 @@ std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& 
   });
   if (count == 0) return std::nullopt;
   const double ratio = sum > 0 ? std::sqrt(sum / count) / greatest_distance : 0;
-  score.value = 10 * precise_log10(ratio);
+  score.value = 10 * decimal_log(ratio);
   score.more = {{"ratio", ratio, ""}, {"seen", count / static_cast<double>(test.values().size()), "share of pixels"}};
   return score;
 }
@@ -60,8 +62,8 @@ std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& 
 /// The root mean square over frames of what the decibels stand for.
 double pool(std::span<const double> frames) {
   double sum = 0;
-  for (const double decibels : frames) sum += precise_exp(decibels * 0.46051701859880914);  // 2 ln 10 / 10
-  return 10 * precise_log10(std::sqrt(sum / static_cast<double>(frames.size())));
+  for (const double decibels : frames) sum += natural_exp(decibels * 2 * std::numbers::ln10 / 10);
+  return 10 * decimal_log(std::sqrt(sum / static_cast<double>(frames.size())));
 }
 
 }  // namespace
