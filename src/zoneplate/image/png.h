@@ -24,7 +24,7 @@ struct PngOptions {
   bool has_alpha = true;  ///< false: RGB is written
   bool is_srgb = true;    ///< writes the sRGB chunk; false for data (depth, normals, ids)
   bool is_small = false;  ///< slower, smaller
-  std::vector<std::pair<std::string, std::string>> text;  ///< tEXt chunks
+  std::vector<std::pair<std::string, std::string>> text = {};  ///< tEXt chunks (iTXt where not ASCII)
 };
 
 /// No time stamp is written: the same picture gives the same bytes.
