@@ -1,17 +1,14 @@
 #pragma once
 
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/image/tone_mapping.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {
 
-enum class ToneMapping {
-  None,     ///< clamped to [0, 1]
-  Aces,     ///< Stephen Hill's fit of the ACES RRT and ODT, of color / 0.6, as three.js does it
-  Neutral,  ///< Khronos PBR Neutral
-};
-
 /// Maps one linear colour (not premultiplied) to linear display light in [0, 1].
+///
+/// Edges     what is negative or not a number counts as 0, what is above 2^24 as 2^24.
 float3 tone_map(float3 color, ToneMapping mapping);
 
 struct DisplayOptions {
@@ -24,6 +21,9 @@ struct DisplayOptions {
 
 /// The picture as it is shown: straight colour × exposure is tone mapped, laid over the background in linear
 /// light, and encoded. Where alpha is 0 a transparent picture holds (0, 0, 0, 0).
+///
+/// Edges     every channel of the result is in [0, 1], whatever the picture holds; where alpha is 0 the
+///           background's own code is shown, where the picture is opaque nothing of it.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
 
 }  // namespace zoneplate

@@ -1,0 +1,187 @@
+#include "zoneplate/image/tonemap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/tonemap_kernels.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/math/random.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+void expect_near(float3 found, float3 wanted, float tolerance) {
+  EXPECT_NEAR(found.x, wanted.x, tolerance);
+  EXPECT_NEAR(found.y, wanted.y, tolerance);
+  EXPECT_NEAR(found.z, wanted.z, tolerance);
+}
+
+TEST(Tonemap, NoneClamps) {
+  EXPECT_EQ(tone_map({-1, 0.25f, 7}, ToneMapping::None), (float3{0, 0.25f, 1}));
+  EXPECT_EQ(tone_map({nan, infinity, -infinity}, ToneMapping::None), (float3{0, 1, 0}));
+}
+
+/// Hill's fit for greys: the rows of both matrices sum to 1 within 1e-5, so that it is the curve alone.
+TEST(Tonemap, AcesOfGreyIsItsCurve) {
+  for (const double grey : {0.0, 0.01, 0.18, 0.5, 1.0, 4.0, 30.0}) {
+    const double v = grey / 0.6;
+    const double curve = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    const auto wanted = static_cast<float>(std::clamp(curve, 0.0, 1.0));
+    const auto x = static_cast<float>(grey);
+    expect_near(tone_map({x, x, x}, ToneMapping::Aces), {wanted, wanted, wanted}, 5e-5f);
+  }
+}
+
+/// A saturated colour, worked out by hand in double precision.
+TEST(Tonemap, AcesOfRed) {
+  const double v[3] = {0.59719 / 0.6, 0.07600 / 0.6, 0.02840 / 0.6};
+  double c[3];
+  for (int i = 0; i < 3; ++i) {
+    c[i] = (v[i] * (v[i] + 0.0245786) - 0.000090537) / (v[i] * (0.983729 * v[i] + 0.4329510) + 0.238081);
+  }
+  const auto unit = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
+  const float3 wanted = {unit(1.60475 * c[0] - 0.53108 * c[1] - 0.07367 * c[2]),
+                         unit(-0.10208 * c[0] + 1.10813 * c[1] - 0.00605 * c[2]),
+                         unit(-0.00327 * c[0] - 0.07276 * c[1] + 1.07602 * c[2])};
+  expect_near(tone_map({1, 0, 0}, ToneMapping::Aces), wanted, 1e-6f);
+}
+
+TEST(Tonemap, NeutralKeepsBaseColorAndCompressesTheRest) {
+  // Below the start of compression a colour only loses the 4 % that a dielectric reflects.
+  expect_near(tone_map({0.54f, 0.34f, 0.14f}, ToneMapping::Neutral), {0.5f, 0.3f, 0.1f}, 1e-6f);
+  // By hand: least 0.04 gives offset 0.04 - 6.25 0.0016 = 0.03.
+  expect_near(tone_map({0.54f, 0.34f, 0.04f}, ToneMapping::Neutral), {0.51f, 0.31f, 0.01f}, 1e-6f);
+  // A grey of 1.04: peak 1, new peak 1 - 0.0576 / 0.48 = 0.88, and a grey has no hue to lose.
+  expect_near(tone_map({1.04f, 1.04f, 1.04f}, ToneMapping::Neutral), {0.88f, 0.88f, 0.88f}, 1e-6f);
+  // (1.04, 0.54, 0.04 + 0.04): peak 1; white = 1 - 1 / (0.15 0.12 + 1).
+  const float white = 1 - 1 / 1.018f;
+  const auto mixed = [&](float x) { return x * 0.88f * (1 - white) + 0.88f * white; };
+  expect_near(tone_map({1.04f, 0.54f, 0.08f}, ToneMapping::Neutral), {0.88f, mixed(0.5f), mixed(0.04f)}, 1e-6f);
+  expect_near(tone_map({1e6f, 1e6f, 1e6f}, ToneMapping::Neutral), {1, 1, 1}, 1e-6f);
+}
+
+TEST(Tonemap, MapsStayInRangeAndRise) {
+  for (const ToneMapping mapping : {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral}) {
+    float last = 0;
+    for (float x = 0.001f; x < 1e6f; x *= 1.05f) {
+      const float y = tone_map({x, x, x}, mapping).y;
+      EXPECT_GE(y, last - 1e-6f);
+      EXPECT_LE(y, 1);
+      last = y;
+    }
+    for (const float odd : {nan, infinity, -infinity, 3e38f, -3e38f, 1e-45f}) {
+      const float3 mapped = tone_map({odd, 0.5f, odd}, mapping);
+      for (const float x : {mapped.x, mapped.y, mapped.z}) EXPECT_TRUE(x >= 0 && x <= 1) << x;
+    }
+  }
+}
+
+Display shown(Linear color, const DisplayOptions& options) {
+  return make_display(LinearImage(1, 1, color), options)(0, 0);
+}
+
+TEST(MakeDisplay, OpaqueColorIsExposedMappedAndEncoded) {
+  EXPECT_EQ(shown({0.1f, 0.2f, 0.7f, 1}, {}), (Display{encode_srgb(0.1f), encode_srgb(0.2f), encode_srgb(0.7f), 1}));
+  EXPECT_EQ(shown({0.1f, 0.2f, 0.7f, 1}, {.exposure = 2}),
+            (Display{encode_srgb(0.2f), encode_srgb(0.4f), encode_srgb(1.4f), 1}));
+  const float3 mapped = tone_map({0.3f, 2, 5}, ToneMapping::Aces);
+  EXPECT_EQ(shown({0.3f, 2, 5, 1}, {.mapping = ToneMapping::Aces}),
+            (Display{encode_srgb(mapped.x), encode_srgb(mapped.y), encode_srgb(mapped.z), 1}));
+  EXPECT_EQ(shown({0.1f, 0.2f, 1.7f, 1}, {.mapping = ToneMapping::Aces, .exposure = 0.5f, .raw = true}),
+            (Display{0.05f, 0.1f, 0.85f, 1}));
+}
+
+TEST(MakeDisplay, BackgroundIsShownAsItIs) {
+  const float4 background = {0.2f, 0.4f, 0.6f, 1};
+  EXPECT_EQ(shown({0, 0, 0, 0}, {.mapping = ToneMapping::Aces, .exposure = 3, .background = background}),
+            (Display{0.2f, 0.4f, 0.6f, 1}));
+  EXPECT_EQ(shown({0, 0, 0, 0}, {.background = {0.2f, 0.4f, 0.6f, 0.5f}}), (Display{0.2f, 0.4f, 0.6f, 0.5f}));
+  EXPECT_EQ(shown({0, 0, 0, 0}, {.background = {0.2f, 0.4f, 0.6f, 0}}), (Display{0, 0, 0, 0}));
+}
+
+TEST(MakeDisplay, HalfCoveredPixelsMixLight) {
+  // White of half coverage over black, and over white: the mean light.
+  const Linear half = {0.5f, 0.5f, 0.5f, 0.5f};
+  EXPECT_EQ(shown(half, {}), (Display{encode_srgb(0.5f), encode_srgb(0.5f), encode_srgb(0.5f), 1}));
+  EXPECT_EQ(shown(half, {.background = {1, 1, 1, 1}}), (Display{1, 1, 1, 1}));
+  // Over a background of half coverage: alpha 3/4, of which 2/3 are white.
+  const Display over = shown(half, {.background = {0, 0, 0, 0.5f}});
+  EXPECT_FLOAT_EQ(over.a, 0.75f);
+  EXPECT_NEAR(over.r, encode_srgb(2.0f / 3), 1e-6f);
+}
+
+TEST(MakeDisplay, TransparentPicturesKeepStraightColor) {
+  const DisplayOptions options = {.is_transparent = true, .background = {1, 0, 0, 1}};
+  EXPECT_EQ(shown({0.25f, 0.125f, 0, 0.5f}, options), (Display{encode_srgb(0.5f), encode_srgb(0.25f), 0, 0.5f}));
+  EXPECT_EQ(shown({3, 2, 1, 0}, options), (Display{0, 0, 0, 0}));
+}
+
+/// Pixels of every sort: opaque, covered in part, empty, over-bright and broken.
+std::vector<float> pixels(std::uint32_t n, std::uint32_t seed) {
+  std::vector<float> values(4 * std::size_t{n});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t sort = hash(i, seed, 9) % 8;
+    const float alpha = sort < 3 || seed % 3 == 0 ? 1.0f : sort == 3 ? 0.0f : unit_float(hash(i, seed, 3));
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const float odd[] = {nan, infinity, -infinity, -2.0f, 3e38f, 1e-42f, 0.0f, -0.0f};
+      const float light = unit_float(hash(i, seed, c)) * (sort % 2 == 0 ? 1.0f : 40.0f) * alpha;
+      values[4 * i + c] = sort == 7 ? odd[hash(i, seed, c + 4) % 8] : light;
+    }
+    values[4 * i + 3] = sort == 7 && hash(i, seed, 8) % 2 == 0 ? nan : alpha;
+  }
+  return values;
+}
+
+TEST(MakeDisplay, EveryInstructionSetGivesTheSameBits) {
+  std::vector<DisplayStep> steps;
+  for (const ToneMapping mapping : {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral}) {
+    for (const bool is_transparent : {false, true}) {
+      for (const float alpha : {0.0f, 0.3f, 1.0f}) {
+        DisplayStep step = {.mapping = mapping, .exposure = 1.3f, .is_transparent = is_transparent};
+        step.is_encoded = alpha != 0.3f;
+        const float background[4] = {0.1f, 0.2f, 0.3f, 1};
+        for (int c = 0; c < 4; ++c) step.code[c] = step.light[c] = alpha * background[c];
+        steps.push_back(step);
+      }
+    }
+  }
+  for (const Isa isa : supported_isas()) {
+    const TonemapKernels& kernels =
+        pick(isa, scalar::tonemap_kernels, N_SSE4::tonemap_kernels, N_AVX2::tonemap_kernels);
+    for (std::uint32_t n = 0; n <= 200; ++n) {
+      const std::vector<float> in = pixels(n, n);
+      const DisplayStep& step = steps[n % steps.size()];
+      std::vector<float> wanted(in.size() + 1, 9), found(in.size() + 1, 9);
+      scalar::tonemap_kernels.display_row(step, in.data(), wanted.data(), n);
+      kernels.display_row(step, in.data(), found.data(), n);
+      EXPECT_EQ(found, wanted) << name_of(isa) << ' ' << n;
+      EXPECT_TRUE(std::all_of(found.begin(), found.end() - 1, [](float x) { return x >= 0 && x <= 1; }));
+    }
+  }
+}
+
+TEST(MakeDisplay, DoesNotDependOnThreads) {
+  const std::vector<float> values = pixels(211 * 97, 5);
+  LinearImage image(211, 97);
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    image.values()[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]};
+  }
+  DisplayImage one, seven;
+  const DisplayOptions options = {.mapping = ToneMapping::Neutral, .background = {0.5f, 0.5f, 0.5f, 1}};
+  with_threads(1, [&] { one = make_display(image, options); });
+  with_threads(7, [&] { seven = make_display(image, options); });
+  EXPECT_EQ(one, seven);
+  EXPECT_TRUE(make_display(LinearImage(), options).empty());
+}
+
+}  // namespace
+}  // namespace zoneplate

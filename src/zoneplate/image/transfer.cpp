@@ -1,0 +1,135 @@
+#include "zoneplate/image/transfer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/transfer_constants.h"
+#include "zoneplate/image/transfer_kernels.h"
+#include "zoneplate/math/elementary.h"
+
+namespace zoneplate {
+namespace {
+
+/// x clamped to [0, 1]; 0 where it is not a number.
+constexpr float clamp_unit(float x) {
+  x = x > 0 ? x : 0.0f;
+  return x < 1 ? x : 1.0f;
+}
+
+/// The definition of the decoding curve, to the precision of double: x^2.4 = x^2 (x^2)^(1/5), the root by Newton.
+constexpr double decode_precisely(double code) {
+  if (code <= 0.04045) return code / 12.92;
+  const double x = (code + 0.055) / 1.055, square = x * x;
+  double root = 1;
+  for (int i = 0; i < 20; ++i) root -= (root - square / (root * root * root * root)) / 5;
+  return square * root;
+}
+
+constexpr std::array<float, 256> decoded = [] {
+  std::array<float, 256> table{};
+  for (std::size_t code = 0; code < 256; ++code) {
+    table[code] = static_cast<float>(decode_precisely(static_cast<double>(code) / 255));
+  }
+  return table;
+}();
+
+/// The least linear value of each 8-bit code, and for runs of 2^16 floats the code at which each run begins.
+///
+/// No run from 2^-13 to 1 holds more than one such value, so a code is that of the run or the next.
+struct Thresholds {
+  static constexpr std::uint32_t first_bits = 0x39000000;  // 2^-13, below the least value of code 1
+  static constexpr std::uint32_t one_bits = 0x3f800000;
+  static constexpr int run_shift = 16;
+
+  std::array<float, 257> least{};
+  std::array<std::uint8_t, ((one_bits - first_bits) >> run_shift) + 1> begin{};
+
+  constexpr Thresholds() {
+    for (std::uint32_t code = 1; code < 256; ++code) {
+      const double value = decode_precisely((code - 0.5) / 255);
+      const float near = static_cast<float>(value);
+      const std::uint32_t above = std::bit_cast<std::uint32_t>(near) + 1;
+      least[code] = static_cast<double>(near) >= value ? near : std::bit_cast<float>(above);
+    }
+    least[256] = 2;
+    std::size_t code = 0;
+    for (std::uint32_t run = 0; run < begin.size(); ++run) {
+      const float x = std::bit_cast<float>(first_bits + (run << run_shift));
+      while (least[code + 1] <= x) ++code;
+      begin[run] = static_cast<std::uint8_t>(code);
+    }
+  }
+};
+constexpr Thresholds thresholds;
+
+}  // namespace
+
+float encode_srgb(float linear) {
+  const float x = clamp_unit(linear);
+  return x <= srgb::linear_cutoff ? srgb::slope * x : srgb::scale * pow(x, srgb::inverse_power) - srgb::offset;
+}
+
+float decode_srgb(float code) {
+  const float x = clamp_unit(code);
+  return x <= srgb::code_cutoff ? x / srgb::slope : pow((x + srgb::offset) / srgb::scale, srgb::power);
+}
+
+float decode_srgb8(std::uint8_t code) { return decoded[code]; }
+
+std::uint8_t encode_srgb8(float linear) {
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(clamp_unit(linear));
+  if (bits < Thresholds::first_bits) return 0;
+  const std::uint8_t code = thresholds.begin[(bits - Thresholds::first_bits) >> Thresholds::run_shift];
+  return static_cast<std::uint8_t>(code + (std::bit_cast<float>(bits) >= thresholds.least[code + 1u] ? 1 : 0));
+}
+
+namespace scalar {
+namespace {
+
+void encode(const float* linear, float* code, std::size_t n) { std::transform(linear, linear + n, code, encode_srgb); }
+
+void decode(const float* code, float* linear, std::size_t n) { std::transform(code, code + n, linear, decode_srgb); }
+
+void quantize8(const float* values, std::uint8_t* codes, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) codes[i] = static_cast<std::uint8_t>(clamp_unit(values[i]) * 255 + 0.5f);
+}
+
+void quantize16(const float* values, std::uint16_t* codes, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) codes[i] = static_cast<std::uint16_t>(clamp_unit(values[i]) * 65535 + 0.5f);
+}
+
+}  // namespace
+
+const TransferKernels transfer_kernels = {
+    .encode = encode, .decode = decode, .quantize8 = quantize8, .quantize16 = quantize16};
+
+}  // namespace scalar
+
+namespace {
+
+/// Rows of four channels side by side, taken as one array; a block is some hundred kilobytes.
+template <class Pixel, class Code>
+Plane<Pixel> quantize(const DisplayImage& image, void (*row)(const float*, Code*, std::size_t)) {
+  static_assert(sizeof(Display) == 4 * sizeof(float) && sizeof(Pixel) == 4 * sizeof(Code));
+  Plane<Pixel> out(image.width(), image.height());
+  parallel_ranges(image.values().size(), 16384, [&](std::size_t begin, std::size_t end) {
+    row(&image.values()[begin].r, &out.values()[begin].r, 4 * (end - begin));
+  });
+  return out;
+}
+
+const TransferKernels& best_kernels() {
+  return pick(best_isa(), scalar::transfer_kernels, N_SSE4::transfer_kernels, N_AVX2::transfer_kernels);
+}
+
+}  // namespace
+
+Rgba8Image quantize8(const DisplayImage& image) { return quantize<Rgba8>(image, best_kernels().quantize8); }
+
+Rgba16Image quantize16(const DisplayImage& image) { return quantize<Rgba16>(image, best_kernels().quantize16); }
+
+}  // namespace zoneplate
