@@ -1,6 +1,8 @@
 #include "zoneplate/base/parallel.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -26,7 +28,10 @@ void parallel_ranges(std::size_t count, std::size_t grain, const std::function<v
 }
 
 void with_threads(int threads, const std::function<void()>& body) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const int count = threads > 0 ? threads : tbb::info::default_concurrency();
+  // More threads than cores are given where they are asked for.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+  tbb::task_arena arena(count);
   arena.execute(body);
 }
 

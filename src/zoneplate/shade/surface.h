@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/raster/batch.h"
 #include "zoneplate/scene/scene.h"
 
@@ -15,6 +16,7 @@ struct Surroundings {
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< images are taken as they are, not decoded from sRGB (--color-management raw)
+  Isa isa = best_isa();           ///< every one gives the same bits
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.

@@ -1,0 +1,85 @@
+# What `zoneplate` and `check` have in common: packages and builds. Sourced by them, with `root` and `program` set.
+#
+# Everything is said on stderr; a step that fails shows its own output and ends the script with exit code 1.
+
+say() { echo "$program: $*" >&2; }
+
+# Runs a command and shows its output, on stderr, only if it fails.
+run_quietly() {
+  local output status=0
+  output=$(mktemp)
+  "$@" >"$output" 2>&1 </dev/null || status=$?
+  [ "$status" -eq 0 ] || cat "$output" >&2
+  rm -f "$output"
+  return "$status"
+}
+
+# The packages of packages.txt for the given purposes (build, check, all), one a line.
+wanted_packages() {
+  awk -v purposes=" $* " '
+    /^#/ || NF == 0 { next }
+    { purpose = $2 ~ /^\(.*\)$/ ? substr($2, 2, length($2) - 2) : "build" }
+    index(purposes, " " purpose " ") { print $1 }' "$root/packages.txt"
+}
+
+# Installs what is missing of the packages for the given purposes.
+install_packages() {
+  command -v dpkg-query >/dev/null || { say "no dpkg here: what packages.txt lists is taken to be installed"; return 0; }
+  local installed missing
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p')
+  missing=$(wanted_packages "$@" | grep -vxF "$installed") || return 0
+  missing=$(echo $missing)
+
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    as_root=(sudo -n)
+    if ! sudo -n true 2>/dev/null; then
+      say "packages are missing, and installing them needs root:"
+      echo "    apt-get install --no-install-recommends $missing" >&2
+      exit 1
+    fi
+  fi
+  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300)
+
+  # The package index is fetched only where there is none, or where it turns out to be too old.
+  say "installing with apt-get: $missing"
+  if apt-cache show $missing >/dev/null 2>&1 &&
+    "${apt_get[@]}" install --no-install-recommends $missing >/dev/null 2>&1 </dev/null; then
+    return 0
+  fi
+  run_quietly "${apt_get[@]}" update && run_quietly "${apt_get[@]}" install --no-install-recommends $missing || {
+    say "apt-get failed; install by hand: $missing"
+    exit 1
+  }
+}
+
+# True if build/PRESET is not there or older than anything it is made from.
+is_stale() {
+  local stamp=$root/build/$1/.zoneplate-built
+  [ -e "$stamp" ] || return 0
+  local inputs=(src cmake CMakeLists.txt CMakePresets.json packages.txt)
+  [ "$1" = release ] || inputs+=(tests)
+  [ -n "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ]
+}
+
+# build PRESET PURPOSE...: installs what is missing and brings build/PRESET up to date, if it is not.
+build() {
+  local preset=$1 directory=$root/build/$1
+  shift
+  is_stale "$preset" || return 0
+  mkdir -p "$directory" || { say "cannot write to $root/build"; exit 1; }
+  (
+    flock 9 # a second call waits here for the first one's build
+    is_stale "$preset" || exit 0
+    install_packages "$@"
+    touch "$directory/.zoneplate-started" # what is saved during the build counts as newer than it
+    say "building into build/$preset ($(nproc) jobs; a few minutes the first time)"
+    cd "$root" && run_quietly cmake --preset "$preset" || exit 1
+    if [ -t 2 ]; then
+      cmake --build "$directory" --parallel "$(nproc)" >&2 || exit 1
+    else
+      run_quietly cmake --build "$directory" --parallel "$(nproc)" || exit 1
+    fi
+    mv "$directory/.zoneplate-started" "$directory/.zoneplate-built"
+  ) 9>"$directory/.zoneplate-lock" || { say "could not be built"; exit 1; }
+}

@@ -1,0 +1,20 @@
+# Every foo_test.cpp and tests/*_test.cpp in one program, and the tests that are not C++.
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+add_executable(zoneplate_tests ${test_sources} ${whole_tests})
+target_link_libraries(zoneplate_tests PRIVATE zoneplate_cli GTest::gtest_main)
+target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
+                           ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>")
+add_dependencies(zoneplate_tests zoneplate_program)
+gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST)
+
+# The 20-line program of README.md, built against an installed package as a user would.
+add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
+         -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
+
+# Kernels for newer processors must not reach programs on older ones through shared inline functions.
+if(NOT ZONEPLATE_SANITIZED AND simd_sources)
+  add_test(NAME simd_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/simd_symbols.sh
+           $<TARGET_OBJECTS:zoneplate_sse4> $<TARGET_OBJECTS:zoneplate_avx2> COMMAND_EXPAND_LISTS)
+endif()

@@ -1,0 +1,15 @@
+// No antialiasing: one sample at the pixel's centre. What the other methods are measured from.
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+
+Method none();
+
+Method none() {
+  return {.name = "none",
+          .summary = "one sample at the pixel's centre",
+          .source = "point sampling",
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Resolver>(); }};
+}
+
+}  // namespace zoneplate::antialias

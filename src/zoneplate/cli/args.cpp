@@ -1,0 +1,143 @@
+#include "zoneplate/cli/args.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::cli {
+namespace {
+
+std::vector<std::string> names_of(const Option& option) { return CLI::detail::split_names(option.names); }
+
+// "-o, --output FILE": short forms first, as manuals show them.
+std::string shown(const Option& option) {
+  std::vector<std::string> names = names_of(option);
+  std::stable_sort(names.begin(), names.end(),
+                   [](const auto& a, const auto& b) { return (a[1] != '-') > (b[1] != '-'); });
+  return fmt::format("{}{}{}", fmt::join(names, ", "), option.value.empty() ? "" : " ", option.value);
+}
+
+// Text broken at spaces to `width` columns, every line after the first one indented.
+std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
+  std::string out;
+  std::size_t column = 0;
+  for (const std::string& word : CLI::detail::split(text, ' ')) {
+    if (column > 0 && column + 1 + word.size() > width) {
+      out += '\n' + std::string(indent, ' ');
+      column = 0;
+    } else if (column > 0) {
+      out += ' ';
+      ++column;
+    }
+    out += word;
+    column += word.size();
+  }
+  return out;
+}
+
+constexpr std::size_t help_width = 100, help_column = 34;
+
+std::string help_line(const Option& option) {
+  std::string left = "  " + shown(option);
+  left += left.size() + 2 > help_column ? '\n' + std::string(help_column, ' ')
+                                        : std::string(help_column - left.size(), ' ');
+  return left + wrapped(option.meaning, help_width - help_column, help_column) + '\n';
+}
+
+std::string usage_line(const Syntax& syntax) {
+  return fmt::format("Usage: zoneplate {} {} [OPTIONS]\n\n{}.\n", syntax.verb, syntax.operands, syntax.summary);
+}
+
+[[noreturn]] void refuse_unknown(const Syntax& syntax, const std::string& given) {
+  std::vector<std::string> names{"--help"};
+  for (const Option& option : syntax.options)
+    for (const std::string& name : names_of(option))
+      if (name.starts_with("--")) names.push_back(name);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::string name = given.substr(0, given.find('='));
+  const std::string_view near = closest(name, views);
+  throw Error(Trouble::Usage, near.empty()
+                                  ? fmt::format("unknown option {} (zoneplate {} --help lists them)", name, syntax.verb)
+                                  : fmt::format("unknown option {}; did you mean {}?", name, near));
+}
+
+}  // namespace
+
+bool parse(Syntax& syntax, std::span<const std::string> arguments) {
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  const CLI::Option* short_help_switch = app.add_flag("-h");
+  const CLI::Option* full_help_switch = app.add_flag("--help");
+  app.add_option("operands", syntax.found_operands)->expected(-1);
+
+  std::vector<const CLI::Option*> parsers;
+  std::map<std::string, std::string> places;  // by CLI11's name of an option, ours with its value
+  for (const Option& option : syntax.options) {
+    CLI::Option* parser = option.value.empty() ? app.add_flag(option.names) : app.add_option(option.names);
+    if (!option.value.empty()) parser->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    places[parser->get_name()] = names_of(option).front() + " needs a value: " + option.value;
+    parsers.push_back(parser);
+  }
+
+  // CLI11 takes the arguments from the back.
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ArgumentMismatch& mismatch) {
+    const std::string text = mismatch.what();
+    const auto place = places.find(text.substr(0, text.find(':')));
+    throw Error(Trouble::Usage, place == places.end() ? text : place->second);
+  } catch (const CLI::ParseError& error) {
+    throw Error(Trouble::Usage, error.what());
+  }
+  for (const std::string& extra : app.remaining())
+    if (extra != "--") refuse_unknown(syntax, extra);
+  if (short_help_switch->count() + full_help_switch->count() > 0) {
+    print(full_help_switch->count() > 0 ? full_help(syntax) : short_help(syntax));
+    return false;
+  }
+
+  for (std::size_t i = 0; i < parsers.size(); ++i) {
+    if (parsers[i]->count() == 0) continue;
+    const Option& option = syntax.options[i];
+    const std::string& text = parsers[i]->results().back();
+    if (option.value.empty() && text != "true")
+      throw Error(Trouble::Usage, names_of(option).front() + " takes no value");
+    try {
+      option.set(option.value.empty() ? "" : text);
+    } catch (const Error& error) {
+      throw Error(error.trouble(), names_of(option).front() + ": " + error.what());
+    }
+  }
+  return true;
+}
+
+std::string short_help(const Syntax& syntax) {
+  std::string text = usage_line(syntax) + '\n';
+  for (const Option& option : syntax.options)
+    if (option.is_basic) text += help_line(option);
+  if (!syntax.examples.empty()) text += "\nExamples:\n" + syntax.examples;
+  return text + fmt::format("\nAll options: zoneplate {} --help\n", syntax.verb);
+}
+
+std::string full_help(const Syntax& syntax) {
+  std::string text = usage_line(syntax);
+  std::string group;
+  for (const Option& option : syntax.options) {
+    if (option.group != group) text += fmt::format("\n{}:\n", group = option.group);
+    text += help_line(option);
+  }
+  text += "\nOther:\n" + help_line({.names = "-h", .meaning = "Short help with examples"}) +
+          help_line({.names = "--help", .meaning = "This text"});
+  if (!syntax.examples.empty()) text += "\nExamples:\n" + syntax.examples;
+  if (!syntax.notes.empty()) text += '\n' + syntax.notes;
+  return text;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zoneplate::cli {
+
+/// One option of a verb. Parsing and help are made from the same row.
+struct Option {
+  std::string names;                            ///< all forms, the one to be shown in messages first: "--output,-o"
+  std::string value;                            ///< what stands for the value in help, "FILE"; empty for a switch
+  std::string meaning;                          ///< one sentence, without a full stop
+  std::string group;                            ///< heading in the full help
+  bool is_basic = false;                        ///< shown in the short help too
+  std::function<void(const std::string&)> set;  ///< takes the value's text (empty for a switch)
+};
+
+/// What a verb accepts, and how its help teaches it.
+struct Syntax {
+  std::string verb, summary;
+  std::string operands;  ///< how they are shown: "IN"
+  std::string examples;  ///< lines of the short help, ready to be shown
+  std::string notes;     ///< paragraphs at the end of the full help
+  std::vector<Option> options;
+  std::vector<std::string> found_operands;  ///< filled by `parse`
+};
+
+/// Takes the arguments after the verb: options in any order, `--name=value` or `--name value`, `--` ends options,
+/// the last of a repeated option counts. Answers false where -h or --help was asked for and shown.
+///
+/// Errors    Trouble::Usage naming the option: unknown (with the closest one), without its value, or refused by `set`.
+bool parse(Syntax& syntax, std::span<const std::string> arguments);
+
+/// The text of the short help (-h) and of the full one (--help).
+std::string short_help(const Syntax& syntax);
+std::string full_help(const Syntax& syntax);
+
+}  // namespace zoneplate::cli

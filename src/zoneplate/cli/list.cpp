@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/aov.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/report/json.h"
+#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/load.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// "n=2|4|8|16 (4)", "samples=1..256 (16)", "pattern=grid|halton (grid)": what a parameter may be, and its default.
+std::string range_of(const Param& param) {
+  if (!param.names.empty())
+    return fmt::format("{}={} ({})", param.name, fmt::join(param.names, "|"),
+                       param.names[static_cast<std::size_t>(param.value)]);
+  if (!param.choices.empty()) return fmt::format("{}={} ({})", param.name, fmt::join(param.choices, "|"), param.value);
+  return fmt::format("{}={}..{} ({})", param.name, param.low, param.high, param.value);
+}
+
+std::string methods_text() {
+  std::string text = "Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n";
+  for (const Method& method : antialias::methods()) {
+    text += fmt::format("  {:<14}{} [{}]\n", method.name, method.summary, method.source);
+    for (const Param& param : method.params)
+      text += fmt::format("  {:<14}  {}  {}\n", "", range_of(param), param.meaning);
+  }
+  return text;
+}
+
+Json methods_json() {
+  Json::Array rows;
+  for (const Method& method : antialias::methods()) {
+    Json::Array params;
+    for (const Param& param : method.params) {
+      Json::Object row{{"name", param.name}, {"meaning", param.meaning}};
+      if (!param.names.empty()) {
+        row.emplace_back("default", param.names[static_cast<std::size_t>(param.value)]);
+        row.emplace_back("values", Json::Array(param.names.begin(), param.names.end()));
+      } else {
+        row.emplace_back("default", param.value);
+        if (param.choices.empty()) {
+          row.emplace_back("low", param.low);
+          row.emplace_back("high", param.high);
+        } else {
+          row.emplace_back("values", Json::Array(param.choices.begin(), param.choices.end()));
+        }
+      }
+      params.emplace_back(std::move(row));
+    }
+    rows.emplace_back(Json::Object{{"name", method.name},
+                                   {"summary", method.summary},
+                                   {"source", method.source},
+                                   {"parameters", std::move(params)}});
+  }
+  return rows;
+}
+
+std::string scenes_text() {
+  std::string text = "Built-in scenes (in place of a file; NAME:PARAMETER=VALUE):\n";
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    const std::string params = scene.params.empty() ? "" : fmt::format(" [{}]", scene.params);
+    text += fmt::format("  {:<14}{}{}\n", scene.name, scene.summary, params);
+  }
+  return text;
+}
+
+Json scenes_json() {
+  Json::Array rows;
+  for (const BuiltinScene& scene : builtin_scenes())
+    rows.emplace_back(Json::Object{{"name", scene.name}, {"summary", scene.summary}, {"parameters", scene.params}});
+  return rows;
+}
+
+// The formats of pictures come from the one writer there is.
+constexpr SceneFormat picture_formats[] = {{".png", "8 bits a channel, sRGB; - writes it to stdout"}};
+
+std::string formats_text() {
+  std::string text = "Models that can be read:\n";
+  for (const SceneFormat& format : scene_formats())
+    text += fmt::format("  {:<14}{}\n", format.extension, format.summary);
+  text += "Pictures that can be written:\n";
+  for (const SceneFormat& format : picture_formats)
+    text += fmt::format("  {:<14}{}\n", format.extension, format.summary);
+  text += "Data passes (--aov NAME,...), as .png:\n";
+  for (const Aov& aov : aovs()) text += fmt::format("  {:<14}{}\n", aov.name, aov.meaning);
+  return text;
+}
+
+Json formats_json() {
+  const auto rows = [](std::span<const SceneFormat> formats) {
+    Json::Array out;
+    for (const SceneFormat& format : formats)
+      out.emplace_back(Json::Object{{"extension", format.extension}, {"summary", format.summary}});
+    return out;
+  };
+  Json::Array passes;
+  for (const Aov& aov : aovs()) passes.emplace_back(Json::Object{{"name", aov.name}, {"meaning", aov.meaning}});
+  return Json::Object{
+      {"models", rows(scene_formats())}, {"pictures", rows(picture_formats)}, {"aovs", std::move(passes)}};
+}
+
+struct Topic {
+  std::string_view name;
+  std::string (*text)();
+  Json (*json)();
+};
+constexpr Topic topics[] = {{"methods", methods_text, methods_json},
+                            {"scenes", scenes_text, scenes_json},
+                            {"formats", formats_text, formats_json}};
+
+}  // namespace
+
+void run_list(std::span<const std::string> arguments) {
+  bool wants_json = false;
+  Syntax syntax{.verb = "list",
+                .summary = "List the antialiasing methods, the built-in scenes and the file formats",
+                .operands = "[methods|scenes|formats]...",
+                .examples = "  zoneplate list methods\n  zoneplate list --json\n"};
+  syntax.options = {{"--json", "", "As JSON", "Options", true, [&](auto&) { wants_json = true; }}};
+  if (!parse(syntax, arguments)) return;
+
+  std::vector<std::string_view> names;
+  for (const Topic& topic : topics) names.push_back(topic.name);
+  std::vector<std::size_t> chosen;
+  for (const std::string& operand : syntax.found_operands) chosen.push_back(parse_choice(operand, names));
+  if (chosen.empty()) chosen = {0, 1, 2};
+
+  std::string text;
+  Json::Object json;
+  for (const std::size_t i : chosen) {
+    text += (text.empty() ? "" : "\n") + topics[i].text();
+    json.emplace_back(topics[i].name, topics[i].json());
+  }
+  print(wants_json ? Json(json).indented() + '\n' : text);
+}
+
+}  // namespace zoneplate::cli

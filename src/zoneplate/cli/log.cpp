@@ -1,0 +1,63 @@
+#include "zoneplate/cli/log.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate::cli {
+namespace {
+
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view{} : std::string_view(value);
+}
+
+bool wants_color() {
+  const std::string_view forced = environment("CLICOLOR_FORCE");
+  if (!forced.empty() && forced != "0") return true;
+  return stderr_is_terminal() && environment("NO_COLOR").empty();
+}
+
+// The whole line in one write, so that lines of several processes do not mix.
+void say(std::string_view kind, std::string_view color, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
+  std::string line = "zoneplate: ";
+  if (!kind.empty()) {
+    if (wants_color())
+      line.append(color).append(kind).append("\x1b[0m: ");
+    else
+      line.append(kind).append(": ");
+  }
+  write_all(STDERR_FILENO, line + message + '\n');
+}
+
+}  // namespace
+
+void print(const std::string& text) {
+  if (!write_all(STDOUT_FILENO, text)) throw Error(Trouble::Output, std::string("stdout: ") + std::strerror(errno));
+}
+
+void say_error(const std::string& message) { say("error", "\x1b[1;31m", message); }
+void say_warning(const std::string& message) { say("warning", "\x1b[1;33m", message); }
+void say_note(const std::string& message) { say("", "", message); }
+
+bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1 && environment("TERM") != "dumb"; }
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,140 @@
+// zoneplate: the command. A table of verbs, and the one place where errors become exit codes.
+#include <fmt/format.h>
+
+#include <unistd.h>
+#include <csignal>
+#include <filesystem>
+#include <new>
+#include <vector>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/base/isa.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/render/method.h"
+#include "zoneplate/scene/builtin.h"
+#include "zoneplate/version.h"
+
+namespace zoneplate::cli {
+namespace {
+
+struct Verb {
+  std::string_view name, summary;
+  void (*run)(std::span<const std::string> arguments);
+};
+constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (the verb may be left out)", run_render},
+                          {"list", "antialiasing methods, built-in scenes, file formats", run_list},
+                          {"info", "what is in a model", run_info}};
+
+const Verb* find_verb(std::string_view name) {
+  for (const Verb& verb : verbs)
+    if (verb.name == name) return &verb;
+  return nullptr;
+}
+
+std::string overview() {
+  std::string text =
+      "Zoneplate renders 3D models to antialiased pictures, on the CPU alone.\n"
+      "\n"
+      "Usage: zoneplate [VERB] ARGUMENTS\n"
+      "\n";
+  for (const Verb& verb : verbs) text += fmt::format("  {:<8}{}\n", verb.name, verb.summary);
+  return text +
+         "\n"
+         "Examples:\n"
+         "  zoneplate teapot -o teapot.png\n"
+         "  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n"
+         "  zoneplate list methods\n"
+         "\n"
+         "More: zoneplate VERB -h (short), zoneplate VERB --help (everything), zoneplate --version\n";
+}
+
+std::string version_text() {
+#if defined(__clang__)
+  const std::string compiler = fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  const std::string compiler = fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+  return fmt::format("zoneplate {} ({}, {})\n", version, name_of(best_isa()), compiler);
+}
+
+// A first word that is no verb is the input of render, unless it can only be a misspelt verb.
+void refuse_misspelt_verb(const std::string& word) {
+  std::error_code ignored;
+  if (word.starts_with('-') || word.find_first_of("./:") != std::string::npos) return;
+  if (std::filesystem::exists(word, ignored)) return;
+  std::vector<std::string_view> names{"help"};
+  for (const Verb& verb : verbs) names.push_back(verb.name);
+  const std::size_t verb_count = names.size();
+  for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (scene.name == word) return;
+
+  const std::string_view near = closest(word, names);
+  if (near.empty()) return;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == near)
+      throw Error(
+          i < verb_count ? Trouble::Usage : Trouble::Input,
+          fmt::format("{}: no such {}; did you mean {}?", word, i < verb_count ? "verb" : "file or scene", near));
+}
+
+void run(std::vector<std::string> arguments) {
+  if (arguments.empty()) return print(overview());
+  const std::string first = arguments.front();
+  if (first == "--version") return print(version_text());
+  if (first == "-h" || first == "--help") return print(overview());
+  if (first == "help") {
+    if (arguments.size() == 1) return print(overview());
+    arguments = {arguments[1], "--help"};
+    if (find_verb(arguments.front()) == nullptr) refuse_misspelt_verb(arguments.front());
+  }
+
+  const std::span<const std::string> all(arguments);
+  if (const Verb* verb = find_verb(arguments.front())) return verb->run(all.subspan(1));
+  refuse_misspelt_verb(arguments.front());
+  run_render(all);
+}
+
+// What a signal may do: forget what is half written, and leave with the shell's code for it.
+extern "C" void leave(int signal) {
+  remove_temporaries();
+  ::_exit(128 + signal);
+}
+
+int exit_code(Trouble trouble) {
+  switch (trouble) {
+    case Trouble::Failed:
+      return 1;
+    case Trouble::Usage:
+      return 2;
+    case Trouble::Input:
+      return 3;
+    case Trouble::Output:
+      return 4;
+  }
+  return 1;
+}
+
+}  // namespace
+}  // namespace zoneplate::cli
+
+int main(int argc, char** argv) {
+  using namespace zoneplate;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, cli::leave);
+  std::signal(SIGPIPE, SIG_IGN);  // a closed stdout is an error of write(), and so exit code 4
+  try {
+    cli::run(std::vector<std::string>(argv + 1, argv + argc));
+    return 0;
+  } catch (const Error& error) {
+    cli::say_error(error.what());
+    return cli::exit_code(error.trouble());
+  } catch (const std::bad_alloc&) {
+    cli::say_error("out of memory");
+    return 1;
+  } catch (const std::exception& error) {
+    cli::say_error(error.what());
+    return 1;
+  }
+}

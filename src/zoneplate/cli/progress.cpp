@@ -1,0 +1,40 @@
+#include "zoneplate/cli/progress.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/report/json.h"
+
+namespace zoneplate::cli {
+
+// "return to column 0, clear to the end of the line" (ECMA-48, EL).
+constexpr std::string_view wipe = "\r\x1b[K";
+
+void Progress::begin(std::string_view stage, double done) {
+  if (kind_ == ProgressKind::None) return;
+  std::string line;
+  if (kind_ == ProgressKind::Json) {
+    line = Json(Json::Object{{"stage", stage}, {"done", done}}).text() + '\n';
+  } else {
+    constexpr int cells = 24;
+    const int full = static_cast<int>(done * cells);
+    line = fmt::format("{}[{:#<{}}{:.<{}}] {}", wipe, "", full, "", cells - full, stage);
+  }
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+Progress::~Progress() {
+  if (kind_ == ProgressKind::Bar) std::fwrite(wipe.data(), 1, wipe.size(), stderr);
+}
+
+ProgressKind parse_progress(const std::string& text) {
+  constexpr ProgressKind kinds[] = {ProgressKind::None, ProgressKind::Bar, ProgressKind::Json};
+  const std::size_t choice = parse_choice(text, {"auto", "none", "bar", "json"});
+  if (choice == 0) return stderr_is_terminal() ? ProgressKind::Bar : ProgressKind::None;
+  return kinds[choice - 1];
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/render_args.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/image/png.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/report/json.h"
+#include "zoneplate/scene/load.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// A file of the result, ready to be written.
+struct OutputFile {
+  std::string path;
+  std::vector<std::uint8_t> bytes;
+};
+
+// What is told about a run. Times are in milliseconds, in the order of the work.
+struct Summary {
+  int width = 0, height = 0, threads = 0;
+  RenderCounts counts;
+  std::vector<std::pair<std::string, double>> times;
+  std::vector<std::string> warnings;
+};
+
+// Fails at once, not after a long render, where the picture can never be written.
+void check_writable(const std::string& output) {
+  if (output == "-") {
+    if (::isatty(STDOUT_FILENO) == 1) throw Error(Trouble::Usage, "a PNG will not be written to a terminal");
+    return;
+  }
+  const std::filesystem::path path(output);
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(Trouble::Output, fmt::format("{}: {}: {}", output, folder, std::strerror(errno)));
+}
+
+// The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
+void check_memory(const RenderArgs& args) {
+  const std::uint64_t bytes_per_pixel = args.aovs.empty() ? 44 : 104;
+  const auto& crop = args.options.crop;
+  const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
+  const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
+  const std::uint64_t need = width * height * bytes_per_pixel;
+  if (need > args.limits.memory)
+    throw Error(Trouble::Usage, fmt::format("a picture of {}x{} needs {} MB, --max-memory allows {} MB", width, height,
+                                            need >> 20, args.limits.memory >> 20));
+}
+
+// "#333333", as F3D shows models by default; the homework's scene is defined on black.
+float4 background_of(const RenderArgs& args) {
+  if (args.background) return *args.background;
+  return args.input == "triangles" ? float4{0, 0, 0, 1} : float4{0.2f, 0.2f, 0.2f, 1};
+}
+
+// "chair.png" and "depth" give "chair.depth.png".
+std::string aov_path(const std::string& output, std::string_view name) {
+  return std::filesystem::path(output).replace_extension(fmt::format(".{}.png", name)).string();
+}
+
+Request request_of(Resolver& resolver, const RenderArgs& args) {
+  Request request = resolver.ask(0);
+  for (const Aov* aov : args.aovs) request.planes.*(aov->plane) = request.planes.depth = true;
+  return request;
+}
+
+std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
+                                   Progress& progress, Summary& summary) {
+  progress.begin("render", 0.2);
+  Frame frame = render(scene, camera, request_of(resolver, args), args.options, &summary.counts);
+  summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},
+                                             {"geometry", summary.counts.geometry_ms},
+                                             {"tiles", summary.counts.tiles_ms}});
+
+  Stopwatch display_watch;
+  DisplayOptions display = args.display;
+  display.background = background_of(args);
+  const Rgba8Image image = quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
+  summary.width = image.width(), summary.height = image.height();
+  summary.times.emplace_back("display", display_watch.ms());
+
+  progress.begin("encode", 0.8);
+  Stopwatch encode_watch;
+  const bool has_alpha = args.display.is_transparent || display.background.w < 1;
+  std::vector<OutputFile> files{{args.output, encode_png(image, {.has_alpha = has_alpha})}};
+  for (const Aov* aov : args.aovs) files.push_back({aov_path(args.output, aov->name), aov->encode(frame)});
+  summary.times.emplace_back("encode", encode_watch.ms());
+  return files;
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json summary_json(const RenderArgs& args, const Summary& summary) {
+  Json::Object times, layers;
+  for (const auto& [name, ms] : summary.times) times.emplace_back(name, ms);
+  for (const Aov* aov : args.aovs) layers.emplace_back(aov->name, aov_path(args.output, aov->name));
+  return Json::Object{{"input", args.input},
+                      {"output", args.output},
+                      {"layers", std::move(layers)},
+                      {"width", summary.width},
+                      {"height", summary.height},
+                      {"method", args.method},
+                      {"triangles", summary.counts.triangles},
+                      {"triangles_set_up", summary.counts.triangles_set_up},
+                      {"shaded", summary.counts.shaded},
+                      {"threads", summary.threads},
+                      {"isa", name_of(args.options.isa)},
+                      {"ms", std::move(times)},
+                      {"peak_memory_bytes", peak_memory()},
+                      {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};
+}
+
+void tell(const RenderArgs& args, const Summary& summary) {
+  if (args.verbosity == Verbosity::Verbose) {
+    std::string times;
+    for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
+    say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", args.output, summary.width, summary.height,
+                         args.method, summary.counts.triangles, summary.threads, name_of(args.options.isa)));
+    say_note(fmt::format("{}{} MB at most", times, peak_memory() >> 20));
+  }
+  if (!args.wants_json) return;
+  const std::string line = summary_json(args, summary).text() + '\n';
+  if (args.output == "-")
+    std::fwrite(line.data(), 1, line.size(), stderr);
+  else
+    print(line);
+}
+
+}  // namespace
+
+void run_render(std::span<const std::string> arguments) {
+  const std::optional<RenderArgs> parsed = parse_render_args(arguments);
+  if (!parsed) return;
+  RenderArgs args = *parsed;
+  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
+  check_writable(args.output);
+  check_memory(args);
+  if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
+
+  const Stopwatch total_watch;
+  Summary summary;
+  std::vector<OutputFile> files;
+  with_threads(args.threads, [&] {
+    Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+    progress.begin("read", 0);
+    summary.threads = thread_limit();
+    const Stopwatch read_watch;
+    Scene scene = load_scene(args.input, args.limits);
+    summary.times.emplace_back("read", read_watch.ms());
+
+    const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
+    if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
+    const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+    const Camera camera = choose_camera(scene, args.view, aspect);
+    args.options.environment = apply_look(scene, camera, args.look);
+    summary.warnings = scene.warnings;
+    files = make_files(args, scene, camera, *resolver, progress, summary);
+
+    progress.begin("write", 0.95);
+    const Stopwatch write_watch;
+    for (const OutputFile& file : files) save_bytes(file.path, file.bytes);
+    summary.times.emplace_back("write", write_watch.ms());
+  });
+  summary.times.emplace_back("total", total_watch.ms());
+
+  if (args.verbosity != Verbosity::Quiet)
+    for (const std::string& warning : summary.warnings) say_warning(warning);
+  tell(args, summary);
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,251 @@
+#include "zoneplate/cli/render_args.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr const char* examples =
+    "  zoneplate teapot -o teapot.png\n  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n  "
+    "zoneplate render chair.glb -o chair.png --camera-azimuth-angle 120 --no-background\n  zoneplate render chair.obj "
+    "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
+
+constexpr const char* notes =
+    "IN is a .gltf, .glb or .obj file, or a built-in scene (zoneplate list scenes). OUT ends in .png; - is "
+    "stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: without any camera option the "
+    "whole scene is shown three-quarter from above (azimuth 30, elevation\n20 degrees, view angle 30); built-in scenes "
+    "that have a camera use it. Cameras of a file are used with\n--camera-index only. Azimuth and elevation choose the "
+    "direction of the whole-scene view, 0 and 0 being the\nfront; with a position or an index they turn that camera "
+    "about its focal point.\n\nLight: a scene without lights gets a key, a fill and a back light that follow the "
+    "camera, and a dim constant\nenvironment that metals mirror; any light in the file or an --environment switches "
+    "them off.\n\nColours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n\nExit codes: 0 done, 1 failed while "
+    "rendering, 2 wrong usage, 3 input missing, corrupt or unsupported,\n4 output cannot be written, 128+n ended by "
+    "signal n. No partial file is ever left.\n";
+
+float radians(const std::string& text, double low, double high) {
+  return static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180);
+}
+
+float3 linear_color(const std::string& text) {
+  const float4 code = parse_color(text);
+  return {decode_srgb(code.x), decode_srgb(code.y), decode_srgb(code.z)};
+}
+
+float3 parse_up(const std::string& text) {
+  constexpr float3 axes[] = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}};
+  const std::string signed_text = text.size() == 1 ? '+' + text : text;
+  return axes[parse_choice(signed_text, {"+Y", "-Y", "+Z", "-Z", "+X", "-X"})];
+}
+
+Crop parse_crop(const std::string& text) {
+  std::vector<int> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    numbers.push_back(parse_whole(text.substr(at, comma - at), 0, max_side));
+    at = comma + 1;
+  }
+  if (numbers.size() != 4 || numbers[2] == 0 || numbers[3] == 0)
+    throw Error(Trouble::Usage, fmt::format("'{}' is not a rectangle x,y,width,height", text));
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+std::vector<const Aov*> parse_aovs(const std::string& text) {
+  std::vector<std::string_view> names;
+  for (const Aov& aov : aovs()) names.push_back(aov.name);
+  std::vector<const Aov*> found;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    found.push_back(&aovs()[parse_choice(text.substr(at, comma - at), names)]);
+    at = comma + 1;
+  }
+  return found;
+}
+
+Isa parse_isa(const std::string& text) {
+  constexpr Isa isas[] = {Isa::Scalar, Isa::Sse4, Isa::Avx2};
+  const Isa isa = isas[parse_choice(text, {"scalar", "sse4", "avx2"})];
+  const auto supported = supported_isas();
+  if (std::find(supported.begin(), supported.end(), isa) == supported.end())
+    throw Error(Trouble::Usage, fmt::format("this machine has no {}", text));
+  return isa;
+}
+
+std::vector<Option> picture_options(RenderArgs& a) {
+  const std::string group = "Picture";
+  return {
+      {"--output,-o", "OUT", "The picture to write: a .png file, or - for stdout", group, true,
+       [&](auto& text) { a.output = text; }},
+      {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600; default 800,600", group, true,
+       [&](auto& text) {
+         const int2 size = parse_size(text, max_side);
+         a.options.width = size.x, a.options.height = size.y;
+       }},
+      {"--anti-aliasing,--aa", "METHOD",
+       "Method with its parameters, as ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
+       [&](auto& text) { a.method = text; }},
+      {"--background-color,--background", "COLOR", "Shown behind the scene; default #333333", group, true,
+       [&](auto& text) { a.background = parse_color(text); }},
+      {"--no-background", "", "Leave the picture transparent where nothing is", group, true,
+       [&](auto&) { a.display.is_transparent = true; }},
+      {"--tone-mapping", "CURVE", "none, aces or neutral; default none", group, false,
+       [&](auto& text) {
+         constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral};
+         a.display.mapping = curves[parse_choice(text, {"none", "aces", "neutral"})];
+       }},
+      {"--exposure", "STOPS", "Brighter by a factor 2 for each stop, darker where negative; default 0", group, false,
+       [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
+      {"--crop", "X,Y,W,H", "Write only this part, with the same bits as in the whole picture", group, false,
+       [&](auto& text) { a.options.crop = parse_crop(text); }},
+      {"--aov", "NAMES",
+       "Data passes to write too: depth, normal, albedo, uv, object-id, material-id, primitive-id, coverage", group,
+       false, [&](auto& text) { a.aovs = parse_aovs(text); }},
+      {"--color-management", "MODE",
+       "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
+       [&](auto& text) {
+         a.display.raw = a.options.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
+       }},
+  };
+}
+
+std::vector<Option> camera_options(RenderArgs& a) {
+  const std::string group = "Camera";
+  return {
+      {"--camera-azimuth-angle", "DEG", "Direction about the up axis, from the front to the right; default 30", group,
+       true, [&](auto& text) { a.view.azimuth = radians(text, -360, 360); }},
+      {"--camera-elevation-angle", "DEG", "Direction above the horizon; default 20", group, true,
+       [&](auto& text) { a.view.elevation = radians(text, -90, 90); }},
+      {"--camera-position", "X,Y,Z", "The eye", group, false,
+       [&](auto& text) { a.view.position = parse_triple(text); }},
+      {"--camera-focal-point", "X,Y,Z", "What the eye looks at; default the centre of the scene", group, false,
+       [&](auto& text) { a.view.focal_point = parse_triple(text); }},
+      {"--camera-view-up", "X,Y,Z", "What is upwards in the picture; default the up axis", group, false,
+       [&](auto& text) { a.view.view_up = parse_triple(text); }},
+      {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
+       [&](auto& text) { a.view.view_angle = radians(text, 0.01, 179); }},
+      {"--camera-orthographic", "", "Parallel projection", group, false, [&](auto&) { a.view.is_orthographic = true; }},
+      {"--camera-index", "N", "The camera number N of the scene, from 0", group, false,
+       [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
+      {"--up", "AXIS", "The scene's upward axis: +Y, +Z, ...; default +Y", group, false,
+       [&](auto& text) { a.view.up = parse_up(text); }},
+  };
+}
+
+std::vector<Option> scene_options(RenderArgs& a) {
+  const std::string group = "Surfaces and light";
+  return {
+      {"--shading-model", "MODEL", "For every material: blinn-phong, phong, pbr or unlit", group, false,
+       [&](auto& text) {
+         constexpr ShadingModel models[] = {ShadingModel::BlinnPhong, ShadingModel::Phong,
+                                            ShadingModel::MetallicRoughness, ShadingModel::Unlit};
+         a.look.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
+       }},
+      {"--light-intensity", "FACTOR", "Multiplies every light; default 1", group, false,
+       [&](auto& text) { a.look.light_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
+      {"--environment", "COLOR", "Light of one colour from all sides, in place of the default lights", group, false,
+       [&](auto& text) { a.look.environment = linear_color(text); }},
+      {"--no-cull", "", "Draw the back faces of single-sided materials too", group, false,
+       [&](auto&) { a.options.cull_back_faces = false; }},
+      {"--point-size", "PX", "Side of the squares that points are drawn as; default 1", group, false,
+       [&](auto& text) { a.options.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
+      {"--line-width", "PX", "Width of lines; default 1", group, false,
+       [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
+  };
+}
+
+std::vector<Option> teaching_options(RenderArgs& a) {
+  const std::string group = "For teaching";
+  return {
+      {"--edge-rule", "RULE", "top-left, or inside: a triangle owns all of its edges; default top-left", group, false,
+       [&](auto& text) {
+         a.options.edge_rule = parse_choice(text, {"top-left", "inside"}) == 0 ? EdgeRule::TopLeft : EdgeRule::Inside;
+       }},
+      {"--visibility", "RULE", "z-buffer, or painter: far triangles first, no depth test; default z-buffer", group,
+       false,
+       [&](auto& text) {
+         a.options.visibility =
+             parse_choice(text, {"z-buffer", "painter"}) == 0 ? Visibility::ZBuffer : Visibility::Painter;
+       }},
+  };
+}
+
+std::vector<Option> run_options(RenderArgs& a) {
+  const std::string group = "Running";
+  return {
+      {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
+       [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
+      {"--isa", "SET", "Instruction set: scalar, sse4 or avx2, all with the same bits; default the best", group, false,
+       [&](auto& text) { a.options.isa = parse_isa(text); }},
+      {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
+       [&](auto&) { a.wants_json = true; }},
+      {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; default auto", group, false,
+       [&](auto& text) { a.progress = parse_progress(text); }},
+      {"--quiet,-q", "", "Say nothing but errors", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
+      {"--verbose,-v", "", "Say what was done, and how long it took", group, false,
+       [&](auto&) { a.verbosity = Verbosity::Verbose; }},
+      {"--max-memory", "BYTES", "Refuse scenes and pictures that need more, as 512M; default 4G", group, false,
+       [&](auto& text) { a.limits.memory = parse_bytes(text); }},
+      {"--max-pixels", "N", "Refuse textures of more pixels, as 16M; default 256M", group, false,
+       [&](auto& text) { a.limits.pixels = parse_bytes(text); }},
+      {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
+       [&](auto& text) { a.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--allow-path", "", "Let a model use files outside its own folder", group, false,
+       [&](auto&) { a.limits.allow_path = true; }},
+  };
+}
+
+void check_output(const RenderArgs& args) {
+  if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png, or -o - for stdout");
+  if (args.output == "-") {
+    if (!args.aovs.empty()) throw Error(Trouble::Usage, "--aov writes files beside OUT, which cannot be -");
+    return;
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(args.output, ignored))
+    throw Error(Trouble::Output, args.output + ": is a directory");
+  if (!args.output.ends_with(".png") && !args.output.ends_with(".PNG"))
+    throw Error(Trouble::Usage, fmt::format("--output: {} is not a format that can be written (.png)", args.output));
+}
+
+}  // namespace
+
+Syntax render_syntax(RenderArgs& args) {
+  Syntax syntax{.verb = "render",
+                .summary = "Render a model or a built-in scene to a picture",
+                .operands = "IN -o OUT",
+                .examples = examples,
+                .notes = notes};
+  for (const auto table : {picture_options, camera_options, scene_options, teaching_options, run_options})
+    for (Option& option : table(args)) syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
+  RenderArgs args;
+  Syntax syntax = render_syntax(args);
+  if (!parse(syntax, arguments)) return std::nullopt;
+  if (syntax.found_operands.empty()) throw Error(Trouble::Usage, "no input: give a model or a built-in scene");
+  if (syntax.found_operands.size() > 1)
+    throw Error(Trouble::Usage, fmt::format("one input at a time: {} and {} were given", syntax.found_operands[0],
+                                            syntax.found_operands[1]));
+  args.input = syntax.found_operands.front();
+  check_output(args);
+  if (const auto& crop = args.options.crop)
+    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
+      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+                                              args.options.width, args.options.height));
+  return args;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate::cli {
+
+// The text of an option made into a value. Every error is Trouble::Usage and says what was found and what is wanted;
+// text after the value, infinities and NaN are errors.
+
+double parse_number(const std::string& text, double low, double high);
+int parse_whole(const std::string& text, int low, int high);
+
+/// "x,y,z": three finite numbers.
+float3 parse_triple(const std::string& text);
+
+/// A picture's size, "800,600" or "800x600", each side in [1, max_side].
+int2 parse_size(const std::string& text, int max_side);
+
+/// A colour as sRGB code with straight alpha: "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a basic name of CSS, or "r,g,b"
+/// or "r,g,b,a" in [0, 1].
+float4 parse_color(const std::string& text);
+
+/// A number of bytes with an optional K, M or G (powers of 1024), at least 1.
+std::uint64_t parse_bytes(const std::string& text);
+
+/// The place of `text` in `names`.
+std::size_t parse_choice(const std::string& text, std::span<const std::string_view> names);
+inline std::size_t parse_choice(const std::string& text, std::initializer_list<std::string_view> names) {
+  return parse_choice(text, std::span(names.begin(), names.size()));
+}
+
+}  // namespace zoneplate::cli

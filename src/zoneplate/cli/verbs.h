@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace zoneplate::cli {
+
+// The verbs of the command. Each takes the arguments after its name, writes its result to stdout or files, and throws
+// zoneplate::Error where it cannot.
+
+void run_render(std::span<const std::string> arguments);
+void run_list(std::span<const std::string> arguments);
+void run_info(std::span<const std::string> arguments);
+
+}  // namespace zoneplate::cli

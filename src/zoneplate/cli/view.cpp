@@ -1,0 +1,110 @@
+#include "zoneplate/cli/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/math/transform.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// A camera as options speak of it.
+struct Pose {
+  float3 eye, target, up;
+};
+
+Pose pose_of(const Camera& camera, float3 centre) {
+  const float4x4& m = camera.world_from_camera;
+  const float3 eye = xyz(m.column[3]), forward = normalize(-xyz(m.column[2]), {0, 0, -1});
+  const float distance = dot(centre - eye, forward);
+  return {eye, eye + forward * (distance > 0 ? distance : 1.0f), xyz(m.column[1])};
+}
+
+// Turned about the focal point: to the right about the up vector, then upwards.
+Pose turned(const Pose& pose, float azimuth, float elevation) {
+  const float3 sideways = transform_vector(rotation(pose.up, azimuth), pose.eye - pose.target);
+  const float3 right = normalize(cross(pose.up, sideways), {1, 0, 0});
+  const float4x4 upwards = rotation(right, -elevation);
+  return {pose.target + transform_vector(upwards, sideways), pose.target,
+          elevation == 0 ? pose.up : transform_vector(upwards, pose.up)};
+}
+
+// Near and far around what is in front of the camera. An orthographic camera steps back until all of it is.
+void enclose(Camera& camera, const Box& box) {
+  const float3 eye = xyz(camera.world_from_camera.column[3]), back = xyz(camera.world_from_camera.column[2]);
+  float nearest = std::numeric_limits<float>::infinity(), farthest = -nearest;
+  for (int i = 0; i < 8; ++i) {
+    const float distance = dot(eye - box.corner(i), back);
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
+  }
+  if (box.empty() || !(farthest > 0 || camera.is_orthographic)) {
+    camera.near = 0.01f, camera.far = 1000;
+    return;
+  }
+  const float margin = 0.01f * (farthest - nearest) + 1e-6f * std::max(std::abs(nearest), std::abs(farthest));
+  if (camera.is_orthographic && nearest - 2 * margin <= 0) {
+    const float step = 3 * margin - nearest;
+    const float3 moved = eye + back * step;
+    camera.world_from_camera.column[3] = {moved.x, moved.y, moved.z, 1};
+    nearest += step, farthest += step;
+  }
+  // Reversed depth in floating point bears a far plane 100,000 times as far as the near one.
+  camera.far = farthest + margin;
+  camera.near = std::max(nearest - margin, camera.far * 1e-5f);
+}
+
+Camera base_camera(const Scene& scene, const View& view, const Box& box, float aspect) {
+  if (!view.index) {
+    AutoFit fit;
+    fit.up = view.up;
+    fit.is_orthographic = view.is_orthographic;
+    if (view.view_angle) fit.vertical_fov = *view.view_angle;
+    if (!view.position) {
+      if (view.azimuth) fit.azimuth = *view.azimuth;
+      if (view.elevation) fit.elevation = *view.elevation;
+    }
+    return fit_camera(box, aspect, fit);
+  }
+  const int count = static_cast<int>(scene.cameras.size());
+  if (*view.index >= count)
+    throw Error(Trouble::Usage, count == 0 ? "--camera-index: the scene has no camera"
+                                           : fmt::format("--camera-index: the scene has cameras 0 to {}, not {}",
+                                                         count - 1, *view.index));
+  return scene.cameras[static_cast<std::size_t>(*view.index)];
+}
+
+}  // namespace
+
+Camera choose_camera(const Scene& scene, const View& view, float aspect) {
+  const Box box = scene.bounds();
+  const float3 centre = box.empty() ? float3{} : box.centre();
+  Camera camera = base_camera(scene, view, box, aspect);
+  const bool turns = (view.azimuth || view.elevation) && (view.index || view.position);
+  const bool changes_lens = view.index && (view.view_angle || view.is_orthographic);
+  if (!view.position && !view.focal_point && !view.view_up && !turns && !changes_lens) return camera;
+
+  Pose pose = pose_of(camera, centre);
+  if (view.position) pose = {*view.position, centre, view.up};
+  if (view.focal_point) pose.target = *view.focal_point;
+  if (view.view_up) pose.up = *view.view_up;
+  if (pose.eye == pose.target) throw Error(Trouble::Usage, "the camera's position and its focal point are the same");
+  if (turns) pose = turned(pose, view.azimuth.value_or(0), view.elevation.value_or(0));
+  camera.world_from_camera = inverse(look_at(pose.eye, pose.target, pose.up));
+
+  // The parallel view of a perspective one shows the same height at the focal point.
+  if (view.view_angle) camera.vertical_fov = *view.view_angle;
+  if (view.is_orthographic) {
+    const float half_angle = camera.vertical_fov / 2;
+    camera.is_orthographic = true;
+    camera.half_height = length(pose.eye - pose.target) * sin(half_angle) / cos(half_angle);
+  }
+  enclose(camera, box);
+  return camera;
+}
+
+}  // namespace zoneplate::cli

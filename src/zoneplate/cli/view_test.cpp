@@ -1,0 +1,116 @@
+#include "zoneplate/cli/view.h"
+
+#include <gtest/gtest.h>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr float degree = 0.017453293f;
+
+float3 eye_of(const Camera& camera) { return xyz(camera.world_from_camera.column[3]); }
+float3 forward_of(const Camera& camera) { return -xyz(camera.world_from_camera.column[2]); }
+float3 up_of(const Camera& camera) { return xyz(camera.world_from_camera.column[1]); }
+
+void expect_near(float3 found, float3 wanted, float tolerance = 1e-5f) {
+  EXPECT_LE(length(found - wanted), tolerance)
+      << found.x << ' ' << found.y << ' ' << found.z << " is not " << wanted.x << ' ' << wanted.y << ' ' << wanted.z;
+}
+
+// A cube of side 2 round (10, 0, 0), and a camera that looks at it from +Z.
+Scene cube() {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  for (int i = 0; i < 8; ++i)
+    mesh.position.push_back({i & 1 ? 11.0f : 9.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
+  mesh.index = {0, 1, 2, 3, 4, 5, 6, 7, 0};
+  scene.materials.emplace_back();
+  scene.instances.emplace_back();
+  Camera& camera = scene.cameras.emplace_back();
+  camera.world_from_camera.column[3] = {10, 0, 5, 1};
+  camera.near = 1, camera.far = 20;
+  return scene;
+}
+
+TEST(ChooseCamera, ShowsTheWholeSceneThreeQuarterFromAbove) {
+  const Camera camera = choose_camera(cube(), {}, 1);
+  const float3 forward = forward_of(camera);
+  // Azimuth 30, elevation 20: the eye is to the right (+X), above (+Y) and in front (+Z).
+  expect_near(-forward, {0.4698463f, 0.3420201f, 0.8137977f}, 1e-4f);
+}
+
+TEST(ChooseCamera, AzimuthAndElevationChooseTheDirectionOfTheWholeSceneView) {
+  expect_near(forward_of(choose_camera(cube(), {.azimuth = 0.0f, .elevation = 0.0f}, 1)), {0, 0, -1});
+  expect_near(forward_of(choose_camera(cube(), {.azimuth = 90 * degree, .elevation = 0.0f}, 1)), {-1, 0, 0});
+  expect_near(forward_of(choose_camera(cube(), {.azimuth = 0.0f, .elevation = 90 * degree}, 1)), {0, -1, 0});
+}
+
+TEST(ChooseCamera, TakesTheScenesCameraUnchanged) {
+  const Camera camera = choose_camera(cube(), {.index = 0}, 1);
+  EXPECT_EQ(camera.world_from_camera, cube().cameras[0].world_from_camera);
+  EXPECT_EQ(camera.near, 1);
+  EXPECT_EQ(camera.far, 20);
+}
+
+TEST(ChooseCamera, LooksFromThePositionAtTheCentreOfTheScene) {
+  const Camera camera = choose_camera(cube(), {.position = float3{10, 0, -7}}, 1);
+  expect_near(eye_of(camera), {10, 0, -7});
+  expect_near(forward_of(camera), {0, 0, 1});
+  expect_near(up_of(camera), {0, 1, 0});
+  // The cube is 6 to 8 away.
+  EXPECT_LT(camera.near, 6);
+  EXPECT_GT(camera.near, 5.9f);
+  EXPECT_GT(camera.far, 8);
+  EXPECT_LT(camera.far, 8.1f);
+}
+
+TEST(ChooseCamera, ExplicitPartsReplaceThoseOfTheBase) {
+  const Camera camera = choose_camera(
+      cube(), {.index = 0, .focal_point = float3{10, 5, 5}, .view_up = float3{0, 0, -1}, .view_angle = 1.0f}, 1);
+  expect_near(eye_of(camera), {10, 0, 5});
+  expect_near(forward_of(camera), {0, 1, 0});
+  expect_near(up_of(camera), {0, 0, -1});
+  EXPECT_EQ(camera.vertical_fov, 1);
+}
+
+TEST(ChooseCamera, TurnsOtherCamerasAboutTheirFocalPoint) {
+  // From (10, 0, 5), a quarter to the right about the cube's centre is (15, 0, 0), a quarter up is (10, 5, 0).
+  expect_near(eye_of(choose_camera(cube(), {.index = 0, .azimuth = 90 * degree}, 1)), {15, 0, 0});
+  const Camera above = choose_camera(cube(), {.index = 0, .elevation = 90 * degree}, 1);
+  expect_near(eye_of(above), {10, 5, 0});
+  expect_near(forward_of(above), {0, -1, 0});
+  expect_near(up_of(above), {0, 0, -1});
+}
+
+TEST(ChooseCamera, NearStaysAheadOfAnEyeInsideTheScene) {
+  const Camera camera = choose_camera(cube(), {.position = float3{10, 0, 0.5f}}, 1);
+  EXPECT_GT(camera.near, 0);
+  EXPECT_LT(camera.near, 1e-4f);
+  EXPECT_GT(camera.far, 1.5f);
+}
+
+TEST(ChooseCamera, AParallelViewKeepsTheHeightAtTheFocalPointAndShowsAllInFront) {
+  const Camera camera =
+      choose_camera(cube(), {.position = float3{10, 0, 0.5f}, .view_angle = 90 * degree, .is_orthographic = true}, 1);
+  EXPECT_TRUE(camera.is_orthographic);
+  EXPECT_NEAR(camera.half_height, 0.5f, 1e-5f);  // 0.5 away, tan 45° = 1
+  EXPECT_GT(camera.near, 0);
+  EXPECT_GT(eye_of(camera).z, 1);
+  EXPECT_LT(eye_of(camera).z - camera.far, -1);
+}
+
+TEST(ChooseCamera, RefusesWhatCannotBe) {
+  EXPECT_THROW(choose_camera(cube(), {.index = 1}, 1), Error);
+  EXPECT_THROW(choose_camera({}, {.index = 0}, 1), Error);
+  EXPECT_THROW(choose_camera(cube(), {.position = float3{10, 0, 0}}, 1), Error);
+}
+
+TEST(ChooseCamera, AnEmptySceneHasACamera) {
+  const Camera camera = choose_camera({}, {.position = float3{0, 0, 3}}, 1);
+  EXPECT_GT(camera.near, 0);
+  EXPECT_GT(camera.far, camera.near);
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

@@ -1,0 +1,130 @@
+#include "zoneplate/raster/bin.h"
+
+#include <algorithm>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/clip.h"
+#include "zoneplate/raster/coverage.h"
+
+namespace zoneplate {
+namespace {
+
+/// True if some sample of the pattern lies within the bounds of the three vertices.
+bool may_cover_a_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Target& target) {
+  const std::int32_t cx = target.viewport.width * 128, cy = target.viewport.height * 128;
+  const std::int32_t low_x = std::min({p.x, q.x, r.x}) + cx, high_x = std::max({p.x, q.x, r.x}) + cx;
+  const std::int32_t low_y = std::min({p.y, q.y, r.y}) + cy, high_y = std::max({p.y, q.y, r.y}) + cy;
+  return std::any_of(target.samples.begin(), target.samples.end(), [&](SamplePosition s) {
+    return (low_x - s.x + 255) >> 8 <= (high_x - s.x) >> 8 && (low_y - s.y + 255) >> 8 <= (high_y - s.y) >> 8;
+  });
+}
+
+/// The work of one thread on a run of triangles of one draw.
+class Binner {
+ public:
+  Binner(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Bins& bins)
+      : projected_(projected),
+        target_(target),
+        rules_(rules),
+        bins_(bins),
+        worker_(bins.workers[static_cast<std::size_t>(thread_index())]) {}
+
+  void add(std::size_t d, std::int32_t triangle) {
+    const Draw& draw = projected_.draws[d];
+    const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(triangle - projected_.first_triangle[d])];
+    const std::vector<ScreenVertex>& screen = projected_.screen[d];
+    const ScreenVertex &p = screen[v[0]], &q = screen[v[1]], &r = screen[v[2]];
+    if (p.needs_clipping() || q.needs_clipping() || r.needs_clipping()) return add_clipped(d, triangle, v);
+    const std::int64_t area = doubled_area(p, q, r);
+    if (area == 0 || is_culled(draw, area > 0)) return;
+    emit(draw, p, q, r, triangle);
+  }
+
+ private:
+  static bool is_culled(const Draw& draw, bool is_clockwise) {
+    return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
+  }
+
+  void add_clipped(std::size_t d, std::int32_t triangle, const std::uint32_t* v) {
+    const Draw& draw = projected_.draws[d];
+    const ClippedPolygon polygon =
+        clip_triangle(draw.clip_position(v[0]), draw.clip_position(v[1]), draw.clip_position(v[2]), rules_.viewport);
+    if (polygon.count < 3) return;
+    const TriangleFacing facing = face_of(projected_, d, triangle, rules_.viewport);
+    if (facing.is_degenerate || is_culled(draw, facing.is_clockwise)) return;
+    for (int i = 2; i < polygon.count; ++i) {
+      const ScreenVertex& p = polygon.vertex[0];
+      const ScreenVertex& q = polygon.vertex[static_cast<std::size_t>(i - 1)];
+      const ScreenVertex& r = polygon.vertex[static_cast<std::size_t>(i)];
+      const std::int64_t area = doubled_area(p, q, r);
+      // Snapping may turn a sliver of the fan over; the pieces beside it cover its place.
+      if (area != 0 && (area > 0) == facing.is_clockwise) emit(draw, p, q, r, triangle);
+    }
+  }
+
+  void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
+    if (!may_cover_a_sample(p, q, r, target_)) return;
+    const Triangle t = make_triangle(p, q, r, id, rules_);
+    const int left = std::max(t.min_x, target_.x), right = std::min(t.max_x, target_.x + target_.width - 1);
+    const int top = std::max(t.min_y, target_.y), bottom = std::min(t.max_y, target_.y + target_.height - 1);
+    if (left > right || top > bottom) return;
+    const auto number = static_cast<std::uint32_t>(worker_.triangles.size());
+    worker_.triangles.push_back(t);
+    for (int row = top / tile_size; row <= bottom / tile_size; ++row)
+      for (int column = left / tile_size; column <= right / tile_size; ++column)
+        if (touches(t, column * tile_size, row * tile_size)) tile_list(draw, column, row).push_back(number);
+  }
+
+  /// False if an edge has the whole tile, corner to corner, on its outer side.
+  static bool touches(const Triangle& t, int x, int y) {
+    constexpr std::int64_t reach = tile_size * 256 - 1;
+    for (int k = 0; k < 3; ++k) {
+      const std::int64_t a = t.a[k], b = t.b[k];
+      const std::int64_t greatest = a * (x * 256) + b * (y * 256) + t.c[k] + std::max<std::int64_t>(a, 0) * reach +
+                                    std::max<std::int64_t>(b, 0) * reach;
+      if (greatest < 0) return false;
+    }
+    return true;
+  }
+
+  std::vector<std::uint32_t>& tile_list(const Draw& draw, int column, int row) {
+    const int tile = (row - bins_.first_row) * bins_.columns + column - bins_.first_column;
+    return worker_.tiles[static_cast<std::size_t>(tile)][static_cast<std::size_t>(draw.surface)];
+  }
+
+  const ProjectedDraws& projected_;
+  const Target& target_;
+  const SetupRules& rules_;
+  const Bins& bins_;
+  Bins::Worker& worker_;
+};
+
+}  // namespace
+
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules) {
+  Bins bins;
+  bins.first_column = target.x / tile_size;
+  bins.first_row = target.y / tile_size;
+  bins.columns = (target.x + target.width - 1) / tile_size - bins.first_column + 1;
+  bins.rows = (target.y + target.height - 1) / tile_size - bins.first_row + 1;
+  bins.workers.resize(static_cast<std::size_t>(thread_limit()));
+  for (Bins::Worker& w : bins.workers) w.tiles.resize(bins.tiles());
+
+  struct Part {
+    std::size_t draw;
+    std::int32_t begin, end;
+  };
+  constexpr std::int32_t part_size = 512;
+  std::vector<Part> parts;
+  for (std::size_t d = 0; d < projected.draws.size(); ++d)
+    for (std::int32_t t = projected.first_triangle[d]; t < projected.first_triangle[d + 1]; t += part_size)
+      parts.push_back({d, t, std::min(projected.first_triangle[d + 1], t + part_size)});
+  parallel_for(parts.size(), [&](std::size_t i) {
+    Binner binner(projected, target, rules, bins);
+    for (std::int32_t t = parts[i].begin; t < parts[i].end; ++t) binner.add(parts[i].draw, t);
+  });
+  for (const Bins::Worker& w : bins.workers) bins.set_up += w.triangles.size();
+  return bins;
+}
+
+}  // namespace zoneplate

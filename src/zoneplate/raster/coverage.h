@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/raster/setup.h"
+
+namespace zoneplate {
+
+inline constexpr int tile_size = 64;
+inline constexpr int tile_pixels = tile_size * tile_size;
+
+/// The id of a sample that no triangle owns; greater than any triangle's.
+inline constexpr std::int32_t no_triangle = 0x7fffffff;
+
+/// What is visible in one tile: depth and triangle id of every sample, planes by sample, 64 × 64 each.
+///
+/// The owner of a sample is the triangle of greatest depth there, of those the one with the lowest id: a total order,
+/// so the triangles may be drawn in any order. `block_far` holds for each of the 8 × 8 blocks of 8 × 8 pixels a depth
+/// that no sample of the block is below.
+struct TileVisibility {
+  int sample_count = 1;
+  float* depth = nullptr;
+  std::int32_t* id = nullptr;
+  float* block_far = nullptr;
+};
+
+/// A pixel that a triangle covers in front of what the tile holds, with the samples where it does.
+struct Fragment {
+  std::uint64_t samples;  ///< bit s: sample s
+  std::uint32_t pixel;    ///< 64 y + x within the tile
+};
+
+/// Depth of the triangle at sample s of the tile's pixel (x, y); the same bits in every kernel.
+inline float depth_at(const TileTriangle& t, int s, int x, int y) {
+  const float row = t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y);
+  const float z = row + t.dzdx * static_cast<float>(x - t.origin_x);
+  const float raised = z > t.z_low ? z : t.z_low;
+  return raised < t.z_high ? raised : t.z_high;
+}
+
+struct CoverageKernels {
+  /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id.
+  void (*draw)(const TileTriangle& triangle, TileVisibility& tile);
+  /// Lists the pixels where the triangle would win at least one sample; draws nothing. `out` has room for a fragment of
+  /// every pixel of the tile; gives the number of fragments, in order of rows.
+  int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, Fragment* out);
+};
+
+namespace scalar {
+extern const CoverageKernels coverage_kernels;
+}
+namespace N_SSE4 {
+extern const CoverageKernels coverage_kernels;
+}
+namespace N_AVX2 {
+extern const CoverageKernels coverage_kernels;
+}
+inline const CoverageKernels& coverage_kernels(Isa isa) {
+  return pick(isa, scalar::coverage_kernels, N_SSE4::coverage_kernels, N_AVX2::coverage_kernels);
+}
+
+}  // namespace zoneplate

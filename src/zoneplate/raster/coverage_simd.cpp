@@ -1,0 +1,162 @@
+#include <hwy/highway.h>
+
+#include "zoneplate/raster/coverage.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace zoneplate::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace {
+
+using F = hn::CappedTag<float, 8>;
+using I = hn::Rebind<std::int32_t, F>;
+using VF = hn::Vec<F>;
+using VI = hn::Vec<I>;
+
+int least(int p, int q) { return p < q ? p : q; }
+int greatest(int p, int q) { return p > q ? p : q; }
+
+/// What a tile triangle's blocks have in common: the spread of its constants over the samples.
+struct Spread {
+  std::int32_t c_least[3], c_greatest[3];
+  float z_greatest;
+};
+
+Spread spread_of(const TileTriangle& t, int samples) {
+  Spread r;
+  r.z_greatest = t.z[0];
+  for (int s = 1; s < samples; ++s) r.z_greatest = t.z[s] > r.z_greatest ? t.z[s] : r.z_greatest;
+  for (int k = 0; k < 3; ++k) {
+    r.c_least[k] = r.c_greatest[k] = t.c[k][0];
+    for (int s = 1; s < samples; ++s) {
+      r.c_least[k] = least(r.c_least[k], t.c[k][s]);
+      r.c_greatest[k] = greatest(r.c_greatest[k], t.c[k][s]);
+    }
+  }
+  return r;
+}
+
+enum class Block { Outside, Partial, Inside };
+
+/// Where the 8 × 8 block at pixel (x, y) lies, by the least and greatest values of the edges in it.
+Block classify(const TileTriangle& t, const Spread& spread, int x, int y) {
+  bool inside = true;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t corner = t.a[k] * x + t.b[k] * y;
+    const std::int32_t up = greatest(t.a[k], 0) * 7 + greatest(t.b[k], 0) * 7;
+    const std::int32_t down = least(t.a[k], 0) * 7 + least(t.b[k], 0) * 7;
+    if (corner + up + spread.c_greatest[k] < 0) return Block::Outside;
+    inside = inside && corner + down + spread.c_least[k] >= 0;
+  }
+  return inside ? Block::Inside : Block::Partial;
+}
+
+/// The greatest depth that `depth_at` gives in the block: rounding is monotone, so it is the value at one corner.
+float greatest_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
+  const int near_x = t.dzdx > 0 ? x + 7 : x, near_y = t.dzdy > 0 ? y + 7 : y;
+  const float row = spread.z_greatest + t.dzdy * static_cast<float>(near_y - t.origin_y);
+  const float z = row + t.dzdx * static_cast<float>(near_x - t.origin_x);
+  const float raised = z > t.z_low ? z : t.z_low;
+  return raised < t.z_high ? raised : t.z_high;
+}
+
+/// One vector of pixels of one sample: where the triangle is inside and wins, and its depth there.
+struct Step {
+  F d;
+  I di;
+  VI ramp[3];  ///< a_k × lane
+  VF lane;     ///< 0, 1, 2 ...
+  VF dzdx, z_low, z_high;
+  VI id;
+
+  explicit Step(const TileTriangle& t)
+      : ramp{hn::Mul(hn::Iota(di, 0), hn::Set(di, t.a[0])), hn::Mul(hn::Iota(di, 0), hn::Set(di, t.a[1])),
+             hn::Mul(hn::Iota(di, 0), hn::Set(di, t.a[2]))},
+        lane(hn::Iota(d, 0)),
+        dzdx(hn::Set(d, t.dzdx)),
+        z_low(hn::Set(d, t.z_low)),
+        z_high(hn::Set(d, t.z_high)),
+        id(hn::Set(di, t.id)) {}
+
+  HWY_INLINE hn::Mask<F> wins(const TileTriangle& t, const TileVisibility& tile, int s, int x, int y, VF& z) const {
+    VI outside = hn::Add(ramp[0], hn::Set(di, t.a[0] * x + t.b[0] * y + t.c[0][s]));
+    outside = hn::Or(outside, hn::Add(ramp[1], hn::Set(di, t.a[1] * x + t.b[1] * y + t.c[1][s])));
+    outside = hn::Or(outside, hn::Add(ramp[2], hn::Set(di, t.a[2] * x + t.b[2] * y + t.c[2][s])));
+    const auto inside = hn::Not(hn::MaskFromVec(hn::BitCast(d, hn::BroadcastSignBit(outside))));
+
+    const float row = t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y);
+    const VF column = hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), lane);
+    z = hn::Min(hn::Max(hn::Add(hn::Set(d, row), hn::Mul(dzdx, column)), z_low), z_high);
+    const int at = s * tile_pixels + y * tile_size + x;
+    const VF held = hn::Load(d, tile.depth + at);
+    const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(di, tile.id + at)));
+    return hn::And(inside, hn::Or(hn::Gt(z, held), hn::And(hn::Eq(z, held), lower_id)));
+  }
+};
+
+float farthest(const TileVisibility& tile, int x, int y) {
+  const F d;
+  VF low = hn::Load(d, tile.depth + y * tile_size + x);
+  for (int s = 0; s < tile.sample_count; ++s)
+    for (int row = y; row < y + 8; ++row)
+      for (int column = x; column < x + 8; column += static_cast<int>(hn::Lanes(d)))
+        low = hn::Min(low, hn::Load(d, tile.depth + s * tile_pixels + row * tile_size + column));
+  return hn::GetLane(hn::MinOfLanes(d, low));
+}
+
+void draw(const TileTriangle& t, TileVisibility& tile) {
+  const F d;
+  const I di;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const Spread spread = spread_of(t, tile.sample_count);
+  const Step step(t);
+  for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      const Block block = classify(t, spread, bx, by);
+      float& far = tile.block_far[by + bx / 8];
+      if (block == Block::Outside || greatest_depth(t, spread, bx, by) < far) continue;
+      const int top = greatest(by, t.first_y), bottom = least(by + 7, t.last_y);
+      for (int s = 0; s < tile.sample_count; ++s)
+        for (int y = top; y <= bottom; ++y)
+          for (int x = bx; x < bx + 8; x += lanes) {
+            VF z;
+            const auto mask = step.wins(t, tile, s, x, y, z);
+            if (hn::AllFalse(d, mask)) continue;
+            const int at = s * tile_pixels + y * tile_size + x;
+            hn::BlendedStore(z, mask, d, tile.depth + at);
+            hn::BlendedStore(step.id, hn::RebindMask(di, mask), di, tile.id + at);
+          }
+      if (block == Block::Inside) far = farthest(tile, bx, by);
+    }
+}
+
+int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
+  const F d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const Spread spread = spread_of(t, tile.sample_count);
+  const Step step(t);
+  int count = 0;
+  for (int y = t.first_y; y <= t.last_y; ++y)
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      if (classify(t, spread, bx, y & ~7) == Block::Outside) continue;
+      std::uint64_t samples[8] = {};
+      for (int s = 0; s < tile.sample_count; ++s)
+        for (int x = 0; x < 8; x += lanes) {
+          VF z;
+          std::uint8_t bits[8] = {};
+          hn::StoreMaskBits(d, step.wins(t, tile, s, bx + x, y, z), bits);
+          for (int lane = 0; lane < lanes; ++lane)
+            samples[x + lane] |= static_cast<std::uint64_t>((bits[0] >> lane) & 1) << s;
+        }
+      for (int x = 0; x < 8; ++x)
+        if (samples[x]) out[count++] = {samples[x], static_cast<std::uint32_t>(y * tile_size + bx + x)};
+    }
+  return count;
+}
+
+}  // namespace
+
+extern const CoverageKernels coverage_kernels;
+const CoverageKernels coverage_kernels = {.draw = draw, .collect = collect};
+
+}  // namespace zoneplate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

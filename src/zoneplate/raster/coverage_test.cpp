@@ -1,0 +1,216 @@
+#include "zoneplate/raster/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "zoneplate/math/random.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr Viewport viewport{1024, 768};
+
+ScreenVertex vertex(std::int32_t x, std::int32_t y, float z = 0.5f) { return {x, y, z, 1}; }
+
+/// The definition, in 128-bit integers: the sample lies inside, or on a top or left edge.
+bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, bool is_top_left) {
+  const auto side = [&](const ScreenVertex& p, const ScreenVertex& q) -> __int128 {
+    return static_cast<__int128>(q.x - p.x) * (y - p.y) - static_cast<__int128>(q.y - p.y) * (x - p.x);
+  };
+  const __int128 area = static_cast<__int128>(v[1].x - v[0].x) * (v[2].y - v[0].y) -
+                        static_cast<__int128>(v[1].y - v[0].y) * (v[2].x - v[0].x);
+  for (int k = 0; k < 3; ++k) {
+    const ScreenVertex& p = area > 0 ? v[k] : v[(k + 1) % 3];
+    const ScreenVertex& q = area > 0 ? v[(k + 1) % 3] : v[k];
+    const __int128 e = side(p, q);
+    const bool is_owned = q.y < p.y || (q.y == p.y && q.x > p.x);  // left: upwards; top: to the right
+    if (e < 0 || (e == 0 && is_top_left && !is_owned)) return false;
+  }
+  return true;
+}
+
+struct Buffers {
+  explicit Buffers(int samples, float depth = 0)
+      : z(static_cast<std::size_t>(samples) * tile_pixels + 16, depth),
+        id(static_cast<std::size_t>(samples) * tile_pixels + 16, no_triangle) {
+    visibility = {.sample_count = samples, .depth = align(z), .id = align(id), .block_far = far};
+    std::fill_n(far, 64, depth);
+  }
+  template <class T>
+  static T* align(std::vector<T>& v) {
+    return v.data() + (64 - reinterpret_cast<std::uintptr_t>(v.data()) % 64) % 64 / sizeof(T);
+  }
+  std::vector<float> z;
+  std::vector<std::int32_t> id;
+  float far[64];
+  TileVisibility visibility;
+};
+
+std::int32_t spread(std::uint32_t word, std::int32_t range) {
+  return static_cast<std::int32_t>(word % static_cast<std::uint32_t>(2 * range + 1)) - range;
+}
+
+/// Random corners of a size class, some snapped to the lattice of the samples so that edges pass through them.
+void random_corners(std::uint32_t seed, ScreenVertex (&v)[3]) {
+  static constexpr std::int32_t sizes[] = {100, 256, 768, 1280, 10000, 30000, 100000, 1 << 22};
+  const std::uint32_t kind = hash(seed, 1);
+  const std::int32_t size = sizes[kind % 8];
+  const std::int32_t x = spread(hash(seed, 2), 512 * 256), y = spread(hash(seed, 3), 384 * 256);
+  const int snap = (kind >> 8) % 3 == 0 ? 128 : (kind >> 8) % 3 == 1 ? 16 : 1;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    std::int32_t vx = x + spread(hash(seed, 4, k), size), vy = y + spread(hash(seed, 5, k), size);
+    if ((kind >> 16) % 5 == 0 && k == 2) {  // a sliver: the third corner near the line of the others
+      vx = (v[0].x + v[1].x) / 2 + spread(hash(seed, 6), 3);
+      vy = (v[0].y + v[1].y) / 2 + spread(hash(seed, 7), 3);
+    }
+    vx = std::min(std::max(vx, -guard_band), guard_band) / snap * snap;
+    vy = std::min(std::max(vy, -guard_band), guard_band) / snap * snap;
+    v[k] = vertex(vx, vy, unit_float(hash(seed, 8, k)));
+  }
+}
+
+/// Draws random triangles into the tiles about them and counts the samples that differ from the definition.
+std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int triangles, std::uint32_t seed,
+                                bool is_top_left) {
+  const SetupRules rules{.viewport = viewport, .is_top_left = is_top_left};
+  const int samples = static_cast<int>(pattern.size());
+  Buffers buffers(samples);
+  TileTriangle tile;
+  std::uint64_t wrong = 0;
+  for (int i = 0; i < triangles; ++i) {
+    ScreenVertex v[3];
+    random_corners(seed + static_cast<std::uint32_t>(i), v);
+    if (doubled_area(v[0], v[1], v[2]) == 0) continue;
+    const Triangle t = make_triangle(v[0], v[1], v[2], 7, rules);
+    const std::uint32_t corner = hash(seed, 9, static_cast<std::uint32_t>(i)) % 3;
+    const int tile_x = std::min(std::max((v[corner].x + 512 * 256) >> 8, 0), 1023) / 64 * 64;
+    const int tile_y = std::min(std::max((v[corner].y + 384 * 256) >> 8, 0), 767) / 64 * 64;
+    make_tile_triangle(t, pattern.data(), samples, tile_x, tile_y, tile);
+    std::fill(buffers.z.begin(), buffers.z.end(), 0.0f);
+    std::fill(buffers.id.begin(), buffers.id.end(), no_triangle);
+    std::fill_n(buffers.far, 64, 0.0f);
+    coverage_kernels(isa).draw(tile, buffers.visibility);
+
+    // The definition is asked inside the triangle's box, grown by a pixel, and the rest must be untouched.
+    const int x0 = std::max(t.min_x - tile_x - 1, 0), x1 = std::min(t.max_x - tile_x + 1, 63);
+    const int y0 = std::max(t.min_y - tile_y - 1, 0), y1 = std::min(t.max_y - tile_y + 1, 63);
+    std::uint64_t owned = 0, expected = 0;
+    for (int s = 0; s < samples; ++s) {
+      for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x) {
+          const SamplePosition at = pattern[static_cast<std::size_t>(s)];
+          const bool is_in =
+              covers(v, (tile_x + x) * 256 + at.x - 512 * 256, (tile_y + y) * 256 + at.y - 384 * 256, is_top_left);
+          expected += is_in;
+          wrong += is_in != (buffers.visibility.id[s * tile_pixels + y * tile_size + x] == 7);
+        }
+      for (int p = 0; p < tile_pixels; ++p) owned += buffers.visibility.id[s * tile_pixels + p] == 7;
+    }
+    wrong += owned > expected ? owned - expected : 0;
+  }
+  return wrong;
+}
+
+struct Case {
+  const char* name;
+  SamplePattern pattern;
+  int triangles;
+};
+
+std::vector<Case> cases() {
+  return {{"1", standard_pattern(1), 6000}, {"2", standard_pattern(2), 3000},  {"4", standard_pattern(4), 3000},
+          {"8", standard_pattern(8), 1500}, {"16", standard_pattern(16), 800}, {"4x4", grid_pattern(4), 800}};
+}
+
+TEST(Coverage, EqualsTheDefinitionInWideIntegers) {
+  for (const Isa isa : supported_isas())
+    for (const Case& c : cases())
+      EXPECT_EQ(differing_samples(c.pattern, isa, c.triangles, 12345, true), 0u)
+          << c.name << " samples, " << name_of(isa);
+}
+
+TEST(Coverage, TeachingRuleOwnsEveryEdge) {
+  for (const Isa isa : supported_isas())
+    EXPECT_EQ(differing_samples(standard_pattern(4), isa, 2000, 777, false), 0u) << name_of(isa);
+}
+
+/// The million triangles of a whole run: `--gtest_also_run_disabled_tests --gtest_filter=Coverage.DISABLED_Million`.
+TEST(Coverage, DISABLED_Million) {
+  for (const Case& c : cases()) EXPECT_EQ(differing_samples(c.pattern, best_isa(), 1000000, 99, true), 0u) << c.name;
+}
+
+TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
+  const SamplePattern pattern = grid_pattern(4);
+  const SetupRules rules{.viewport = viewport};
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    // Corners on the lattice of the samples, so that edges pass through many of them; convex by construction.
+    ScreenVertex v[4];
+    const std::int32_t sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (std::uint32_t k = 0; k < 4; ++k)
+      v[k] = vertex(sign[k][0] * (2000 + static_cast<std::int32_t>(hash(seed, k) % 40) * 32),
+                    sign[k][1] * (2000 + static_cast<std::int32_t>(hash(seed, k + 9) % 40) * 32));
+    Buffers first(16), second(16);
+    TileTriangle tile;
+    make_tile_triangle(make_triangle(v[0], v[1], v[2], 1, rules), pattern.data(), 16, 448, 320, tile);
+    scalar::coverage_kernels.draw(tile, first.visibility);
+    make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, rules), pattern.data(), 16, 448, 320, tile);
+    scalar::coverage_kernels.draw(tile, second.visibility);
+    for (int i = 0; i < 16 * tile_pixels; ++i) {
+      const SamplePosition at = pattern[static_cast<std::size_t>(i / tile_pixels)];
+      const std::int64_t x = (448 + i % 64) * 256 + at.x - 512 * 256,
+                         y = (320 + i % tile_pixels / 64) * 256 + at.y - 384 * 256;
+      const ScreenVertex whole[2][3] = {{v[0], v[1], v[2]}, {v[0], v[2], v[3]}};
+      const bool is_inside = covers(whole[0], x, y, false) || covers(whole[1], x, y, false);
+      const bool is_strictly_inside = is_inside && [&] {
+        for (int k = 0; k < 4; ++k) {
+          const ScreenVertex &p = v[k], &q = v[(k + 1) % 4];
+          if ((q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x) <= 0) return false;
+        }
+        return true;
+      }();
+      const int owners = (first.visibility.id[i] == 1) + (second.visibility.id[i] == 2);
+      ASSERT_LE(owners, 1);
+      ASSERT_GE(owners, is_strictly_inside ? 1 : 0) << "seed " << seed;
+      ASSERT_LE(owners, is_inside ? 1 : 0) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
+  const SetupRules rules{.viewport = viewport};
+  for (const int samples : {1, 2, 4, 8, 16}) {
+    const SamplePattern pattern = standard_pattern(samples);
+    for (const Isa isa : supported_isas()) {
+      Buffers a(samples), b(samples);
+      std::vector<Fragment> fa(tile_pixels), fb(tile_pixels);
+      TileTriangle tile;
+      for (std::uint32_t i = 0; i < 600; ++i) {
+        ScreenVertex v[3];
+        random_corners(hash(i, 5), v);
+        for (ScreenVertex& c : v) c.x /= 8, c.y /= 8, c.z = std::floor(c.z * 8) / 8;  // near, with ties in depth
+        if (doubled_area(v[0], v[1], v[2]) == 0) continue;
+        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), rules),
+                           pattern.data(), samples, 512, 384, tile);
+        if (i % 3 == 0) {
+          const int n = scalar::coverage_kernels.collect(tile, a.visibility, fa.data());
+          ASSERT_EQ(n, coverage_kernels(isa).collect(tile, b.visibility, fb.data()));
+          for (int k = 0; k < n; ++k) {
+            ASSERT_EQ(fa[static_cast<std::size_t>(k)].pixel, fb[static_cast<std::size_t>(k)].pixel);
+            ASSERT_EQ(fa[static_cast<std::size_t>(k)].samples, fb[static_cast<std::size_t>(k)].samples);
+          }
+          continue;
+        }
+        scalar::coverage_kernels.draw(tile, a.visibility);
+        coverage_kernels(isa).draw(tile, b.visibility);
+      }
+      const auto bytes = static_cast<std::size_t>(samples) * tile_pixels * 4;
+      EXPECT_EQ(std::memcmp(a.visibility.depth, b.visibility.depth, bytes), 0) << name_of(isa) << " " << samples;
+      EXPECT_EQ(std::memcmp(a.visibility.id, b.visibility.id, bytes), 0) << name_of(isa) << " " << samples;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,39 @@
+#include "zoneplate/raster/rasterize.h"
+
+#include <memory>
+#include <vector>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/bin.h"
+#include "zoneplate/raster/tile.h"
+
+namespace zoneplate {
+
+RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
+                       const Target& target) {
+  RasterCounts counts;
+  const Stopwatch geometry;
+  const ProjectedDraws projected = project_draws(draws, target.viewport, rules.isa);
+  const Bins bins =
+      bin_triangles(projected, target,
+                    {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter});
+  counts.geometry_ms = geometry.ms();
+  counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
+  counts.set_up = bins.set_up;
+
+  // A thread keeps its tile buffers from tile to tile.
+  const Stopwatch tiles;
+  std::vector<std::unique_ptr<TileRenderer>> renderers(static_cast<std::size_t>(thread_limit()));
+  parallel_for(bins.tiles(), [&](std::size_t tile) {
+    std::unique_ptr<TileRenderer>& mine = renderers[static_cast<std::size_t>(thread_index())];
+    if (!mine) mine = std::make_unique<TileRenderer>(projected, bins, shader, rules.isa, target);
+    mine->render(tile);
+  });
+  for (const auto& renderer : renderers)
+    if (renderer) counts.shaded += renderer->shaded();
+  counts.tiles_ms = tiles.ms();
+  return counts;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+
+#include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/setup.h"
+#include "zoneplate/raster/target.h"
+
+namespace zoneplate {
+
+/// Gives colour to surface points, a batch at a time. Called from many threads at once.
+class PointShader {
+ public:
+  virtual ~PointShader() = default;
+  struct Wanted {
+    bool normal = false, uv = false, albedo = false;
+  };
+  virtual void shade(const Batch& batch, Wanted wanted, Shaded& out) const = 0;
+  /// Alpha of masked surfaces' points, and the cutoff at and above which such a point is there.
+  virtual float alpha(const Batch& batch, float* out) const = 0;
+};
+
+struct RasterRules {
+  bool is_top_left = true;
+  bool is_painter = false;
+  Isa isa = best_isa();
+};
+
+struct RasterCounts {
+  double geometry_ms = 0, tiles_ms = 0;
+  std::uint64_t triangles = 0, set_up = 0, shaded = 0;
+};
+
+/// Draws triangles into a target: project, clip, set up, sort into tiles; then for each tile what is visible, shading
+/// once per surface and pixel (or sample), layers of blended surfaces in exact order, and the mean of the samples.
+///
+/// Exact     the result does not depend on the number of threads, the Isa, or the order of the draws where no two
+///           triangles have equal depth at a sample.
+/// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
+///           Carpenter, The A-buffer, SIGGRAPH 1984.
+RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
+                       const Target& target);
+
+}  // namespace zoneplate

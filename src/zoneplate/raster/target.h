@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
+#include "zoneplate/raster/project.h"
+#include "zoneplate/signal/samples.h"
+
+namespace zoneplate {
+
+/// Where rasterizing puts its results. Every plane that is not null has the size of `rectangle`.
+struct Target {
+  Viewport viewport;                        ///< the whole picture
+  int x = 0, y = 0, width = 0, height = 0;  ///< the rectangle that is drawn, in the picture's pixels
+
+  SamplePattern samples;
+  std::vector<float> weights;  ///< one a sample; empty: all equal
+  bool is_per_sample = false;  ///< shade every sample by itself
+  float spacing = 1;           ///< the footprint of a shaded point, in pixels
+
+  LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
+  Plane<float>* reversed_depth = nullptr;
+  Plane<float3>* normal = nullptr;
+  Plane<float3>* albedo = nullptr;
+  Plane<float2>* uv = nullptr;
+  Plane<std::uint32_t>* instance = nullptr;
+  Plane<std::uint32_t>* material = nullptr;
+  Plane<std::uint32_t>* primitive = nullptr;
+  Plane<float>* coverage = nullptr;
+
+  std::vector<LinearImage>* sample_color = nullptr;  ///< by sample
+  std::vector<Plane<float>>* sample_depth = nullptr;
+  std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
+
+  static constexpr std::uint32_t no_id = 0xffffffffu;  ///< in an id plane, where nothing is
+};
+
+}  // namespace zoneplate

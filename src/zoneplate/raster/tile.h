@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "zoneplate/raster/bin.h"
+#include "zoneplate/raster/coverage.h"
+#include "zoneplate/raster/points.h"
+#include "zoneplate/raster/rasterize.h"
+
+namespace zoneplate {
+
+/// Renders tiles one after the other on one thread, with buffers that stay in that core's cache.
+///
+/// More samples than `samples_per_pass` at rate *sample* are drawn in several passes over the same triangles; their sum
+/// is taken in sample order, so that the passes leave no trace.
+class TileRenderer {
+ public:
+  TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader, Isa isa,
+               const Target& target);
+
+  /// Renders the tile with that number in the bins and writes its pixels to the target.
+  void render(std::size_t tile);
+
+  std::uint64_t shaded() const { return shader_.shaded(); }
+
+ private:
+  /// A blended or masked triangle over one pixel: the samples where it is in front, with its depth at each.
+  struct Layer {
+    std::uint64_t samples;
+    std::uint32_t pixel;
+    std::int32_t id;
+    std::uint32_t first_depth;  ///< of its depths, in the order of the samples
+  };
+  /// A pixel's nearest surface so far, over all passes: what the data planes show.
+  struct Nearest {
+    float depth;
+    std::int32_t id;
+  };
+
+  void gather(std::size_t tile);
+  void render_pass(int first_sample, int sample_count);
+  void draw_opaque();
+  void draw_masked();
+  void find_points();
+  void blend(int top, int bottom);
+  void collect_layers(Surface surface, int top, int bottom);
+  void find_layer_points(std::vector<Point>& points, std::vector<std::uint32_t>& point_of_layer) const;
+  void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, std::vector<Point>& points) const;
+  void accumulate();
+  void accumulate_layers(std::size_t first, std::size_t last, const std::vector<std::uint32_t>& point_of_layer,
+                         const std::vector<Point>& points, const std::vector<Linear>& colors);
+  void note_nearest();
+  void store_samples(std::uint32_t pixel, int sample, Linear color);
+  void finish();
+
+  bool is_in_rectangle(int x, int y) const { return x >= left_ && x < right_ && y >= top_ && y < bottom_; }
+  Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
+
+  const ProjectedDraws& projected_;
+  const Bins& bins_;
+  const CoverageKernels& coverage_;
+  const Target& target_;
+  PointBatcher shader_;
+
+  int tile_x_ = 0, tile_y_ = 0;                      ///< first pixel of the tile in the picture
+  int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  ///< the part to be drawn, in the tile
+  int first_sample_ = 0, pass_samples_ = 0;          ///< of this pass
+  std::uint64_t all_samples_ = 0;
+  std::vector<const Triangle*> sources_[3];  ///< by Surface
+  TileTriangle tile_triangle_;
+
+  std::vector<float> depth_storage_;
+  std::vector<std::int32_t> id_storage_;
+  alignas(64) float block_far_[64];
+  TileVisibility visibility_;
+
+  std::vector<Point> points_;
+  std::vector<std::uint32_t> first_point_;  ///< by pixel, and the total at the end
+  std::vector<Linear> colors_;
+  PointData data_;
+
+  std::vector<Fragment> fragments_;
+  std::vector<Layer> layers_;
+  std::vector<float> layer_depths_;
+
+  std::vector<Linear> sum_;     ///< by pixel: weighted sum of samples
+  std::vector<float> covered_;  ///< by pixel: samples that a surface owns
+  std::vector<Nearest> nearest_;
+  float weight_sum_ = 0;
+  std::vector<float> weights_;
+};
+
+}  // namespace zoneplate

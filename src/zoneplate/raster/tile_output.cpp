@@ -1,0 +1,62 @@
+// The last steps of a tile: data planes and the resolved colour, written to the target.
+#include <bit>
+
+#include "zoneplate/raster/tile.h"
+
+namespace zoneplate {
+
+void TileRenderer::note_nearest() {
+  const auto put = [&](auto* plane, int x, int y, const auto& value) {
+    if (plane) (*plane)(tile_x_ + x - target_.x, tile_y_ + y - target_.y) = value;
+  };
+  for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
+    for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p) {
+      // The point's nearest sample against the nearest so far, by the order of visibility.
+      Nearest& nearest = nearest_[pixel];
+      bool is_nearer = false;
+      for (std::uint64_t left = points_[p].samples; left; left &= left - 1) {
+        const float z = visibility_.depth[static_cast<std::size_t>(std::countr_zero(left)) * tile_pixels + pixel];
+        if (z < nearest.depth || (z == nearest.depth && points_[p].id >= nearest.id)) continue;
+        nearest = {z, points_[p].id};
+        is_nearer = true;
+      }
+      if (!is_nearer) continue;
+
+      const int x = static_cast<int>(pixel % tile_size), y = static_cast<int>(pixel / tile_size);
+      const std::size_t d = projected_.draw_of(points_[p].id);
+      const Draw& draw = projected_.draws[d];
+      const auto local = static_cast<std::uint32_t>(points_[p].id - projected_.first_triangle[d]);
+      put(target_.reversed_depth, x, y, nearest.depth);
+      put(target_.instance, x, y, draw.instance);
+      put(target_.material, x, y, static_cast<std::uint32_t>(draw.material));
+      put(target_.primitive, x, y, local / static_cast<std::uint32_t>(draw.triangles_per_primitive));
+      if (target_.normal) put(target_.normal, x, y, data_.normal[p]);
+      if (target_.uv) put(target_.uv, x, y, data_.uv[p]);
+      if (target_.albedo) put(target_.albedo, x, y, data_.albedo[p]);
+    }
+}
+
+void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) {
+  const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
+  const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
+  const auto s = static_cast<std::size_t>(first_sample_ + sample);
+  const std::size_t at = static_cast<std::size_t>(sample) * tile_pixels + pixel;
+  (*target_.sample_color)[s](x, y) = color;
+  (*target_.sample_depth)[s](x, y) = visibility_.depth[at];
+  (*target_.sample_triangle)[s](x, y) =
+      visibility_.id[at] == no_triangle ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
+}
+
+void TileRenderer::finish() {
+  for (int y = top_; y < bottom_; ++y)
+    for (int x = left_; x < right_; ++x) {
+      const auto pixel = static_cast<std::size_t>(y * tile_size + x);
+      const int px = tile_x_ + x - target_.x, py = tile_y_ + y - target_.y;
+      const Linear& sum = sum_[pixel];
+      if (target_.color)
+        (*target_.color)(px, py) = {sum.r / weight_sum_, sum.g / weight_sum_, sum.b / weight_sum_, sum.a / weight_sum_};
+      if (target_.coverage) (*target_.coverage)(px, py) = covered_[pixel] / static_cast<float>(target_.samples.size());
+    }
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/shade/shader.h"
+
+namespace zoneplate {
+
+/// How `draw` rasterizes.
+struct DrawOptions {
+  SamplePattern samples = standard_pattern(4);
+  bool is_per_sample = false;  ///< run the fragment part once a sample, not once a triangle and pixel
+  bool culls_back_faces = false;
+  Surface surface = Surface::Opaque;
+  RasterRules rules;
+};
+
+/// A user's shader as the rasterizer's: varyings are made again for the triangle's vertices, weighted, and handed on.
+template <Shader S>
+class ShaderPoints : public PointShader {
+ public:
+  using Varyings = typename S::Varyings;
+  static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);
+  static_assert(std::is_trivially_copyable_v<Varyings> && sizeof(Varyings) % sizeof(float) == 0,
+                "varyings are a struct of floats");
+
+  explicit ShaderPoints(const S& shader) : shader_(shader) {}
+
+  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+    for_points(batch, [&](int i, float4 c) { out.r[i] = c.x, out.g[i] = c.y, out.b[i] = c.z, out.a[i] = c.w; });
+  }
+  float alpha(const Batch& batch, float* out) const override {
+    for_points(batch, [&](int i, float4 c) { out[i] = c.w; });
+    return 0.5f;
+  }
+
+ private:
+  using Floats = std::array<float, floats>;
+
+  Floats varyings_of(std::uint32_t vertex) const {
+    Floats out;
+    const Varyings v = shader_.vertex(Vertex{vertex}).second;
+    std::memcpy(out.data(), &v, sizeof v);
+    return out;
+  }
+
+  static Varyings weighted(const Floats (&v)[3], float b0, float b1, float b2) {
+    Floats sum;
+    for (std::size_t f = 0; f < floats; ++f) sum[f] = (v[0][f] * b0 + v[1][f] * b1) + v[2][f] * b2;
+    Varyings out;
+    std::memcpy(static_cast<void*>(&out), sum.data(), sizeof out);
+    return out;
+  }
+
+  template <class Use>
+  void for_points(const Batch& batch, Use use) const {
+    Floats corner[3] = {};
+    for (int i = 0; i < batch.count; ++i) {
+      if (i == 0 || batch.triangle[i] != batch.triangle[i - 1])
+        for (int k = 0; k < 3; ++k) corner[k] = varyings_of(batch.vertex[k][i]);
+      const Varyings u = weighted(corner, batch.b[0][i], batch.b[1][i], batch.b[2][i]);
+      const Varyings ux = weighted(corner, batch.dbdx[0][i], batch.dbdx[1][i], batch.dbdx[2][i]);
+      const Varyings uy = weighted(corner, batch.dbdy[0][i], batch.dbdy[1][i], batch.dbdy[2][i]);
+      use(i, shader_.fragment(u, ux, uy));
+    }
+  }
+
+  const S& shader_;
+};
+
+/// Draws indexed triangles with a user's shader; gives the picture, linear and premultiplied, without a background.
+///
+/// Requires  three indices a triangle, each < vertices; the shader is pure.
+template <Shader S>
+LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::uint32_t vertices, int width, int height,
+                 const DrawOptions& options = {}) {
+  std::vector<float4> clip(vertices);
+  parallel_ranges(vertices, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) clip[v] = shader.vertex(Vertex{static_cast<std::uint32_t>(v)}).first;
+  });
+  Draw d;
+  d.clip = clip;
+  d.index = indices;
+  d.surface = options.surface;
+  d.culls_back_faces = options.culls_back_faces;
+
+  LinearImage image(width, height);
+  Target target;
+  target.viewport = {width, height};
+  target.width = width, target.height = height;
+  target.samples = options.samples;
+  target.is_per_sample = options.is_per_sample;
+  target.color = &image;
+  rasterize(std::span(&d, 1), ShaderPoints<S>(shader), options.rules, target);
+  return image;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,135 @@
+#include "zoneplate/render/render.h"
+
+#include <cmath>
+#include <limits>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/render/surfaces.h"
+#include "zoneplate/shade/surface.h"
+
+namespace zoneplate {
+namespace {
+
+/// The scene's materials as the rasterizer's shader.
+class ScenePoints : public PointShader {
+ public:
+  ScenePoints(const Scene& scene, const Surroundings& surroundings) : scene_(scene), surfaces_(scene, surroundings) {}
+
+  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override {
+    surfaces_.shade(batch, {.normal = wanted.normal, .uv = wanted.uv, .albedo = wanted.albedo}, out);
+  }
+  float alpha(const Batch& batch, float* out) const override {
+    surfaces_.alpha(batch, out);
+    return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
+  }
+
+ private:
+  const Scene& scene_;
+  SurfaceShader surfaces_;
+};
+
+Surroundings surroundings_of(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  const float4x4& world_from_camera = camera.world_from_camera;
+  Surroundings s;
+  s.eye = xyz(world_from_camera.column[3]);
+  s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
+  s.is_orthographic = camera.is_orthographic;
+  s.environment = options.environment;
+  s.ambient_light = scene.ambient_light;
+  s.raw_colors = options.raw_colors;
+  s.isa = options.isa;
+  return s;
+}
+
+void make_planes(const Planes& planes, const SamplePattern& samples, int w, int h, Frame& frame, Target& target) {
+  const auto make = [&](bool wanted, auto& plane, auto*& pointer, auto empty) {
+    if (!wanted) return;
+    plane = {w, h, empty};
+    pointer = &plane;
+  };
+  make(true, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
+  make(planes.normal, frame.normal, target.normal, float3{});
+  make(planes.albedo, frame.albedo, target.albedo, float3{});
+  make(planes.uv, frame.uv, target.uv, float2{});
+  make(planes.object_id, frame.object_id, target.instance, Frame::no_id);
+  make(planes.material_id, frame.material_id, target.material, Frame::no_id);
+  make(planes.primitive_id, frame.primitive_id, target.primitive, Frame::no_id);
+  make(planes.coverage, frame.coverage, target.coverage, 0.0f);
+  if (!planes.samples) return;
+  frame.sample_color.assign(samples.size(), LinearImage(w, h, Linear{0, 0, 0, 0}));
+  frame.sample_depth.assign(samples.size(), Plane<float>(w, h, 0.0f));
+  frame.sample_triangle.assign(samples.size(), Plane<std::uint32_t>(w, h, Frame::no_id));
+  target.sample_color = &frame.sample_color;
+  target.sample_depth = &frame.sample_depth;
+  target.sample_triangle = &frame.sample_triangle;
+}
+
+/// The distance along the view axis at which the projection gives this reversed depth.
+void find_distances(const float4x4& clip_from_camera, Frame& frame) {
+  const double zz = clip_from_camera.column[2].z, zw = clip_from_camera.column[3].z;
+  const double wz = clip_from_camera.column[2].w, ww = clip_from_camera.column[3].w;
+  frame.depth = Plane<float>(frame.reversed_depth.width(), frame.reversed_depth.height());
+  for (std::size_t i = 0; i < frame.depth.values().size(); ++i) {
+    const double z = frame.reversed_depth.values()[i];
+    const double view_z = (zw - z * ww) / (z * wz - zz);
+    frame.depth.values()[i] = z > 0 ? static_cast<float>(-view_z) : std::numeric_limits<float>::infinity();
+  }
+}
+
+void check(const RenderOptions& o, const Request& request) {
+  const auto reject = [](const std::string& what) { throw Error(Trouble::Usage, what); };
+  if (o.width < 1 || o.height < 1 || o.width > 32768 || o.height > 32768)
+    reject("a picture has 1 to 32768 pixels a side, not " + std::to_string(o.width) + " × " + std::to_string(o.height));
+  if (const Crop c = o.crop.value_or(Crop{0, 0, o.width, o.height});
+      c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > o.width - c.width || c.y > o.height - c.height)
+    reject("the crop must lie within the picture of " + std::to_string(o.width) + " × " + std::to_string(o.height));
+  if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
+    reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
+}
+
+}  // namespace
+
+Frame render(const Scene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
+             RenderCounts* counts) {
+  check(options, request);
+  const Stopwatch prepare;
+  const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
+  const SceneDraws draws = make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options);
+  const ScenePoints points(scene, surroundings_of(scene, camera, options));
+
+  Frame frame;
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
+  target.samples = request.samples;
+  target.weights = request.weights;
+  target.is_per_sample = request.rate == Rate::Sample;
+  if (target.is_per_sample && options.sample_footprint)
+    target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
+  const double prepare_ms = prepare.ms();
+
+  const RasterCounts c = rasterize(draws.draws, points,
+                                   {.is_top_left = options.edge_rule == EdgeRule::TopLeft,
+                                    .is_painter = options.visibility == Visibility::Painter,
+                                    .isa = options.isa},
+                                   target);
+  if (target.reversed_depth) find_distances(clip_from_camera, frame);
+  for (std::uint32_t& id : frame.object_id.values())
+    if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
+  if (counts)
+    *counts = {.prepare_ms = prepare_ms,
+               .geometry_ms = c.geometry_ms,
+               .tiles_ms = c.tiles_ms,
+               .triangles = c.triangles,
+               .triangles_set_up = c.set_up,
+               .shaded = c.shaded};
+  return frame;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace zoneplate {
+
+/// A JSON value to be written. Members of an object stay in the order in which they were added.
+///
+/// Requires  strings are UTF-8; what is not is replaced by U+FFFD when written.
+/// Edges     a number that is not finite is written as null.
+class Json {
+ public:
+  using Array = std::vector<Json>;
+  using Object = std::vector<std::pair<std::string, Json>>;
+
+  Json() = default;
+  Json(bool value) : value_(value) {}
+  Json(int value) : value_(std::int64_t{value}) {}
+  Json(std::int64_t value) : value_(value) {}
+  Json(std::uint64_t value) : value_(value) {}
+  Json(double value) : value_(value) {}
+  /// Written with the fewest digits that give the same float again.
+  Json(float value) : value_(value) {}
+  Json(const char* value) : value_(std::string(value)) {}
+  Json(std::string_view value) : value_(std::string(value)) {}
+  Json(std::string value) : value_(std::move(value)) {}
+  Json(Array value) : value_(std::move(value)) {}
+  Json(Object value) : value_(std::move(value)) {}
+
+  /// One line, without a line end; or, indented, several.
+  std::string text() const;
+  std::string indented() const;
+
+ private:
+  friend struct JsonWriter;
+  std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, float, std::string, Array, Object> value_;
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,102 @@
+#include "zoneplate/scene/builtin.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/scene/builtin_make.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::array makers = {builtin_teapot, builtin_checkerboard, builtin_triangles,      builtin_cyclic,
+                               builtin_sphere, builtin_city,         builtin_city_trilinear, builtin_tri10k,
+                               builtin_tri1m,  builtin_micro,        builtin_fill,           builtin_fillblend};
+
+std::string list_of(std::span<const BuiltinParam> params) {
+  std::string text;
+  for (const BuiltinParam& p : params)
+    text += fmt::format("{}{} ({}, {} to {})", text.empty() ? "" : ", ", p.name, p.meaning, p.low, p.high);
+  return text.empty() ? "no parameters" : text;
+}
+
+/// Sets the value that `setting` (name=value) names.
+void apply(const BuiltinMaker& maker, std::string_view setting, std::vector<std::int64_t>& values) {
+  const std::size_t equals = setting.find('=');
+  const std::string_view name = setting.substr(0, equals);
+  const std::string_view value = equals == std::string_view::npos ? std::string_view{} : setting.substr(equals + 1);
+  for (std::size_t i = 0; i < maker.params.size(); ++i) {
+    const BuiltinParam& p = maker.params[i];
+    if (name != p.name) continue;
+    const auto [end, trouble] = std::from_chars(value.data(), value.data() + value.size(), values[i]);
+    if (trouble == std::errc{} && end == value.data() + value.size() && values[i] >= p.low && values[i] <= p.high)
+      return;
+    throw Error(Trouble::Usage, fmt::format("scene {}: {} is '{}', wants a whole number from {} to {}", maker.name,
+                                            p.name, value, p.low, p.high));
+  }
+  throw Error(Trouble::Usage,
+              fmt::format("scene {}: unknown parameter '{}'; it has {}", maker.name, name, list_of(maker.params)));
+}
+
+}  // namespace
+
+std::span<const BuiltinScene> builtin_scenes() {
+  static const std::vector<BuiltinScene> scenes = [] {
+    std::vector<BuiltinScene> list;
+    for (const auto& maker_of : makers) {
+      const BuiltinMaker maker = maker_of();
+      std::string params;
+      for (const BuiltinParam& p : maker.params)
+        params += fmt::format("{}{}={}", params.empty() ? "" : ",", p.name, p.otherwise);
+      list.push_back({maker.name, maker.summary, params});
+    }
+    return list;
+  }();
+  return scenes;
+}
+
+std::optional<Scene> make_builtin_scene(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  for (const auto& maker_of : makers) {
+    const BuiltinMaker maker = maker_of();
+    if (text.compare(0, colon, maker.name) != 0) continue;
+    std::vector<std::int64_t> values;
+    for (const BuiltinParam& p : maker.params) values.push_back(p.otherwise);
+    std::string_view rest = colon == std::string::npos ? std::string_view{} : std::string_view(text).substr(colon + 1);
+    for (bool more = colon != std::string::npos; more;) {
+      const std::size_t comma = rest.find(',');
+      apply(maker, rest.substr(0, comma), values);
+      more = comma != std::string_view::npos;
+      if (more) rest = rest.substr(comma + 1);
+    }
+    return maker.make(values);
+  }
+  return std::nullopt;
+}
+
+Camera camera_at(float3 eye, float3 target, float vertical_fov, float near, float far) {
+  const float3 forward = normalize(target - eye), right = normalize(cross(forward, {0, 1, 0}));
+  const float3 above = cross(right, forward);
+  Camera camera;
+  camera.name = "camera";
+  camera.world_from_camera = {{float4{right.x, right.y, right.z, 0}, float4{above.x, above.y, above.z, 0},
+                               float4{-forward.x, -forward.y, -forward.z, 0}, float4{eye.x, eye.y, eye.z, 1}}};
+  camera.vertical_fov = vertical_fov;
+  camera.near = near, camera.far = far;
+  return camera;
+}
+
+void add_object(Scene& scene, const char* name, Mesh mesh) {
+  mesh.name = name;
+  scene.instances.push_back(
+      {static_cast<int>(scene.meshes.size()), static_cast<int>(scene.objects.size()), float4x4{}});
+  scene.objects.emplace_back(name);
+  scene.meshes.push_back(std::move(mesh));
+}
+
+}  // namespace zoneplate

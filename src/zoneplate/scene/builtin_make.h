@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+/// A whole number that changes a built-in scene.
+struct BuiltinParam {
+  const char* name;
+  const char* meaning;
+  std::int64_t otherwise, low, high;
+};
+
+/// How a built-in scene is made: its parameters arrive in the order in which it lists them.
+struct BuiltinMaker {
+  const char* name;
+  const char* summary;
+  std::span<const BuiltinParam> params;
+  Scene (*make)(std::span<const std::int64_t> values);
+};
+
+// One function for each family of scenes, each in a file of its own.
+BuiltinMaker builtin_teapot();
+BuiltinMaker builtin_checkerboard();
+BuiltinMaker builtin_triangles();
+BuiltinMaker builtin_cyclic();
+BuiltinMaker builtin_sphere();
+BuiltinMaker builtin_tri10k();
+BuiltinMaker builtin_tri1m();
+BuiltinMaker builtin_city();
+BuiltinMaker builtin_city_trilinear();
+BuiltinMaker builtin_fill();
+BuiltinMaker builtin_fillblend();
+BuiltinMaker builtin_micro();
+
+/// A camera at `eye` that looks at `target`, upright.
+Camera camera_at(float3 eye, float3 target, float vertical_fov, float near, float far);
+
+/// Adds a mesh as an object of its own, placed where it is.
+void add_object(Scene& scene, const char* name, Mesh mesh);
+
+}  // namespace zoneplate

@@ -1,0 +1,152 @@
+#include "zoneplate/scene/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "zoneplate/scene/angle.h"
+
+namespace zoneplate {
+namespace {
+
+// The fit is computed in double, so that boxes of any size that a float can hold pass through the same formulas.
+struct Point {
+  double x = 0, y = 0, z = 0;
+};
+
+Point to_point(float3 p) { return {p.x, p.y, p.z}; }
+Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Point operator*(Point a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Point cross(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Point normalize(Point a) {
+  const double n = std::sqrt(dot(a, a));
+  return {a.x / n, a.y / n, a.z / n};
+}
+float3 to_float3(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+
+/// The camera's axes: +X to the right, +Y up, +Z towards the eye.
+struct Axes {
+  Point right, above, back;
+};
+
+Axes view_axes(const AutoFit& fit) {
+  // The front of a model is +Z; where that is up, -Y is (+Y where -Z is up), as if it had been turned upright.
+  Point up = to_point(fit.up);
+  up = dot(up, up) > 0 ? normalize(up) : Point{0, 1, 0};
+  const Point towards = std::abs(up.z) > 0.999 ? Point{0, up.z > 0 ? -1.0 : 1.0, 0} : Point{0, 0, 1};
+  const Point front = normalize(towards - up * dot(towards, up));
+  const Point side = cross(up, front);
+
+  const SineCosine a = sine_cosine(static_cast<double>(fit.azimuth));
+  const SineCosine e = sine_cosine(static_cast<double>(fit.elevation));
+  const Point back = (front * a.cosine + side * a.sine) * e.cosine + up * e.sine;
+  const Point right = side * a.cosine - front * a.sine;
+  return {right, cross(back, right), back};
+}
+
+struct Corners {
+  std::array<double, 8> x, y, z;
+};
+
+/// Where the eye must stand sideways so that the slopes (v - e) / (distance - z) reach equally far to both sides.
+///
+/// The sum of the greatest and the least slope falls strictly with e: bisection, to the last bit that matters.
+double centred(const std::array<double, 8>& v, const std::array<double, 8>& z, double distance) {
+  const auto lopsided = [&](double e) {
+    double low = (v[0] - e) / (distance - z[0]), high = low;
+    for (std::size_t i = 1; i < 8; ++i) {
+      const double slope = (v[i] - e) / (distance - z[i]);
+      low = std::min(low, slope), high = std::max(high, slope);
+    }
+    return low + high;
+  };
+  double left = *std::min_element(v.begin(), v.end()), right = *std::max_element(v.begin(), v.end());
+  for (int step = 0; step < 100; ++step) {
+    const double middle = (left + right) / 2;
+    (lopsided(middle) > 0 ? left : right) = middle;
+  }
+  return (left + right) / 2;
+}
+
+/// The least distance at which every corner's slope can be within ±`slope` of the axis.
+double distance_for(const std::array<double, 8>& v, const std::array<double, 8>& z, double slope) {
+  double right = v[0] + slope * z[0], left = -v[0] + slope * z[0];
+  for (std::size_t i = 1; i < 8; ++i) {
+    right = std::max(right, v[i] + slope * z[i]);
+    left = std::max(left, -v[i] + slope * z[i]);
+  }
+  return (right + left) / (2 * slope);
+}
+
+/// Puts the camera at `eye`, given along its own axes from `origin`.
+void place(Camera& camera, const Axes& axes, Point origin, Point eye) {
+  const Point at = origin + axes.right * eye.x + axes.above * eye.y + axes.back * eye.z;
+  const float3 r = to_float3(axes.right), a = to_float3(axes.above), b = to_float3(axes.back), t = to_float3(at);
+  camera.world_from_camera = {
+      {float4{r.x, r.y, r.z, 0}, float4{a.x, a.y, a.z, 0}, float4{b.x, b.y, b.z, 0}, float4{t.x, t.y, t.z, 1}}};
+}
+
+}  // namespace
+
+float4x4 Camera::clip_from_camera(float picture_aspect) const {
+  // All that the file's own frame shows is in the picture: a wider picture adds at the sides, a narrower one above.
+  const bool narrower = aspect > 0 && picture_aspect < aspect;
+  if (is_orthographic) {
+    const float height = narrower ? half_height * aspect / picture_aspect : half_height;
+    return orthographic(height * picture_aspect, height, near, far);
+  }
+  float4x4 m = perspective(vertical_fov, narrower ? aspect : picture_aspect, near, far);
+  if (narrower) m.column[1].y = m.column[0].x * picture_aspect;
+  return m;
+}
+
+Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit) {
+  Camera camera;
+  camera.name = "fit";
+  camera.is_orthographic = fit.is_orthographic;
+  camera.vertical_fov = fit.vertical_fov;
+  const Axes axes = view_axes(fit);
+  const Point low = to_point(box.low), high = to_point(box.high);
+  const Point origin = box.empty() ? Point{} : (low + high) * 0.5;
+  const double diagonal = box.empty() ? 0 : std::sqrt(dot(high - low, high - low));
+  if (!(diagonal > 0)) {
+    place(camera, axes, origin, {0, 0, 1});
+    camera.near = 0.5f, camera.far = 2;
+    return camera;
+  }
+
+  Corners c;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Point p = to_point(box.corner(static_cast<int>(i))) - origin;
+    c.x[i] = dot(p, axes.right), c.y[i] = dot(p, axes.above), c.z[i] = dot(p, axes.back);
+  }
+  const double nearest = *std::max_element(c.z.begin(), c.z.end());
+  const double farthest = *std::min_element(c.z.begin(), c.z.end());
+  const double share = 1 - 2 * static_cast<double>(fit.margin);
+  const double aspect = picture_aspect;
+
+  // The box is symmetric about its centre, so an orthographic eye needs no move sideways. A box without extent across
+  // the view (a line seen end on) would have no distance or height of its own: a thousandth of its size is the least.
+  const double least = diagonal / 1000;
+  Point eye;
+  if (fit.is_orthographic) {
+    const double half_x = *std::max_element(c.x.begin(), c.x.end());
+    const double half_y = *std::max_element(c.y.begin(), c.y.end());
+    camera.half_height = static_cast<float>(std::max({half_y, half_x / aspect, least}) / share);
+    eye.z = nearest + diagonal;
+  } else {
+    const SineCosine half_fov = sine_cosine(static_cast<double>(fit.vertical_fov) / 2);
+    const double slope = half_fov.sine / half_fov.cosine * share;
+    eye.z = std::max({distance_for(c.x, c.z, slope * aspect), distance_for(c.y, c.z, slope), nearest + least});
+    eye.x = centred(c.x, c.z, eye.z);
+    eye.y = centred(c.y, c.z, eye.z);
+  }
+  place(camera, axes, origin, eye);
+  camera.near = static_cast<float>((eye.z - nearest) / 2);
+  camera.far = static_cast<float>((eye.z - farthest) * 1.5);
+  return camera;
+}
+
+}  // namespace zoneplate

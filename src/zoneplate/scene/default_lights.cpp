@@ -1,0 +1,28 @@
+#include "zoneplate/scene/default_lights.h"
+
+namespace zoneplate {
+namespace {
+
+// Where each light stands as seen from the camera (x right, y up, z towards the viewer), and its illuminance.
+struct Lamp {
+  const char* name;
+  float3 from;
+  float lux;
+};
+constexpr Lamp lamps[] = {
+    {"key", {-0.45f, 0.55f, 0.85f}, 2.2f}, {"fill", {0.9f, -0.15f, 0.6f}, 0.4f}, {"back", {0.2f, 0.8f, -0.7f}, 1.0f}};
+
+}  // namespace
+
+std::vector<Light> default_lights(const Camera& camera) {
+  std::vector<Light> lights;
+  for (const Lamp& lamp : lamps) {
+    Light& light = lights.emplace_back();
+    light.name = lamp.name;
+    light.intensity = lamp.lux;
+    light.direction = normalize(transform_vector(camera.world_from_camera, -lamp.from), {0, -1, 0});
+  }
+  return lights;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,225 @@
+#include "zoneplate/scene/gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "zoneplate/scene/gltf_accessor.h"
+#include "zoneplate/scene/gltf_file.h"
+#include "zoneplate/scene/gltf_material.h"
+#include "zoneplate/scene/gltf_mesh.h"
+#include "zoneplate/scene/gltf_nodes.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr const char* supported_extensions[] = {
+    "KHR_texture_transform",           "KHR_materials_unlit",    "KHR_lights_punctual", "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing"};
+
+void check_extensions(GltfFile& file) {
+  const auto is_supported = [](const std::string& name) {
+    return std::any_of(std::begin(supported_extensions), std::end(supported_extensions),
+                       [&](const char* s) { return name == s; });
+  };
+  for (const std::string& name : file.root().texts("extensionsRequired"))
+    if (!is_supported(name)) file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
+  for (const std::string& name : file.root().texts("extensionsUsed"))
+    if (!is_supported(name))
+      file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, passed over");
+}
+
+/// The rotation and translation of a transform; scale and mirroring are taken out, the axis -Z keeps its direction.
+float4x4 rigid(const float4x4& m) {
+  const float3 back = normalize(xyz(m.column[2]), {0, 0, 1});
+  float3 right = cross(normalize(xyz(m.column[1]), {0, 1, 0}), back);
+  if (!(dot(right, right) > 1e-12f)) right = cross(std::abs(back.y) < 0.9f ? float3{0, 1, 0} : float3{0, 0, 1}, back);
+  right = normalize(right);
+  const float3 up = cross(back, right);
+  return {{float4{right.x, right.y, right.z, 0}, float4{up.x, up.y, up.z, 0}, float4{back.x, back.y, back.z, 0},
+           m.column[3]}};
+}
+
+Camera read_camera(const JsonView& json, const float4x4& world_from_node) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Camera c;
+  c.name = json.text("name");
+  c.world_from_camera = rigid(world_from_node);
+  const std::string type = json.text("type");
+  if (type != "perspective" && type != "orthographic")
+    json.fail("type is " + quoted(type) + ", wants perspective or orthographic");
+  c.is_orthographic = type == "orthographic";
+  const JsonView lens = json.object(type.c_str());
+  c.near = lens.number("znear");
+  if (c.is_orthographic) {
+    const float half_width = std::abs(lens.number("xmag"));
+    c.half_height = std::abs(lens.number("ymag"));
+    c.far = lens.number("zfar");
+    if (!(half_width > 0 && c.half_height > 0)) lens.fail("xmag and ymag must not be 0");
+    c.aspect = half_width / c.half_height;
+  } else {
+    c.vertical_fov = lens.number("yfov");
+    c.aspect = lens.number("aspectRatio", 0.0f);
+    c.far = lens.number("zfar", infinity);
+    if (!(c.vertical_fov > 0 && c.vertical_fov < 3.1415925f)) lens.fail("yfov must lie between 0 and pi");
+    if (!(c.near > 0)) lens.fail("znear must be greater than 0");
+    if (!(c.aspect >= 0)) lens.fail("aspectRatio must be greater than 0");
+  }
+  if (!(c.near >= 0 && c.far > c.near)) lens.fail("zfar must be greater than znear, and znear not less than 0");
+  return c;
+}
+
+Light read_light(const JsonView& json, const float4x4& world_from_node) {
+  Light light;
+  light.name = json.text("name");
+  const std::string type = json.text("type");
+  if (type != "directional" && type != "point" && type != "spot")
+    json.fail("type is " + quoted(type) + ", wants directional, point or spot");
+  light.kind = type == "directional" ? LightKind::Directional : type == "point" ? LightKind::Point : LightKind::Spot;
+  if (const std::vector<float> c = json.numbers("color", 3); !c.empty())
+    light.color = {std::max(c[0], 0.0f), std::max(c[1], 0.0f), std::max(c[2], 0.0f)};
+  light.intensity = std::max(json.number("intensity", 1.0f), 0.0f);
+  light.range = json.number("range", std::numeric_limits<float>::infinity());
+  if (!(light.range > 0)) json.fail("range must be greater than 0");
+  light.position = xyz(world_from_node.column[3]);
+  light.direction = normalize(-xyz(world_from_node.column[2]), {0, 0, -1});
+  const JsonView spot = json.object("spot");
+  light.inner_cone = spot.number("innerConeAngle", 0.0f);
+  light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
+  if (!(light.inner_cone >= 0 && light.inner_cone < light.outer_cone && light.outer_cone <= 1.5707964f))
+    spot.fail("wants 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+  return light;
+}
+
+class SceneReader {
+ public:
+  explicit SceneReader(GltfFile& file) : file_(file), nodes_(file) {}
+  Scene read();
+
+ private:
+  void add_node(const GltfNode& node);
+  void add_mesh(const GltfNode& node, std::size_t mesh);
+  std::pair<std::size_t, std::size_t> find_meshes(const GltfNode& node, std::size_t mesh, bool is_skinned);
+  void add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object);
+  std::vector<float4x4> read_placements(const GltfNode& node);
+
+  GltfFile& file_;
+  GltfNodes nodes_;
+  Scene scene_;
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> ready_;  ///< file's mesh: its meshes in the scene
+  std::vector<Box> boxes_;                                            ///< of each mesh in the scene
+};
+
+/// EXT_mesh_gpu_instancing: transforms of copies, relative to the node; one identity without the extension.
+std::vector<float4x4> SceneReader::read_placements(const GltfNode& node) {
+  const auto extension = node.json.extension("EXT_mesh_gpu_instancing");
+  if (!extension) return {float4x4{}};
+  const JsonView list = extension->object("attributes");
+  const auto read = [&](const char* key, auto reader) -> decltype(reader(file_, list, key, ElementRange{})) {
+    if (!list.has(key)) return {};
+    return reader(file_, list, key, ElementRange{});
+  };
+  const std::vector<float3> moves = read("TRANSLATION", read_float3), scales = read("SCALE", read_float3);
+  const std::vector<float4> turns = read("ROTATION", read_float4);
+  const std::size_t count = std::max({moves.size(), scales.size(), turns.size()});
+  for (const std::size_t n : {moves.size(), scales.size(), turns.size()})
+    if (n != 0 && n != count) list.fail("TRANSLATION, ROTATION and SCALE differ in their number of elements");
+  file_.budget().take(count * (sizeof(float4x4) + sizeof(Instance)));
+  std::vector<float4x4> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float4 q = turns.empty() ? float4{0, 0, 0, 1} : turns[i];
+    out[i] = translation(moves.empty() ? float3{} : moves[i]) * rotation(Quaternion{q.x, q.y, q.z, q.w}) *
+             scaling(scales.empty() ? float3{1, 1, 1} : scales[i]);
+  }
+  return out;
+}
+
+/// The scene's meshes for a mesh of the file, [first, end); read at their first use, or for a pose of their own.
+std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh, bool is_skinned) {
+  GltfPose pose{.weights = node.json.numbers("weights", 0), .joints = {}};
+  if (is_skinned) pose.joints = nodes_.joints(node);
+  const bool is_plain = pose.weights.empty() && pose.joints.empty();
+  if (const auto found = ready_.find(mesh); is_plain && found != ready_.end()) return found->second;
+
+  const std::size_t first = scene_.meshes.size();
+  for (Mesh& m : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
+    Box box;
+    for (const std::uint32_t i : m.index) box.add(m.position[i]);
+    boxes_.push_back(box);
+    scene_.meshes.push_back(std::move(m));
+  }
+  const std::pair range(first, scene_.meshes.size());
+  if (is_plain) ready_[mesh] = range;
+  return range;
+}
+
+void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
+  // Squares of what is farther away would not fit into a float.
+  constexpr float farthest = 1e18f;
+  for (int i = 0; i < 8; ++i) {
+    const float3 p = transform_point(world_from_object, boxes_[mesh].corner(i));
+    if (std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest) continue;
+    file_.warn(node.json.place() + ": lies farther than 1e18 from the origin or nowhere, dropped");
+    return;
+  }
+  scene_.instances.push_back({static_cast<int>(mesh), object, world_from_object});
+}
+
+void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
+  const bool is_skinned = node.json.has("skin");
+  const auto range = find_meshes(node, mesh, is_skinned);
+  const std::string mesh_name = file_.root().element("meshes", mesh, "mesh").text("name");
+  for (const float4x4& placement : read_placements(node)) {
+    file_.budget().take(sizeof(Instance) * (range.second - range.first) + sizeof(std::string));
+    const int object = static_cast<int>(scene_.objects.size());
+    scene_.objects.push_back(
+        node.json.text("name", mesh_name.empty() ? "node " + std::to_string(node.number) : mesh_name));
+    // A skinned mesh is in the world already: its node's own transform does not count.
+    const float4x4 world_from_object = is_skinned ? float4x4{} : node.world_from_node * placement;
+    for (std::size_t m = range.first; m < range.second; ++m) add_instance(node, m, object, world_from_object);
+  }
+}
+
+void SceneReader::add_node(const GltfNode& node) {
+  file_.budget().check_time();
+  if (const auto camera = node.json.find_index("camera", file_.count("cameras")))
+    scene_.cameras.push_back(read_camera(file_.root().element("cameras", *camera, "camera"), node.world_from_node));
+  if (const auto use = node.json.extension("KHR_lights_punctual")) {
+    const auto all = file_.root().extension("KHR_lights_punctual");
+    const std::size_t count = all ? all->count("lights") : 0;
+    const std::size_t light = use->index("light", count);
+    scene_.lights.push_back(read_light(all->element("lights", light, "light"), node.world_from_node));
+  }
+  if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
+}
+
+Scene SceneReader::read() {
+  check_extensions(file_);
+  GltfMaterials look = load_materials(file_);
+  scene_.materials = std::move(look.materials);
+  scene_.images = std::move(look.images);
+  for (const GltfNode& node : nodes_.in_scene()) add_node(node);
+
+  // The default material comes last, where something needs it.
+  const auto last = static_cast<int>(scene_.materials.size());
+  const bool needs_default =
+      std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [&](const Mesh& m) { return m.material == last; });
+  if (needs_default) scene_.materials.emplace_back().name = "default";
+  if (scene_.instances.empty()) file_.warn(file_.root().place() + " nothing in the scene can be drawn");
+  if (file_.count("animations") != 0)
+    file_.warn(file_.root().place() + " animations are not played, the default pose is drawn");
+  scene_.warnings = file_.take_warnings();
+  return std::move(scene_);
+}
+
+}  // namespace
+
+Scene load_gltf(const std::string& path, const LoadLimits& limits) {
+  GltfFile file(path, limits);
+  return SceneReader(file).read();
+}
+
+}  // namespace zoneplate

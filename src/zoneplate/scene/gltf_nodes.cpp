@@ -1,0 +1,86 @@
+#include "zoneplate/scene/gltf_nodes.h"
+
+#include <limits>
+#include <string>
+
+#include "zoneplate/scene/gltf_accessor.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+float4x4 read_transform(const JsonView& json) {
+  if (const std::vector<float> m = json.numbers("matrix", 16); !m.empty())
+    return {{float4{m[0], m[1], m[2], m[3]}, float4{m[4], m[5], m[6], m[7]}, float4{m[8], m[9], m[10], m[11]},
+             float4{m[12], m[13], m[14], m[15]}}};
+  const std::vector<float> t = json.numbers("translation", 3), r = json.numbers("rotation", 4),
+                           s = json.numbers("scale", 3);
+  float4x4 out = t.empty() ? float4x4{} : translation({t[0], t[1], t[2]});
+  if (!r.empty()) out = out * rotation(Quaternion{r[0], r[1], r[2], r[3]});
+  if (!s.empty()) out = out * scaling({s[0], s[1], s[2]});
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::size_t> GltfNodes::roots() const {
+  const std::size_t count = file_.count("nodes");
+  if (const auto scene = file_.root().find_index("scene", file_.count("scenes")))
+    return file_.root().element("scenes", *scene, "scene").indices("nodes", count);
+  if (file_.count("scenes") > 0) return file_.root().element("scenes", 0, "scene").indices("nodes", count);
+  std::vector<bool> is_child(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::size_t c : file_.root().element("nodes", i, "node").indices("children", count)) is_child[c] = true;
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!is_child[i]) out.push_back(i);
+  return out;
+}
+
+GltfNodes::GltfNodes(GltfFile& file) : file_(file), place_(file.count("nodes"), none) {
+  struct Pending {
+    std::size_t number;
+    int depth;
+    float4x4 world_from_parent;
+  };
+  std::vector<Pending> pending;
+  const auto push = [&](const std::vector<std::size_t>& numbers, int depth, const float4x4& world_from_parent) {
+    for (std::size_t i = numbers.size(); i-- > 0;) pending.push_back({numbers[i], depth, world_from_parent});
+  };
+  push(roots(), 1, {});
+  while (!pending.empty()) {
+    const Pending next = pending.back();
+    pending.pop_back();
+    const JsonView json = file.root().element("nodes", next.number, "node");
+    if (place_[next.number] != none) json.fail("is reached twice, a node may have one parent only");
+    if (next.depth > file.budget().limits().node_depth)
+      json.fail("lies deeper than the limit of " + std::to_string(file.budget().limits().node_depth) + " nodes");
+    file.budget().check_time();
+    file.budget().take(sizeof(GltfNode) + 64);
+    place_[next.number] = nodes_.size();
+    nodes_.push_back({next.number, json, next.world_from_parent * read_transform(json)});
+    push(json.indices("children", place_.size()), next.depth + 1, nodes_.back().world_from_node);
+  }
+}
+
+std::vector<float4x4> GltfNodes::joints(const GltfNode& node) const {
+  const JsonView skin = file_.root().element("skins", node.json.index("skin", file_.count("skins")), "skin");
+  const std::vector<std::size_t> numbers = skin.indices("joints", place_.size());
+  if (numbers.empty()) skin.fail("has no joints");
+  std::vector<float4x4> out;
+  if (skin.has("inverseBindMatrices")) out = read_float4x4(file_, skin, "inverseBindMatrices");
+  if (!out.empty() && out.size() < numbers.size())
+    skin.fail("inverseBindMatrices has " + std::to_string(out.size()) + " elements, wants " +
+              std::to_string(numbers.size()));
+  out.resize(numbers.size());
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    if (place_[numbers[j]] == none)
+      file_.warn(skin.place() + ": joint " + std::to_string(numbers[j]) + " is not in the scene, taken at the origin");
+    else
+      out[j] = nodes_[place_[numbers[j]]].world_from_node * out[j];
+  }
+  return out;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zoneplate/math/transform.h"
+#include "zoneplate/scene/gltf_file.h"
+
+namespace zoneplate {
+
+/// A node of the scene, placed in the world.
+struct GltfNode {
+  std::size_t number;  ///< in the file
+  JsonView json;
+  float4x4 world_from_node;
+};
+
+/// The nodes of a file's default scene, each after its parent, in the order of a walk depth first.
+///
+/// The scene is the one that the file names, else its first, else all nodes that are nobody's child.
+class GltfNodes {
+ public:
+  /// Errors    Trouble::Input: a node that is reached twice (cycles included), deeper than the limit, a bad index.
+  explicit GltfNodes(GltfFile& file);
+
+  const std::vector<GltfNode>& in_scene() const { return nodes_; }
+
+  /// World from mesh for each joint of the node's skin.
+  std::vector<float4x4> joints(const GltfNode& node) const;
+
+ private:
+  std::vector<std::size_t> roots() const;
+
+  GltfFile& file_;
+  std::vector<GltfNode> nodes_;
+  std::vector<std::size_t> place_;  ///< of each of the file's nodes in nodes_; none: not in the scene
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zoneplate/scene/mesh.h"
+
+namespace zoneplate {
+
+/// What a glTF primitive of the given mode is made of.
+///
+/// Requires  mode in [0, 6]: points, lines, line loop, line strip, triangles, triangle strip, triangle fan.
+Topology gltf_topology(int mode);
+
+/// The vertices of a glTF primitive as a list, 1, 2 or 3 entries for each point, line or triangle.
+///
+/// Every triangle keeps its winding: the strip's i-th is (i, i + 1 + i % 2, i + 2 - i % 2), the fan's
+/// (i + 1, i + 2, 0). Vertices left over at the end are passed over.
+std::vector<std::uint32_t> list_primitives(std::span<const std::uint32_t> order, int mode);
+
+}  // namespace zoneplate

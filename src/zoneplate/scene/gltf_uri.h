@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zoneplate {
+
+/// The text with every %XX replaced by its byte; a % that is not followed by two hexadecimal digits stays.
+std::string decode_percent(std::string_view text);
+
+/// The bytes of a base64 text; white space is passed over, the padding may be missing. Nothing if it is not base64.
+std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
+
+/// Whether the text begins with a scheme, as in http://host/file or data:,x.
+bool has_scheme(std::string_view uri);
+
+/// The file that a relative, percent-encoded URI names, seen from `folder`; nothing if it leads out of that folder
+/// (absolute, through "..", or through a symbolic link) and `allow_path` does not permit it, or holds a zero byte.
+std::optional<std::string> find_path(const std::string& folder, std::string_view uri, bool allow_path);
+
+}  // namespace zoneplate

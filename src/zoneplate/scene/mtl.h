@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate {
+
+/// The use of an image as an MTL file states it; its file name is as written there. Empty: none.
+struct MtlTexture {
+  std::string file;
+  float2 offset{0, 0}, scale{1, 1};  ///< -o, -s: the coordinate is offset + scale × uv, origin at the bottom left
+  bool clamp = false;                ///< -clamp on
+  float strength = 1;                ///< -bm
+};
+
+/// What an MTL file says of a material; colours are as in the file.
+struct MtlMaterial {
+  std::string name;
+  std::optional<float3> diffuse, ambient, specular, emissive;       ///< Kd Ka Ks Ke
+  std::optional<float> exponent, opacity, transparency;             ///< Ns d Tr
+  std::optional<float> roughness, metallic;                         ///< Pr Pm
+  std::optional<int> illumination;                                  ///< illum
+  MtlTexture diffuse_map, emissive_map, opacity_map, normal_map;    ///< map_Kd map_Ke map_d norm
+  std::vector<std::string> unsupported;                             ///< keys of maps that are not drawn
+};
+
+/// Reads the materials of an MTL file. What is wrong in it is passed over with a warning that names `file` and line.
+std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings);
+
+}  // namespace zoneplate

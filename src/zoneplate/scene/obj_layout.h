@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zoneplate/scene/obj_normals.h"
+#include "zoneplate/scene/obj_parse.h"
+
+namespace zoneplate {
+
+/// What belongs together: the elements of a file by object, material and smoothing, in the order of the file.
+struct ObjLayout {
+  std::vector<ObjRun> runs;
+  std::vector<std::string> objects;    ///< names, in the order in which they get their first element
+  std::vector<std::string> materials;  ///< likewise; "" is no material
+  std::vector<std::string> libraries;  ///< what each mtllib statement says
+};
+
+/// Objects are those of `o`; in a file without any `o`, the groups of `g`. What comes before the first is `unnamed`.
+ObjLayout lay_out(const ObjFile& file, const std::string& unnamed);
+
+}  // namespace zoneplate

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/fetch.h"
+#include "zoneplate/shade/filtering.h"
+#include "zoneplate/shade/surface.h"
+#include "zoneplate/shade/surface_kernels.h"
+#include "zoneplate/shade/texture.h"
+
+namespace zoneplate {
+
+/// The textures of a scene's materials; an image that serves as colour and as data is there twice.
+class TextureSet {
+ public:
+  /// Decodes what the materials use, in parallel. With `raw_colors` colours are data.
+  TextureSet(const Scene& scene, bool raw_colors);
+
+  /// Null where the use names no image.
+  const Texture* find(const TextureUse& use, TexelMeaning meaning) const;
+
+ private:
+  using Key = std::pair<int, TexelMeaning>;
+  TexelMeaning meaning_of(TexelMeaning meaning) const { return raw_colors_ ? TexelMeaning::Values : meaning; }
+  bool raw_colors_;
+  std::map<Key, std::unique_ptr<Texture>> textures_;
+};
+
+/// One texture of a material. `texture` null: absent.
+struct TextureSlot {
+  const Texture* texture = nullptr;
+  Filtering filtering;
+  CoordinateMap map;
+  bool is_mapped = false;  ///< the map is not the identity
+  int uv_set = 0;
+};
+
+/// The map of a use: scaled, rotated, moved; u' = cos u + sin v, v' = cos v - sin u (KHR_texture_transform).
+CoordinateMap coordinate_map(const TextureUse& use);
+
+/// Whether two slots look up the same texels with the same weights.
+bool share_taps(const TextureSlot& a, const TextureSlot& b);
+
+/// What is decided once for a material: which stages its points go through, with which constants.
+struct MaterialPlan {
+  ShadingModel model = ShadingModel::Unlit;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  TextureSlot base_color, metallic_roughness, emissive, occlusion, normal;
+
+  float factor[4] = {1, 1, 1, 1};
+  float metallic = 1, roughness = 1;
+  float emissive_factor[3] = {0, 0, 0};
+  float normal_scale = 1, occlusion_strength = 1;
+  float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
+  float exponent = 1;
+
+  bool is_lit = false;        ///< lights or an environment change its colour
+  bool has_specular = false;  ///< (Blinn-)Phong
+  bool has_emissive = false;
+  bool has_bare_meshes = false;  ///< some of its meshes have no normals
+  bool needs_viewer = false;     ///< for the colour
+  Attributes attributes;         ///< for the colour
+};
+
+/// The plans of a scene's materials, by material.
+std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures);
+
+}  // namespace zoneplate

@@ -1,0 +1,152 @@
+#include "zoneplate/shade/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/transfer.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::size_t rows_per_range = 32;
+
+/// The texels of one axis that a texel of the next level covers: `count` of them from `first`, by integer weights.
+struct Cover {
+  std::int32_t first, count;
+  std::uint64_t weight[3];
+};
+
+/// Along an axis of n texels. The weights sum to `total_weight(n)`.
+Cover cover(std::int32_t n, std::int32_t i) {
+  if (n == 1) return {0, 1, {1, 0, 0}};
+  if (n % 2 == 0) return {2 * i, 2, {1, 1, 0}};
+  const std::int32_t half = n / 2;
+  return {2 * i,
+          3,
+          {static_cast<std::uint64_t>(half - i), static_cast<std::uint64_t>(half), static_cast<std::uint64_t>(i + 1)}};
+}
+
+std::uint64_t total_weight(std::int32_t n) { return n == 1 ? 1 : n % 2 == 0 ? 2 : static_cast<std::uint64_t>(n); }
+
+struct Size {
+  std::int32_t width, height;
+};
+
+/// Both sizes even: the mean of four.
+template <class Code>
+void halve_row(const Code* upper, const Code* lower, std::int32_t out_width, Code* out) {
+  for (std::int32_t x = 0; x < out_width; ++x)
+    for (int c = 0; c < 4; ++c) {
+      const std::ptrdiff_t at = std::ptrdiff_t{8} * x + c;
+      const std::uint32_t sum = std::uint32_t{upper[at]} + upper[at + 4] + lower[at] + lower[at + 4];
+      out[std::ptrdiff_t{4} * x + c] = static_cast<Code>((sum + 2) >> 2);
+    }
+}
+
+/// Any size: weighted means.
+template <class Code>
+void shrink_row(const Code* source, Size size, std::int32_t y, std::int32_t out_width, Code* out) {
+  const Cover rows = cover(size.height, y);
+  const std::uint64_t total = total_weight(size.width) * total_weight(size.height);
+  for (std::int32_t x = 0; x < out_width; ++x) {
+    const Cover columns = cover(size.width, x);
+    for (int c = 0; c < 4; ++c) {
+      std::uint64_t sum = total / 2;
+      for (std::int32_t j = 0; j < rows.count; ++j)
+        for (std::int32_t i = 0; i < columns.count; ++i) {
+          const std::ptrdiff_t texel = std::ptrdiff_t{rows.first + j} * size.width + columns.first + i;
+          sum += rows.weight[j] * columns.weight[i] * source[4 * texel + c];
+        }
+      out[std::ptrdiff_t{4} * x + c] = static_cast<Code>(sum / total);
+    }
+  }
+}
+
+/// Makes all levels from level 0, each from the one before.
+template <class Code>
+void make_levels(Code* codes, const TextureView& view) {
+  for (std::int32_t l = 1; l < view.levels; ++l) {
+    const Size size{view.width[l - 1], view.height[l - 1]}, out_size{view.width[l], view.height[l]};
+    const Code* source = codes + std::ptrdiff_t{4} * view.offset[l - 1];
+    Code* target = codes + std::ptrdiff_t{4} * view.offset[l];
+    const bool is_even = size.width % 2 == 0 && size.height % 2 == 0;
+    parallel_ranges(static_cast<std::size_t>(out_size.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t y = begin; y < end; ++y) {
+        Code* out = target + 4 * y * static_cast<std::size_t>(out_size.width);
+        const std::size_t pitch = 4 * static_cast<std::size_t>(size.width);
+        const Code* upper = source + 2 * y * pitch;
+        if (is_even) {
+          halve_row(upper, upper + pitch, out_size.width, out);
+        } else {
+          shrink_row(source, size, static_cast<std::int32_t>(y), out_size.width, out);
+        }
+      }
+    });
+  }
+}
+
+/// Fills the sizes and offsets of all levels; gives the number of texels.
+std::size_t lay_out(int width, int height, TextureView& view) {
+  std::int64_t texels = 0;
+  for (std::int32_t w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
+    view.width[view.levels] = w;
+    view.height[view.levels] = h;
+    view.offset[view.levels++] = static_cast<std::int32_t>(texels);
+    texels += std::int64_t{w} * h;
+    if (w == 1 && h == 1) break;
+  }
+  assert(texels < (std::int64_t{1} << 31));
+  return static_cast<std::size_t>(texels);
+}
+
+/// Each 8-bit sRGB code as 16-bit linear light. Neighbouring codes differ by 19 or more, so none is lost.
+std::array<std::uint16_t, 256> linear_codes() {
+  std::array<std::uint16_t, 256> table;
+  for (int code = 0; code < 256; ++code)
+    table[static_cast<std::size_t>(code)] =
+        static_cast<std::uint16_t>(65535.0f * decode_srgb8(static_cast<std::uint8_t>(code)) + 0.5f);
+  return table;
+}
+
+}  // namespace
+
+Texture::Texture(const Rgba8Image& image, TexelMeaning meaning) {
+  const Rgba8Image white(1, 1, Rgba8{255, 255, 255, 255});
+  const Rgba8Image& source = image.empty() ? white : image;
+  const std::size_t codes = 4 * lay_out(source.width(), source.height(), view_);
+  const std::size_t width = static_cast<std::size_t>(source.width());
+  const std::size_t height = static_cast<std::size_t>(source.height());
+
+  // Level 0 is the image itself, decoded where it holds colours.
+  const auto fill = [&](auto* target, const auto& decode, const auto& widen) {
+    parallel_ranges(height, rows_per_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t y = begin; y < end; ++y) {
+        const auto row = source.row(static_cast<int>(y));
+        for (std::size_t x = 0; x < width; ++x) {
+          auto* out = target + 4 * (y * width + x);
+          out[0] = decode(row[x].r), out[1] = decode(row[x].g), out[2] = decode(row[x].b), out[3] = widen(row[x].a);
+        }
+      }
+    });
+  };
+  if (meaning == TexelMeaning::Color) {
+    codes16_.resize(codes);
+    view_.codes16 = codes16_.data();
+    const auto table = linear_codes();
+    const auto widen = [](std::uint8_t code) { return static_cast<std::uint16_t>(code * 257); };
+    fill(
+        codes16_.data(), [&](std::uint8_t code) { return table[code]; }, widen);
+    make_levels(codes16_.data(), view_);
+  } else {
+    codes8_.resize(codes);
+    view_.codes8 = codes8_.data();
+    const auto same = [](std::uint8_t code) { return code; };
+    fill(codes8_.data(), same, same);
+    make_levels(codes8_.data(), view_);
+  }
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,288 @@
+// The command as its users meet it: streams, exit codes, files, signals. Runs the built program.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct Result {
+  int code = -1;
+  std::string out, err;
+};
+
+// Runs the program in an empty folder of its own, which is removed at the end.
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "zoneplate_cli_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+    fs::create_directory(place / "work");
+  }
+  void TearDown() override { fs::remove_all(place); }
+
+  // Starts the program with stdout to `out` (a path) and stderr to a file.
+  pid_t start(Words words, const std::string& out, const Words& environment = {}) const {
+    const std::string err = (place / "stderr").string(), work = (place / "work").string();
+    words.insert(words.begin(), ZONEPLATE_PROGRAM);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    for (const std::string& setting : environment) ::putenv(const_cast<char*>(setting.c_str()));
+    ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    if (::chdir(work.c_str()) == 0) ::execv(ZONEPLATE_PROGRAM, arguments.data());
+    ::_exit(127);
+  }
+
+  Result finish(pid_t child) const {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    return {code, text_of(place / "stdout"), text_of(place / "stderr")};
+  }
+
+  Result run(const Words& words, const Words& environment = {}) const {
+    return finish(start(words, (place / "stdout").string(), environment));
+  }
+
+  // The names of the files that the program left in its folder.
+  Words files() const {
+    Words names;
+    for (const auto& entry : fs::directory_iterator(place / "work")) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  fs::path place;
+};
+
+bool is_png(const std::string& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.size() > 100; }
+
+const Words small = {"triangles", "--size", "32,24", "--progress", "none"};
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(Cli, WithoutArgumentsPrintsAShortHelp) {
+  const Result result = run({});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.out.find("Usage: zoneplate"), std::string::npos);
+  EXPECT_NE(result.out.find("-o teapot.png"), std::string::npos);
+  EXPECT_LT(std::count(result.out.begin(), result.out.end(), '\n'), 25);
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Cli, HelpGoesToStdout) {
+  for (const Words& words : {Words{"-h"}, Words{"--help"}, Words{"help"}, Words{"render", "-h"},
+                             Words{"render", "--help"}, Words{"help", "info"}, Words{"list", "--help"}}) {
+    const Result result = run(words);
+    EXPECT_EQ(result.code, 0);
+    EXPECT_NE(result.out.find("Usage: zoneplate"), std::string::npos);
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST_F(Cli, VersionTellsInstructionSetAndCompiler) {
+  const Result result = run({"--version"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(result.out.starts_with("zoneplate 0.")) << result.out;
+  EXPECT_NE(result.out.find(")\n"), std::string::npos);
+}
+
+TEST_F(Cli, WritesAPictureAndNothingElse) {
+  const Result result = run(with(small, {"-o", "a.png"}));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(files(), Words{"a.png"});
+  EXPECT_TRUE(is_png(text_of(place / "work/a.png")));
+}
+
+TEST_F(Cli, TheSameCallGivesTheSameBytesOnStdout) {
+  ASSERT_EQ(run(with(small, {"-o", "a.png"})).code, 0);
+  const Result result = run(with(small, {"-o", "-"}));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, text_of(place / "work/a.png"));
+}
+
+TEST_F(Cli, OptionsStandAnywhere) {
+  ASSERT_EQ(run(with(small, {"-o", "a.png"})).code, 0);
+  ASSERT_EQ(run({"--resolution=32x24", "-o", "b.png", "--progress=none", "--", "triangles"}).code, 0);
+  EXPECT_EQ(text_of(place / "work/a.png"), text_of(place / "work/b.png"));
+}
+
+TEST_F(Cli, JsonIsOneLineThatTellsWhatWasDone) {
+  const Result result = run(with(small, {"-o", "a.png", "--json", "--aov", "depth,object-id", "-t", "2"}));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["output"], "a.png");
+  EXPECT_EQ(json["width"], 32);
+  EXPECT_EQ(json["height"], 24);
+  EXPECT_EQ(json["method"], "msaa:n=8");
+  EXPECT_EQ(json["triangles"], 2);
+  EXPECT_EQ(json["layers"]["depth"], "a.depth.png");
+  EXPECT_GT(json["ms"]["total"], 0);
+  EXPECT_GT(json["peak_memory_bytes"], 1000000);
+  EXPECT_EQ(json["warnings"].size(), 0u);
+  EXPECT_EQ(files(), (Words{"a.depth.png", "a.object-id.png", "a.png"}));
+}
+
+TEST_F(Cli, JsonMakesWayForAPictureOnStdout) {
+  const Result result = run(with(small, {"-o", "-", "--json"}));
+  EXPECT_TRUE(is_png(result.out));
+  EXPECT_EQ(nlohmann::json::parse(result.err)["output"], "-");
+}
+
+TEST_F(Cli, ProgressIsForTerminalsUnlessAskedFor) {
+  const Result result = run({"triangles", "--size", "32,24", "-o", "a.png", "--progress", "json"});
+  std::istringstream lines(result.err);
+  std::string line;
+  int count = 0;
+  while (std::getline(lines, line)) {
+    ++count;
+    EXPECT_TRUE(nlohmann::json::parse(line).contains("stage"));
+  }
+  EXPECT_GE(count, 3);
+  EXPECT_EQ(run({"triangles", "--size", "32,24", "-o", "a.png"}).err, "");
+}
+
+TEST_F(Cli, ListAndInfoSpeakTextAndJson) {
+  EXPECT_NE(run({"list"}).out.find("msaa"), std::string::npos);
+  EXPECT_EQ(run({"list", "scenes"}).out.find("msaa"), std::string::npos);
+  const auto list = nlohmann::json::parse(run({"list", "--json"}).out);
+  EXPECT_EQ(list["methods"][0]["name"], "none");
+  EXPECT_GE(list["scenes"].size(), 6u);
+  EXPECT_EQ(list["formats"]["models"][0]["extension"], ".gltf");
+
+  EXPECT_NE(run({"info", "triangles"}).out.find("2 drawn"), std::string::npos);
+  const auto info = nlohmann::json::parse(run({"info", "triangles", "--json"}).out);
+  EXPECT_EQ(info["triangles"], 2);
+  EXPECT_EQ(info["vertices"], 6);
+  EXPECT_EQ(info["cameras"].size(), 1u);
+}
+
+// One error line, nothing on stdout, no file.
+struct Refusal {
+  int code;
+  Words words;
+  std::string message;
+};
+
+TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
+  { std::ofstream(place / "work/bad.gltf") << "{"; }
+  { std::ofstream(place / "work/text.xyz") << "x"; }
+  fs::create_directory(place / "work/folder.png");
+  const Words before = files();
+  const Refusal refusals[] = {
+      {2, {"triangles", "--outptu", "a.png"}, "unknown option --outptu; did you mean --output?"},
+      {2, {"rendr", "triangles", "-o", "a.png"}, "rendr: no such verb; did you mean render?"},
+      {2, {"triangles"}, "no output: give -o OUT.png, or -o - for stdout"},
+      {2, {"-o", "a.png"}, "no input: give a model or a built-in scene"},
+      {2, {"triangles", "teapot", "-o", "a.png"}, "one input at a time: triangles and teapot were given"},
+      {2, {"triangles", "-o", "a.xyz"}, "--output: a.xyz is not a format that can be written (.png)"},
+      {2, {"triangles", "-o", "-", "--aov", "depth"}, "--aov writes files beside OUT, which cannot be -"},
+      {2,
+       {"triangles", "-o", "a.png", "--size", "99999x1"},
+       "--resolution: 99999x1 is too large: a side has at most 16384 pixels"},
+      {2,
+       {"triangles", "-o", "a.png", "--crop", "799,0,2,1"},
+       "--crop: the rectangle is not inside the picture of 800x600"},
+      {2, {"triangles", "-o", "a.png", "--camera-index", "7"}, "--camera-index: the scene has cameras 0 to 0, not 7"},
+      {2,
+       {"triangles", "-o", "a.png", "--size", "16384,16384", "--max-memory", "1G"},
+       "a picture of 16384x16384 needs 11264 MB, --max-memory allows 1024 MB"},
+      {2, {"list", "method"}, "'method' is not one of methods, scenes, formats; did you mean methods?"},
+      {2, {"info"}, "info takes one input: a model or a built-in scene"},
+      {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
+      {3, {"text.xyz", "-o", "a.png"}, "text.xyz: not a format that can be read (.gltf, .glb, .obj)"},
+      {3, {"missing.xyz", "-o", "a.png"}, "missing.xyz: no such file, and no built-in scene of that name"},
+      {4, {"triangles", "-o", "folder.png"}, "folder.png: is a directory"},
+      {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: missing: No such file or directory"},
+  };
+  for (const Refusal& refusal : refusals) {
+    const Result result = run(refusal.words);
+    EXPECT_EQ(result.code, refusal.code) << refusal.message;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "zoneplate: error: " + refusal.message + "\n");
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(Cli, InputsThatCannotBeReadGive3AndTheirName) {
+  { std::ofstream(place / "work/bad.gltf") << "{"; }
+  { std::ofstream(place / "work/bad.obj") << "f 1 2 3\n"; }
+  fs::create_directory(place / "work/folder.glb");
+  const Words before = files();
+  for (const std::string name : {"missing.glb", "bad.gltf", "bad.obj", "folder.glb"}) {
+    const Result result = run({name, "-o", "a.png"});
+    EXPECT_EQ(result.code, 3) << name;
+    EXPECT_TRUE(result.err.starts_with("zoneplate: error: " + name + ": ")) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(Cli, AFullOrClosedStdoutGives4) {
+  const Result full = finish(start(with(small, {"-o", "-"}), "/dev/full"));
+  EXPECT_EQ(full.code, 4);
+  EXPECT_TRUE(full.err.starts_with("zoneplate: error: ")) << full.err;
+  EXPECT_EQ(finish(start({"list"}, "/dev/full")).code, 4);
+}
+
+TEST_F(Cli, ControlCharactersDoNotReachTheTerminal) {
+  const Result result = run({"a\x1b[2J\nb.glb", "-o", "a.png"});
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+}
+
+TEST_F(Cli, ColoursFollowTheEnvironment) {
+  const Words wrong = {"triangles"};
+  EXPECT_EQ(run(wrong).err.find('\x1b'), std::string::npos);
+  EXPECT_NE(run(wrong, {"CLICOLOR_FORCE=1"}).err.find("\x1b[1;31merror\x1b[0m"), std::string::npos);
+  EXPECT_EQ(run(wrong, {"CLICOLOR_FORCE=0"}).err.find('\x1b'), std::string::npos);
+  EXPECT_EQ(run(wrong, {"NO_COLOR=1"}).err.find('\x1b'), std::string::npos);
+}
+
+TEST_F(Cli, SignalsLeaveNoFile) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = start({"sphere:triangles=1000000", "--size", "8192,8192", "--aa", "ssaa:n=4", "-o", "a.png",
+                               "--max-memory", "16G", "--progress", "json", "-t", "1"},
+                              (place / "stdout").string());
+    // It is in the middle of the picture when its progress says so, and for seconds after.
+    for (int i = 0; i < 2000 && text_of(place / "stderr").find("render") == std::string::npos; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ::kill(child, signal);
+    EXPECT_EQ(finish(child).code, 128 + signal);
+    EXPECT_EQ(files(), Words{});
+  }
+}
+
+}  // namespace
