@@ -34,6 +34,15 @@ std::string objection(const Metric& metric, const Picture& reference, const Pict
   return {};
 }
 
+/// Refuses pictures of different sizes where no metric wants them so.
+void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test, std::size_t index) {
+  const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
+  const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
+  if (is_equal || std::ranges::any_of(choices, takes_any)) return;
+  throw Error(Trouble::Input, fmt::format("picture {} has {} pixels, wants {} as the reference", index + 1,
+                                          size_of(test), size_of(reference)));
+}
+
 bool has_same_codes(const Picture& a, const Picture& b) { return a.display == b.display; }
 
 void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string& why) {
@@ -73,11 +82,11 @@ void check_sizes(const Picture& first, const Picture& next, std::size_t index, s
 
 Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit) {
   assert(pictures.count > 0);
-  Comparison out{.are_same = true, .width = 0, .height = 0, .count = pictures.count, .results = {}};
+  Comparison out{.count = pictures.count};
   std::vector<Measurement> measurements;
   std::size_t window = 1;
   for (const Choice& choice : choices) {
-    Measurement m{.choice = &choice, .is_left_out = false, .result = {}};
+    Measurement m{.choice = &choice};
     m.result.metric = choice.metric;
     const auto frames = static_cast<std::size_t>(choice.metric->frames);
     if (frames > 1 && (!pictures.are_frames || pictures.count < frames)) {
@@ -97,6 +106,7 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
       check_sizes(reference[reference.size() - 2], reference.back(), i, "reference");
       check_sizes(test[test.size() - 2], test.back(), i, "test");
     }
+    check_pair(choices, reference.back(), test.back(), i);
     out.are_same = out.are_same && has_same_codes(reference.back(), test.back());
     out.width = test.back().width(), out.height = test.back().height();
     for (Measurement& m : measurements) measure(m, reference, test, i, unfit);

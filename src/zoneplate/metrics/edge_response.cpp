@@ -233,7 +233,7 @@ Metric edge_response() {
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             const auto wanted = measure_edge(reference[0].linear), found = measure_edge(test[0].linear);
             if (!wanted || !found) return std::nullopt;
-            Score score{.value = found->half_transfer, .more = {}, .curves = {}, .map = {}};
+            Score score{.value = found->half_transfer, .more = {}};
             score.more = {{"reference_mtf50", wanted->half_transfer, "cycles/pixel"},
                           {"mtf_nyquist", found->nyquist_transfer, ""},
                           {"reference_mtf_nyquist", wanted->nyquist_transfer, ""},

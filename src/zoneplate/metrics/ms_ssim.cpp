@@ -52,7 +52,7 @@ Metric ms_ssim() {
           .smallest = 176,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             const double value = multiscale_similarity(luma_plane(reference[0].display), luma_plane(test[0].display));
-            return Score{.value = value, .more = {}, .curves = {}, .map = {}};
+            return Score{.value = value};
           }};
 }
 

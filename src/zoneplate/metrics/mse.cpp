@@ -36,7 +36,7 @@ Metric mse() {
           .unit = "code²",
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             const double mse = mean_squared_error(reference[0].display, test[0].display);
-            return Score{.value = mse, .more = {{"rmse", std::sqrt(mse), "code"}}, .curves = {}, .map = {}};
+            return Score{.value = mse, .more = {{"rmse", std::sqrt(mse), "code"}}};
           }};
 }
 

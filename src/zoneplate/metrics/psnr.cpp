@@ -26,18 +26,16 @@ double pool_psnr(std::span<const double> frames) {
 }
 
 Metric psnr() {
-  return {
-      .name = "psnr",
-      .summary = "peak signal-to-noise ratio of sRGB codes, all colours together",
-      .source = "the definition: 10 log10(1 / mse)",
-      .unit = "dB",
-      .better = Better::Higher,
-      .perfect = std::numeric_limits<double>::infinity(),
-      .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-        return Score{
-            .value = peak_signal_to_noise(reference[0].display, test[0].display), .more = {}, .curves = {}, .map = {}};
-      },
-      .pool = pool_psnr};
+  return {.name = "psnr",
+          .summary = "peak signal-to-noise ratio of sRGB codes, all colours together",
+          .source = "the definition: 10 log10(1 / mse)",
+          .unit = "dB",
+          .better = Better::Higher,
+          .perfect = std::numeric_limits<double>::infinity(),
+          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
+            return Score{.value = peak_signal_to_noise(reference[0].display, test[0].display)};
+          },
+          .pool = pool_psnr};
 }
 
 }  // namespace zoneplate::metrics

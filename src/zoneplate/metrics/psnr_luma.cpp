@@ -27,10 +27,7 @@ Metric psnr_luma() {
           .better = Better::Higher,
           .perfect = std::numeric_limits<double>::infinity(),
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return Score{.value = luma_peak_signal_to_noise(reference[0].display, test[0].display),
-                         .more = {},
-                         .curves = {},
-                         .map = {}};
+            return Score{.value = luma_peak_signal_to_noise(reference[0].display, test[0].display)};
           },
           .pool = pool_psnr};
 }

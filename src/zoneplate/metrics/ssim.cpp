@@ -130,7 +130,7 @@ Metric ssim() {
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             Similarity s = structural_similarity(luma_plane(reference[0].display), luma_plane(test[0].display));
             for (float& value : s.map.values()) value = (1 - value) / 2;
-            return Score{.value = s.ssim, .more = {}, .curves = {}, .map = std::move(s.map)};
+            return Score{.value = s.ssim, .map = std::move(s.map)};
           }};
 }
 
