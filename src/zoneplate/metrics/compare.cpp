@@ -55,7 +55,8 @@ void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string
 /// Judges the last frames of the window, of which the newest is picture `index`.
 void measure(Measurement& m, Frames reference, Frames test, std::size_t index, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
-  const auto frames = static_cast<std::size_t>(metric.frames);
+  const auto wanted = static_cast<std::size_t>(metric.frames);
+  const std::size_t frames = metric.starts_short ? std::min(wanted, reference.size()) : wanted;
   if (m.is_left_out || reference.size() < frames) return;
   const std::string why = objection(metric, reference.back(), test.back());
   if (!why.empty()) return leave_out(m, unfit, index, why);
@@ -89,8 +90,9 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
     Measurement m{.choice = &choice};
     m.result.metric = choice.metric;
     const auto frames = static_cast<std::size_t>(choice.metric->frames);
-    if (frames > 1 && (!pictures.are_frames || pictures.count < frames)) {
-      leave_out(m, unfit, 0, fmt::format("is not one of {} or more frames of a sequence", frames));
+    const std::size_t least = choice.metric->starts_short ? 2 : frames;
+    if (frames > 1 && (!pictures.are_frames || pictures.count < least)) {
+      leave_out(m, unfit, 0, fmt::format("is not one of {} or more frames of a sequence", least));
     } else {
       window = std::max(window, frames);
     }

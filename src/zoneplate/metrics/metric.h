@@ -73,10 +73,12 @@ struct Metric {
   std::optional<double> perfect = 0.0;  ///< the value of a picture judged against itself, where there is one
   bool is_default = true;               ///< measured when the user names no metric
   int frames = 1;                       ///< consecutive frames looked at together
+  bool starts_short = false;            ///< the first pictures are judged too, with as many frames as there are
   int smallest = 1;                     ///< least width and height
   Sizes sizes = Sizes::Same;
   std::span<const Param> params = {};
-  /// Requires  `frames` pictures each, of sizes as asked above. Nothing where the picture has not what is measured.
+  /// Requires  `frames` pictures each (fewer where it starts short), of sizes as asked above. Nothing where the picture
+  /// has not what is measured.
   std::function<std::optional<Score>(Frames reference, Frames test, const Settings&)> measure;
   double (*pool)(std::span<const double> values) = mean_of;  ///< of a sequence's scores
 };

@@ -86,9 +86,8 @@ TEST(EveryMetric, APictureIsPerfectlyLikeItself) {
   const Picture picture = make_picture(noise(1, 180, 177));
   const std::vector<Picture> twice = {picture, picture};
   for (const Metric& metric : metrics()) {
-    const auto score = metric.measure(std::span(twice).first(static_cast<std::size_t>(metric.frames)),
-                                      std::span(twice).first(static_cast<std::size_t>(metric.frames)),
-                                      Settings(metric.name, metric.params));
+    const auto frames = std::span(twice).first(std::min<std::size_t>(2, static_cast<std::size_t>(metric.frames)));
+    const auto score = metric.measure(frames, frames, Settings(metric.name, metric.params));
     if (!metric.perfect) continue;
     ASSERT_TRUE(score) << metric.name;
     EXPECT_EQ(score->value, *metric.perfect) << metric.name;
@@ -113,7 +112,7 @@ TEST(EveryMetric, HasTheSameBitsOnAnyNumberOfThreads) {
     const auto measure_with = [&](int threads) {
       std::optional<Score> score;
       with_threads(threads, [&] {
-        const auto frames = static_cast<std::size_t>(metric.frames);
+        const auto frames = std::min<std::size_t>(2, static_cast<std::size_t>(metric.frames));
         score = metric.measure(std::span(a).first(frames), std::span(b).first(frames),
                                Settings(metric.name, metric.params));
       });
