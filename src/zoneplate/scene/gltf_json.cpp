@@ -97,7 +97,10 @@ const char* name_of(JsonValue::Kind kind) {
 std::string join(const std::string& place, const std::string& name) { return place + " " + name; }
 
 /// As a person would write it: 3, 1e+300, -0.5.
-std::string text_of(double number) { return nlohmann::json(number).dump(); }
+std::string text_of(double number) {
+  const bool is_whole = std::abs(number) < 1e15 && number == std::floor(number);
+  return is_whole ? std::to_string(static_cast<std::int64_t>(number)) : nlohmann::json(number).dump();
+}
 
 }  // namespace
 

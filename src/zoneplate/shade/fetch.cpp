@@ -7,29 +7,6 @@
 namespace zoneplate {
 namespace {
 
-/// Where the channels of one corner are written: `stride` apart.
-class Writer {
- public:
-  Writer(float* out, int stride) : out_(out), stride_(stride) {}
-  void put(float value) {
-    *out_ = value;
-    out_ += stride_;
-  }
-  void put(float2 v) { put(v.x), put(v.y); }
-  void put(float3 v) { put(v.x), put(v.y), put(v.z); }
-  void put(float4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
-
-  /// Value i, or `otherwise` where the mesh has no such attribute.
-  template <class T>
-  void put(const std::vector<T>& values, std::uint32_t i, T otherwise) {
-    put(i < values.size() ? values[i] : otherwise);
-  }
-
- private:
-  float* out_;
-  int stride_;
-};
-
 struct Triangle {
   std::uint32_t vertex[3];
 };
@@ -49,26 +26,47 @@ float4 face_tangent(const Mesh& mesh, const Triangle& t, int uv_set) {
   return {along.x, along.y, along.z, -sign};
 }
 
-/// `tangent`: of the face, for meshes that have none.
-void write_corner(const Mesh& mesh, std::uint32_t vertex, const Attributes& attributes, float4 tangent, Writer out) {
-  if (attributes.position) out.put(mesh.position, vertex, float3{});
-  if (attributes.normal) out.put(mesh.normal, vertex, float3{});
-  if (attributes.tangent) out.put(mesh.tangent, vertex, tangent);
-  if (attributes.uv[0]) out.put(mesh.uv0, vertex, float2{});
-  if (attributes.uv[1]) out.put(mesh.uv1, vertex, float2{});
-  if (attributes.color) out.put(mesh.color, vertex, float4{1, 1, 1, 1});
+/// 8 points, or the one that stands for 8 of one triangle, and where their corners' channels go.
+struct Group {
+  const Mesh* mesh[Batch::group];
+  Triangle corner[Batch::group];
+  int points = 0;
+  float* out = nullptr;  ///< the next channel: [corner][point]
+
+  void put(int point, int k, int channel, float value) { out[(3 * channel + k) * points + point] = value; }
+  void put(int point, int k, float2 v) { put(point, k, 0, v.x), put(point, k, 1, v.y); }
+  void put(int point, int k, float3 v) { put(point, k, 0, v.x), put(point, k, 1, v.y), put(point, k, 2, v.z); }
+  void put(int point, int k, float4 v) { put(point, k, xyz(v)), put(point, k, 3, v.w); }
+};
+
+/// Reads one attribute of all corners, `otherwise` where a mesh lacks it.
+template <class T>
+void read(Group& group, std::vector<T> Mesh::*attribute, T otherwise) {
+  for (int i = 0; i < group.points; ++i) {
+    const std::vector<T>& values = group.mesh[i]->*attribute;
+    const bool has_values = !values.empty();
+    for (int k = 0; k < 3; ++k) group.put(i, k, has_values ? values[group.corner[i].vertex[k]] : otherwise);
+  }
+  group.out += static_cast<int>(sizeof(T) / sizeof(float)) * 3 * group.points;
 }
 
-/// Writes a point's three corners, `corner_stride` apart.
-void write_point(const Scene& scene, const Batch& batch, std::size_t i, const Attributes& attributes, float* out,
-                 int corner_stride, int channel_stride) {
-  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[batch.instance[i]].mesh)];
-  const Triangle t{{batch.vertex[0][i], batch.vertex[1][i], batch.vertex[2][i]}};
-  const bool makes_tangent = attributes.tangent && mesh.tangent.empty();
-  const float4 tangent = makes_tangent ? face_tangent(mesh, t, attributes.tangent_uv_set) : float4{};
-  for (int k = 0; k < 3; ++k) {
-    write_corner(mesh, t.vertex[k], attributes, tangent, {out + k * corner_stride, channel_stride});
+void read_tangents(Group& group, int uv_set) {
+  for (int i = 0; i < group.points; ++i) {
+    const Mesh& mesh = *group.mesh[i];
+    const Triangle& t = group.corner[i];
+    const float4 made = mesh.tangent.empty() ? face_tangent(mesh, t, uv_set) : float4{};
+    for (int k = 0; k < 3; ++k) group.put(i, k, mesh.tangent.empty() ? made : mesh.tangent[t.vertex[k]]);
   }
+  group.out += 4 * 3 * group.points;
+}
+
+void read_all(Group& group, const Attributes& attributes) {
+  if (attributes.position) read(group, &Mesh::position, {});
+  if (attributes.normal) read(group, &Mesh::normal, {});
+  if (attributes.tangent) read_tangents(group, attributes.tangent_uv_set);
+  if (attributes.uv[0]) read(group, &Mesh::uv0, {});
+  if (attributes.uv[1]) read(group, &Mesh::uv1, {});
+  if (attributes.color) read(group, &Mesh::color, {1, 1, 1, 1});
 }
 
 bool all_same(const std::uint32_t* values) {
@@ -86,14 +84,17 @@ void fetch_corners(const Scene& scene, const Batch& batch, const Attributes& att
     const bool one_triangle = all_same(batch.triangle + first);
     out.one_triangle[g] = one_triangle;
     out.one_instance[g] = one_triangle || all_same(batch.instance + first);
-    if (one_triangle) {
-      write_point(scene, batch, first, attributes, out.block[g], 1, 3);
-      continue;
+    if (!attributes.any()) continue;
+
+    Group group;
+    group.points = one_triangle ? 1 : Batch::group;
+    group.out = out.block[g];
+    for (int i = 0; i < group.points; ++i) {
+      const std::size_t at = first + static_cast<std::size_t>(i);
+      group.mesh[i] = &scene.meshes[static_cast<std::size_t>(scene.instances[batch.instance[at]].mesh)];
+      group.corner[i] = {{batch.vertex[0][at], batch.vertex[1][at], batch.vertex[2][at]}};
     }
-    for (int i = 0; i < Batch::group; ++i) {
-      write_point(scene, batch, first + static_cast<std::size_t>(i), attributes, out.block[g] + i, Batch::group,
-                  3 * Batch::group);
-    }
+    read_all(group, attributes);
   }
 }
 

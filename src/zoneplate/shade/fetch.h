@@ -12,6 +12,7 @@ namespace zoneplate {
 struct Attributes {
   bool position = false, normal = false, tangent = false, uv[2] = {false, false}, color = false;
   int tangent_uv_set = 0;  ///< which coordinates a tangent is made from where a mesh has none
+  bool any() const { return position || normal || tangent || uv[0] || uv[1] || color; }
 };
 
 /// Reads the attributes of a batch's corners out of the scene's meshes.

@@ -36,7 +36,8 @@ struct Bench {
     std::uint32_t key = 1;
     const auto fill = [&](auto& array) {
       auto* numbers = reinterpret_cast<float*>(&array);
-      for (std::size_t i = 0; i < sizeof array / sizeof(float); ++i) {
+      constexpr std::size_t bytes = sizeof array;
+      for (std::size_t i = 0; i < bytes / sizeof(float); ++i) {
         const std::uint32_t word = hash(static_cast<std::uint32_t>(i), key);
         numbers[i] = word % 13 == 0 ? 0.0f : word % 31 == 0 ? 1e20f : 4 * unit_float(word) - 2;
       }
@@ -89,12 +90,20 @@ std::vector<Stage> stages() {
          k.interpolate(b.batch, b.corners, what, b.points.count);
        }},
       {"map_coordinates",
-       [](K k, B b) { k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.points, 1, b.coordinates); }},
+       [](K k, B b) {
+         k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.points, 1, b.coordinates);
+       }},
       {"place_positions", [](K k, B b) { k.place_positions(b.batch, b.corners, b.placements, b.points); }},
       {"place_normals", [](K k, B b) { k.place_normals(b.batch, b.corners, b.placements, b.points); }},
       {"place_tangents", [](K k, B b) { k.place_tangents(b.batch, b.corners, b.placements, b.points); }},
-      {"look_back", [](K k, B b) { k.look_back({{1, 2, 3}, {0, 0, 1}, false}, b.points); }},
-      {"look_back orthographic", [](K k, B b) { k.look_back({{1, 2, 3}, {0, 0, 1}, true}, b.points); }},
+      {"look_back",
+       [](K k, B b) {
+         k.look_back({{1, 2, 3}, {0, 0, 1}, false}, b.points);
+       }},
+      {"look_back orthographic",
+       [](K k, B b) {
+         k.look_back({{1, 2, 3}, {0, 0, 1}, true}, b.points);
+       }},
       {"face_normals", [](K k, B b) { k.face_normals(b.batch, b.points); }},
       {"bend_normals",
        [](K k, B b) {

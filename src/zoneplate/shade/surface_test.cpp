@@ -239,14 +239,14 @@ TEST(Surface, MetallicRoughnessIsGltfsAppendixB) {
   const float3 h = normalize(l + v);
   const double a2 = 0.0625, nl = l.z, nv = v.z, nh = h.z, vh = dot(v, h);
   const double d = a2 / (pi * std::pow(nh * nh * (a2 - 1) + 1, 2));
-  const double vis =
-      0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+  const double vis = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
   const auto expected = [&](double base) {
     const double f0 = 0.04 * 0.75 + base * 0.25, f = f0 + (1 - f0) * std::pow(1 - vh, 5);
     return 3 * nl * ((1 - f) * base * 0.75 / pi + f * vis * d);
   };
-  expect_near(color, {static_cast<float>(expected(0.9) + 0.125), static_cast<float>(expected(0.5)),
-                      static_cast<float>(expected(0.2)), 1},
+  expect_near(color,
+              {static_cast<float>(expected(0.9) + 0.125), static_cast<float>(expected(0.5)),
+               static_cast<float>(expected(0.2)), 1},
               3e-6f);
 }
 
@@ -291,7 +291,8 @@ TEST(Surface, PlacementsTurnScaleAndMirrorNormals) {
   scene.instances.push_back({0, 0, scaling({2, 1, 1})});
   scene.instances.push_back({0, 0, scaling({-1, 1, 1})});
   scene.instances.push_back({0, 0, scaling({1e-7f, 1e-7f, 1e-7f})});
-  const float3 expected[] = {normalize({1, 0, 1}), normalize({0.5f, 0, 1}), normalize({-1, 0, 1}), normalize({1, 0, 1})};
+  const float3 expected[] = {normalize({1, 0, 1}), normalize({0.5f, 0, 1}), normalize({-1, 0, 1}),
+                             normalize({1, 0, 1})};
   Hand hand;
   for (std::uint32_t i = 0; i < 4; ++i) hand.add({0.5f, 0.25f, 0.25f}, i);
   hand.pad();

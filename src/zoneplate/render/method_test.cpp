@@ -1,0 +1,46 @@
+#include "zoneplate/render/method.h"
+
+#include <gtest/gtest.h>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+namespace {
+
+std::string refusal(std::string_view text) {
+  try {
+    make_resolver(antialias::methods(), text);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.trouble(), Trouble::Usage);
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Method, TextsMakeRequests) {
+  const auto ask = [](std::string_view text) { return make_resolver(antialias::methods(), text)->ask(0); };
+  EXPECT_EQ(ask("none").samples.size(), 1u);
+  EXPECT_EQ(ask("msaa").samples, standard_pattern(4));
+  EXPECT_EQ(ask("msaa:n=16").samples, standard_pattern(16));
+  EXPECT_EQ(ask("msaa:grid=4").samples, grid_pattern(4));
+  EXPECT_EQ(ask("msaa:grid=4").rate, Rate::Surface);
+  EXPECT_EQ(ask("ssaa:n=3").samples, grid_pattern(3));
+  EXPECT_EQ(ask("ssaa:n=3").rate, Rate::Sample);
+  EXPECT_EQ(ask("ssaa:pattern=halton,samples=64").samples, named_pattern("halton", 64));
+}
+
+TEST(Method, WrongTextsAreNamed) {
+  EXPECT_NE(refusal("mssa").find("did you mean 'msaa'"), std::string::npos);
+  EXPECT_NE(refusal("raytracing").find("none, ssaa, msaa"), std::string::npos);
+  EXPECT_NE(refusal("msaa:n=3").find("2, 4, 8, 16"), std::string::npos);
+  EXPECT_NE(refusal("msaa:m=4").find("n, grid"), std::string::npos);
+  EXPECT_NE(refusal("msaa:n=4,grid=4").find("exclude"), std::string::npos);
+  EXPECT_NE(refusal("ssaa:n=17").find("1 to 16"), std::string::npos);
+  EXPECT_NE(refusal("ssaa:n=x").find("whole number"), std::string::npos);
+  EXPECT_NE(refusal("ssaa:n").find("unknown parameter"), std::string::npos);
+  EXPECT_NE(refusal("none:n=1").find("it has none"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,79 @@
+#include "zoneplate/scene/gltf_uri.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "zoneplate/scene/gltf_maker_test.h"
+
+namespace zoneplate {
+namespace {
+
+std::string text_of(const std::optional<std::vector<std::uint8_t>>& bytes) {
+  return bytes ? std::string(bytes->begin(), bytes->end()) : "nothing";
+}
+
+TEST(GltfUri, PercentDecoding) {
+  EXPECT_EQ(decode_percent("a%20b%2fc%C3%A9"), "a b/c\xc3\xa9");
+  EXPECT_EQ(decode_percent("100%"), "100%");
+  EXPECT_EQ(decode_percent("%4"), "%4");
+  EXPECT_EQ(decode_percent("%zz%41"), "%zzA");
+  EXPECT_EQ(decode_percent(""), "");
+}
+
+TEST(GltfUri, Base64OfRfc4648) {
+  EXPECT_EQ(text_of(decode_base64("")), "");
+  EXPECT_EQ(text_of(decode_base64("Zg==")), "f");
+  EXPECT_EQ(text_of(decode_base64("Zm8=")), "fo");
+  EXPECT_EQ(text_of(decode_base64("Zm9v")), "foo");
+  EXPECT_EQ(text_of(decode_base64("Zm9vYmFy")), "foobar");
+  EXPECT_EQ(text_of(decode_base64("Zm9\nvYg")), "foob");
+  EXPECT_EQ(decode_base64("+/8A")->at(0), 0xfb);
+  EXPECT_EQ(decode_base64("-_8A")->at(1), 0xff);
+  EXPECT_FALSE(decode_base64("Zm9*"));
+  EXPECT_FALSE(decode_base64("Zm9vY"));
+  EXPECT_FALSE(decode_base64("Zg==Zg=="));
+}
+
+TEST(GltfUri, Schemes) {
+  EXPECT_TRUE(has_scheme("http://a/b"));
+  EXPECT_TRUE(has_scheme("data:,x"));
+  EXPECT_TRUE(has_scheme("FILE:///etc/passwd"));
+  EXPECT_FALSE(has_scheme("a/b.png"));
+  EXPECT_FALSE(has_scheme("a b:c.png"));
+  EXPECT_FALSE(has_scheme(":x"));
+  EXPECT_FALSE(has_scheme("1a:b"));
+}
+
+TEST(GltfUri, StaysInTheFolder) {
+  const TestFolder folder;
+  folder.write("model/in.bin", std::string("x"));
+  folder.write("out.bin", std::string("x"));
+  const std::string model = folder.path("model");
+  EXPECT_TRUE(find_path(model, "in.bin", false));
+  EXPECT_TRUE(find_path(model, "sub/../in.bin", false));
+  EXPECT_TRUE(find_path(model, "not%20there.bin", false));
+  EXPECT_FALSE(find_path(model, "../out.bin", false));
+  EXPECT_FALSE(find_path(model, "%2e%2e/out.bin", false));
+  EXPECT_FALSE(find_path(model, "sub/../../out.bin", false));
+  EXPECT_FALSE(find_path(model, "/etc/passwd", false));
+  EXPECT_FALSE(find_path(model, ".", false));
+  EXPECT_FALSE(find_path(model, "", false));
+  EXPECT_FALSE(find_path(model, "in.bin%00.png", false));
+  EXPECT_FALSE(find_path(model, "in.bin%00.png", true));
+  EXPECT_TRUE(find_path(model, "../out.bin", true));
+  EXPECT_FALSE(find_path(model, "../model2/x", false));
+}
+
+TEST(GltfUri, FollowsLinksBeforeItAnswers) {
+  const TestFolder folder;
+  folder.write("model/in.bin", std::string("x"));
+  folder.write("out.bin", std::string("x"));
+  std::filesystem::create_symlink("../out.bin", folder.path("model/link.bin"));
+  std::filesystem::create_symlink("in.bin", folder.path("model/near.bin"));
+  EXPECT_FALSE(find_path(folder.path("model"), "link.bin", false));
+  EXPECT_TRUE(find_path(folder.path("model"), "near.bin", false));
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,60 @@
+#include "zoneplate/scene/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/image/png.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+std::string error_of(const Bytes& bytes) {
+  try {
+    decode_image(bytes, "tex", 100);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.trouble(), Trouble::Input);
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(ImageFile, PngByItsFirstBytes) {
+  Rgba8Image image(3, 2, {1, 2, 3, 4});
+  image(2, 1) = {250, 251, 252, 253};
+  const Bytes bytes = encode_png(image);
+  EXPECT_EQ(find_image_size(bytes), (int2{3, 2}));
+  EXPECT_EQ(decode_image(bytes, "tex", 100), image);
+  EXPECT_THROW(decode_image(bytes, "tex", 5), Error);
+}
+
+TEST(ImageFile, SixteenBitsAreRounded) {
+  Rgba16Image image(2, 1);
+  image(0, 0) = {0, 65535, 128, 129};    // 128 / 257 < 1/2 < 129 / 257
+  image(1, 0) = {257, 385, 386, 65535};  // 385 / 257 = 1.498, 386 / 257 = 1.502
+  const Rgba8Image out = decode_image(encode_png(image), "tex", 100);
+  EXPECT_EQ(out(0, 0), (Rgba8{0, 255, 0, 1}));
+  EXPECT_EQ(out(1, 0), (Rgba8{1, 1, 2, 255}));
+}
+
+TEST(ImageFile, SizeOfAJpegStandsInItsFrameHeader) {
+  const Bytes head{0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xff, 0xc2, 0, 17, 8, 1, 2, 3, 4, 3};
+  EXPECT_EQ(find_image_size(head), (int2{0x304, 0x102}));
+  for (std::size_t n = 0; n < 18; ++n) EXPECT_FALSE(find_image_size(std::span(head).first(n))) << n;
+}
+
+TEST(ImageFile, OtherFormatsAreNamed) {
+  const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
+  EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: is a WebP image, wants PNG or JPEG");
+  EXPECT_EQ(error_of(bytes("\xabKTX 20\xbb\r\n\x1a\n")), "tex: is a KTX image, wants PNG or JPEG");
+  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, wants PNG or JPEG");
+  EXPECT_EQ(error_of({}), "tex: is no known image, wants PNG or JPEG");
+  EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
+  EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
+}
+
+}  // namespace
+}  // namespace zoneplate
