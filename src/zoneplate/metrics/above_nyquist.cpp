@@ -18,15 +18,6 @@
 namespace zoneplate::metrics {
 namespace {
 
-Plane<double> luminance_of(const LinearImage& image) {
-  Plane<double> out(image.width(), image.height());
-  std::ranges::transform(image.values(), out.values().begin(),
-                         [](const Linear& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; });
-  return out;
-}
-
-double square(Complex c) { return c.real() * c.real() + c.imag() * c.imag(); }
-
 /// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the picture and
 /// samples lie in the middle of their pixels.
 Complex half_pixel(double f) {
@@ -53,10 +44,10 @@ std::vector<Ring> compare_bins(const Spectrum& reference, const Spectrum& test, 
           reference.at(kx, 2 * ky <= height ? ky : ky - height) * half_pixel(fx / n) * half_pixel(fy / n) / double(n);
       Ring& ring = rings[static_cast<std::size_t>(std::sqrt(fx * fx + fy * fy) * shorter + 0.5)];
       const double weight = kx == 0 ? 1 : 2;
-      ring.reference += weight * square(wanted);
-      ring.test += weight * square(found);
+      ring.reference += weight * std::norm(wanted);
+      ring.test += weight * std::norm(found);
       ring.common += weight * (wanted.real() * found.real() + wanted.imag() * found.imag());
-      ring.difference += weight * square(found - wanted);
+      ring.difference += weight * std::norm(found - wanted);
     }
   }
   return rings;
@@ -70,7 +61,8 @@ double power_of(const Spectrum& reference, int n) {
 
 Score measure(const LinearImage& reference, const LinearImage& test) {
   const int n = reference.width() / test.width();
-  const Spectrum wanted = windowed_spectrum(luminance_of(reference)), found = windowed_spectrum(luminance_of(test));
+  const Spectrum wanted = windowed_spectrum(luminance_plane(reference)),
+                 found = windowed_spectrum(luminance_plane(test));
 
   Ring all;
   double aliases = 0, passed = 0;
@@ -104,7 +96,7 @@ Metric above_nyquist() {
           .smallest = 16,
           .sizes = Sizes::ReferenceMultiple,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            const auto [low, high] = std::ranges::minmax(luminance_of(reference[0].linear).values());
+            const auto [low, high] = std::ranges::minmax(luminance_plane(reference[0].linear).values());
             if (!(high > low)) return std::nullopt;
             return measure(reference[0].linear, test[0].linear);
           }};

@@ -16,7 +16,7 @@
 #include "zoneplate/metrics/cvvdp_sensitivity.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/power.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
@@ -77,12 +77,6 @@ double pooled(int width, int height, const ValueAt& value_at) {
     return row;
   });
   return SoftPower(0.5)(sum / (static_cast<double>(width) * height));
-}
-
-/// Calls `body(y)` for each row of a plane.
-template <class Body>
-void for_rows(int height, const Body& body) {
-  parallel_for(static_cast<std::size_t>(height), [&](std::size_t y) { body(static_cast<int>(y)); });
 }
 
 /// One level of one picture's pyramid as contrasts, and the luminance that they stand on.

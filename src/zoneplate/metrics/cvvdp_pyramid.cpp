@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-#include "zoneplate/base/parallel.h"
+#include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -16,8 +16,7 @@ int mirrored(int i, int n) { return i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i;
 
 Plane<double> transposed(const Plane<double>& in) {
   Plane<double> out(in.height(), in.width());
-  parallel_for(static_cast<std::size_t>(out.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  for_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) out(x, y) = in(y, x);
   });
   return out;
@@ -25,8 +24,7 @@ Plane<double> transposed(const Plane<double>& in) {
 
 Plane<double> reduce_rows(const Plane<double>& in) {
   Plane<double> out((in.width() + 1) / 2, in.height());
-  parallel_for(static_cast<std::size_t>(out.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  for_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
       for (int k = 0; k < 5; ++k) {
         out(x, y) += filter[static_cast<std::size_t>(k)] * in(mirrored(2 * x + k - 2, in.width()), y);
@@ -39,8 +37,7 @@ Plane<double> reduce_rows(const Plane<double>& in) {
 /// Zeros between the values of each row, the first and the last value again beyond the ends, then twice the filter.
 Plane<double> expand_rows(const Plane<double>& in, int width) {
   Plane<double> out(width, in.height());
-  parallel_for(static_cast<std::size_t>(out.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  for_rows(out.height(), [&](int y) {
     std::vector<double> spaced(static_cast<std::size_t>(width) + 4, 0.0);
     for (int x = 0; x < in.width(); ++x) spaced[static_cast<std::size_t>(2 * x + 2)] = in(x, y);
     spaced[0] = in(0, y);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "zoneplate/base/parallel.h"
 #include "zoneplate/metrics/cvvdp.h"
+#include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 
@@ -21,8 +21,7 @@ OpponentPlanes opponent_planes(const LinearImage& image, const Viewing& viewing)
   const double black = viewing.peak / viewing.contrast;
   const double reflected = viewing.ambient / std::numbers::pi * 0.005;
   OpponentPlanes out(3, Plane<double>(image.width(), image.height()));
-  parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  for_rows(image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {
       const auto emitted = [&](float v) {
         return (viewing.peak - black) * static_cast<double>(std::clamp(v, 0.0f, 1.0f)) + black + reflected;

@@ -6,9 +6,9 @@
 #include <cassert>
 #include <cmath>
 
-#include "zoneplate/base/parallel.h"
 #include "zoneplate/metrics/cvvdp.h"
 #include "zoneplate/metrics/power.h"
+#include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
@@ -71,8 +71,7 @@ OpponentPlanes filtered_in_time(std::span<const OpponentPlanes> frames,
     for (std::size_t back = 0; back < taps; ++back) {
       const OpponentPlanes& frame = frames[back < frames.size() ? frames.size() - 1 - back : 0];
       const double tap = filters[c][back];
-      parallel_for(static_cast<std::size_t>(sum.height()), [&](std::size_t row) {
-        const int y = static_cast<int>(row);
+      for_rows(sum.height(), [&](int y) {
         const auto from = frame[source].row(y);
         const auto to = sum.row(y);
         for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];

@@ -19,13 +19,6 @@ constexpr int bins_a_pixel = 4;
 constexpr int greatest_reach = 32;  // pixels on each side of the edge; more adds noise, not knowledge
 constexpr int least_reach = 4;
 
-Plane<double> luminance_of(const LinearImage& image) {
-  Plane<double> out(image.width(), image.height());
-  std::ranges::transform(image.values(), out.values().begin(),
-                         [](const Linear& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; });
-  return out;
-}
-
 Plane<double> transposed(const Plane<double>& in) {
   Plane<double> out(in.height(), in.width());
   for (int y = 0; y < in.height(); ++y) {
@@ -192,7 +185,7 @@ void measure_spread(EdgeResponse& edge) {
 }  // namespace
 
 std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
-  Plane<double> in = luminance_of(image);
+  Plane<double> in = luminance_plane(image);
   if (in.width() <= 2 * least_reach || in.height() <= 2 * least_reach) return std::nullopt;
   if (is_nearly_horizontal(in)) in = transposed(in);
   const auto [low, high] = std::ranges::minmax(in.values());

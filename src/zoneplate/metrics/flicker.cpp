@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "zoneplate/metrics/metric.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 namespace {

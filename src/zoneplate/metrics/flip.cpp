@@ -13,7 +13,7 @@
 #include "zoneplate/metrics/flip_color.h"
 #include "zoneplate/metrics/flip_filters.h"
 #include "zoneplate/metrics/power.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "zoneplate/metrics/flip.h"
 #include "zoneplate/metrics/power.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
@@ -30,8 +30,7 @@ LinearImage expose(const LinearImage& image, double exposure) {
   const double factor = natural_exp(exposure * std::numbers::ln2);
   const auto shown = [factor](float v) { return v > 0 ? static_cast<float>(aces(factor * v)) : 0.0f; };
   LinearImage out(image.width(), image.height());
-  parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  for_rows(image.height(), [&](int y) {
     std::ranges::transform(image.row(y), out.row(y).begin(), [&](const Linear& c) {
       return Linear{shown(c.r), shown(c.g), shown(c.b), 1};
     });

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -21,28 +21,28 @@ Display shown(Linear c) {
 
 Picture make_picture(DisplayImage display) {
   LinearImage linear(display.width(), display.height());
-  parallel_for(static_cast<std::size_t>(display.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    std::ranges::transform(display.row(y), linear.row(y).begin(), light_of);
-  });
+  for_rows(display.height(), [&](int y) { std::ranges::transform(display.row(y), linear.row(y).begin(), light_of); });
   return {std::move(display), std::move(linear)};
 }
 
 Picture make_picture(LinearImage linear) {
   DisplayImage display(linear.width(), linear.height());
-  parallel_for(static_cast<std::size_t>(linear.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    std::ranges::transform(linear.row(y), display.row(y).begin(), shown);
-  });
+  for_rows(linear.height(), [&](int y) { std::ranges::transform(linear.row(y), display.row(y).begin(), shown); });
   return {std::move(display), std::move(linear)};
 }
 
 Plane<double> luma_plane(const DisplayImage& image) {
   Plane<double> out(image.width(), image.height());
-  parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row) {
-    const int y = static_cast<int>(row);
+  for_rows(image.height(), [&](int y) {
     std::ranges::transform(image.row(y), out.row(y).begin(), [](Display c) { return luma(codes_on_black(c)); });
   });
+  return out;
+}
+
+Plane<double> luminance_plane(const LinearImage& image) {
+  Plane<double> out(image.width(), image.height());
+  std::ranges::transform(image.values(), out.values().begin(),
+                         [](const Linear& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; });
   return out;
 }
 

@@ -34,4 +34,7 @@ constexpr double luma(Codes c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c
 /// The luma of every pixel of a picture on black.
 Plane<double> luma_plane(const DisplayImage& image);
 
+/// Rec.709 luminance of every pixel of a picture on black, in linear light.
+Plane<double> luminance_plane(const LinearImage& image);
+
 }  // namespace zoneplate::metrics

@@ -3,7 +3,7 @@
 
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/psnr.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "zoneplate/metrics/metric.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
@@ -28,8 +28,6 @@ double frequency_of(const Spectrum& spectrum, int kx, int ky) {
 
 /// How many bins of the whole spectrum a bin of the half one stands for.
 double multiplicity(const Spectrum& spectrum, int kx) { return kx == 0 || 2 * kx == spectrum.width ? 1 : 2; }
-
-double square(Complex c) { return c.real() * c.real() + c.imag() * c.imag(); }
 
 Plane<double> difference(Plane<double> a, const Plane<double>& b) {
   for (std::size_t i = 0; i < a.values().size(); ++i) a.values()[i] -= b.values()[i];
@@ -94,7 +92,7 @@ RadialPower radial_power_of(const Spectrum& spectrum) {
       const auto ring = static_cast<std::size_t>(frequency_of(spectrum, kx, ky) * shorter + 0.5);
       if (ring >= counts.size()) continue;
       counts[ring] += multiplicity(spectrum, kx);
-      out.power[ring] += multiplicity(spectrum, kx) * square(spectrum.half(kx, ky));
+      out.power[ring] += multiplicity(spectrum, kx) * std::norm(spectrum.half(kx, ky));
     }
   }
   for (std::size_t ring = 0; ring < counts.size(); ++ring) {
@@ -109,7 +107,7 @@ double band_power(const Spectrum& spectrum, double low, double high) {
     double row = 0;
     for (int kx = 0; kx < spectrum.half.width(); ++kx) {
       const double f = frequency_of(spectrum, kx, ky);
-      if (f > low && f <= high) row += multiplicity(spectrum, kx) * square(spectrum.half(kx, ky));
+      if (f > low && f <= high) row += multiplicity(spectrum, kx) * std::norm(spectrum.half(kx, ky));
     }
     return row;
   });

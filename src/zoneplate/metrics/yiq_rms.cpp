@@ -9,7 +9,7 @@
 
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/power.h"
-#include "zoneplate/metrics/reduce.h"
+#include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::metrics {
