@@ -1,0 +1,138 @@
+// The verb as scripts meet it: its output, its map and its exit codes. Runs the built program.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "zoneplate/base/file.h"
+#include "zoneplate/image/png.h"
+#include "zoneplate/metrics/magma.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Answer {
+  int code = -1;
+  std::string out;  ///< stdout and stderr together
+};
+
+class MetricsVerb : public testing::Test {
+ protected:
+  MetricsVerb() : folder_(fs::temp_directory_path() / ("zoneplate_metrics_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+    save("black.png", 0);
+    save("grey.png", 51);
+  }
+  ~MetricsVerb() override { fs::remove_all(folder_); }
+
+  void save(const std::string& name, std::uint8_t code, int side = 16) const {
+    fs::create_directories((folder_ / name).parent_path());
+    save_bytes((folder_ / name).string(), encode_png(Rgba8Image(side, side, {code, code, code, 255})));
+  }
+  Answer run(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" ZONEPLATE_PROGRAM "' metrics " + arguments + " 2>&1";
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    Answer answer;
+    std::array<char, 4096> part{};
+    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) answer.out.append(part.data(), n);
+    answer.code = WEXITSTATUS(::pclose(pipe));
+    return answer;
+  }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  fs::path folder_;
+};
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+TEST_F(MetricsVerb, SamePicturesAreZeroAndInfinite) {
+  const Answer answer = run("grey.png grey.png --json");
+  EXPECT_EQ(answer.code, 0);
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json["same"], true);
+  EXPECT_EQ(json["metrics"]["mse"]["value"], 0);
+  EXPECT_EQ(json["metrics"]["psnr"]["value"], "inf");
+  EXPECT_EQ(json["metrics"]["ssim"]["value"], 1);
+  EXPECT_EQ(json["metrics"]["flip"]["value"], 0);
+  EXPECT_EQ(json["metrics"]["yiq_rms"]["value"], "-inf");
+}
+
+TEST_F(MetricsVerb, DifferentPicturesAnswerOne) {
+  const Answer answer = run("black.png grey.png");
+  EXPECT_EQ(answer.code, 1);
+  EXPECT_TRUE(contains(answer.out, "1 picture, 16 × 16\n")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "mse")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "0.04 ")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "the pictures differ")) << answer.out;
+}
+
+TEST_F(MetricsVerb, ThresholdsDecide) {
+  EXPECT_EQ(run("black.png grey.png --metric psnr --threshold 13.9").code, 0);
+  EXPECT_EQ(run("black.png grey.png --metric psnr --threshold 14").code, 1);
+  EXPECT_EQ(run("black.png grey.png --metric mse,mae --threshold mse=0.05,mae=0.2").code, 1);  // 51 / 255 > 0.2
+  EXPECT_EQ(run("black.png grey.png --metric mse,mae --threshold mse=0.05,mae=0.21").code, 0);
+  EXPECT_EQ(run("grey.png grey.png --metric psnr --threshold inf").code, 0);
+}
+
+TEST_F(MetricsVerb, TroubleIsTwo) {
+  for (const char* arguments :
+       {"grey.png", "grey.png missing.png", "grey.png grey.png --metric flop", "grey.png grey.png --metric ms_ssim",
+        "grey.png grey.png --threshold 3", "grey.png grey.png --map /no/such/folder/map.png", "--no-such-option"}) {
+    const Answer answer = run(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments << '\n' << answer.out;
+    EXPECT_TRUE(contains(answer.out, "zoneplate: ")) << answer.out;
+  }
+}
+
+TEST_F(MetricsVerb, SizesHaveToAgree) {
+  save("small.png", 0, 8);
+  const Answer answer = run("grey.png small.png");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_TRUE(contains(answer.out, "picture 1 has 8 × 8 pixels, wants 16 × 16 as the reference")) << answer.out;
+}
+
+TEST_F(MetricsVerb, WritesTheMapInMagma) {
+  EXPECT_EQ(run("black.png grey.png --metric psnr,mae --map map.png").code, 1);
+  const PngImage map = decode_png(FileBytes(at("map.png")).bytes(), "map.png");
+  EXPECT_EQ(map.pixels(3, 3), metrics::magma(0.2f));
+}
+
+TEST_F(MetricsVerb, JudgesSequencesAndFolders) {
+  for (int i = 0; i < 3; ++i) {
+    save("a/f" + std::to_string(i) + ".png", 100);
+    save("b/f" + std::to_string(i) + ".png", i == 1 ? 151 : 100);
+  }
+  const Answer answer = run("a b --metric flicker,mae --json");
+  EXPECT_EQ(answer.code, 1);
+  const auto json = nlohmann::json::parse(answer.out.substr(0, answer.out.find('\n')));
+  EXPECT_EQ(json["pictures"], 3);
+  EXPECT_NEAR(json["metrics"]["flicker"]["value"].get<double>(), 0.2, 1e-6);
+  EXPECT_EQ(json["metrics"]["mae"]["worst"], 1);
+  EXPECT_NEAR(json["metrics"]["mae"]["value"].get<double>(), 0.2 / 3, 1e-6);
+  EXPECT_EQ(run("a/f#.png b/f#.png --metric flicker --threshold 0.3").code, 0);
+}
+
+TEST_F(MetricsVerb, ParametersReachTheirMetric) {
+  const auto value = [&](const std::string& metric) {
+    const auto json = nlohmann::json::parse(run("black.png grey.png --threshold flip=1 --json --metric " + metric).out);
+    return json["metrics"]["flip"]["value"].get<double>();
+  };
+  save("black.png", 0, 32);
+  save("grey.png", 0, 32);
+  Rgba8Image dot(32, 32, {0, 0, 0, 255});
+  dot(16, 16) = {255, 255, 255, 255};
+  save_bytes(at("grey.png"), encode_png(dot));
+  EXPECT_NE(value("flip:ppd=20"), value("flip:ppd=40"));
+  EXPECT_EQ(value("mae,flip:ppd=20,psnr"), value("flip:ppd=20"));
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

@@ -1,0 +1,137 @@
+#include "zoneplate/metrics/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+/// One metric at work on a list of pictures.
+struct Measurement {
+  const Choice* choice = nullptr;
+  bool is_left_out = false;
+  Result result;
+};
+
+bool is_worse(const Metric& metric, double a, double b) { return metric.better == Better::Lower ? a > b : a < b; }
+
+std::string size_of(const Picture& picture) { return fmt::format("{} × {}", picture.width(), picture.height()); }
+
+/// Why a metric cannot judge two pictures of these sizes; empty where it can.
+std::string objection(const Metric& metric, const Picture& reference, const Picture& test) {
+  if (std::min(test.width(), test.height()) < metric.smallest) {
+    return fmt::format("has {} pixels, wants {} × {} at least", size_of(test), metric.smallest, metric.smallest);
+  }
+  const int n = reference.width() / test.width();
+  const bool is_multiple = n >= 1 && reference.width() == n * test.width() && reference.height() == n * test.height();
+  if (!is_multiple || (metric.sizes == Sizes::Same && n != 1)) {
+    return fmt::format("has {} pixels, wants {} as the reference", size_of(test), size_of(reference));
+  }
+  return {};
+}
+
+/// Refuses pictures of different sizes where no metric wants them so.
+void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test, std::size_t index) {
+  const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
+  const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
+  if (is_equal || std::ranges::any_of(choices, takes_any)) return;
+  throw Error(Trouble::Input, fmt::format("picture {} has {} pixels, wants {} as the reference", index + 1,
+                                          size_of(test), size_of(reference)));
+}
+
+bool has_same_codes(const Picture& a, const Picture& b) { return a.display == b.display; }
+
+void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string& why) {
+  if (unfit == Unfit::Refuse) {
+    throw Error(Trouble::Input, fmt::format("metric {}: picture {} {}", m.choice->metric->name, index + 1, why));
+  }
+  m.is_left_out = true;
+}
+
+/// Judges the last frames of the window, of which the newest is picture `index`.
+void measure(Measurement& m, Frames reference, Frames test, std::size_t index, Unfit unfit) {
+  const Metric& metric = *m.choice->metric;
+  const auto wanted = static_cast<std::size_t>(metric.frames);
+  const std::size_t frames = metric.starts_short ? std::min(wanted, reference.size()) : wanted;
+  if (m.is_left_out || reference.size() < frames) return;
+  const std::string why = objection(metric, reference.back(), test.back());
+  if (!why.empty()) return leave_out(m, unfit, index, why);
+
+  auto score = metric.measure(reference.last(frames), test.last(frames), m.choice->settings);
+  if (!score) return leave_out(m, unfit, index, "has nothing that it could measure");
+  Result& result = m.result;
+  if (result.values.empty() || is_worse(metric, score->value, result.values[result.worst])) {
+    result.worst = result.values.size();
+    result.score = std::move(*score);
+    result.values.push_back(result.score.value);
+  } else {
+    result.values.push_back(score->value);
+  }
+}
+
+void check_sizes(const Picture& first, const Picture& next, std::size_t index, std::string_view which) {
+  if (first.width() == next.width() && first.height() == next.height()) return;
+  throw Error(Trouble::Input, fmt::format("{} frame {}: has {} pixels, wants {} as the frame before it", which,
+                                          index + 1, size_of(next), size_of(first)));
+}
+
+}  // namespace
+
+Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit) {
+  assert(pictures.count > 0);
+  Comparison out{.count = pictures.count};
+  std::vector<Measurement> measurements;
+  std::size_t window = 1;
+  for (const Choice& choice : choices) {
+    Measurement m{.choice = &choice};
+    m.result.metric = choice.metric;
+    const auto frames = static_cast<std::size_t>(choice.metric->frames);
+    const std::size_t least = choice.metric->starts_short ? 2 : frames;
+    if (frames > 1 && (!pictures.are_frames || pictures.count < least)) {
+      leave_out(m, unfit, 0, fmt::format("is not one of {} or more frames of a sequence", least));
+    } else {
+      window = std::max(window, frames);
+    }
+    measurements.push_back(std::move(m));
+  }
+
+  std::vector<Picture> reference, test;
+  for (std::size_t i = 0; i < pictures.count; ++i) {
+    if (reference.size() == window) reference.erase(reference.begin()), test.erase(test.begin());
+    reference.push_back(pictures.reference(i));
+    test.push_back(pictures.test(i));
+    if (pictures.are_frames && reference.size() > 1) {
+      check_sizes(reference[reference.size() - 2], reference.back(), i, "reference");
+      check_sizes(test[test.size() - 2], test.back(), i, "test");
+    }
+    check_pair(choices, reference.back(), test.back(), i);
+    out.are_same = out.are_same && has_same_codes(reference.back(), test.back());
+    out.width = test.back().width(), out.height = test.back().height();
+    for (Measurement& m : measurements) measure(m, reference, test, i, unfit);
+  }
+
+  for (Measurement& m : measurements) {
+    if (m.is_left_out) continue;
+    m.result.value = m.result.values.size() == 1 ? m.result.values[0] : m.choice->metric->pool(m.result.values);
+    out.results.push_back(std::move(m.result));
+  }
+  return out;
+}
+
+std::vector<Choice> default_choices(std::span<const Metric> catalogue) {
+  std::vector<Choice> choices;
+  for (const Metric& metric : catalogue) {
+    if (metric.is_default) choices.push_back({&metric, Settings(metric.name, metric.params)});
+  }
+  return choices;
+}
+
+bool is_as_good(const Metric& metric, double value, double threshold) {
+  return metric.better == Better::Lower ? value <= threshold : value >= threshold;
+}
+
+}  // namespace zoneplate::metrics

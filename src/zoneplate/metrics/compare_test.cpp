@@ -1,0 +1,111 @@
+#include "zoneplate/metrics/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/metrics/metrics.h"
+#include "zoneplate/metrics/psnr.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+Picture flat(float code, int side = 16) { return make_picture(DisplayImage(side, side, {code, code, code, 1})); }
+
+Comparands sequence(const std::vector<Picture>& reference, const std::vector<Picture>& test) {
+  return {.count = reference.size(),
+          .reference = [&reference](std::size_t i) { return reference[i]; },
+          .test = [&test](std::size_t i) { return test[i]; },
+          .are_frames = reference.size() > 1};
+}
+
+std::vector<Choice> choices(std::initializer_list<std::string_view> names) {
+  std::vector<Choice> out;
+  for (const std::string_view name : names) out.push_back(choose_metric(metrics(), name));
+  return out;
+}
+
+const Result* find(const Comparison& comparison, std::string_view name) {
+  for (const Result& result : comparison.results) {
+    if (result.metric->name == name) return &result;
+  }
+  return nullptr;
+}
+
+TEST(Compare, OnePairByTheUsualMetrics) {
+  const std::vector<Picture> a = {flat(0.5f)}, b = {flat(0.75f)};
+  const Comparison c = compare(sequence(a, b), default_choices(metrics()), Unfit::Leave);
+  EXPECT_FALSE(c.are_same);
+  EXPECT_EQ(c.width, 16);
+  ASSERT_TRUE(find(c, "mse"));
+  EXPECT_EQ(find(c, "mse")->value, 0.0625);
+  EXPECT_TRUE(find(c, "ssim"));
+  EXPECT_FALSE(find(c, "ms_ssim"));   // too small
+  EXPECT_FALSE(find(c, "flicker"));   // one frame
+  EXPECT_FALSE(find(c, "flip_hdr"));  // not asked for
+}
+
+TEST(Compare, SequencesArePooledAndKeepTheirWorst) {
+  const std::vector<Picture> a = {flat(0.5f), flat(0.5f), flat(0.5f)}, b = {flat(0.5f), flat(0.75f), flat(0.625f)};
+  const Comparison c = compare(sequence(a, b), choices({"psnr", "mae", "flicker"}), Unfit::Refuse);
+  EXPECT_EQ(c.count, 3u);
+  const Result& psnr = *find(c, "psnr");
+  ASSERT_EQ(psnr.values.size(), 3u);
+  EXPECT_EQ(psnr.values[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(psnr.worst, 1u);
+  EXPECT_NEAR(psnr.value, psnr_of_mse((0.0625 + 0.015625) / 3), 1e-12);
+  EXPECT_EQ(find(c, "mae")->value, 0.125);
+  EXPECT_EQ(find(c, "mae")->score.map(3, 3), 0.25f);
+  EXPECT_EQ(find(c, "flicker")->values.size(), 2u);
+  EXPECT_NEAR(find(c, "flicker")->value, std::sqrt((0.0625 + 0.015625) / 2), 1e-12);
+}
+
+TEST(Compare, TheSamePicturesAreTheSame) {
+  const std::vector<Picture> a = {flat(0.5f)};
+  EXPECT_TRUE(compare(sequence(a, a), choices({"mse"}), Unfit::Refuse).are_same);
+}
+
+TEST(Compare, AlphaAloneMakesADifference) {
+  const std::vector<Picture> a = {make_picture(DisplayImage(2, 2, {0, 0, 0, 1}))};
+  const std::vector<Picture> b = {make_picture(DisplayImage(2, 2, {0, 0, 0, 0}))};
+  const Comparison c = compare(sequence(a, b), choices({"mse"}), Unfit::Refuse);
+  EXPECT_FALSE(c.are_same);
+  EXPECT_EQ(c.results[0].value, 0);
+}
+
+std::string refusal(const Picture& a, const Picture& b, std::string_view name) {
+  const std::vector<Picture> as = {a}, bs = {b};
+  try {
+    compare(sequence(as, bs), choices({name}), Unfit::Refuse);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.trouble(), Trouble::Input);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Compare, SaysWhyAMetricDoesNotFit) {
+  EXPECT_EQ(refusal(flat(0, 8), flat(0, 8), "ssim"), "metric ssim: picture 1 has 8 × 8 pixels, wants 11 × 11 at least");
+  EXPECT_EQ(refusal(flat(0, 8), flat(0, 9), "mse"), "picture 1 has 9 × 9 pixels, wants 8 × 8 as the reference");
+  EXPECT_EQ(refusal(flat(0, 40), flat(0, 16), "above_nyquist"),
+            "metric above_nyquist: picture 1 has 16 × 16 pixels, wants 40 × 40 as the reference");
+  EXPECT_EQ(refusal(flat(0), flat(0), "edge_response"),
+            "metric edge_response: picture 1 has nothing that it could measure");
+  EXPECT_EQ(refusal(flat(0), flat(0), "flicker"),
+            "metric flicker: picture 1 is not one of 2 or more frames of a sequence");
+}
+
+TEST(Threshold, LooksTheRightWay) {
+  const Metric& mse = *choose_metric(metrics(), "mse").metric;
+  const Metric& psnr = *choose_metric(metrics(), "psnr").metric;
+  EXPECT_TRUE(is_as_good(mse, 0.1, 0.1));
+  EXPECT_FALSE(is_as_good(mse, 0.2, 0.1));
+  EXPECT_TRUE(is_as_good(psnr, std::numeric_limits<double>::infinity(), 40));
+  EXPECT_FALSE(is_as_good(psnr, 39, 40));
+  EXPECT_FALSE(is_as_good(psnr, std::numeric_limits<double>::quiet_NaN(), 40));
+}
+
+}  // namespace
+}  // namespace zoneplate::metrics

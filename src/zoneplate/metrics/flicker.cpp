@@ -1,0 +1,60 @@
+// Flicker: change from frame to frame that the reference does not have.
+//
+// A still scene whose edges shimmer scores what shimmers; a moving one scores only what moves otherwise than the
+// reference. Weak on blur, which lowers it: read it beside a measure of sharpness (edge_response).
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/metrics/metric.h"
+#include "zoneplate/metrics/rows.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+double root_mean_square(const Plane<double>& plane) {
+  const double sum = sum_rows(plane.height(), [&](int y) {
+    double row = 0;
+    for (const double v : plane.row(y)) row += v * v;
+    return row;
+  });
+  return std::sqrt(sum / static_cast<double>(plane.values().size()));
+}
+
+/// The change of luma from one frame to the next.
+Plane<double> change(Frames frames) {
+  Plane<double> difference = luma_plane(frames[1].display);
+  const Plane<double> before = luma_plane(frames[0].display);
+  for (std::size_t i = 0; i < difference.values().size(); ++i) difference.values()[i] -= before.values()[i];
+  return difference;
+}
+
+Score measure(Frames reference, Frames test) {
+  const Plane<double> wanted = change(reference);
+  Plane<double> found = change(test);
+  Score score;
+  score.more = {{"change", root_mean_square(found), "code"}, {"reference_change", root_mean_square(wanted), "code"}};
+  score.map = Plane<float>(found.width(), found.height());
+  for (std::size_t i = 0; i < found.values().size(); ++i) {
+    double& excess = found.values()[i];
+    excess -= wanted.values()[i];
+    score.map.values()[i] = static_cast<float>(std::min(1.0, std::abs(excess)));
+  }
+  score.value = root_mean_square(found);
+  return score;
+}
+
+}  // namespace
+
+Metric flicker() {
+  return {.name = "flicker",
+          .summary = "root mean square over pixels and frames of the change of luma that the reference has not",
+          .source = "temporal high-pass of two frames of the difference of the sequences",
+          .unit = "code",
+          .frames = 2,
+          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
+            return measure(reference, test);
+          },
+          .pool = root_mean_square_of};
+}
+
+}  // namespace zoneplate::metrics

@@ -1,0 +1,56 @@
+#include "zoneplate/metrics/metric.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/metrics/metrics.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+std::string message_of(std::string_view text) {
+  try {
+    choose_metric(metrics(), text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.trouble(), Trouble::Usage);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ChooseMetric, ReadsParameters) {
+  EXPECT_EQ(choose_metric(metrics(), "flip:ppd=30").settings.number("ppd"), 30);
+  EXPECT_EQ(choose_metric(metrics(), "flip:ppd=22.5").settings.number("ppd"), 22.5);
+  EXPECT_NEAR(choose_metric(metrics(), "flip").settings.number("ppd"), 67.02, 0.01);
+  EXPECT_EQ(choose_metric(metrics(), "mse").metric->name, "mse");
+}
+
+TEST(ChooseMetric, SaysWhatThereIs) {
+  EXPECT_EQ(message_of("mse:n=3"), "metric mse: unknown parameter n; there is: none");
+  EXPECT_EQ(message_of("flip:pd=3"), "metric flip: unknown parameter pd; there is: ppd");
+  EXPECT_EQ(message_of("flip:ppd=0"), "metric flip: ppd=0: wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd=x"), "metric flip: ppd=x: wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd"), "metric flip: ppd=: wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flop").find("unknown metric flop; there is: mse, mae,"), 0u);
+}
+
+TEST(Pooling, MeanAndRootMeanSquare) {
+  const double values[] = {3, 4};
+  EXPECT_EQ(mean_of(values), 3.5);
+  EXPECT_EQ(root_mean_square_of(values), std::sqrt(12.5));
+}
+
+TEST(Catalogue, EveryRowIsComplete) {
+  for (const Metric& metric : metrics()) {
+    EXPECT_FALSE(metric.name.empty());
+    EXPECT_FALSE(metric.summary.empty()) << metric.name;
+    EXPECT_FALSE(metric.source.empty()) << metric.name;
+    EXPECT_TRUE(metric.measure) << metric.name;
+    EXPECT_GE(metric.frames, 1) << metric.name;
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate::metrics

@@ -1,0 +1,43 @@
+// Mean squared error: the one that everything else is compared to.
+//
+// Weak where errors are seen: it counts a pixel's error the same alone, in a texture or in a flat sky.
+#include "zoneplate/metrics/mse.h"
+
+#include <cmath>
+
+#include "zoneplate/metrics/metric.h"
+#include "zoneplate/metrics/rows.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+double squared_difference(Codes a, Codes b) {
+  const double r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
+  return r * r + g * g + blue * blue;
+}
+
+}  // namespace
+
+double mean_squared_error(const DisplayImage& reference, const DisplayImage& test) {
+  const double sum = sum_rows(reference.height(), [&](int y) {
+    double row = 0;
+    for (int x = 0; x < reference.width(); ++x) {
+      row += squared_difference(codes_on_black(reference(x, y)), codes_on_black(test(x, y)));
+    }
+    return row;
+  });
+  return sum / (3.0 * static_cast<double>(reference.values().size()));
+}
+
+Metric mse() {
+  return {.name = "mse",
+          .summary = "mean squared error of sRGB codes in [0, 1]",
+          .source = "the definition",
+          .unit = "code²",
+          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
+            const double mse = mean_squared_error(reference[0].display, test[0].display);
+            return Score{.value = mse, .more = {{"rmse", std::sqrt(mse), "code"}}};
+          }};
+}
+
+}  // namespace zoneplate::metrics

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "zoneplate/metrics/picture.h"
+
+namespace zoneplate::metrics {
+
+/// The mean over all pixels and the three colours of the squared difference of two pictures' codes.
+///
+/// Requires  equal sizes, at least one pixel.
+/// Edges     transparent pictures are laid on black; symmetric; 0 exactly where the codes agree.
+/// Units     code², codes in [0, 1].
+double mean_squared_error(const DisplayImage& reference, const DisplayImage& test);
+
+}  // namespace zoneplate::metrics

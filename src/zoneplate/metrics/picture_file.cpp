@@ -1,0 +1,186 @@
+#include "zoneplate/metrics/picture_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/image/jpeg.h"
+#include "zoneplate/image/png.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+DisplayImage display_of(const Rgba8Image& codes) {
+  DisplayImage image(codes.width(), codes.height());
+  std::ranges::transform(codes.values(), image.values().begin(), [](Rgba8 c) {
+    const auto unit = [](std::uint8_t code) { return static_cast<float>(code) / 255; };
+    return Display{unit(c.r), unit(c.g), unit(c.b), unit(c.a)};
+  });
+  return image;
+}
+
+DisplayImage display_of(const Rgba16Image& codes) {
+  DisplayImage image(codes.width(), codes.height());
+  std::ranges::transform(codes.values(), image.values().begin(), [](Rgba16 c) {
+    const auto unit = [](std::uint16_t code) { return static_cast<float>(code) / 65535; };
+    return Display{unit(c.r), unit(c.g), unit(c.b), unit(c.a)};
+  });
+  return image;
+}
+
+DisplayImage load_display(const std::string& path) {
+  const FileBytes file(path);
+  const auto bytes = file.bytes();
+  constexpr std::array<std::uint8_t, 3> jpeg_start = {0xff, 0xd8, 0xff};
+  if (bytes.size() >= jpeg_start.size() && std::equal(jpeg_start.begin(), jpeg_start.end(), bytes.begin())) {
+    return display_of(decode_jpeg(bytes, path));
+  }
+  const PngImage png = decode_png(bytes, path);
+  return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
+}
+
+/// Orders names as people do: runs of digits as numbers.
+bool comes_before(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!is_digit(a[i]) || !is_digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const auto number = [](const std::string& text, std::size_t& at) {
+      while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
+      const std::size_t start = at;
+      while (at < text.size() && is_digit(text[at])) ++at;
+      return text.substr(start, at - start);
+    };
+    const std::string p = number(a, i), q = number(b, j);
+    if (p.size() != q.size()) return p.size() < q.size();
+    if (p != q) return p < q;
+  }
+  return a.size() - i < b.size() - j;
+}
+
+bool is_picture_name(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+/// The paths of a directory's files for which `is_wanted(name)`.
+template <class Wanted>
+std::vector<std::string> files_of(const fs::path& directory, const Wanted& is_wanted) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored) && is_wanted(entry->path().filename())) paths.push_back(entry->path().string());
+  }
+  if (error) throw Error(Trouble::Input, fmt::format("{}: {}", directory.string(), error.message()));
+  std::ranges::sort(paths, comes_before);
+  return paths;
+}
+
+/// What stands before and after a frame's number in a file name, and the least number of digits.
+struct FramePattern {
+  std::string before, after;
+  std::size_t digits = 1;
+
+  bool matches(const std::string& name) const {
+    if (name.size() < before.size() + after.size() + digits) return false;
+    if (!name.starts_with(before) || !name.ends_with(after)) return false;
+    const std::string number = name.substr(before.size(), name.size() - before.size() - after.size());
+    return std::ranges::all_of(number, is_digit) && (number.size() == digits || number.front() != '0');
+  }
+};
+
+std::optional<FramePattern> frame_pattern(const std::string& name) {
+  if (const std::size_t hash = name.find('#'); hash != std::string::npos) {
+    const std::size_t end = std::min(name.size(), name.find_first_not_of('#', hash));
+    return FramePattern{name.substr(0, hash), name.substr(end), end - hash};
+  }
+  const std::size_t percent = name.find('%');
+  if (percent == std::string::npos) return std::nullopt;
+  const std::size_t d = name.find_first_not_of("0123456789", percent + 1);
+  if (d == std::string::npos || name[d] != 'd' || d - percent > 3) return std::nullopt;
+  const std::size_t digits = d > percent + 1 ? std::stoul(name.substr(percent + 1, d - percent - 1)) : 1;
+  return FramePattern{name.substr(0, percent), name.substr(d + 1), std::max<std::size_t>(1, digits)};
+}
+
+std::string stem_of(const std::string& path) { return fs::path(path).stem().string(); }
+
+bool is_directory(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// The first of `paths` whose stem no path of `others` has.
+const std::string* find_alone(const std::vector<std::string>& paths, const std::vector<std::string>& others) {
+  for (const std::string& path : paths) {
+    const auto is_partner = [&](const std::string& other) { return stem_of(other) == stem_of(path); };
+    if (std::ranges::none_of(others, is_partner)) return &path;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Picture load_picture(const std::string& path) { return make_picture(load_display(path)); }
+
+std::vector<std::string> list_pictures(const std::string& operand) {
+  const fs::path path(operand);
+  if (is_directory(operand)) {
+    std::vector<std::string> paths = files_of(path, is_picture_name);
+    if (paths.empty()) throw Error(Trouble::Input, operand + ": the directory holds no .png, .jpg or .jpeg file");
+    return paths;
+  }
+  const auto pattern = frame_pattern(path.filename().string());
+  std::error_code ignored;
+  if (!pattern || fs::exists(path, ignored)) return {operand};
+  const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::vector<std::string> paths =
+      files_of(directory, [&](const fs::path& name) { return pattern->matches(name.string()); });
+  if (paths.empty()) throw Error(Trouble::Input, operand + ": no file has a number there");
+  return paths;
+}
+
+bool are_frames(const std::vector<std::string>& paths) {
+  const auto without_digits = [](const std::string& path) {
+    std::string name = fs::path(path).filename().string();
+    std::erase_if(name, is_digit);
+    return name;
+  };
+  return paths.size() > 1 && std::ranges::all_of(paths, [&](const std::string& path) {
+           return without_digits(path) == without_digits(paths.front());
+         });
+}
+
+PicturePairs pair_pictures(const std::string& reference, const std::string& test) {
+  PicturePairs pairs{list_pictures(reference), list_pictures(test)};
+  if (is_directory(reference) && is_directory(test)) {
+    if (const std::string* alone = find_alone(pairs.reference, pairs.test)) {
+      throw Error(Trouble::Input, fmt::format("{}: no picture of that name in {}", *alone, test));
+    }
+    if (const std::string* alone = find_alone(pairs.test, pairs.reference)) {
+      throw Error(Trouble::Input, fmt::format("{}: no picture of that name in {}", *alone, reference));
+    }
+  }
+  if (pairs.reference.size() != pairs.test.size()) {
+    throw Error(Trouble::Input, fmt::format("{} has {} pictures, {} has {}", reference, pairs.reference.size(), test,
+                                            pairs.test.size()));
+  }
+  return pairs;
+}
+
+}  // namespace zoneplate::metrics

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zoneplate/metrics/picture.h"
+
+namespace zoneplate::metrics {
+
+/// A picture from a PNG (8 or 16 bits) or JPEG file, told apart by its first bytes. "-" is stdin.
+///
+/// Errors    Trouble::Input naming the file and what is wrong with it.
+Picture load_picture(const std::string& path);
+
+/// The files that one operand names, in order.
+///
+/// A directory: its .png, .jpg and .jpeg files by name, numbers in names as numbers (9 before 10), nothing of its
+/// folders. A name with `####` or `%04d` in its last part: the files that have a number there, in the numbers' order.
+/// Anything else: that file.
+/// Errors    Trouble::Input where a directory or a pattern names no picture.
+std::vector<std::string> list_pictures(const std::string& operand);
+
+/// True where the names differ by numbers alone: frames of one sequence, not a folder of several pictures.
+bool are_frames(const std::vector<std::string>& paths);
+
+/// Two lists of pictures to compare, first with first.
+struct PicturePairs {
+  std::vector<std::string> reference, test;
+};
+
+/// The pictures of two operands. Of two directories those of equal names (the extension apart) are pairs; of anything
+/// else the first and first, second and second.
+///
+/// Errors    Trouble::Input where the lists differ, naming the first picture that has no partner.
+PicturePairs pair_pictures(const std::string& reference, const std::string& test);
+
+}  // namespace zoneplate::metrics

@@ -1,0 +1,127 @@
+#include "zoneplate/metrics/picture_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/image/png.h"
+#include "zoneplate/metrics/metrics.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory of the test's own, gone with it.
+class Folder : public testing::Test {
+ protected:
+  Folder() : path_(fs::temp_directory_path() / ("zoneplate_picture_file_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Folder() override { fs::remove_all(path_); }
+
+  std::string save(const std::string& name, std::uint8_t code = 0) const {
+    fs::create_directories((path_ / name).parent_path());
+    const std::string path = (path_ / name).string();
+    save_bytes(path, encode_png(Rgba8Image(4, 3, {code, code, code, 255})));
+    return path;
+  }
+  std::string at(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+std::vector<std::string> names(std::vector<std::string> paths) {
+  for (std::string& path : paths) path = fs::path(path).filename().string();
+  return paths;
+}
+
+using PictureFile = Folder;
+
+TEST_F(PictureFile, IsReadAsCodesAndLight) {
+  const Picture picture = load_picture(save("a.png", 128));
+  EXPECT_EQ(picture.width(), 4);
+  EXPECT_EQ(picture.height(), 3);
+  EXPECT_EQ(picture.display(1, 1), (Display{128 / 255.0f, 128 / 255.0f, 128 / 255.0f, 1}));
+  EXPECT_NEAR(picture.linear(1, 1).r, 0.21586, 1e-5);
+}
+
+TEST_F(PictureFile, OfSixteenBitsKeepsThem) {
+  const std::string path = at("deep.png");
+  save_bytes(path, encode_png(Rgba16Image(1, 1, {1, 2, 3, 65535})));
+  EXPECT_EQ(load_picture(path).display(0, 0), (Display{1 / 65535.0f, 2 / 65535.0f, 3 / 65535.0f, 1}));
+}
+
+TEST_F(PictureFile, DirectoriesListPicturesInTheOrderOfNumbers) {
+  for (const char* name : {"d/f10.png", "d/f9.PNG", "d/f011.jpg", "d/e.png", "d/notes.txt", "d/inner/f1.png"})
+    save(name);
+  EXPECT_EQ(names(list_pictures(at("d"))), (std::vector<std::string>{"e.png", "f9.PNG", "f10.png", "f011.jpg"}));
+  fs::create_directories(at("empty"));
+  EXPECT_THROW(list_pictures(at("empty")), Error);
+}
+
+TEST_F(PictureFile, PatternsFindFrames) {
+  for (const char* name : {"f.0001.png", "f.0002.png", "f.10000.png", "f.3.png", "f.0001.jpg", "g.0001.png"})
+    save(name);
+  const std::vector<std::string> frames = {"f.0001.png", "f.0002.png", "f.10000.png"};
+  EXPECT_EQ(names(list_pictures(at("f.####.png"))), frames);
+  EXPECT_EQ(names(list_pictures(at("f.%04d.png"))), frames);
+  EXPECT_EQ(names(list_pictures(at("f.%d.png"))), (std::vector<std::string>{"f.3.png", "f.10000.png"}));
+  EXPECT_TRUE(are_frames(list_pictures(at("f.####.png"))));
+  EXPECT_FALSE(are_frames({"a1.png", "b1.png"}));
+  EXPECT_FALSE(are_frames({"a1.png"}));
+  EXPECT_THROW(list_pictures(at("h.####.png")), Error);
+  EXPECT_EQ(list_pictures(at("missing.png")).size(), 1u);
+  EXPECT_THROW(load_picture(at("missing.png")), Error);
+}
+
+TEST_F(PictureFile, DirectoriesPairByName) {
+  for (const char* name : {"a/x.png", "a/y.png", "b/x.png", "b/y.png"}) save(name);
+  EXPECT_EQ(pair_pictures(at("a"), at("b")).test.size(), 2u);
+  save("b/z.png");
+  try {
+    pair_pictures(at("a"), at("b"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), at("b/z.png") + ": no picture of that name in " + at("a"));
+  }
+  EXPECT_THROW(pair_pictures(at("a"), at("b/x.png")), Error);
+}
+
+// Pictures of other renderers, where they are at hand: the decibels between two rasterisers' pictures of a scene, best
+// and worst of all pairs, as they were published with them.
+
+TEST(YiqRms, AgreesWithThePublishedDistancesOfRenderers) {
+  const fs::path folder = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data/goldens-calibration/images";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no calibration pictures";
+  const struct {
+    const char* name;
+    double best, worst;
+  } scenes[] = {{"khronos-Suzanne", -26.67, -19.31},
+                {"khronos-MetalRoughSpheresNoTextures", -26.87, -16.32},
+                {"khronos-AlphaBlendModeTest", -31.83, -24.63}};
+  const Choice choice = choose_metric(metrics(), "yiq_rms");
+  for (const auto& scene : scenes) {
+    std::vector<Picture> pictures;
+    for (const char* renderer : {"babylon", "filament", "gltf-sample-viewer", "model-viewer"}) {
+      pictures.push_back(load_picture((folder / scene.name / (std::string(renderer) + ".png")).string()));
+    }
+    std::vector<double> decibels;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      for (std::size_t j = 0; j < pictures.size(); ++j) {
+        if (i == j) continue;
+        decibels.push_back(choice.metric->measure({&pictures[i], 1}, {&pictures[j], 1}, choice.settings)->value);
+      }
+    }
+    EXPECT_NEAR(std::ranges::min(decibels), scene.best, 0.01) << scene.name;
+    EXPECT_NEAR(std::ranges::max(decibels), scene.worst, 0.01) << scene.name;
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate::metrics

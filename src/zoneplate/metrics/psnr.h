@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "zoneplate/metrics/picture.h"
+
+namespace zoneplate::metrics {
+
+/// 10 log10(1 / mse): infinite for 0.
+double psnr_of_mse(double mse);
+
+/// Peak signal-to-noise ratio of codes over all pixels and the three colours; the peak is 1. Infinite where all agree.
+double peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test);
+
+/// The same of Rec.709 luma.
+double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test);
+
+/// The ratio of a sequence: that of the mean of its frames' squared errors, so that one exact frame does not hide the
+/// rest.
+double pool_psnr(std::span<const double> frames);
+
+}  // namespace zoneplate::metrics

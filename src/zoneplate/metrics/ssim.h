@@ -1,0 +1,31 @@
+#pragma once
+
+#include "zoneplate/image/plane.h"
+#include "zoneplate/metrics/picture.h"
+
+namespace zoneplate::metrics {
+
+/// What structural similarity says of two grey pictures with values in [0, 1].
+struct Similarity {
+  double ssim = 1;      ///< mean of luminance × contrast-structure
+  double contrast = 1;  ///< mean of contrast-structure alone, what the coarser scales of MS-SSIM take
+  Plane<float> map;     ///< SSIM at each pixel, in [-1, 1]
+};
+
+/// Structural similarity under a Gaussian window, of sigma 1.5 and 11 × 11 pixels, with biased moments.
+///
+/// Requires  equal sizes, at least 11 × 11.
+/// Edges     the map mirrors the picture at its border (the edge pixel twice); the means are over the pixels whose
+///           window lies inside. Symmetric; exactly 1 where the pictures agree.
+/// Source    Wang, Bovik, Sheikh, Simoncelli, Image Quality Assessment: From Error Visibility to Structural
+///           Similarity, IEEE TIP 13(4), 2004.
+Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test);
+
+/// The five scales of MS-SSIM: each the mean of 2 × 2 pixels of the one before (a last odd row or column is left
+/// out); the product of contrast^weight over scales, and of luminance at the last one. A negative mean counts as 0.
+///
+/// Requires  equal sizes, at least 176 × 176 (11 at the last scale).
+/// Source    Wang, Simoncelli, Bovik, Multiscale Structural Similarity for Image Quality Assessment, Asilomar 2003.
+double multiscale_similarity(const Plane<double>& reference, const Plane<double>& test);
+
+}  // namespace zoneplate::metrics

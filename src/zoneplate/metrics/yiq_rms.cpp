@@ -1,0 +1,85 @@
+// The root mean square of squared YIQ colour distances, in decibels: how renderers are compared with the pictures
+// in glTF's render fidelity collection, where two rasterisers of the same scene differ by -16 to -35 dB.
+//
+// It squares the distance twice, so a few wrong pixels outweigh a slight error everywhere.
+// Not symmetric: pixels that are empty in the test picture do not count.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "zoneplate/metrics/metric.h"
+#include "zoneplate/metrics/power.h"
+#include "zoneplate/metrics/rows.h"
+#include "zoneplate/signal/functions.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+// The greatest distance, between black and white, codes 0 to 255.
+constexpr double greatest_distance = 35215;
+
+/// A picture's codes in 0 to 255, on white.
+Codes codes_on_white(Display c) {
+  const double alpha = c.a;
+  const auto blend = [alpha](double code) { return 255 + (255 * code - 255) * alpha; };
+  return {blend(c.r), blend(c.g), blend(c.b)};
+}
+
+/// Squared distance of two colours, weighted as the eye weighs luma and the two chromas.
+double distance(Codes p, Codes q) {
+  const double r = p.r - q.r, g = p.g - q.g, b = p.b - q.b;
+  const double y = r * 0.29889531 + g * 0.58662247 + b * 0.11448223;
+  const double i = r * 0.59597799 - g * 0.27417610 - b * 0.32180189;
+  const double c = r * 0.21147017 - g * 0.52261711 + b * 0.31114694;
+  return 0.5053 * y * y + 0.299 * i * i + 0.1957 * c * c;
+}
+
+std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& test) {
+  Score score;
+  score.map = Plane<float>(reference.width(), reference.height());
+  const double sum = sum_rows(reference.height(), [&](int y) {
+    double row = 0;
+    for (int x = 0; x < reference.width(); ++x) {
+      if (!(test(x, y).a > 0)) continue;
+      const double d = distance(codes_on_white(reference(x, y)), codes_on_white(test(x, y)));
+      row += d * d;
+      score.map(x, y) = static_cast<float>(std::sqrt(d / greatest_distance));
+    }
+    return row;
+  });
+  const double count = sum_rows(test.height(), [&](int y) {
+    double row = 0;
+    for (const Display& c : test.row(y)) row += c.a > 0 ? 1 : 0;
+    return row;
+  });
+  if (count == 0) return std::nullopt;
+  const double ratio = sum > 0 ? std::sqrt(sum / count) / greatest_distance : 0;
+  score.value = 10 * decimal_log(ratio);
+  score.more = {{"ratio", ratio, ""}, {"seen", count / static_cast<double>(test.values().size()), "share of pixels"}};
+  return score;
+}
+
+/// The root mean square over frames of what the decibels stand for.
+double pool(std::span<const double> frames) {
+  double sum = 0;
+  for (const double decibels : frames) sum += natural_exp(decibels * 2 * std::numbers::ln10 / 10);
+  return 10 * decimal_log(std::sqrt(sum / static_cast<double>(frames.size())));
+}
+
+}  // namespace
+
+Metric yiq_rms() {
+  return {.name = "yiq_rms",
+          .summary = "root mean square of squared YIQ distances, of codes on white, where the test is not empty",
+          .source =
+              "render fidelity tools of google/model-viewer; distance: Kotsarenko and Ramos, Measuring Perceived "
+              "Color Difference Using YIQ NTSC Transmission Color Space in Mobile Applications, 2010",
+          .unit = "dB",
+          .perfect = -std::numeric_limits<double>::infinity(),
+          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
+            return measure(reference[0].display, test[0].display);
+          },
+          .pool = pool};
+}
+
+}  // namespace zoneplate::metrics
