@@ -172,30 +172,35 @@ void drop_non_finite(const Primitive& p, Mesh& m) {
   m.index.resize(kept);
 }
 
+/// The direction of v; zero where its square is too small or too large for a float to hold it well.
+float3 direction(float3 v) {
+  const float square = dot(v, v);
+  return square > 1e-30f && square < 1e30f ? normalize(v) : float3{};
+}
+
 /// Gives every normal unit length; one of no length becomes that of the triangles around its vertex.
 void normalize_normals(Mesh& m) {
   bool has_zero = false;
   for (float3& n : m.normal) {
-    n = normalize(n);
+    n = direction(n);
     has_zero = has_zero || n == float3{};
   }
-  if (!has_zero || m.topology != Topology::Triangles) return;
+  if (!has_zero) return;
   std::vector<float3> sum(m.normal.size());
-  for (std::size_t k = 0; k + 2 < m.index.size(); k += 3) {
+  for (std::size_t k = 0; m.topology == Topology::Triangles && k + 2 < m.index.size(); k += 3) {
     const float3 a = m.position[m.index[k]], b = m.position[m.index[k + 1]], c = m.position[m.index[k + 2]];
-    for (std::size_t j = 0; j < 3; ++j) sum[m.index[k + j]] += cross(b - a, c - a);
+    const float3 n = face_normal(a, b, c);
+    for (std::size_t j = 0; j < 3; ++j) sum[m.index[k + j]] += n;
   }
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (m.normal[i] != float3{}) continue;
-    const float3 n = normalize(sum[i], {0, 1, 0});
-    m.normal[i] = is_finite(n) ? n : float3{0, 1, 0};
-  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (m.normal[i] == float3{}) m.normal[i] = normalize(sum[i], {0, 1, 0});
 }
 
 void normalize_tangents(Mesh& m) {
   for (std::size_t i = 0; i < m.tangent.size(); ++i) {
     const float3 axis = std::abs(m.normal[i].x) < 0.5f ? float3{1, 0, 0} : float3{0, 1, 0};
-    const float3 t = normalize(xyz(m.tangent[i]), normalize(axis - m.normal[i] * dot(axis, m.normal[i])));
+    float3 t = direction(xyz(m.tangent[i]));
+    if (t == float3{}) t = normalize(axis - m.normal[i] * dot(axis, m.normal[i]));
     m.tangent[i] = {t.x, t.y, t.z, m.tangent[i].w < 0 ? -1.0f : 1.0f};
   }
 }

@@ -135,6 +135,16 @@ TEST(GltfMesh, ZeroNormalsAreThoseOfTheTriangles) {
   EXPECT_EQ(load(m).meshes.at(0).normal, (std::vector<float3>{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}}));
 }
 
+TEST(GltfMesh, NormalsAreUnitAtEverySize) {
+  for (const float size : {1e-30f, 1.0f, 1e15f, 1e17f})
+    for (const float normal : {0.0f, 1e-30f, 1e-20f, 1e30f}) {
+      GltfMaker m;
+      m.mesh(R"("POSITION":)" + m.floats("VEC3", {0, 0, 0, 0, size, 0, 0, 0, size}) + R"(,"NORMAL":)" +
+             m.floats("VEC3", {normal, 0, 0, normal, 0, 0, normal, 0, 0}));
+      EXPECT_EQ(load(m).meshes.at(0).normal, std::vector<float3>(3, {1, 0, 0})) << size << " " << normal;
+    }
+}
+
 TEST(GltfMesh, ProvidedTangentsAreKeptOnlyWithNormalsAndANormalTexture) {
   const auto tangents = [](bool has_normal, bool has_texture) {
     GltfMaker m;

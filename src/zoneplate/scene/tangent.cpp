@@ -255,6 +255,17 @@ void unindex(std::vector<V>& values, const std::vector<std::uint32_t>& index) {
 
 }  // namespace
 
+float3 face_normal(float3 a, float3 b, float3 c) {
+  // The longest side is made 1 first, so that squares neither overflow nor vanish.
+  float3 d1 = b - a, d2 = c - a;
+  const float size = std::max(
+      {std::abs(d1.x), std::abs(d1.y), std::abs(d1.z), std::abs(d2.x), std::abs(d2.y), std::abs(d2.z), FLT_MIN});
+  d1 = {d1.x / size, d1.y / size, d1.z / size};
+  d2 = {d2.x / size, d2.y / size, d2.z / size};
+  const float3 normal = normalize(cross(d1, d2), {0, 1, 0});
+  return is_finite(normal) ? normal : float3{0, 1, 0};
+}
+
 void make_flat_normals(Mesh& mesh) {
   assert(mesh.topology == Topology::Triangles);
   mesh.normal.clear();
@@ -266,14 +277,8 @@ void make_flat_normals(Mesh& mesh) {
   for (std::size_t k = 0; k < mesh.index.size(); ++k) mesh.index[k] = static_cast<std::uint32_t>(k);
   mesh.normal.resize(mesh.position.size());
   for (std::size_t k = 0; k + 2 < mesh.position.size(); k += 3) {
-    // Scaled to the longest edge, so that tiny and huge triangles have a normal too.
-    float3 d1 = mesh.position[k + 1] - mesh.position[k], d2 = mesh.position[k + 2] - mesh.position[k];
-    const float size = std::max(
-        {std::abs(d1.x), std::abs(d1.y), std::abs(d1.z), std::abs(d2.x), std::abs(d2.y), std::abs(d2.z), FLT_MIN});
-    d1 = {d1.x / size, d1.y / size, d1.z / size};
-    d2 = {d2.x / size, d2.y / size, d2.z / size};
-    const float3 normal = normalize(cross(d1, d2), {0, 1, 0});
-    for (std::size_t c = 0; c < 3; ++c) mesh.normal[k + c] = is_finite(normal) ? normal : float3{0, 1, 0};
+    const float3 normal = face_normal(mesh.position[k], mesh.position[k + 1], mesh.position[k + 2]);
+    for (std::size_t c = 0; c < 3; ++c) mesh.normal[k + c] = normal;
   }
 }
 

@@ -4,6 +4,11 @@
 
 namespace zoneplate {
 
+/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; +Y where it has none.
+///
+/// Requires  finite points.
+float3 face_normal(float3 a, float3 b, float3 c);
+
 /// Replaces the normals by flat ones: every triangle gets its own three vertices. Degenerate triangles get +Y.
 ///
 /// Requires  triangles.
