@@ -7,7 +7,7 @@ target_link_libraries(zoneplate_tests PRIVATE zoneplate_cli GTest::gtest_main)
 target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
                            ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>")
 add_dependencies(zoneplate_tests zoneplate_program)
-target_precompile_headers(zoneplate_tests PRIVATE <gtest/gtest.h>)
+target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
 gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST)
 
 # The 20-line program of README.md, built against an installed package as a user would.

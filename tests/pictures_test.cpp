@@ -193,7 +193,8 @@ Scene one_mesh(Topology topology, std::vector<float3> position) {
 double area_of(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   const Request request{.samples = grid_pattern(16), .rate = Rate::Sample};
   double area = 0;
-  for (const Linear& c : render(scene, camera, request, options).color.values()) area += static_cast<double>(c.a);
+  const Frame frame = render(scene, camera, request, options);
+  for (const Linear& c : frame.color.values()) area += static_cast<double>(c.a);
   return area;
 }
 

@@ -26,9 +26,9 @@ std::string range_of(const Param& param) {
 std::string methods_text() {
   std::string text = "Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n";
   for (const Method& method : antialias::methods()) {
-    text += fmt::format("  {:<14}{} [{}]\n", method.name, method.summary, method.source);
+    text += fmt::format("  {:<16}{} [{}]\n", method.name, method.summary, method.source);
     for (const Param& param : method.params)
-      text += fmt::format("  {:<14}  {}  {}\n", "", range_of(param), param.meaning);
+      text += fmt::format("  {:<16}  {}  {}\n", "", range_of(param), param.meaning);
   }
   return text;
 }
@@ -65,7 +65,7 @@ std::string scenes_text() {
   std::string text = "Built-in scenes (in place of a file; NAME:PARAMETER=VALUE):\n";
   for (const BuiltinScene& scene : builtin_scenes()) {
     const std::string params = scene.params.empty() ? "" : fmt::format(" [{}]", scene.params);
-    text += fmt::format("  {:<14}{}{}\n", scene.name, scene.summary, params);
+    text += fmt::format("  {:<16}{}{}\n", scene.name, scene.summary, params);
   }
   return text;
 }
@@ -83,12 +83,12 @@ constexpr SceneFormat picture_formats[] = {{".png", "8 bits a channel, sRGB; - w
 std::string formats_text() {
   std::string text = "Models that can be read:\n";
   for (const SceneFormat& format : scene_formats())
-    text += fmt::format("  {:<14}{}\n", format.extension, format.summary);
+    text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
   text += "Pictures that can be written:\n";
   for (const SceneFormat& format : picture_formats)
-    text += fmt::format("  {:<14}{}\n", format.extension, format.summary);
+    text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
   text += "Data passes (--aov NAME,...), as .png:\n";
-  for (const Aov& aov : aovs()) text += fmt::format("  {:<14}{}\n", aov.name, aov.meaning);
+  for (const Aov& aov : aovs()) text += fmt::format("  {:<16}{}\n", aov.name, aov.meaning);
   return text;
 }
 
