@@ -122,6 +122,13 @@ TEST_F(Cli, WritesAPictureAndNothingElse) {
   EXPECT_TRUE(is_png(text_of(place / "work/a.png")));
 }
 
+TEST_F(Cli, APictureOfNothingIsWarnedAbout) {
+  const Result result =
+      run(with(small, {"-o", "a.png", "--camera-position", "0,0,9", "--camera-focal-point", "0,0,99"}));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "zoneplate: warning: triangles: nothing of it is in view; see the camera options\n");
+}
+
 TEST_F(Cli, TheSameCallGivesTheSameBytesOnStdout) {
   ASSERT_EQ(run(with(small, {"-o", "a.png"})).code, 0);
   const Result result = run(with(small, {"-o", "-"}));
@@ -272,8 +279,8 @@ TEST_F(Cli, ColoursFollowTheEnvironment) {
 
 TEST_F(Cli, SignalsLeaveNoFile) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const pid_t child = start({"sphere:triangles=1000000", "--size", "8192,8192", "--aa", "ssaa:n=4", "-o", "a.png",
-                               "--max-memory", "16G", "--progress", "json", "-t", "1"},
+    const pid_t child = start({"sphere:triangles=100000", "--size", "2048,2048", "--aa", "ssaa:n=16", "-o", "a.png",
+                               "--progress", "json", "-t", "1"},
                               (place / "stdout").string());
     // It is in the middle of the picture when its progress says so, and for seconds after.
     for (int i = 0; i < 2000 && text_of(place / "stderr").find("render") == std::string::npos; ++i)

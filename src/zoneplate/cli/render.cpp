@@ -100,6 +100,12 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
   return files;
 }
 
+// A picture of nothing is never given without a word.
+std::string emptiness(const RenderArgs& args, const RenderCounts& counts) {
+  return args.input + (counts.triangles == 0 ? ": there is nothing in it to draw"
+                                             : ": nothing of it is in view; see the camera options");
+}
+
 std::uint64_t peak_memory() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -171,6 +177,7 @@ void run_render(std::span<const std::string> arguments) {
     args.options.environment = apply_look(scene, camera, args.look);
     summary.warnings = scene.warnings;
     files = make_files(args, scene, camera, *resolver, progress, summary);
+    if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
     progress.begin("write", 0.95);
     const Stopwatch write_watch;
