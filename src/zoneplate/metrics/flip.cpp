@@ -55,28 +55,36 @@ Margin load_tile(const LinearImage& image, const Tile& tile, int reach) {
   return out;
 }
 
-/// A plane without its margin, filtered by one set of taps in x and another in y.
+/// The sums over k of taps[k] × from[k × step + i], for i in [0, width): taps in order, places side by side.
+void weighted_sums(const double* from, std::size_t step, const Taps& taps, int width, double* to) {
+  constexpr int side_by_side = 16;
+  int begin = 0;
+  for (; begin + side_by_side <= width; begin += side_by_side) {
+    double sums[side_by_side] = {};
+    for (std::size_t k = 0; k < taps.size(); ++k) {
+      const double tap = taps[k];
+      const double* at = from + k * step + begin;
+      for (int i = 0; i < side_by_side; ++i) sums[i] += tap * at[i];
+    }
+    std::copy(sums, sums + side_by_side, to + begin);
+  }
+  for (int i = begin; i < width; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < taps.size(); ++k) sum += taps[k] * from[k * step + static_cast<std::size_t>(i)];
+    to[i] = sum;
+  }
+}
+
+/// A plane without its margin, filtered by one set of taps in x and another of as many in y.
 Plane<double> filter(const Plane<double>& in, int reach, const Taps& across, const Taps& down) {
   const int radius = static_cast<int>(across.size()) / 2;
   const int width = in.width() - 2 * reach, height = in.height() - 2 * reach;
-
-  // Rows first, over the rows that the columns will need; tap by tap, so that neighbours are added side by side.
-  Plane<double> rows(width, height + 2 * radius);
+  Plane<double> rows(width, height + 2 * radius), out(width, height);
   for (int j = 0; j < rows.height(); ++j) {
-    const double* from = in.row(j + reach - radius).data() + (reach - radius);
-    double* to = rows.row(j).data();
-    for (const double tap : across) {
-      for (int i = 0; i < width; ++i) to[i] += tap * from[i];
-      ++from;
-    }
+    weighted_sums(in.row(j + reach - radius).data() + (reach - radius), 1, across, width, rows.row(j).data());
   }
-  Plane<double> out(width, height);
   for (int j = 0; j < height; ++j) {
-    double* to = out.row(j).data();
-    for (std::size_t k = 0; k < down.size(); ++k) {
-      const double* from = rows.row(j + static_cast<int>(k)).data();
-      for (int i = 0; i < width; ++i) to[i] += down[k] * from[i];
-    }
+    weighted_sums(rows.row(j).data(), static_cast<std::size_t>(width), down, width, out.row(j).data());
   }
   return out;
 }

@@ -9,25 +9,13 @@
 
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/rows.h"
-#include "zoneplate/signal/functions.h"
+#include "zoneplate/signal/spectrum.h"
+#include "zoneplate/signal/window.h"
 
 namespace zoneplate::metrics {
 namespace {
 
-std::vector<double> hann(int n) {
-  std::vector<double> window;
-  for (int i = 0; i < n; ++i) window.push_back(0.5 - 0.5 * cos_pi((2.0 * i + 1) / n));
-  return window;
-}
-
-/// |f| of a bin of the half spectrum, in cycles per pixel.
-double frequency_of(const Spectrum& spectrum, int kx, int ky) {
-  const double fx = bin_frequency(kx, spectrum.width), fy = bin_frequency(ky, spectrum.height());
-  return std::sqrt(fx * fx + fy * fy);
-}
-
-/// How many bins of the whole spectrum a bin of the half one stands for.
-double multiplicity(const Spectrum& spectrum, int kx) { return kx == 0 || 2 * kx == spectrum.width ? 1 : 2; }
+double pixels_of(const Spectrum& spectrum) { return static_cast<double>(spectrum.width) * spectrum.height(); }
 
 Plane<double> difference(Plane<double> a, const Plane<double>& b) {
   for (std::size_t i = 0; i < a.values().size(); ++i) a.values()[i] -= b.values()[i];
@@ -60,7 +48,8 @@ Score measure(const DisplayImage& reference, const DisplayImage& test) {
 }  // namespace
 
 Spectrum windowed_spectrum(const Plane<double>& plane) {
-  const std::vector<double> across = hann(plane.width()), down = hann(plane.height());
+  const Window hann = make_window("hann");
+  const std::vector<double> across = sampled(hann, plane.width()), down = sampled(hann, plane.height());
   const auto at = [](const std::vector<double>& window, int i) { return window[static_cast<std::size_t>(i)]; };
   const auto weighted_sum = [&](const auto& term) {
     return sum_rows(plane.height(), [&](int y) {
@@ -83,35 +72,18 @@ Spectrum windowed_spectrum(const Plane<double>& plane) {
 }
 
 RadialPower radial_power_of(const Spectrum& spectrum) {
-  const int shorter = std::min(spectrum.width, spectrum.height());
+  const RadialProfile profile = radial_profile(spectrum, std::min(spectrum.width, spectrum.height()) / 2);
   RadialPower out;
-  std::vector<double> counts(static_cast<std::size_t>(shorter / 2) + 1, 0.0);
-  out.power.resize(counts.size(), 0.0);
-  for (int ky = 0; ky < spectrum.height(); ++ky) {
-    for (int kx = 0; kx < spectrum.half.width(); ++kx) {
-      const auto ring = static_cast<std::size_t>(frequency_of(spectrum, kx, ky) * shorter + 0.5);
-      if (ring >= counts.size()) continue;
-      counts[ring] += multiplicity(spectrum, kx);
-      out.power[ring] += multiplicity(spectrum, kx) * std::norm(spectrum.half(kx, ky));
-    }
-  }
-  for (std::size_t ring = 0; ring < counts.size(); ++ring) {
-    out.frequency.push_back(static_cast<double>(ring) / shorter);
-    if (counts[ring] > 0) out.power[ring] /= counts[ring];
+  for (std::size_t ring = 0; ring < profile.power.size(); ++ring) {
+    if (profile.bins[ring] == 0) continue;
+    out.frequency.push_back((static_cast<double>(ring) + 0.5) * profile.ring_width);
+    out.power.push_back(profile.power[ring] * pixels_of(spectrum) * pixels_of(spectrum));
   }
   return out;
 }
 
 double band_power(const Spectrum& spectrum, double low, double high) {
-  const double sum = sum_rows(spectrum.height(), [&](int ky) {
-    double row = 0;
-    for (int kx = 0; kx < spectrum.half.width(); ++kx) {
-      const double f = frequency_of(spectrum, kx, ky);
-      if (f > low && f <= high) row += multiplicity(spectrum, kx) * std::norm(spectrum.half(kx, ky));
-    }
-    return row;
-  });
-  return sum / (static_cast<double>(spectrum.width) * spectrum.height());
+  return energy_between(spectrum, low, high) * pixels_of(spectrum);
 }
 
 Metric radial_power() {

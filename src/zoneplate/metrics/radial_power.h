@@ -15,13 +15,13 @@ Spectrum windowed_spectrum(const Plane<double>& plane);
 
 /// Power over frequency, whatever the direction.
 struct RadialPower {
-  std::vector<double> frequency;  ///< the middles of rings one bin of the shorter side wide, in cycles per pixel, to ½
-  std::vector<double> power;      ///< the mean of |spectrum|² over a ring
+  std::vector<double> frequency;  ///< the middles of rings one bin of the shorter side wide, in cycles per pixel
+  std::vector<double> power;      ///< the mean of |spectrum|² over a ring; rings without a bin are left out
 };
 
 RadialPower radial_power_of(const Spectrum& spectrum);
 
-/// What a band of frequencies holds of the mean square: the part of Σ |spectrum|² / pixels with low < |f| <= high.
+/// What a band of frequencies holds of the mean square: Σ |spectrum|² / pixels over low <= |f| < high.
 double band_power(const Spectrum& spectrum, double low, double high);
 
 }  // namespace zoneplate::metrics

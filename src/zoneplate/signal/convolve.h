@@ -24,10 +24,13 @@ struct ConvolveOptions {
 ///           same bits on every instruction set and number of threads.
 /// Cost      a multiplication and an addition a tap, pixel and direction; 49 taps take some nine copies for both
 /// (bench/).
+/// `room` may be a plane of the same size whose memory becomes the result's: for one image after another.
 Plane<float> convolve_separable(const Plane<float>& plane, std::span<const double> along_rows,
-                                std::span<const double> along_columns, const ConvolveOptions& options = {});
+                                std::span<const double> along_columns, const ConvolveOptions& options = {},
+                                Plane<float> room = {});
 LinearImage convolve_separable(const LinearImage& image, std::span<const double> along_rows,
-                               std::span<const double> along_columns, const ConvolveOptions& options = {});
+                               std::span<const double> along_columns, const ConvolveOptions& options = {},
+                               LinearImage room = {});
 
 /// By the definition, for any kernel.
 ///

@@ -4,6 +4,7 @@
 // then sums the buffer's rows along y. The plane between the two directions never exists.
 #include <algorithm>
 #include <cassert>
+#include <utility>
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
@@ -14,9 +15,11 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t strip_floats = 64;  // columns whose sums the kernel keeps in registers
-constexpr std::size_t strips = 8;         // of one task, side by side: their rows are read two kilobytes at a time
-constexpr std::size_t least_band = 128;   // rows of one task
-constexpr std::size_t least_step = 64;    // rows that are filtered along x, then summed along y, by turns
+constexpr std::size_t most_strips = 32;   // of one task, side by side: long rows are read as the memory likes it
+constexpr std::size_t least_strips = 8;
+constexpr std::size_t cached_rows = 2048;  // rows of strips, 256 bytes each, that one task keeps: the second cache
+constexpr std::size_t step_rows = 16;      // rows that are filtered along x, then summed along y, by turns
+constexpr std::size_t least_band = 32;     // rows of one task
 
 // One row of a strip. Aligned, because a vector that straddles two cache lines costs two reads.
 struct alignas(64) StripRow {
@@ -55,7 +58,11 @@ template <class T>
 class RowFilter {
  public:
   RowFilter(const Plane<T>& plane, std::span<const double> taps, const ConvolveOptions& options)
-      : plane_(plane), weights_(as_floats(taps)), is_copy_(is_identity(taps)), kernels_(kernels_of(options.isa)) {
+      : plane_(plane),
+        weights_(as_floats(taps)),
+        border_(options.border),
+        is_copy_(is_identity(taps)),
+        kernels_(kernels_of(options.isa)) {
     const std::size_t n = taps.size(), w = static_cast<std::size_t>(plane.width());
     before_ = n - 1 - n / 2;
     // In whole strips, so that no vector is left over between the parts.
@@ -64,7 +71,6 @@ class RowFilter {
       return std::min(w, (pixels + unit - 1) / unit * unit);
     };
     low_ = in_strips(before_), high_ = std::max(low_, w - in_strips(n / 2));
-    left_ = sources(0, low_, options.border), right_ = sources(high_, w, options.border);
     for (std::size_t t = 0; t < n; ++t) rows_.push_back(floats(plane.row(0)) + std::min(n - 1 - t, w) * channels<T>);
   }
 
@@ -74,9 +80,10 @@ class RowFilter {
     std::vector<const float*> rows;
   };
   Edge make_edge() const {
-    Edge edge{std::vector<T>(std::max(left_.size(), right_.size()) + 1), {}};
+    const std::size_t w = static_cast<std::size_t>(plane_.width());
+    Edge edge{std::vector<T>(std::max(low_, w - high_) + weights_.size()), {}};
     for (std::size_t t = weights_.size(); t-- > 0;)
-      edge.rows.push_back(floats(std::span<const T>(edge.pixels)) + std::min(t, edge.pixels.size()) * channels<T>);
+      edge.rows.push_back(floats(std::span<const T>(edge.pixels)) + t * channels<T>);
     return edge;
   }
 
@@ -87,7 +94,7 @@ class RowFilter {
       std::copy_n(floats(row.subspan(begin)), (end - begin) * channels<T>, out);
       return;
     }
-    if (begin < low_) sum_edge(row, std::span(left_).subspan(begin), std::min(end, low_) - begin, out, edge);
+    if (begin < low_) sum_edge(row, begin, std::min(end, low_), out, edge);
     const std::size_t a = std::max(begin, low_), b = std::min(end, high_);
     if (a < b) {
       const std::size_t first = static_cast<std::size_t>(y) * row.size() + a - before_;
@@ -96,35 +103,32 @@ class RowFilter {
     }
     if (end > high_) {
       const std::size_t c = std::max(begin, high_);
-      sum_edge(row, std::span(right_).subspan(c - high_), end - c, out + (c - begin) * channels<T>, edge);
+      sum_edge(row, c, end, out + (c - begin) * channels<T>, edge);
     }
   }
 
  private:
-  // Which pixel of a row stands at each place that pixels [begin, end) see; the width for none.
-  std::vector<std::size_t> sources(std::size_t begin, std::size_t end, Border border) const {
-    std::vector<std::size_t> out;
-    if (begin == end) return out;
-    for (std::size_t i = 0; i < end - begin + weights_.size() - 1; ++i) {
-      const int x = border_index(static_cast<int>(begin + i) - static_cast<int>(before_), plane_.width(), border);
-      out.push_back(static_cast<std::size_t>(x < 0 ? plane_.width() : x));
-    }
-    return out;
-  }
-
-  void sum_edge(std::span<const T> row, std::span<const std::size_t> source, std::size_t count, float* out,
-                Edge& edge) const {
-    for (std::size_t i = 0; i < count + weights_.size() - 1; ++i)
-      edge.pixels[i] = source[i] < row.size() ? row[source[i]] : nothing<T>;
-    kernels_.narrow(edge.rows.data(), 0, weights_.data(), weights_.size(), out, count * channels<T>);
+  // The sums of pixels [begin, end), whose sources are copied out with their border first.
+  void sum_edge(std::span<const T> row, std::size_t begin, std::size_t end, float* out, Edge& edge) const {
+    const int first = static_cast<int>(begin) - static_cast<int>(before_), w = plane_.width();
+    const int seen = static_cast<int>(end - begin + weights_.size() - 1);
+    const int inside = std::clamp(-first, 0, seen), outside = std::clamp(w - first, inside, seen);
+    const auto copy_border = [&](int i) {
+      const int x = border_index(first + i, w, border_);
+      edge.pixels[static_cast<std::size_t>(i)] = x < 0 ? nothing<T> : row[static_cast<std::size_t>(x)];
+    };
+    for (int i = 0; i < inside; ++i) copy_border(i);
+    if (outside > inside) std::copy_n(row.begin() + first + inside, outside - inside, edge.pixels.begin() + inside);
+    for (int i = outside; i < seen; ++i) copy_border(i);
+    kernels_.narrow(edge.rows.data(), 0, weights_.data(), weights_.size(), out, (end - begin) * channels<T>);
   }
 
   const Plane<T>& plane_;
   std::vector<float> weights_;
+  Border border_;
   bool is_copy_;
   const RowSumKernels& kernels_;
   std::size_t before_ = 0, low_ = 0, high_ = 0;
-  std::vector<std::size_t> left_, right_;
   std::vector<const float*> rows_;
 };
 
@@ -137,7 +141,7 @@ class Window {
         rows_(rows),
         first_(first_pixel),
         end_(end_pixel),
-        strip_rows_(rows * strips),
+        strip_rows_(rows * (((end_pixel - first_pixel) * channels<T> + strip_floats - 1) / strip_floats)),
         edge_(filter.make_edge()) {}
 
   // Row i becomes row y of the plane, filtered; nothing where y < 0.
@@ -151,7 +155,7 @@ class Window {
 
   // Drops the first `count` rows.
   void move_up(std::size_t count) {
-    for (std::size_t s = 0; s < strips; ++s) {
+    for (std::size_t s = 0; s * strip_floats < floats_across(); ++s) {
       const auto strip = strip_rows_.begin() + static_cast<std::ptrdiff_t>(s * rows_);
       std::copy(strip + static_cast<std::ptrdiff_t>(count), strip + static_cast<std::ptrdiff_t>(rows_), strip);
     }
@@ -172,7 +176,7 @@ template <class T>
 void sweep(const RowFilter<T>& filter, std::span<const double> taps, const ConvolveOptions& options, Plane<T>& out,
            std::size_t begin, std::size_t end, std::size_t first_x, std::size_t end_x) {
   const std::vector<float> weights = as_floats(taps);
-  const std::size_t n = taps.size(), step = std::max(n, least_step);
+  const std::size_t n = taps.size(), step = step_rows;
   Window<T> window(filter, n - 1 + step, first_x, end_x);
   const RowSumKernels& kernels = kernels_of(options.isa);
   std::vector<const float*> rows(n);
@@ -202,14 +206,16 @@ void sweep(const RowFilter<T>& filter, std::span<const double> taps, const Convo
 
 template <class T>
 Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, std::span<const double> along_columns,
-                   const ConvolveOptions& options) {
+                   const ConvolveOptions& options, Plane<T> room) {
   assert(!along_rows.empty() && !along_columns.empty());
   if (plane.empty()) return plane;
   const auto w = static_cast<std::size_t>(plane.width()), h = static_cast<std::size_t>(plane.height());
-  Plane<T> out(plane.width(), plane.height());
+  // Every value is written below, so that what is in the room does not matter.
+  const bool has_room = room.width() == plane.width() && room.height() == plane.height();
+  Plane<T> out = has_room ? std::move(room) : Plane<T>(plane.width(), plane.height());
   const RowFilter<T> filter(plane, along_rows, options);
   if (is_identity(along_columns)) {
-    parallel_ranges(h, least_band / 4, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(h, least_band, [&](std::size_t begin, std::size_t end) {
       auto edge = filter.make_edge();
       for (std::size_t y = begin; y < end; ++y) {
         const int row = static_cast<int>(y);
@@ -219,10 +225,15 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
     return out;
   }
 
-  // Tall bands: each filters the rows that its first sums reach up to once more.
-  const std::size_t bands = std::max<std::size_t>(1, h / std::max(least_band, 8 * along_columns.size()));
-  const std::size_t band = (h + bands - 1) / bands;
+  // How the plane is cut into tasks changes the time and no value: each value is the same sum in any of them. A band
+  // filters the rows that its first sums reach up to once more, so that there are no more bands than threads want.
+  const std::size_t n = along_columns.size();
+  const std::size_t strips = std::clamp(cached_rows / (n - 1 + step_rows), least_strips, most_strips);
   const std::size_t across = strips * strip_floats / channels<T>, blocks = (w + across - 1) / across;
+  const auto threads = static_cast<std::size_t>(thread_limit());
+  const std::size_t wanted = threads == 1 ? 1 : (2 * threads + blocks - 1) / blocks;
+  const std::size_t bands = std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(1, h / std::max(least_band, n)));
+  const std::size_t band = (h + bands - 1) / bands;
   parallel_for(bands * blocks, [&](std::size_t task) {
     const std::size_t y = std::min(h, task / blocks * band), x = task % blocks * across;
     sweep(filter, along_columns, options, out, y, std::min(h, y + band), x, std::min(w, x + across));
@@ -233,12 +244,14 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
 }  // namespace
 
 Plane<float> convolve_separable(const Plane<float>& plane, std::span<const double> along_rows,
-                                std::span<const double> along_columns, const ConvolveOptions& options) {
-  return separable(plane, along_rows, along_columns, options);
+                                std::span<const double> along_columns, const ConvolveOptions& options,
+                                Plane<float> room) {
+  return separable(plane, along_rows, along_columns, options, std::move(room));
 }
 LinearImage convolve_separable(const LinearImage& image, std::span<const double> along_rows,
-                               std::span<const double> along_columns, const ConvolveOptions& options) {
-  return separable(image, along_rows, along_columns, options);
+                               std::span<const double> along_columns, const ConvolveOptions& options,
+                               LinearImage room) {
+  return separable(image, along_rows, along_columns, options, std::move(room));
 }
 
 }  // namespace zoneplate

@@ -148,6 +148,17 @@ TEST(Convolve, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
       });
 }
 
+TEST(Convolve, WhatIsInTheRoomDoesNotMatter) {
+  const Plane<float> plane = noise_plane(150, 40);
+  const auto taps = sampled(make_kernel("gaussian:sigma=2"));
+  const std::vector<double> one = {1};
+  for (const auto& [rows, columns] : {std::pair{taps, taps}, {one, taps}, {taps, one}}) {
+    const auto expected = convolve_separable(plane, rows, columns);
+    EXPECT_EQ(convolve_separable(plane, rows, columns, {}, Plane<float>(150, 40, 7)), expected);
+    EXPECT_EQ(convolve_separable(plane, rows, columns, {}, Plane<float>(15, 40, 7)), expected);
+  }
+}
+
 TEST(Convolve, OnePixelAndNone) {
   const double taps[] = {0.25, 0.5, 0.25};
   EXPECT_TRUE(convolve_separable(Plane<float>(), taps, taps).empty());
