@@ -16,7 +16,9 @@ namespace {
 class Msaa : public Resolver {
  public:
   explicit Msaa(SamplePattern pattern) : pattern_(std::move(pattern)) {}
-  Request ask(int) override { return {.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}}; }
+  Request ask(int) override {
+    return {.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .is_local = true};
+  }
 
  private:
   SamplePattern pattern_;

@@ -2,6 +2,14 @@
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
+namespace {
+
+class None : public Resolver {
+ public:
+  Request ask(int) override { return {.is_local = true}; }
+};
+
+}  // namespace
 
 Method none();
 
@@ -9,7 +17,7 @@ Method none() {
   return {.name = "none",
           .summary = "one sample at the pixel's centre",
           .source = "point sampling",
-          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Resolver>(); }};
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<None>(); }};
 }
 
 }  // namespace zoneplate::antialias

@@ -14,7 +14,9 @@ namespace {
 class Ssaa : public Resolver {
  public:
   explicit Ssaa(SamplePattern pattern) : pattern_(std::move(pattern)) {}
-  Request ask(int) override { return {.samples = pattern_, .rate = Rate::Sample, .weights = {}, .planes = {}}; }
+  Request ask(int) override {
+    return {.samples = pattern_, .rate = Rate::Sample, .weights = {}, .planes = {}, .is_local = true};
+  }
 
  private:
   SamplePattern pattern_;

@@ -79,15 +79,20 @@ Request request_of(Resolver& resolver, const RenderArgs& args) {
 std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
                                    Progress& progress, Summary& summary) {
   progress.begin("render", 0.2);
-  Frame frame = render(scene, camera, request_of(resolver, args), args.options, &summary.counts);
+  DisplayOptions display = args.display;
+  display.background = background_of(args);
+  const Request request = request_of(resolver, args);
+  RenderOptions options = args.options;
+  if (request.is_local) options.shown = &display;
+  Frame frame = render(scene, camera, request, options, &summary.counts);
   summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},
                                              {"geometry", summary.counts.geometry_ms},
                                              {"tiles", summary.counts.tiles_ms}});
 
   Stopwatch display_watch;
-  DisplayOptions display = args.display;
-  display.background = background_of(args);
-  const Rgba8Image image = quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
+  const Rgba8Image image = request.is_local
+                               ? std::move(frame.shown)
+                               : quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
   summary.width = image.width(), summary.height = image.height();
   summary.times.emplace_back("display", display_watch.ms());
 

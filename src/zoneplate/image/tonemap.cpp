@@ -6,6 +6,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/tonemap_kernels.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/image/transfer_kernels.h"
 
 namespace zoneplate {
 namespace {
@@ -109,12 +110,15 @@ DisplayStep make_step(const DisplayOptions& options) {
   return step;
 }
 
+const TonemapKernels& best_kernels() {
+  return pick(best_isa(), scalar::tonemap_kernels, N_SSE4::tonemap_kernels, N_AVX2::tonemap_kernels);
+}
+
 }  // namespace
 
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options) {
   static_assert(sizeof(Linear) == 4 * sizeof(float) && sizeof(Display) == 4 * sizeof(float));
-  const TonemapKernels& kernels =
-      pick(best_isa(), scalar::tonemap_kernels, N_SSE4::tonemap_kernels, N_AVX2::tonemap_kernels);
+  const TonemapKernels& kernels = best_kernels();
   const DisplayStep step = make_step(options);
   DisplayImage display(image.width(), image.height());
   // Blocks of pixels rather than rows, so that a thin picture is shared out as well.
@@ -122,6 +126,24 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
     kernels.display_row(step, &image.values()[begin].r, &display.values()[begin].r, end - begin);
   });
   return display;
+}
+
+Presenter::Presenter(const DisplayOptions& options) : step_(make_step(options)) {
+  const Linear nothing{0, 0, 0, 0};
+  present({&nothing, 1}, &background_);
+}
+
+void Presenter::present(std::span<const Linear> run, Rgba8* out) const {
+  const TonemapKernels& tonemap = best_kernels();
+  const TransferKernels& transfer =
+      pick(best_isa(), scalar::transfer_kernels, N_SSE4::transfer_kernels, N_AVX2::transfer_kernels);
+  constexpr std::size_t step = 64;
+  Display shown[step];
+  for (std::size_t i = 0; i < run.size(); i += step) {
+    const std::size_t n = std::min(step, run.size() - i);
+    tonemap.display_row(step_, &run[i].r, &shown[0].r, n);
+    transfer.quantize8(&shown[0].r, &out[i].r, 4 * n);
+  }
 }
 
 }  // namespace zoneplate

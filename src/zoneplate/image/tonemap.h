@@ -1,7 +1,10 @@
 #pragma once
 
+#include <span>
+
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/tone_mapping.h"
+#include "zoneplate/image/tonemap_kernels.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {
@@ -25,5 +28,20 @@ struct DisplayOptions {
 /// Edges     every channel of the result is in [0, 1], whatever the picture holds; where alpha is 0 the
 ///           background's own code is shown, where the picture is opaque nothing of it.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
+
+/// quantize8 of make_display, run by run: for pixels that are shown while they are in cache.
+class Presenter {
+ public:
+  explicit Presenter(const DisplayOptions& options);
+
+  /// `out` has the run's size.
+  void present(std::span<const Linear> run, Rgba8* out) const;
+  /// What is shown where the picture is empty.
+  Rgba8 background() const { return background_; }
+
+ private:
+  DisplayStep step_;
+  Rgba8 background_;
+};
 
 }  // namespace zoneplate

@@ -1,6 +1,32 @@
 #include "zoneplate/raster/coverage.h"
 
-namespace zoneplate::scalar {
+#include <algorithm>
+
+namespace zoneplate {
+
+void TileVisibility::clear() {
+  std::fill_n(block_far, blocks, 0.0f);
+  std::fill_n(block_owner, blocks, no_triangle);
+}
+
+void TileVisibility::open_block(int block) {
+  if (block_owner[block] == no_triangle) {
+    const int corner = block / 8 * 8 * tile_size + block % 8 * 8;
+    for (int s = 0; s < sample_count; ++s)
+      for (int y = 0; y < 8; ++y) {
+        std::fill_n(depth + s * tile_pixels + corner + y * tile_size, 8, 0.0f);
+        std::fill_n(id + s * tile_pixels + corner + y * tile_size, 8, no_triangle);
+      }
+  }
+  block_owner[block] = many_triangles;
+}
+
+void TileVisibility::open_all() {
+  for (int block = 0; block < blocks; ++block)
+    if (block_owner[block] == no_triangle) open_block(block);
+}
+
+namespace scalar {
 namespace {
 
 bool covers(const TileTriangle& t, int s, int x, int y) {
@@ -15,7 +41,9 @@ bool wins(const TileTriangle& t, const TileVisibility& tile, int s, int x, int y
   return covers(t, s, x, y) && (z > tile.depth[at] || (z == tile.depth[at] && t.id < tile.id[at]));
 }
 
-void draw(const TileTriangle& t, TileVisibility& tile) {
+bool draw(const TileTriangle& t, TileVisibility& tile) {
+  for (int y = t.first_y & ~7; y <= t.last_y; y += 8)
+    for (int x = t.first_x & ~7; x <= t.last_x; x += 8) tile.open_block(y + x / 8);
   for (int s = 0; s < tile.sample_count; ++s)
     for (int y = t.first_y; y <= t.last_y; ++y)
       for (int x = t.first_x; x <= t.last_x; ++x)
@@ -23,6 +51,7 @@ void draw(const TileTriangle& t, TileVisibility& tile) {
           tile.depth[s * tile_pixels + y * tile_size + x] = depth_at(t, s, x, y);
           tile.id[s * tile_pixels + y * tile_size + x] = t.id;
         }
+  return false;
 }
 
 int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
@@ -37,8 +66,43 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   return count;
 }
 
+int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* out, std::uint8_t* is_partial) {
+  int count = 0;
+  for (int y = t.first_y; y <= t.last_y; ++y)
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      RowLayer layer{t.id, static_cast<std::uint32_t>(y * 8 + bx / 8), t.z_high, t.z_low};
+      int won = 0;
+      for (int s = 0; s < tile.sample_count; ++s)
+        for (int x = bx; x < bx + 8; ++x) {
+          if (!wins(t, tile, s, x, y)) continue;
+          const float z = depth_at(t, s, x, y);
+          layer.least = z < layer.least ? z : layer.least;
+          layer.greatest = z > layer.greatest ? z : layer.greatest;
+          ++won;
+        }
+      if (won == 8 * tile.sample_count)
+        out[count++] = layer;
+      else if (won > 0)
+        is_partial[layer.row] = 1;
+    }
+  return count;
+}
+
+void find_owners(const TileVisibility& tile, std::int32_t* owners) {
+  for (int row = 0; row < tile_pixels / 8; ++row) {
+    owners[row] = tile.block_owner[row / 64 * 8 + row % 8];
+    if (owners[row] != many_triangles) continue;
+    owners[row] = tile.id[row * 8];
+    for (int s = 0; s < tile.sample_count; ++s)
+      for (int x = 0; x < 8; ++x)
+        if (tile.id[s * tile_pixels + row * 8 + x] != tile.id[row * 8]) owners[row] = many_triangles;
+  }
+}
+
 }  // namespace
 
-const CoverageKernels coverage_kernels = {.draw = draw, .collect = collect};
+const CoverageKernels coverage_kernels = {
+    .draw = draw, .collect = collect, .collect_rows = collect_rows, .find_owners = find_owners};
 
-}  // namespace zoneplate::scalar
+}  // namespace scalar
+}  // namespace zoneplate

@@ -13,22 +13,43 @@ inline constexpr int tile_pixels = tile_size * tile_size;
 /// The id of a sample that no triangle owns; greater than any triangle's.
 inline constexpr std::int32_t no_triangle = 0x7fffffff;
 
+/// In place of an id, where samples have different owners.
+inline constexpr std::int32_t many_triangles = -1;
+
 /// What is visible in one tile: depth and triangle id of every sample, planes by sample, 64 × 64 each.
 ///
 /// The owner of a sample is the triangle of greatest depth there, of those the one with the lowest id: a total order,
-/// so the triangles may be drawn in any order. `block_far` holds for each of the 8 × 8 blocks of 8 × 8 pixels a depth
-/// that no sample of the block is below.
+/// so the triangles may be drawn in any order.
+///
+/// For each of the 8 × 8 blocks of 8 × 8 pixels `block_far` holds a depth that no sample of the block is below, and
+/// `block_owner` the triangle that owns all of it, or `many_triangles`. Where it is `no_triangle` nothing was drawn
+/// yet, and the block's samples are not even written: `open_block` comes before the first of them is.
 struct TileVisibility {
+  static constexpr int blocks = 64;
   int sample_count = 1;
   float* depth = nullptr;
   std::int32_t* id = nullptr;
   float* block_far = nullptr;
+  std::int32_t* block_owner = nullptr;
+
+  /// Nothing is drawn yet.
+  void clear();
+  /// The block's samples may be read and written one by one.
+  void open_block(int block);
+  void open_all();
 };
 
 /// A pixel that a triangle covers in front of what the tile holds, with the samples where it does.
 struct Fragment {
   std::uint64_t samples;  ///< bit s: sample s
   std::uint32_t pixel;    ///< 64 y + x within the tile
+};
+
+/// Eight neighbouring pixels of a row where a triangle is in front of what the tile holds at every sample.
+struct RowLayer {
+  std::int32_t id;
+  std::uint32_t row;      ///< 8 y + x / 8 within the tile
+  float least, greatest;  ///< its depths there
 };
 
 /// Depth of the triangle at sample s of the tile's pixel (x, y); the same bits in every kernel.
@@ -40,11 +61,23 @@ inline float depth_at(const TileTriangle& t, int s, int x, int y) {
 }
 
 struct CoverageKernels {
-  /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id.
-  void (*draw)(const TileTriangle& triangle, TileVisibility& tile);
+  /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Gives true if some
+  /// block's `block_far` may have risen.
+  bool (*draw)(const TileTriangle& triangle, TileVisibility& tile);
   /// Lists the pixels where the triangle would win at least one sample; draws nothing. `out` has room for a fragment of
   /// every pixel of the tile; gives the number of fragments, in order of rows.
+  ///
+  /// Requires  open blocks.
   int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, Fragment* out);
+  /// Lists the rows of 8 pixels where the triangle would win every sample, in the lines from first_y to last_y; sets
+  /// is_partial[row] where it would win some but not all. `out` has room for every row of those lines.
+  ///
+  /// Requires  open blocks.
+  int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, RowLayer* out,
+                      std::uint8_t* is_partial);
+  /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
+  /// `many_triangles`; `no_triangle` where nothing is.
+  void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
 };
 
 namespace scalar {

@@ -103,30 +103,74 @@ float farthest(const TileVisibility& tile, int x, int y) {
   return hn::GetLane(hn::MinOfLanes(d, low));
 }
 
-void draw(const TileTriangle& t, TileVisibility& tile) {
+/// Draws into a block that the triangle covers and where nothing is yet: it wins everywhere. Gives the least depth.
+float fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int by) {
   const F d;
   const I di;
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const VF lane = hn::Iota(d, 0), dzdx = hn::Set(d, t.dzdx);
+  const VF z_low = hn::Set(d, t.z_low), z_high = hn::Set(d, t.z_high);
+  const VI id = hn::Set(di, t.id);
+  VF least_z = z_high;
+  for (int s = 0; s < tile.sample_count; ++s)
+    for (int y = by; y < by + 8; ++y) {
+      const VF row = hn::Set(d, t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y));
+      for (int x = bx; x < bx + 8; x += lanes) {
+        const VF column = hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), lane);
+        const VF z = hn::Min(hn::Max(hn::Add(row, hn::Mul(dzdx, column)), z_low), z_high);
+        const int at = s * tile_pixels + y * tile_size + x;
+        hn::Store(z, d, tile.depth + at);
+        hn::Store(id, di, tile.id + at);
+        least_z = hn::Min(least_z, z);
+      }
+    }
+  return hn::GetLane(hn::MinOfLanes(d, least_z));
+}
+
+/// Draws rows [top, bottom] of a block. Gives true if the triangle won every sample.
+bool draw_block(const TileTriangle& t, const Step& step, const TileVisibility& tile, int bx, int top, int bottom) {
+  const F d;
+  const I di;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  bool all = true;
+  for (int s = 0; s < tile.sample_count; ++s)
+    for (int y = top; y <= bottom; ++y)
+      for (int x = bx; x < bx + 8; x += lanes) {
+        VF z;
+        const auto mask = step.wins(t, tile, s, x, y, z);
+        all = all && hn::AllTrue(d, mask);
+        if (hn::AllFalse(d, mask)) continue;
+        const int at = s * tile_pixels + y * tile_size + x;
+        hn::BlendedStore(z, mask, d, tile.depth + at);
+        hn::BlendedStore(step.id, hn::RebindMask(di, mask), di, tile.id + at);
+      }
+  return all;
+}
+
+bool draw(const TileTriangle& t, TileVisibility& tile) {
   const Spread spread = spread_of(t, tile.sample_count);
   const Step step(t);
+  bool has_risen = false;
   for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      const Block block = classify(t, spread, bx, by);
-      float& far = tile.block_far[by + bx / 8];
-      if (block == Block::Outside || greatest_depth(t, spread, bx, by) < far) continue;
+      const Block place = classify(t, spread, bx, by);
+      const int block = by + bx / 8;
+      if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_far[block]) continue;
+      if (place == Block::Inside && tile.block_owner[block] == no_triangle) {
+        tile.block_far[block] = fill_block(t, tile, bx, by);
+        tile.block_owner[block] = t.id;
+        has_risen = true;
+        continue;
+      }
+      tile.open_block(block);
       const int top = greatest(by, t.first_y), bottom = least(by + 7, t.last_y);
-      for (int s = 0; s < tile.sample_count; ++s)
-        for (int y = top; y <= bottom; ++y)
-          for (int x = bx; x < bx + 8; x += lanes) {
-            VF z;
-            const auto mask = step.wins(t, tile, s, x, y, z);
-            if (hn::AllFalse(d, mask)) continue;
-            const int at = s * tile_pixels + y * tile_size + x;
-            hn::BlendedStore(z, mask, d, tile.depth + at);
-            hn::BlendedStore(step.id, hn::RebindMask(di, mask), di, tile.id + at);
-          }
-      if (block == Block::Inside) far = farthest(tile, bx, by);
+      const bool all = draw_block(t, step, tile, bx, top, bottom);
+      if (place != Block::Inside) continue;
+      tile.block_far[block] = farthest(tile, bx, by);
+      if (all) tile.block_owner[block] = t.id;
+      has_risen = true;
     }
+  return has_risen;
 }
 
 int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
@@ -153,10 +197,55 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   return count;
 }
 
+int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* out, std::uint8_t* is_partial) {
+  const F d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const Spread spread = spread_of(t, tile.sample_count);
+  const Step step(t);
+  int count = 0;
+  for (int y = t.first_y; y <= t.last_y; ++y)
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      if (classify(t, spread, bx, y & ~7) == Block::Outside) continue;
+      VF low = step.z_high, high = step.z_low;
+      bool all = true, any = false;
+      for (int s = 0; s < tile.sample_count; ++s)
+        for (int x = bx; x < bx + 8; x += lanes) {
+          VF z;
+          const auto mask = step.wins(t, tile, s, x, y, z);
+          all = all && hn::AllTrue(d, mask);
+          any = any || !hn::AllFalse(d, mask);
+          low = hn::Min(low, z);
+          high = hn::Max(high, z);
+        }
+      const auto row = static_cast<std::uint32_t>(y * 8 + bx / 8);
+      if (all)
+        out[count++] = {t.id, row, hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
+      else if (any)
+        is_partial[row] = 1;
+    }
+  return count;
+}
+
+void find_owners(const TileVisibility& tile, std::int32_t* owners) {
+  const I d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  for (int row = 0; row < tile_pixels / 8; ++row) {
+    owners[row] = tile.block_owner[row / 64 * 8 + row % 8];
+    if (owners[row] != many_triangles) continue;
+    const VI first = hn::Set(d, tile.id[row * 8]);
+    VI differs = hn::Zero(d);
+    for (int s = 0; s < tile.sample_count; ++s)
+      for (int x = 0; x < 8; x += lanes)
+        differs = hn::Or(differs, hn::Xor(first, hn::Load(d, tile.id + s * tile_pixels + row * 8 + x)));
+    if (hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)))) owners[row] = tile.id[row * 8];
+  }
+}
+
 }  // namespace
 
 extern const CoverageKernels coverage_kernels;
-const CoverageKernels coverage_kernels = {.draw = draw, .collect = collect};
+const CoverageKernels coverage_kernels = {
+    .draw = draw, .collect = collect, .collect_rows = collect_rows, .find_owners = find_owners};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

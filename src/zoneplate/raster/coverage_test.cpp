@@ -33,11 +33,11 @@ bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, bool is_
 }
 
 struct Buffers {
-  explicit Buffers(int samples, float depth = 0)
-      : z(static_cast<std::size_t>(samples) * tile_pixels + 16, depth),
-        id(static_cast<std::size_t>(samples) * tile_pixels + 16, no_triangle) {
-    visibility = {.sample_count = samples, .depth = align(z), .id = align(id), .block_far = far};
-    std::fill_n(far, 64, depth);
+  explicit Buffers(int samples)
+      : z(static_cast<std::size_t>(samples) * tile_pixels + 16),
+        id(static_cast<std::size_t>(samples) * tile_pixels + 16) {
+    visibility = {.sample_count = samples, .depth = align(z), .id = align(id), .block_far = far, .block_owner = owner};
+    visibility.clear();
   }
   template <class T>
   static T* align(std::vector<T>& v) {
@@ -45,7 +45,8 @@ struct Buffers {
   }
   std::vector<float> z;
   std::vector<std::int32_t> id;
-  float far[64];
+  float far[TileVisibility::blocks];
+  std::int32_t owner[TileVisibility::blocks];
   TileVisibility visibility;
 };
 
@@ -89,10 +90,9 @@ std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int trian
     const int tile_x = std::min(std::max((v[corner].x + 512 * 256) >> 8, 0), 1023) / 64 * 64;
     const int tile_y = std::min(std::max((v[corner].y + 384 * 256) >> 8, 0), 767) / 64 * 64;
     make_tile_triangle(t, pattern.data(), samples, tile_x, tile_y, tile);
-    std::fill(buffers.z.begin(), buffers.z.end(), 0.0f);
-    std::fill(buffers.id.begin(), buffers.id.end(), no_triangle);
-    std::fill_n(buffers.far, 64, 0.0f);
+    buffers.visibility.clear();
     coverage_kernels(isa).draw(tile, buffers.visibility);
+    buffers.visibility.open_all();
 
     // The definition is asked inside the triangle's box, grown by a pixel, and the rest must be untouched.
     const int x0 = std::max(t.min_x - tile_x - 1, 0), x1 = std::min(t.max_x - tile_x + 1, 63);
@@ -161,6 +161,8 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
     scalar::coverage_kernels.draw(tile, first.visibility);
     make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, rules), pattern.data(), 16, 448, 320, tile);
     scalar::coverage_kernels.draw(tile, second.visibility);
+    first.visibility.open_all();
+    second.visibility.open_all();
     for (int i = 0; i < 16 * tile_pixels; ++i) {
       const SamplePosition at = pattern[static_cast<std::size_t>(i / tile_pixels)];
       const std::int64_t x = (448 + i % 64) * 256 + at.x - 512 * 256,
@@ -198,6 +200,8 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), rules),
                            pattern.data(), samples, 512, 384, tile);
         if (i % 3 == 0) {
+          a.visibility.open_all();
+          b.visibility.open_all();
           const int n = scalar::coverage_kernels.collect(tile, a.visibility, fa.data());
           ASSERT_EQ(n, coverage_kernels(isa).collect(tile, b.visibility, fb.data()));
           for (int k = 0; k < n; ++k) {
@@ -209,6 +213,12 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         scalar::coverage_kernels.draw(tile, a.visibility);
         coverage_kernels(isa).draw(tile, b.visibility);
       }
+      std::vector<std::int32_t> owners_a(tile_pixels / 8), owners_b(tile_pixels / 8);
+      scalar::coverage_kernels.find_owners(a.visibility, owners_a.data());
+      coverage_kernels(isa).find_owners(b.visibility, owners_b.data());
+      EXPECT_EQ(owners_a, owners_b);
+      a.visibility.open_all();
+      b.visibility.open_all();
       const auto bytes = static_cast<std::size_t>(samples) * tile_pixels * 4;
       EXPECT_EQ(std::memcmp(a.visibility.depth, b.visibility.depth, bytes), 0) << name_of(isa) << " " << samples;
       EXPECT_EQ(std::memcmp(a.visibility.id, b.visibility.id, bytes), 0) << name_of(isa) << " " << samples;

@@ -40,18 +40,22 @@ void interpolate(const BatchPlanes& planes, Viewport viewport, float spacing, Ba
   const double step = 256.0 * static_cast<double>(spacing);
   for (int i = 0; i < batch.padded(); ++i) {
     const double px = batch.x[i] - viewport.width * 128, py = batch.y[i] - viewport.height * 128;
+    const int group = i / Batch::group;
+    BarycentricPlanes p;
+    for (int k = 0; k < 3; ++k) p.x[k] = planes.x[k][i], p.y[k] = planes.y[k][i], p.one[k] = planes.one[k][i];
+    if (planes.is_shared[group]) p = planes.shared[group];
     double q[3];
-    for (int k = 0; k < 3; ++k) q[k] = (planes.x[k][i] * px + planes.y[k][i] * py) + planes.one[k][i];
+    for (int k = 0; k < 3; ++k) q[k] = (p.x[k] * px + p.y[k] * py) + p.one[k];
     const double sum = (q[0] + q[1]) + q[2];
     const double inverse = 1.0 / (sum == 0 ? 1.0 : sum);
-    const double sum_x = (planes.x[0][i] + planes.x[1][i]) + planes.x[2][i];
-    const double sum_y = (planes.y[0][i] + planes.y[1][i]) + planes.y[2][i];
+    const double sum_x = (p.x[0] + p.x[1]) + p.x[2];
+    const double sum_y = (p.y[0] + p.y[1]) + p.y[2];
     for (int k = 0; k < 3; ++k) {
       // Adding +0 makes a weight of -0 the +0 that every instruction set agrees on.
       const double b = std::min(std::max(q[k] * inverse, 0.0), 1.0) + 0.0;
       batch.b[k][i] = static_cast<float>(b);
-      batch.dbdx[k][i] = static_cast<float>((planes.x[k][i] - b * sum_x) * inverse * step);
-      batch.dbdy[k][i] = static_cast<float>((planes.y[k][i] - b * sum_y) * inverse * step);
+      batch.dbdx[k][i] = static_cast<float>((p.x[k] - b * sum_x) * inverse * step);
+      batch.dbdy[k][i] = static_cast<float>((p.y[k] - b * sum_y) * inverse * step);
     }
   }
 }

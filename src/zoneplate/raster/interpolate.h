@@ -23,8 +23,10 @@ BarycentricPlanes barycentric_planes(const ScreenVertex& p, const ScreenVertex& 
 /// For a triangle that has a vertex outside the near plane, the far plane or the guard band.
 BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport viewport);
 
-/// The planes of a batch's points, structure of arrays.
+/// The planes of a batch's points, structure of arrays; or, of 8 points of one triangle, once.
 struct BatchPlanes {
+  bool is_shared[Batch::capacity / Batch::group];
+  BarycentricPlanes shared[Batch::capacity / Batch::group];
   alignas(64) double x[3][Batch::capacity], y[3][Batch::capacity], one[3][Batch::capacity];
 };
 

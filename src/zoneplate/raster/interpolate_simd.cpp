@@ -19,10 +19,14 @@ void interpolate(const BatchPlanes& planes, Viewport viewport, float spacing, Ba
     const V px = hn::PromoteTo(d, hn::Sub(hn::Load(di, batch.x + i), centre_x));
     const V py = hn::PromoteTo(d, hn::Sub(hn::Load(di, batch.y + i), centre_y));
     V x[3], y[3], q[3];
+    const int group = i / Batch::group;
+    const bool is_shared = planes.is_shared[group];
+    const BarycentricPlanes& shared = planes.shared[group];
     for (int k = 0; k < 3; ++k) {
-      x[k] = hn::Load(d, planes.x[k] + i);
-      y[k] = hn::Load(d, planes.y[k] + i);
-      q[k] = hn::Add(hn::Add(hn::Mul(x[k], px), hn::Mul(y[k], py)), hn::Load(d, planes.one[k] + i));
+      x[k] = is_shared ? hn::Set(d, shared.x[k]) : hn::Load(d, planes.x[k] + i);
+      y[k] = is_shared ? hn::Set(d, shared.y[k]) : hn::Load(d, planes.y[k] + i);
+      const V unit = is_shared ? hn::Set(d, shared.one[k]) : hn::Load(d, planes.one[k] + i);
+      q[k] = hn::Add(hn::Add(hn::Mul(x[k], px), hn::Mul(y[k], py)), unit);
     }
     const V sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
     const V inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));

@@ -6,18 +6,25 @@
 namespace zoneplate {
 
 PointBatcher::PointBatcher(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target)
-    : projected_(projected), shader_(shader), interpolate_(interpolate_kernels(isa)), target_(target) {}
+    : projected_(projected),
+      shader_(shader),
+      interpolate_(interpolate_kernels(isa)),
+      target_(target),
+      has_ends_(
+          std::any_of(projected.draws.begin(), projected.draws.end(), [](const Draw& d) { return !d.ends.empty(); })) {}
 
-void PointBatcher::order_by_material(std::span<const Point> points) {
-  material_.resize(points.size());
-  order_.resize(points.size());
+/// order_: the list's numbers, those of one material together; material_: by number.
+template <class T>
+void PointBatcher::order_by_material(std::span<const T> list) {
+  material_.resize(list.size());
+  order_.resize(list.size());
   std::iota(order_.begin(), order_.end(), 0u);
   std::int32_t begin = 0, end = 0;  // the triangles of the draw found last
   std::uint32_t material = 0;
   bool is_mixed = false;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].id < begin || points[i].id >= end) {
-      const std::size_t d = projected_.draw_of(points[i].id);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].id < begin || list[i].id >= end) {
+      const std::size_t d = projected_.draw_of(list[i].id);
       begin = projected_.first_triangle[d], end = projected_.first_triangle[d + 1];
       material = static_cast<std::uint32_t>(projected_.draws[d].material);
     }
@@ -29,56 +36,92 @@ void PointBatcher::order_by_material(std::span<const Point> points) {
                      [&](std::uint32_t p, std::uint32_t q) { return material_[p] < material_[q]; });
 }
 
+template void PointBatcher::order_by_material(std::span<const PointRow> list);
+
+/// How many of the list's numbers from `first` on share a material, `most` at most.
+template <class T>
+std::size_t PointBatcher::same_material(std::span<const T> list, std::size_t first, std::size_t most) const {
+  const std::size_t limit = std::min(list.size(), first + most);
+  std::size_t last = first + 1;
+  while (last < limit && material_[order_[last]] == material_[order_[first]]) ++last;
+  return last - first;
+}
+
+template std::size_t PointBatcher::same_material(std::span<const PointRow> list, std::size_t first,
+                                                 std::size_t most) const;
+
+const PointBatcher::Known& PointBatcher::know(std::int32_t id) {
+  if (id == known_.id) return known_;
+  known_.id = id;
+  if (id < known_.begin || id >= known_.end) {
+    known_.draw = projected_.draw_of(id);
+    known_.begin = projected_.first_triangle[known_.draw], known_.end = projected_.first_triangle[known_.draw + 1];
+  }
+  const Draw& draw = projected_.draws[known_.draw];
+  const auto local = static_cast<std::uint32_t>(id - known_.begin);
+  const TriangleFacing facing = face_of(projected_, known_.draw, id, target_.viewport);
+  known_.instance = draw.instance;
+  known_.primitive = draw.primitive_of(local);
+  for (std::size_t k = 0; k < 3; ++k)
+    known_.vertex[k] = draw.ends.empty()
+                           ? draw.index[3 * static_cast<std::size_t>(local) + k]
+                           : draw.ends[2 * static_cast<std::size_t>(known_.primitive) + std::min<std::size_t>(k, 1)];
+  known_.is_front = facing.is_clockwise == draw.is_mirrored ? 1 : 0;
+  known_.planes = facing.planes;
+  return known_;
+}
+
+void PointBatcher::put(std::size_t i, const Known& known, std::int32_t x, std::int32_t y) {
+  batch_.triangle[i] = static_cast<std::uint32_t>(known.id);
+  batch_.instance[i] = known.instance;
+  batch_.primitive[i] = known.primitive;
+  for (std::size_t k = 0; k < 3; ++k) batch_.vertex[k][i] = known.vertex[k];
+  batch_.is_front[i] = known.is_front;
+  batch_.x[i] = x;
+  batch_.y[i] = y;
+}
+
 void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
   batch_.count = static_cast<int>(numbers.size());
   batch_.material = static_cast<int>(material_[numbers[0]]);
-  std::size_t draw = 0;
-  std::int32_t begin = 0, end = 0, id = -1;
-  TriangleFacing facing;
-  std::uint32_t vertex[3] = {}, primitive = 0;
+  std::fill(std::begin(planes_.is_shared), std::end(planes_.is_shared), false);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
     const Point& point = points[numbers[std::min(i, numbers.size() - 1)]];
-    if (point.id != id) {
-      id = point.id;
-      if (id < begin || id >= end) {
-        draw = projected_.draw_of(id);
-        begin = projected_.first_triangle[draw], end = projected_.first_triangle[draw + 1];
-      }
-      const Draw& d = projected_.draws[draw];
-      const auto local = static_cast<std::uint32_t>(id - begin);
-      facing = face_of(projected_, draw, id, target_.viewport);
-      primitive = d.primitive_of(local);
-      for (std::size_t k = 0; k < 3; ++k)
-        vertex[k] = d.ends.empty() ? d.index[3 * static_cast<std::size_t>(local) + k]
-                                   : d.ends[2 * static_cast<std::size_t>(primitive) + std::min<std::size_t>(k, 1)];
-    }
-    const Draw& d = projected_.draws[draw];
-    batch_.triangle[i] = static_cast<std::uint32_t>(id);
-    batch_.instance[i] = d.instance;
-    batch_.primitive[i] = primitive;
-    batch_draw_[i] = draw;
-    batch_.x[i] = point.x;
-    batch_.y[i] = point.y;
-    batch_.is_front[i] = facing.is_clockwise == d.is_mirrored ? 1 : 0;
+    const Known& known = know(point.id);
+    put(i, known, point.x, point.y);
     for (std::size_t k = 0; k < 3; ++k) {
-      batch_.vertex[k][i] = vertex[k];
-      planes_.x[k][i] = facing.planes.x[k];
-      planes_.y[k][i] = facing.planes.y[k];
-      planes_.one[k][i] = facing.planes.one[k];
+      planes_.x[k][i] = known.planes.x[k];
+      planes_.y[k][i] = known.planes.y[k];
+      planes_.one[k][i] = known.planes.one[k];
     }
   }
-  interpolate_.interpolate(planes_, target_.viewport, target_.spacing, batch_);
-  weigh_ends();
+  interpolate();
 }
 
-void PointBatcher::weigh_ends() {
+void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers) {
+  batch_.count = static_cast<int>(numbers.size()) * Batch::group;
+  batch_.material = static_cast<int>(material_[numbers[0]]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const PointRow& row = rows[numbers[i]];
+    const Known& known = know(row.id);
+    planes_.is_shared[i] = true;
+    planes_.shared[i] = known.planes;
+    for (std::size_t k = 0; k < Batch::group; ++k)
+      put(i * Batch::group + k, known, row.x + static_cast<std::int32_t>(k) * 256, row.y);
+  }
+  interpolate();
+}
+
+void PointBatcher::interpolate() {
+  interpolate_.interpolate(planes_, target_.viewport, target_.spacing, batch_);
+  if (!has_ends_) return;
+
   // Of a line the weights of the quad's corners become those of its two ends.
   for (int i = 0; i < batch_.padded(); ++i) {
-    const auto id = static_cast<std::int32_t>(batch_.triangle[i]);
-    const std::size_t draw = batch_draw_[i];
-    const Draw& d = projected_.draws[draw];
+    const Known& known = know(static_cast<std::int32_t>(batch_.triangle[i]));
+    const Draw& d = projected_.draws[known.draw];
     if (d.ends.empty()) continue;
-    const std::size_t first = 3 * static_cast<std::size_t>(id - projected_.first_triangle[draw]);
+    const std::size_t first = 3 * static_cast<std::size_t>(known.id - known.begin);
     const auto weigh = [&](float(&b)[3][Batch::capacity]) {
       float far = 0, sum = 0;
       for (std::size_t k = 0; k < 3; ++k) far += b[k][i] * d.share[d.index[first + k]], sum += b[k][i];
@@ -93,14 +136,11 @@ void PointBatcher::for_batches(std::span<const Point> points, Use use) {
   order_by_material(points);
   shaded_ += points.size();
   for (std::size_t first = 0; first < points.size();) {
-    std::size_t last = first + 1;
-    while (last < points.size() && last - first < Batch::capacity &&
-           material_[order_[last]] == material_[order_[first]])
-      ++last;
-    const auto numbers = std::span<const std::uint32_t>(order_).subspan(first, last - first);
+    const std::size_t count = same_material(points, first, Batch::capacity);
+    const auto numbers = std::span<const std::uint32_t>(order_).subspan(first, count);
     fill(points, numbers);
     use(numbers);
-    first = last;
+    first += count;
   }
 }
 

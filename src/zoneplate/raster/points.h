@@ -18,6 +18,13 @@ struct Point {
   std::uint64_t samples;  ///< the samples of the pixel that take its colour
 };
 
+/// Points of one triangle in eight neighbouring pixels of a row, at the same place in each.
+struct PointRow {
+  std::int32_t x, y;    ///< the first; the others follow a pixel apart
+  std::int32_t id;      ///< triangle
+  std::uint32_t pixel;  ///< the first, within the tile
+};
+
 /// What the data planes show of a point.
 struct PointData {
   std::vector<float3> normal, albedo;
@@ -32,29 +39,64 @@ class PointBatcher {
   /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
   void shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data);
 
+  /// The colours of rows: `use(row, shaded, i)` is called for each with the place i of its first point in `shaded`.
+  template <class Use>
+  void shade(std::span<const PointRow> rows, Use use);
+
   /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
   void test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there);
 
   std::uint64_t shaded() const { return shaded_; }
 
  private:
-  void order_by_material(std::span<const Point> points);
+  /// What the points of one triangle have in common.
+  struct Known {
+    std::int32_t id = -1;
+    std::size_t draw = 0;
+    std::int32_t begin = 0, end = 0;  ///< the draw's triangles
+    std::uint32_t instance = 0, primitive = 0, vertex[3] = {};
+    std::int32_t is_front = 0;
+    BarycentricPlanes planes;
+  };
+
+  template <class T>
+  void order_by_material(std::span<const T> list);
+  template <class T>
+  std::size_t same_material(std::span<const T> list, std::size_t first, std::size_t most) const;
   template <class Use>
   void for_batches(std::span<const Point> points, Use use);
+  const Known& know(std::int32_t id);
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
-  void weigh_ends();
+  void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
+  void put(std::size_t i, const Known& known, std::int32_t x, std::int32_t y);
+  void interpolate();
 
   const ProjectedDraws& projected_;
   const PointShader& shader_;
   const InterpolateKernels& interpolate_;
   const Target& target_;
+  const bool has_ends_;  ///< some draw has lines or points
   std::uint64_t shaded_ = 0;
 
   std::vector<std::uint32_t> order_, material_;
+  Known known_;
   Batch batch_;
   BatchPlanes planes_;
-  std::size_t batch_draw_[Batch::capacity];  ///< by point of the batch
   Shaded shaded_batch_;
 };
+
+template <class Use>
+void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
+  order_by_material(rows);
+  shaded_ += rows.size() * Batch::group;
+  for (std::size_t first = 0; first < rows.size();) {
+    const std::size_t count = same_material(rows, first, Batch::capacity / Batch::group);
+    const auto numbers = std::span<const std::uint32_t>(order_).subspan(first, count);
+    fill(rows, numbers);
+    shader_.shade(batch_, {}, shaded_batch_);
+    for (std::size_t i = 0; i < count; ++i) use(rows[numbers[i]], shaded_batch_, static_cast<int>(i) * Batch::group);
+    first += count;
+  }
+}
 
 }  // namespace zoneplate

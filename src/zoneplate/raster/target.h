@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/raster/project.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
 
-/// Where rasterizing puts its results. Every plane that is not null has the size of `rectangle`.
+/// Where rasterizing puts its results. Every plane that is not null has the size of the rectangle, and holds what is
+/// to stay where no triangle is: `color` and `coverage` 0, `shown` the background.
 struct Target {
   Viewport viewport;                        ///< the whole picture
   int x = 0, y = 0, width = 0, height = 0;  ///< the rectangle that is drawn, in the picture's pixels
@@ -21,6 +23,8 @@ struct Target {
   float spacing = 1;           ///< the footprint of a shaded point, in pixels
 
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
+  Rgba8Image* shown = nullptr;   ///< the same as `presenter` shows it; both or neither
+  const Presenter* presenter = nullptr;
   Plane<float>* reversed_depth = nullptr;
   Plane<float3>* normal = nullptr;
   Plane<float3>* albedo = nullptr;

@@ -23,6 +23,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
     : projected_(projected),
       bins_(bins),
       coverage_(coverage_kernels(isa)),
+      resolve_(resolve_kernels(isa)),
       target_(target),
       shader_(projected, shader, isa, target),
       weights_(target.weights) {
@@ -34,17 +35,23 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
   assert(pass <= TileTriangle::max_samples);
   depth_storage_.resize(pass * tile_pixels + 16);
   id_storage_.resize(pass * tile_pixels + 16);
-  visibility_ = {
-      .sample_count = 0, .depth = aligned(depth_storage_), .id = aligned(id_storage_), .block_far = block_far_};
+  visibility_ = {.sample_count = 0,
+                 .depth = aligned(depth_storage_),
+                 .id = aligned(id_storage_),
+                 .block_far = block_far_,
+                 .block_owner = block_owner_};
   first_point_.resize(tile_pixels + 1);
   fragments_.resize(tile_pixels);
   sum_.resize(tile_pixels);
+  color_.resize(tile_pixels);
+  base_.resize(tile_pixels);
   covered_.resize(tile_pixels);
   nearest_.resize(tile_pixels);
 }
 
 void TileRenderer::render(std::size_t tile) {
   gather(tile);
+  if (is_plain()) return render_plain();
   std::fill(sum_.begin(), sum_.end(), Linear{0, 0, 0, 0});
   std::fill(covered_.begin(), covered_.end(), 0.0f);
   std::fill(nearest_.begin(), nearest_.end(), Nearest{0, no_triangle});
@@ -64,25 +71,170 @@ void TileRenderer::gather(std::size_t tile) {
   right_ = std::min(target_.x + target_.width - tile_x_, tile_size);
   bottom_ = std::min(target_.y + target_.height - tile_y_, tile_size);
 
-  // Nearest first, so that what is hidden is rejected by whole blocks; any order gives the same picture.
   for (std::size_t surface = 0; surface < 3; ++surface) {
     std::vector<const Triangle*>& list = sources_[surface];
     list.clear();
     for (const Bins::Worker& worker : bins_.workers)
       for (const std::uint32_t t : worker.tiles[tile][surface]) list.push_back(&worker.triangles[t]);
-    std::sort(list.begin(), list.end(), [](const Triangle* p, const Triangle* q) {
-      return p->z_high != q->z_high ? p->z_high > q->z_high : p->id < q->id;
-    });
   }
+  sort_nearest_first(sources_[static_cast<std::size_t>(Surface::Opaque)]);
 }
 
-void TileRenderer::render_pass(int first_sample, int sample_count) {
+// So that what is hidden is rejected by whole blocks; any order gives the same picture, and a coarse one will do.
+void TileRenderer::sort_nearest_first(std::vector<const Triangle*>& list) {
+  constexpr std::size_t buckets = 64;
+  if (list.size() < 2) return;
+  float low = list[0]->z_high, high = low;
+  for (const Triangle* t : list) low = std::min(low, t->z_high), high = std::max(high, t->z_high);
+  const float scale = high > low ? static_cast<float>(buckets - 1) / (high - low) : 0;
+  const auto bucket = [&](const Triangle* t) { return static_cast<std::size_t>((high - t->z_high) * scale); };
+  std::uint32_t first[buckets + 1] = {};
+  for (const Triangle* t : list) ++first[std::min(bucket(t), buckets - 1) + 1];
+  for (std::size_t i = 0; i < buckets; ++i) first[i + 1] += first[i];
+  sorted_.resize(list.size());
+  for (const Triangle* t : list) sorted_[first[std::min(bucket(t), buckets - 1)]++] = t;
+  list.swap(sorted_);
+}
+
+bool TileRenderer::is_plain() const {
+  const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
+                          target_.instance || target_.material || target_.primitive || target_.coverage;
+  const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
+  return !has_planes && !target_.sample_color && !has_passes && !(target_.is_per_sample && has_layers());
+}
+
+void TileRenderer::begin_pass(int first_sample, int sample_count) {
   first_sample_ = first_sample;
   pass_samples_ = sample_count;
   all_samples_ = sample_count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << sample_count) - 1;
   visibility_.sample_count = sample_count;
+}
+
+void TileRenderer::render_plain() {
+  if (sources_[0].empty() && sources_[1].empty() && !has_layers()) return;
+  begin_pass(0, static_cast<int>(target_.samples.size()));
   draw_opaque();
   draw_masked();
+  find_rows();
+  begin_colors();
+  shade_rows();
+  shader_.shade(points_, colors_, nullptr);
+  resolve_points();
+  if (has_layers()) {
+    visibility_.open_all();
+    find_first_points();
+    for (int y = 0; y < tile_size; y += 8) layer_strip(std::max(y, top_), std::min(y + 8, bottom_));
+  }
+  write_colors();
+}
+
+/// Where nothing may be seen the colours begin as nothing.
+void TileRenderer::begin_colors() {
+  for (int block = 0; block < TileVisibility::blocks; ++block) {
+    if (block_owner_[block] != many_triangles && block_owner_[block] != no_triangle) continue;
+    for (int y = 0; y < 8; ++y)
+      std::fill_n(color_.begin() + (block / 8 * 8 + y) * tile_size + block % 8 * 8, 8, Linear{0, 0, 0, 0});
+  }
+}
+
+/// Eight pixels that one triangle owns go on together, the others one by one; what nothing owns stays as it is.
+void TileRenderer::find_rows() {
+  rows_.clear();
+  points_.clear();
+  coverage_.find_owners(visibility_, row_owner_);
+  for (int block = 0; block < TileVisibility::blocks; ++block) {
+    if (block_owner_[block] == no_triangle) continue;
+    const int x = block % 8 * 8;
+    const bool is_whole = is_whole_row(block % 8);
+    for (int y = std::max(block / 8 * 8, top_); y < std::min(block / 8 * 8 + 8, bottom_); ++y) {
+      const std::int32_t owner = row_owner_[y * 8 + block % 8];
+      if (owner == no_triangle) continue;
+      if (owner != many_triangles && is_whole) {
+        add_row(static_cast<std::uint32_t>(y * tile_size + x), owner);
+        continue;
+      }
+      for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
+        add_pixel(static_cast<std::uint32_t>(y * tile_size + i));
+    }
+  }
+}
+
+void TileRenderer::add_row(std::uint32_t pixel, std::int32_t id) {
+  if (!target_.is_per_sample) {
+    const Point centre = point_at(pixel, id, all_samples_);
+    rows_.push_back({centre.x, centre.y, id, pixel});
+    return;
+  }
+  std::fill_n(sum_.begin() + pixel, Batch::group, Linear{0, 0, 0, 0});
+  for (int s = 0; s < pass_samples_; ++s) {
+    const Point at = point_at(pixel, id, std::uint64_t{1} << s);
+    rows_.push_back({at.x, at.y, id, pixel});
+  }
+}
+
+void TileRenderer::shade_rows() {
+  if (!target_.is_per_sample) {
+    shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
+      resolve_.resolve(color, first, weight_sum_, &color_[row.pixel]);
+      if (!has_layers()) return;
+      for (std::size_t i = 0, at = static_cast<std::size_t>(first); i < Batch::group; ++i, ++at)
+        base_[row.pixel + i] = {color.r[at], color.g[at], color.b[at], color.a[at]};
+    });
+    return;
+  }
+  // A row's samples follow one another, and those of one material keep their order.
+  const auto samples = static_cast<std::size_t>(pass_samples_);
+  std::size_t s = 0;
+  shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
+    resolve_.add(color, first, weights_[s], &sum_[row.pixel]);
+    s = s + 1 == samples ? 0 : s + 1;
+    if (s == 0) resolve_.divide(&sum_[row.pixel], weight_sum_, Batch::group, &color_[row.pixel]);
+  });
+}
+
+/// One point for each triangle that owns samples of the pixel, in the order of their first samples.
+void TileRenderer::add_pixel(std::uint32_t pixel) {
+  std::uint64_t left = all_samples_;
+  while (left) {
+    const std::int32_t id = visibility_.id[static_cast<std::size_t>(std::countr_zero(left)) * tile_pixels + pixel];
+    std::uint64_t owned = 0;
+    for (std::uint64_t rest = left; rest; rest &= rest - 1) {
+      const int s = std::countr_zero(rest);
+      if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
+    }
+    left &= ~owned;
+    if (id != no_triangle) add_points(pixel, id, owned, points_);
+  }
+}
+
+/// first_point_: by pixel, of those that have points.
+void TileRenderer::find_first_points() {
+  for (std::size_t p = points_.size(); p-- > 0;) first_point_[points_[p].pixel] = static_cast<std::uint32_t>(p);
+  // A pixel without points finds one of another pixel there.
+  for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
+    if (first_point_[pixel] >= points_.size() || points_[first_point_[pixel]].pixel != pixel)
+      first_point_[pixel] = static_cast<std::uint32_t>(points_.size());
+}
+
+void TileRenderer::resolve_points() {
+  for (std::size_t first = 0; first < points_.size();) {
+    const std::uint32_t pixel = points_[first].pixel;
+    Linear sum{0, 0, 0, 0};
+    for (; first < points_.size() && points_[first].pixel == pixel; ++first) {
+      float weight = 0;
+      for (std::uint64_t left = points_[first].samples; left; left &= left - 1)
+        weight += weights_[static_cast<std::size_t>(std::countr_zero(left))];
+      sum = sum + colors_[first] * weight;
+    }
+    resolve_.divide(&sum, weight_sum_, 1, &color_[pixel]);
+  }
+}
+
+void TileRenderer::render_pass(int first_sample, int sample_count) {
+  begin_pass(first_sample, sample_count);
+  draw_opaque();
+  draw_masked();
+  visibility_.open_all();
   find_points();
   shader_.shade(points_, colors_, &data_);
   accumulate();
@@ -90,39 +242,16 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
 }
 
 void TileRenderer::draw_opaque() {
-  const std::size_t values = static_cast<std::size_t>(pass_samples_) * tile_pixels;
-  std::fill_n(visibility_.depth, values, 0.0f);
-  std::fill_n(visibility_.id, values, no_triangle);
-  std::fill_n(block_far_, 64, 0.0f);
+  visibility_.clear();
+  float tile_far = 0;  // no sample of the tile is below it
   for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Opaque)]) {
+    if (t->z_high < tile_far) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
-    coverage_.draw(tile_triangle_, visibility_);
+    const bool has_risen = coverage_.draw(tile_triangle_, visibility_);
+    const bool is_large = tile_triangle_.last_x - tile_triangle_.first_x >= tile_size / 2 &&
+                          tile_triangle_.last_y - tile_triangle_.first_y >= tile_size / 2;
+    if (has_risen && is_large) tile_far = *std::min_element(std::begin(block_far_), std::end(block_far_));
   }
-}
-
-void TileRenderer::collect_layers(Surface surface, int top, int bottom) {
-  layers_.clear();
-  layer_depths_.clear();
-  for (const Triangle* t : sources_[static_cast<std::size_t>(surface)]) {
-    if (t->max_y - tile_y_ < top || t->min_y - tile_y_ >= bottom) continue;
-    make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
-    tile_triangle_.first_y = std::max(tile_triangle_.first_y, top);
-    tile_triangle_.last_y = std::min(tile_triangle_.last_y, bottom - 1);
-    const int count = coverage_.collect(tile_triangle_, visibility_, fragments_.data());
-    for (int i = 0; i < count; ++i) {
-      const Fragment& f = fragments_[static_cast<std::size_t>(i)];
-      const int x = static_cast<int>(f.pixel % tile_size), y = static_cast<int>(f.pixel / tile_size);
-      if (!is_in_rectangle(x, y)) continue;
-      layers_.push_back({f.samples, f.pixel, t->id, static_cast<std::uint32_t>(layer_depths_.size())});
-      for (std::uint64_t left = f.samples; left; left &= left - 1)
-        layer_depths_.push_back(depth_at(tile_triangle_, std::countr_zero(left), x, y));
-    }
-  }
-  // The pieces of a clipped triangle come together, and a pixel's layers too. Depth settles what the pieces share.
-  std::sort(layers_.begin(), layers_.end(), [](const Layer& p, const Layer& q) {
-    if (p.pixel != q.pixel) return p.pixel < q.pixel;
-    return p.id != q.id ? p.id < q.id : p.samples < q.samples;
-  });
 }
 
 Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
@@ -140,66 +269,12 @@ void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_
   for (std::uint64_t left = samples; left; left &= left - 1) points.push_back(point_at(pixel, id, left & (~left + 1)));
 }
 
-void TileRenderer::find_layer_points(std::vector<Point>& points, std::vector<std::uint32_t>& point_of_layer) const {
-  points.clear();
-  point_of_layer.resize(layers_.size());
-  for (std::size_t i = 0; i < layers_.size();) {
-    std::size_t end = i;
-    std::uint64_t samples = 0;
-    for (; end < layers_.size() && layers_[end].pixel == layers_[i].pixel && layers_[end].id == layers_[i].id; ++end) {
-      samples |= layers_[end].samples;
-      point_of_layer[end] = static_cast<std::uint32_t>(points.size());
-    }
-    add_points(layers_[i].pixel, layers_[i].id, samples, points);
-    i = end;
-  }
-}
-
-void TileRenderer::draw_masked() {
-  if (sources_[static_cast<std::size_t>(Surface::Masked)].empty()) return;
-  std::vector<Point> points;
-  std::vector<std::uint32_t> point_of_layer;
-  std::vector<std::uint8_t> is_there;
-  collect_layers(Surface::Masked, top_, bottom_);
-  find_layer_points(points, point_of_layer);
-  shader_.test_alpha(points, is_there);
-
-  // What passes enters the same minimum over (depth, id) as the opaque triangles did.
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const Layer& layer = layers_[i];
-    std::uint32_t d = layer.first_depth;
-    for (std::uint64_t left = layer.samples; left; left &= left - 1, ++d) {
-      const int s = std::countr_zero(left);
-      std::size_t point = point_of_layer[i];
-      if (target_.is_per_sample)
-        while (!(points[point].samples >> s & 1)) ++point;
-      const std::size_t at = static_cast<std::size_t>(s) * tile_pixels + layer.pixel;
-      const float z = layer_depths_[d];
-      if (!is_there[point]) continue;
-      if (z > visibility_.depth[at] || (z == visibility_.depth[at] && layer.id < visibility_.id[at])) {
-        visibility_.depth[at] = z;
-        visibility_.id[at] = layer.id;
-      }
-    }
-  }
-}
-
 void TileRenderer::find_points() {
   points_.clear();
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) {
     first_point_[pixel] = static_cast<std::uint32_t>(points_.size());
     if (!is_in_rectangle(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;
-    std::uint64_t left = all_samples_;
-    while (left) {
-      const std::int32_t id = visibility_.id[static_cast<std::size_t>(std::countr_zero(left)) * tile_pixels + pixel];
-      std::uint64_t owned = 0;
-      for (std::uint64_t rest = left; rest; rest &= rest - 1) {
-        const int s = std::countr_zero(rest);
-        if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
-      }
-      left &= ~owned;
-      if (id != no_triangle) add_points(pixel, id, owned, points_);
-    }
+    add_pixel(pixel);
   }
   first_point_[tile_pixels] = static_cast<std::uint32_t>(points_.size());
 }
@@ -220,64 +295,6 @@ void TileRenderer::accumulate() {
       sum = sum + colors_[p] * weight;
       covered_[pixel] += static_cast<float>(std::popcount(points_[p].samples));
     }
-  }
-}
-
-void TileRenderer::blend(int top, int bottom) {
-  if (top >= bottom) return;
-  std::vector<Point> points;
-  std::vector<std::uint32_t> point_of_layer;
-  std::vector<Linear> colors;
-  collect_layers(Surface::Blended, top, bottom);
-  find_layer_points(points, point_of_layer);
-  shader_.shade(points, colors, nullptr);
-
-  std::size_t first = 0;
-  for (std::uint32_t pixel = static_cast<std::uint32_t>(top * tile_size);
-       pixel < static_cast<std::uint32_t>(bottom * tile_size); ++pixel) {
-    std::size_t last = first;
-    while (last < layers_.size() && layers_[last].pixel == pixel) ++last;
-    if (!is_in_rectangle(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;
-
-    // Two pieces of one clipped triangle may share a sample by the snap of their vertices: it must count once.
-    bool has_pieces = false;
-    for (std::size_t i = first + 1; i < last; ++i) has_pieces = has_pieces || layers_[i].id == layers_[i - 1].id;
-
-    // Every sample starts from the surface that it owns and takes the layers in front of it, the farthest first.
-    Linear behind[TileTriangle::max_samples] = {};
-    for (int s = 0; s < pass_samples_; ++s) behind[s] = {0, 0, 0, 0};
-    for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p)
-      for (std::uint64_t left = points_[p].samples; left; left &= left - 1) {
-        behind[std::countr_zero(left)] = colors_[p];
-        covered_[pixel] += 1;
-      }
-    struct Over {
-      float depth;
-      std::int32_t id;
-      Linear color;
-    };
-    std::vector<Over> overs;
-    for (int s = 0; s < pass_samples_; ++s) {
-      overs.clear();
-      for (std::size_t i = first; i < last; ++i) {
-        if (!(layers_[i].samples >> s & 1)) continue;
-        const auto rank = static_cast<std::uint32_t>(std::popcount(layers_[i].samples & ((std::uint64_t{1} << s) - 1)));
-        std::size_t point = point_of_layer[i];
-        if (target_.is_per_sample)
-          while (!(points[point].samples >> s & 1)) ++point;
-        overs.push_back({layer_depths_[layers_[i].first_depth + rank], layers_[i].id, colors[point]});
-      }
-      std::sort(overs.begin(), overs.end(),
-                [](const Over& p, const Over& q) { return p.depth != q.depth ? p.depth < q.depth : p.id > q.id; });
-      for (std::size_t i = 0; i < overs.size(); ++i) {
-        const bool again = has_pieces && std::any_of(overs.begin(), overs.begin() + static_cast<std::ptrdiff_t>(i),
-                                                     [&](const Over& o) { return o.id == overs[i].id; });
-        if (!again) behind[s] = overs[i].color + behind[s] * (1 - overs[i].color.a);
-      }
-      sum_[pixel] = sum_[pixel] + behind[s] * weights_[static_cast<std::size_t>(first_sample_ + s)];
-      if (target_.sample_color) store_samples(pixel, s, behind[s]);
-    }
-    first = last;
   }
 }
 

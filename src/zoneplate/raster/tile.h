@@ -8,6 +8,7 @@
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/points.h"
 #include "zoneplate/raster/rasterize.h"
+#include "zoneplate/raster/resolve.h"
 
 namespace zoneplate {
 
@@ -33,6 +34,19 @@ class TileRenderer {
     std::int32_t id;
     std::uint32_t first_depth;  ///< of its depths, in the order of the samples
   };
+  struct Over {
+    float depth;
+    std::int32_t id;
+    Linear color;
+  };
+  /// Eight points: r of each, g, b and a.
+  struct alignas(64) RowColor {
+    float value[4 * Batch::group];
+  };
+  struct BlendedRow {
+    std::uint32_t row;
+    std::uint32_t end;  ///< of its layers in rows_
+  };
   /// A pixel's nearest surface so far, over all passes: what the data planes show.
   struct Nearest {
     float depth;
@@ -40,27 +54,51 @@ class TileRenderer {
   };
 
   void gather(std::size_t tile);
+  void sort_nearest_first(std::vector<const Triangle*>& list);
+  void begin_pass(int first_sample, int sample_count);
   void render_pass(int first_sample, int sample_count);
   void draw_opaque();
   void draw_masked();
+
+  /// True if the picture's colour is all that is wanted, and all of it can be had from the owners of the samples.
+  bool is_plain() const;
+  void render_plain();
+  void find_rows();
+  void shade_rows();
+  void add_row(std::uint32_t pixel, std::int32_t id);
+  void add_pixel(std::uint32_t pixel);
+  void resolve_points();
+  void find_first_points();
+  void layer_strip(int top, int bottom);
+  void collect_row_layers(int top, int bottom);
+  bool sort_row(std::size_t first, std::size_t last);
+  void blend_rows();
+  void layer_slow_rows(int top, int bottom);
+  void begin_colors();
+  void write_colors();
+
   void find_points();
   void blend(int top, int bottom);
-  void collect_layers(Surface surface, int top, int bottom);
+  void blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last);
+  void add_layers(std::size_t first, std::size_t last, Linear* behind);
+  void collect_layers(Surface surface, int top, int bottom, const std::uint8_t* rows);
   void find_layer_points(std::vector<Point>& points, std::vector<std::uint32_t>& point_of_layer) const;
   void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, std::vector<Point>& points) const;
   void accumulate();
-  void accumulate_layers(std::size_t first, std::size_t last, const std::vector<std::uint32_t>& point_of_layer,
-                         const std::vector<Point>& points, const std::vector<Linear>& colors);
   void note_nearest();
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void finish();
 
   bool is_in_rectangle(int x, int y) const { return x >= left_ && x < right_ && y >= top_ && y < bottom_; }
+  /// True if all eight pixels are to be drawn; rows as in `row_owner_`, or as columns of blocks.
+  bool is_whole_row(int row) const { return row % 8 * 8 >= left_ && row % 8 * 8 + 8 <= right_; }
+  bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }
   Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
 
   const ProjectedDraws& projected_;
   const Bins& bins_;
   const CoverageKernels& coverage_;
+  const ResolveKernels& resolve_;
   const Target& target_;
   PointBatcher shader_;
 
@@ -69,12 +107,17 @@ class TileRenderer {
   int first_sample_ = 0, pass_samples_ = 0;          ///< of this pass
   std::uint64_t all_samples_ = 0;
   std::vector<const Triangle*> sources_[3];  ///< by Surface
+  std::vector<const Triangle*> sorted_;
   TileTriangle tile_triangle_;
 
   std::vector<float> depth_storage_;
   std::vector<std::int32_t> id_storage_;
-  alignas(64) float block_far_[64];
+  alignas(64) float block_far_[TileVisibility::blocks];
+  std::int32_t block_owner_[TileVisibility::blocks];
   TileVisibility visibility_;
+  std::int32_t row_owner_[tile_pixels / 8];
+
+  std::vector<PointRow> rows_;
 
   std::vector<Point> points_;
   std::vector<std::uint32_t> first_point_;  ///< by pixel, and the total at the end
@@ -84,8 +127,19 @@ class TileRenderer {
   std::vector<Fragment> fragments_;
   std::vector<Layer> layers_;
   std::vector<float> layer_depths_;
+  std::vector<Point> layer_points_;
+  std::vector<std::uint32_t> point_of_layer_;
+  std::vector<Linear> layer_colors_;
+  std::vector<Over> overs_;
+
+  std::vector<RowLayer> row_layers_, sorted_row_layers_;
+  std::uint8_t is_slow_row_[tile_pixels / 8];
+  std::vector<BlendedRow> blended_rows_;
+  std::vector<RowColor> row_colors_;
 
   std::vector<Linear> sum_;     ///< by pixel: weighted sum of samples
+  std::vector<Linear> color_;   ///< by pixel: their mean
+  std::vector<Linear> base_;    ///< by pixel: the colour of the one surface that owns it, under layers
   std::vector<float> covered_;  ///< by pixel: samples that a surface owns
   std::vector<Nearest> nearest_;
   float weight_sum_ = 0;

@@ -1,4 +1,5 @@
 // The last steps of a tile: data planes and the resolved colour, written to the target.
+#include <algorithm>
 #include <bit>
 
 #include "zoneplate/raster/tile.h"
@@ -47,16 +48,24 @@ void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) 
       visibility_.id[at] == no_triangle ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
 }
 
+void TileRenderer::write_colors() {
+  const auto width = static_cast<std::size_t>(right_ - left_);
+  for (int y = top_; y < bottom_; ++y) {
+    const Linear* row = &color_[static_cast<std::size_t>(y * tile_size + left_)];
+    const int px = tile_x_ + left_ - target_.x, py = tile_y_ + y - target_.y;
+    if (target_.color) std::copy_n(row, width, &(*target_.color)(px, py));
+    if (target_.shown) target_.presenter->present({row, width}, &(*target_.shown)(px, py));
+  }
+}
+
 void TileRenderer::finish() {
+  resolve_.divide(sum_.data(), weight_sum_, tile_pixels, color_.data());
+  write_colors();
+  if (!target_.coverage) return;
   for (int y = top_; y < bottom_; ++y)
-    for (int x = left_; x < right_; ++x) {
-      const auto pixel = static_cast<std::size_t>(y * tile_size + x);
-      const int px = tile_x_ + x - target_.x, py = tile_y_ + y - target_.y;
-      const Linear& sum = sum_[pixel];
-      if (target_.color)
-        (*target_.color)(px, py) = {sum.r / weight_sum_, sum.g / weight_sum_, sum.b / weight_sum_, sum.a / weight_sum_};
-      if (target_.coverage) (*target_.coverage)(px, py) = covered_[pixel] / static_cast<float>(target_.samples.size());
-    }
+    for (int x = left_; x < right_; ++x)
+      (*target_.coverage)(tile_x_ + x - target_.x, tile_y_ + y - target_.y) =
+          covered_[static_cast<std::size_t>(y * tile_size + x)] / static_cast<float>(target_.samples.size());
 }
 
 }  // namespace zoneplate

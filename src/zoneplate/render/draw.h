@@ -90,7 +90,7 @@ LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::u
   d.surface = options.surface;
   d.culls_back_faces = options.culls_back_faces;
 
-  LinearImage image(width, height);
+  LinearImage image(width, height, Linear{0, 0, 0, 0});
   Target target;
   target.viewport = {width, height};
   target.width = width, target.height = height;

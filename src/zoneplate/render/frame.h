@@ -30,6 +30,7 @@ struct Frame {
   static constexpr std::uint32_t no_id = 0xffffffffu;
 
   LinearImage color;            ///< resolved inside the tiles with the method's weights
+  Rgba8Image shown;             ///< the same as shown, in place of `color`, where that was asked for
   Plane<float> depth;           ///< distance along the view axis, world units; +infinity where nothing is
   Plane<float> reversed_depth;  ///< as tested: 1 near, 0 far
   Plane<float3> normal;         ///< world space, unit length, towards the viewer

@@ -28,6 +28,7 @@ struct Request {
   Rate rate = Rate::Surface;
   std::vector<float> weights;  ///< one a sample; empty: all equal
   Planes planes;
+  bool is_local = false;  ///< the mean is the method's last word: `resolve` and `finish` change nothing
 };
 
 /// An antialiasing method at work on one sequence of frames. Override what the method changes.

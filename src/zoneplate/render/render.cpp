@@ -15,7 +15,8 @@ namespace {
 /// The scene's materials as the rasterizer's shader.
 class ScenePoints : public PointShader {
  public:
-  ScenePoints(const Scene& scene, const Surroundings& surroundings) : scene_(scene), surfaces_(scene, surroundings) {}
+  ScenePoints(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures)
+      : scene_(scene), surfaces_(scene, surroundings, textures) {}
 
   void shade(const Batch& batch, Wanted wanted, Shaded& out) const override {
     surfaces_.shade(batch, {.normal = wanted.normal, .uv = wanted.uv, .albedo = wanted.albedo}, out);
@@ -49,7 +50,8 @@ void make_planes(const Planes& planes, const SamplePattern& samples, int w, int 
     plane = {w, h, empty};
     pointer = &plane;
   };
-  make(true, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(!target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
+  if (target.presenter) make(true, frame.shown, target.shown, target.presenter->background());
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
   make(planes.albedo, frame.albedo, target.albedo, float3{});
@@ -100,7 +102,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   const SceneDraws draws = make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options);
-  const ScenePoints points(scene, surroundings_of(scene, camera, options));
+  const ScenePoints points(scene, surroundings_of(scene, camera, options), options.textures);
 
   Frame frame;
   Target target;
@@ -111,6 +113,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   target.is_per_sample = request.rate == Rate::Sample;
   if (target.is_per_sample && options.sample_footprint)
     target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  std::optional<Presenter> presenter;
+  if (options.shown) target.presenter = &presenter.emplace(*options.shown);
   make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
   const double prepare_ms = prepare.ms();
 

@@ -3,11 +3,14 @@
 #include <optional>
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
+
+class TextureSet;
 
 /// A part of the picture, in its pixels.
 struct Crop {
@@ -37,6 +40,10 @@ struct RenderOptions {
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
   Isa isa = best_isa();
+  /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
+  /// whose request is local.
+  const DisplayOptions* shown = nullptr;
+  const TextureSet* textures = nullptr;  ///< the scene's, made once for many frames; null: made for this one
 };
 
 /// Where time went and how much was done.

@@ -21,13 +21,38 @@ HWY_INLINE Texel load_texel(const Code* codes, std::int32_t number) {
 
 HWY_INLINE Texel mix(Texel a, Texel b, Texel weight) { return hn::Add(a, hn::Mul(hn::Sub(b, a), weight)); }
 
+/// Two texels that lie one after the other, in vectors that have room for both.
+using PairChannels = hn::CappedTag<float, 8>;
+constexpr bool has_pairs = hn::MaxLanes(PairChannels()) == 8;
+
+template <class Code>
+HWY_INLINE hn::Vec<PairChannels> load_pair(const Code* codes, std::int32_t number) {
+  const hn::Rebind<Code, PairChannels> narrow;
+  const hn::Rebind<std::int32_t, PairChannels> wide;
+  const auto code = hn::LoadU(narrow, codes + std::ptrdiff_t{4} * number);
+  return hn::ConvertTo(PairChannels(), hn::PromoteTo(wide, code));
+}
+
 template <class Code>
 HWY_INLINE Texel mix_level(const Code* codes, const Taps& taps, int level, int i) {
+  const Texel down = hn::Set(Channels(), taps.down[level][i]);
+  if constexpr (has_pairs) {
+    // Away from the texture's edges the left and right texels are neighbours: both rows are mixed at once.
+    const PairChannels d;
+    const std::int32_t upper_left = taps.texel[level][0][i], lower_left = taps.texel[level][2][i];
+    if (taps.texel[level][1][i] == upper_left + 1) {
+      const auto upper = load_pair(codes, upper_left), lower = load_pair(codes, lower_left);
+      const auto left = hn::ConcatLowerLower(d, lower, upper), right = hn::ConcatUpperUpper(d, lower, upper);
+      const auto weight = hn::Set(d, taps.right[level][i]);
+      const auto mixed = hn::Add(left, hn::Mul(hn::Sub(right, left), weight));
+      return mix(hn::LowerHalf(mixed), hn::UpperHalf(Channels(), mixed), down);
+    }
+  }
   const auto texel = [&](int corner) HWY_ATTR { return load_texel(codes, taps.texel[level][corner][i]); };
   const Texel right = hn::Set(Channels(), taps.right[level][i]);
   const Texel upper = mix(texel(0), texel(1), right);
   const Texel lower = mix(texel(2), texel(3), right);
-  return mix(upper, lower, hn::Set(Channels(), taps.down[level][i]));
+  return mix(upper, lower, down);
 }
 
 template <class Code>

@@ -27,11 +27,11 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
 }  // namespace
 
 struct SurfaceShader::Data {
-  Data(const Scene& scene_in, const Surroundings& surroundings_in)
+  Data(const Scene& scene_in, const Surroundings& surroundings_in, const TextureSet* textures_in)
       : scene(scene_in),
         surroundings(surroundings_in),
-        textures(scene_in, surroundings_in.raw_colors),
-        plans(make_plans(scene_in, surroundings_in, textures)),
+        own_textures(textures_in ? nullptr : std::make_unique<TextureSet>(scene_in, surroundings_in.raw_colors)),
+        plans(make_plans(scene_in, surroundings_in, textures_in ? *textures_in : *own_textures)),
         placements(make_placements(scene_in.instances)),
         lights(prepare_all(scene_in.lights)),
         viewpoint(make_viewpoint(surroundings_in)),
@@ -41,7 +41,7 @@ struct SurfaceShader::Data {
 
   const Scene& scene;
   const Surroundings surroundings;
-  const TextureSet textures;
+  const std::unique_ptr<TextureSet> own_textures;
   const std::vector<MaterialPlan> plans;
   const std::vector<Placement> placements;
   const std::vector<PreparedLight> lights;
@@ -201,8 +201,8 @@ void SurfaceShader::Data::Walk::light() {
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit), kernels.keep_unlit(p);
 }
 
-SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings)
-    : data_(std::make_unique<Data>(scene, surroundings)) {}
+SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures)
+    : data_(std::make_unique<Data>(scene, surroundings, textures)) {}
 
 SurfaceShader::~SurfaceShader() = default;
 

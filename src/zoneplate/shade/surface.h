@@ -8,6 +8,8 @@
 
 namespace zoneplate {
 
+class TextureSet;
+
 /// What the whole picture has in common for shading.
 struct Surroundings {
   float3 eye{0, 0, 0};              ///< camera position, world space
@@ -21,11 +23,12 @@ struct Surroundings {
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.
 ///
-/// Textures are decoded and their levels made when it is built (in parallel). It keeps references to the scene.
-/// `shade` and `alpha` are const and may be called from any thread.
+/// Textures are decoded and their levels made when it is built (in parallel), unless they are given. It keeps
+/// references to the scene. `shade` and `alpha` are const and may be called from any thread.
 class SurfaceShader {
  public:
-  SurfaceShader(const Scene& scene, const Surroundings& surroundings);
+  /// `textures`: those of the scene, made before; null: made here.
+  SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures = nullptr);
   ~SurfaceShader();
   SurfaceShader(const SurfaceShader&) = delete;
   SurfaceShader& operator=(const SurfaceShader&) = delete;
