@@ -89,6 +89,29 @@ TEST(Pictures, ThreadsAndInstructionSetsLeaveNoTrace) {
   }
 }
 
+TEST(Pictures, DataPlanesDoNotChangeTheColour) {
+  // With planes each pixel goes its own way, without them rows of pixels go together.
+  for (const char* name : {"teapot:divisions=6", "city-trilinear", "fillblend", "cyclic"})
+    for (const char* method : {"none", "msaa:n=4", "ssaa:n=2"}) {
+      const Shot shot(name, 150, 130);
+      EXPECT_EQ(hash_of(shot.frame(method).color), hash_of(shot.frame(method, {.depth = true, .uv = true}).color))
+          << name << ", " << method;
+    }
+}
+
+TEST(Pictures, WhatTilesShowIsTheDisplayedColour) {
+  for (const DisplayOptions& display :
+       {DisplayOptions{.mapping = ToneMapping::Aces, .background = {0.2f, 0.4f, 0.1f, 1}},
+        DisplayOptions{.is_transparent = true, .background = {0, 0, 0, 1}}}) {
+    Shot shot("cyclic", 150, 130);
+    const Rgba8Image expected = quantize8(make_display(shot.frame("msaa:n=4").color, display));
+    shot.options.shown = &display;
+    const Frame frame = shot.frame("msaa:n=4");
+    EXPECT_TRUE(frame.color.empty());
+    EXPECT_EQ(frame.shown, expected);
+  }
+}
+
 TEST(Pictures, TrianglesOfTheHomeworkHaveNoBlackEdge) {
   // Where all 16 samples are covered, every channel lies between those of the two triangles.
   const Shot shot("triangles", 700, 700);

@@ -202,6 +202,13 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         if (i % 3 == 0) {
           a.visibility.open_all();
           b.visibility.open_all();
+          std::vector<RowLayer> ra(tile_pixels / 8), rb(tile_pixels / 8);
+          std::vector<std::uint8_t> pa(tile_pixels / 8), pb(tile_pixels / 8);
+          const int rows = scalar::coverage_kernels.collect_rows(tile, a.visibility, ra.data(), pa.data());
+          ASSERT_EQ(rows, coverage_kernels(isa).collect_rows(tile, b.visibility, rb.data(), pb.data()));
+          ASSERT_EQ(pa, pb);
+          for (std::size_t k = 0; k < static_cast<std::size_t>(rows); ++k)
+            ASSERT_TRUE(ra[k].row == rb[k].row && ra[k].least == rb[k].least && ra[k].greatest == rb[k].greatest);
           const int n = scalar::coverage_kernels.collect(tile, a.visibility, fa.data());
           ASSERT_EQ(n, coverage_kernels(isa).collect(tile, b.visibility, fb.data()));
           for (int k = 0; k < n; ++k) {

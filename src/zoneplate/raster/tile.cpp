@@ -286,15 +286,16 @@ void TileRenderer::accumulate() {
     for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));
     return;
   }
-  for (std::size_t pixel = 0; pixel < tile_pixels; ++pixel) {
-    Linear& sum = sum_[pixel];
-    for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p) {
-      float weight = 0;
-      for (std::uint64_t left = points_[p].samples; left; left &= left - 1)
-        weight += weights_[static_cast<std::size_t>(first_sample_ + std::countr_zero(left))];
-      sum = sum + colors_[p] * weight;
-      covered_[pixel] += static_cast<float>(std::popcount(points_[p].samples));
-    }
+  for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) add_surfaces(pixel);
+}
+
+void TileRenderer::add_surfaces(std::uint32_t pixel) {
+  for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p) {
+    float weight = 0;
+    for (std::uint64_t left = points_[p].samples; left; left &= left - 1)
+      weight += weights_[static_cast<std::size_t>(first_sample_ + std::countr_zero(left))];
+    sum_[pixel] = sum_[pixel] + colors_[p] * weight;
+    covered_[pixel] += static_cast<float>(std::popcount(points_[p].samples));
   }
 }
 

@@ -85,6 +85,7 @@ class TileRenderer {
   void find_layer_points(std::vector<Point>& points, std::vector<std::uint32_t>& point_of_layer) const;
   void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, std::vector<Point>& points) const;
   void accumulate();
+  void add_surfaces(std::uint32_t pixel);
   void note_nearest();
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void finish();
