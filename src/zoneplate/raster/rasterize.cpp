@@ -15,9 +15,9 @@ RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, c
   RasterCounts counts;
   const Stopwatch geometry;
   const ProjectedDraws projected = project_draws(draws, target.viewport, rules.isa);
-  const Bins bins =
-      bin_triangles(projected, target,
-                    {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter});
+  const Bins bins = bin_triangles(
+      projected, target,
+      {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter}, rules.isa);
   counts.geometry_ms = geometry.ms();
   counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
   counts.set_up = bins.set_up;

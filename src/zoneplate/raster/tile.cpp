@@ -55,6 +55,7 @@ void TileRenderer::render(std::size_t tile) {
 }
 
 void TileRenderer::gather(std::size_t tile) {
+  tile_ = tile;
   const int column = bins_.first_column + static_cast<int>(tile) % bins_.columns;
   const int row = bins_.first_row + static_cast<int>(tile) / bins_.columns;
   tile_x_ = column * tile_size;
@@ -98,6 +99,7 @@ void TileRenderer::draw_opaque() {
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
     coverage_.draw(tile_triangle_, visibility_);
   }
+  draw_fragments();
 }
 
 void TileRenderer::collect_layers(Surface surface, int top, int bottom) {
