@@ -23,6 +23,46 @@ constexpr D f64;
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
 
+/// For every mask of lanes: the lanes that are set, in order, then the others. (Highway's own table is copied to the
+/// stack at each use by GCC 12.)
+struct Orders {
+  alignas(64) std::uint8_t lane[256][8];
+};
+constexpr Orders make_orders() {
+  Orders out{};
+  for (int mask = 0; mask < 256; ++mask) {
+    int n = 0;
+    for (int bit = 0; bit < 8; ++bit)
+      if (mask >> bit & 1) out.lane[mask][n++] = static_cast<std::uint8_t>(bit);
+    for (int bit = 0; bit < 8; ++bit)
+      if (!(mask >> bit & 1)) out.lane[mask][n++] = static_cast<std::uint8_t>(bit);
+  }
+  return out;
+}
+constexpr Orders orders = make_orders();
+
+/// Moves the lanes of a mask to the front.
+class Packing {
+ public:
+  HWY_INLINE explicit Packing(MI mask) : bits_(bits_of(mask)), order_(order_of(bits_)) {}
+  HWY_INLINE void store(VI v, std::int32_t* to) const { hn::StoreU(hn::TableLookupLanes(v, order_), i32, to); }
+  HWY_INLINE void store(VF v, float* to) const { store(hn::BitCast(i32, v), reinterpret_cast<std::int32_t*>(to)); }
+  HWY_INLINE std::int32_t count() const { return __builtin_popcount(bits_); }
+
+ private:
+  static HWY_INLINE std::uint32_t bits_of(MI mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(i32, mask, bits);
+    return bits[0];
+  }
+  static HWY_INLINE decltype(hn::IndicesFromVec(i32, hn::Zero(i32))) order_of(std::uint32_t bits) {
+    const hn::Rebind<std::uint8_t, I> bytes;
+    return hn::IndicesFromVec(i32, hn::PromoteTo(i32, hn::LoadU(bytes, orders.lane[bits])));
+  }
+  std::uint32_t bits_;
+  decltype(hn::IndicesFromVec(i32, hn::Zero(i32))) order_;
+};
+
 /// The corners of a vector of triangles: x and y in 1/256 pixel from the picture's top-left corner.
 struct Corners {
   VI x[3], y[3];
@@ -126,15 +166,21 @@ HWY_INLINE void set_up_depth(const Corners& c, Small& t) {
   t.dzdy[half] = hn::Mul(hn::Sub(hn::Mul(dz2, dx1), hn::Mul(dz1, dx2)), inverse_area);
 }
 
+/// The edge opposite to corner k.
+template <int k>
+HWY_INLINE void set_up_edge(const Corners& c, bool is_top_left, Small& t) {
+  constexpr int from = (k + 1) % 3, to = (k + 2) % 3;
+  t.dx[k] = hn::Sub(c.x[to], c.x[from]);
+  t.dy[k] = hn::Sub(c.y[to], c.y[from]);
+  // An edge owns its points if dy < 0, or dy = 0 and dx > 0: the sign of one number, since |dx| < 2^12.
+  const VI order = hn::Sub(hn::ShiftLeft<12>(t.dy[k]), t.dx[k]);
+  t.bias[k] = is_top_left ? hn::Not(hn::BroadcastSignBit(order)) : hn::Zero(i32);
+}
+
 HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, Small& t) {
-  for (int k = 0; k < 3; ++k) {
-    const int from = (k + 1) % 3, to = (k + 2) % 3;
-    t.dx[k] = hn::Sub(c.x[to], c.x[from]);
-    t.dy[k] = hn::Sub(c.y[to], c.y[from]);
-    // An edge owns its points if dy < 0, or dy = 0 and dx > 0: the sign of one number, since |dx| < 2^12.
-    const VI order = hn::Sub(hn::ShiftLeft<12>(t.dy[k]), t.dx[k]);
-    t.bias[k] = is_top_left ? hn::Not(hn::BroadcastSignBit(order)) : hn::Zero(i32);
-  }
+  set_up_edge<0>(c, is_top_left, t);
+  set_up_edge<1>(c, is_top_left, t);
+  set_up_edge<2>(c, is_top_left, t);
   t.area = hn::Sub(hn::Mul(t.dx[1], t.dy[2]), hn::Mul(t.dy[1], t.dx[2]));
   t.origin_x = hn::ShiftRight<8>(e.low_x);
   t.origin_y = hn::ShiftRight<8>(e.low_y);
@@ -161,16 +207,19 @@ struct Candidates {
   VF x0, y0;  ///< from the triangle's first pixel to the first candidate
 };
 
+template <int k>
+HWY_INLINE VI edge_at(const Corners& c, const Small& t, VI px, VI py) {
+  constexpr int from = (k + 1) % 3;
+  return hn::Sub(hn::Mul(t.dx[k], hn::Sub(py, c.y[from])), hn::Mul(t.dy[k], hn::Sub(px, c.x[from])));
+}
+
 HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const Small& t, std::int32_t sx,
                                     std::int32_t sy) {
   Candidates out;
   out.pixel_x = hn::ShiftRight<8>(hn::Add(e.low_x, set(255 - sx)));
   out.pixel_y = hn::ShiftRight<8>(hn::Add(e.low_y, set(255 - sy)));
   const VI px = hn::Add(hn::ShiftLeft<8>(out.pixel_x), set(sx)), py = hn::Add(hn::ShiftLeft<8>(out.pixel_y), set(sy));
-  const auto edge = [&](int k, int from) HWY_ATTR {
-    return hn::Sub(hn::Mul(t.dx[k], hn::Sub(py, c.y[from])), hn::Mul(t.dy[k], hn::Sub(px, c.x[from])));
-  };
-  const VI e1 = edge(1, 2), e2 = edge(2, 0);
+  const VI e1 = edge_at<1>(c, t, px, py), e2 = edge_at<2>(c, t, px, py);
   out.e[0] = hn::Add(hn::Sub(hn::Sub(t.area, e1), e2), t.bias[0]);
   out.e[1] = hn::Add(e1, t.bias[1]);
   out.e[2] = hn::Add(e2, t.bias[2]);
@@ -182,25 +231,84 @@ HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const Sma
   return out;
 }
 
-/// Calls emit(mask, i, j, depth) for the candidate pixels (i, j) that have lanes inside.
+/// Calls emit(mask, i, j, depth) for the pixels (i, j), (i + 1, j) ... of one row that have lanes inside.
 template <int size, class Emit>
-HWY_INLINE void for_covered(const Small& t, const Candidates& c, VI dead, Emit emit) {
-  VI row[3] = {c.e[0], c.e[1], c.e[2]};
-  for (int j = 0; j < size; ++j) {
+HWY_INLINE void cover_row(const Small& t, const Candidates& c, VI e0, VI e1, VI e2, VI dead, VF base, int i, int j,
+                          const Emit& emit) {
+  const VI outside = hn::Or(hn::Or(e0, e1), hn::Or(e2, dead));
+  const MI inside = hn::Not(hn::MaskFromVec(hn::BroadcastSignBit(outside)));
+  if (!hn::AllFalse(i32, inside)) {
+    const VF z = hn::Add(base, hn::Mul(t.step_x, hn::Add(c.x0, hn::Set(f, static_cast<float>(i)))));
+    emit(inside, i, j, hn::Min(hn::Max(z, t.z_low), t.z_high));
+  }
+  if constexpr (size > 1)
+    cover_row<size - 1>(t, c, hn::Sub(e0, hn::ShiftLeft<8>(t.dy[0])), hn::Sub(e1, hn::ShiftLeft<8>(t.dy[1])),
+                        hn::Sub(e2, hn::ShiftLeft<8>(t.dy[2])), dead, base, i + 1, j, emit);
+}
+
+/// The same for all candidate pixels of size × size.
+template <int size, class Emit>
+HWY_INLINE void cover(const Small& t, const Candidates& c, VI dead, const Emit& emit) {
+  VI e0 = c.e[0], e1 = c.e[1], e2 = c.e[2];
+  for (int j = 0;;) {
     const VF base = hn::Add(c.z, hn::Mul(t.step_y, hn::Add(c.y0, hn::Set(f, static_cast<float>(j)))));
-    VI e[3] = {row[0], row[1], row[2]};
-    for (int i = 0; i < size; ++i) {
-      const VI outside = hn::Or(hn::Or(hn::Or(e[0], e[1]), e[2]), dead);
-      const auto inside = hn::Not(hn::MaskFromVec(hn::BroadcastSignBit(outside)));
-      if (!hn::AllFalse(i32, inside)) {
-        const VF z = hn::Add(base, hn::Mul(t.step_x, hn::Add(c.x0, hn::Set(f, static_cast<float>(i)))));
-        emit(inside, i, j, hn::Min(hn::Max(z, t.z_low), t.z_high));
-      }
-      for (int k = 0; k < 3; ++k) e[k] = hn::Sub(e[k], hn::ShiftLeft<8>(t.dy[k]));
-    }
-    for (int k = 0; k < 3; ++k) row[k] = hn::Add(row[k], hn::ShiftLeft<8>(t.dx[k]));
+    cover_row<size>(t, c, e0, e1, e2, dead, base, 0, j, emit);
+    if (++j == size) return;
+    e0 = hn::Add(e0, hn::ShiftLeft<8>(t.dx[0]));
+    e1 = hn::Add(e1, hn::ShiftLeft<8>(t.dx[1]));
+    e2 = hn::Add(e2, hn::ShiftLeft<8>(t.dx[2]));
   }
 }
+
+/// Puts whole vectors into the list of one tile.
+struct Append {
+  FragmentSink& sink;
+  std::int32_t tile;
+  VI first;  ///< where the first candidates lie
+  VI id;
+
+  HWY_INLINE void operator()(MI mask, int i, int j, VF z) const {
+    SampleFragments* part = sink.last[tile];
+    if (!part || part->count > SampleFragments::capacity - lanes) part = sink.grow(sink, tile);
+    const Packing packing(mask);
+    const std::int32_t at = part->count;
+    packing.store(z, part->depth + at);
+    packing.store(id, part->id + at);
+    packing.store(hn::Add(first, set(j * 64 + i)), reinterpret_cast<std::int32_t*>(part->at) + at);
+    part->count = at + packing.count();
+  }
+};
+
+/// Puts lanes one by one into the lists of their tiles, where they lie in the rectangle.
+struct Scatter {
+  const FrontRun& run;
+  FragmentSink& sink;
+  const Candidates& candidates;
+  VI id;
+  std::int32_t sample;
+
+  HWY_NOINLINE void operator()(MI mask, int i, int j, VF z) const {
+    alignas(64) std::int32_t x[lanes], y[lanes], ids[lanes];
+    alignas(64) float depth[lanes];
+    hn::Store(hn::Add(candidates.pixel_x, set(i)), i32, x);
+    hn::Store(hn::Add(candidates.pixel_y, set(j)), i32, y);
+    hn::Store(id, i32, ids);
+    hn::Store(z, f, depth);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(i32, mask, bits);
+    for (std::uint32_t left = bits[0]; left; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      const std::int32_t px = x[lane], py = y[lane];
+      if (px < run.left || px > run.right || py < run.top || py > run.bottom) continue;
+      const std::int32_t tile = ((py >> 6) - sink.first_row) * sink.columns + (px >> 6) - sink.first_column;
+      SampleFragments* part = sink.last[tile];
+      if (!part || part->count == SampleFragments::capacity) part = sink.grow(sink, tile);
+      part->depth[part->count] = depth[lane];
+      part->id[part->count] = ids[lane];
+      part->at[part->count++] = static_cast<std::uint32_t>((sample << 12) + ((py & 63) << 6) + (px & 63));
+    }
+  }
+};
 
 class Front {
  public:
@@ -222,15 +330,21 @@ class Front {
 
  private:
   HWY_INLINE void list(MI mask, VI number, std::int32_t* to, std::int32_t& count) {
-    count += static_cast<std::int32_t>(hn::CompressStore(number, mask, i32, to + count));
+    const Packing packing(mask);
+    packing.store(number, to + count);
+    count += packing.count();
   }
 
   HWY_INLINE void select(const std::uint32_t* index, std::int32_t t, MI asked) {
     Corners c;
     VF w[3];
-    for (int k = 0; k < 3; ++k) load(run_.screen, index + k, c.x[k], c.y[k], c.z[k], w[k]);
+    load(run_.screen, index, c.x[0], c.y[0], c.z[0], w[0]);
+    load(run_.screen, index + 1, c.x[1], c.y[1], c.z[1], w[1]);
+    load(run_.screen, index + 2, c.x[2], c.y[2], c.z[2], w[2]);
     const VI centre_x = set(run_.viewport.width * 128), centre_y = set(run_.viewport.height * 128);
-    for (int k = 0; k < 3; ++k) c.x[k] = hn::Add(c.x[k], centre_x), c.y[k] = hn::Add(c.y[k], centre_y);
+    c.x[0] = hn::Add(c.x[0], centre_x), c.y[0] = hn::Add(c.y[0], centre_y);
+    c.x[1] = hn::Add(c.x[1], centre_x), c.y[1] = hn::Add(c.y[1], centre_y);
+    c.x[2] = hn::Add(c.x[2], centre_x), c.y[2] = hn::Add(c.y[2], centre_y);
     const Extent e = extent_of(c);
     const VI size = hn::Max(hn::Sub(e.high_x, e.low_x), hn::Sub(e.high_y, e.low_y));
     const VI number = hn::Add(hn::Iota(i32, 0), set(t));
@@ -276,14 +390,12 @@ class Front {
 
   // Few survivors of a vector wait until they are enough for one.
   HWY_INLINE void enqueue(const Corners& c, MI mask) {
-    std::size_t added = 0;
-    for (int k = 0; k < 3; ++k) {
-      hn::CompressStore(c.x[k], mask, i32, queue_x_[k] + queued_);
-      hn::CompressStore(c.y[k], mask, i32, queue_y_[k] + queued_);
-      hn::CompressStore(c.z[k], hn::RebindMask(f, mask), f, queue_z_[k] + queued_);
-    }
-    added = hn::CompressStore(c.id, mask, i32, queue_id_ + queued_);
-    queued_ += static_cast<std::int32_t>(added);
+    const Packing packing(mask);
+    store_corner<0>(c, packing);
+    store_corner<1>(c, packing);
+    store_corner<2>(c, packing);
+    packing.store(c.id, queue_id_ + queued_);
+    queued_ += packing.count();
     if (queued_ < lanes) return;
     draw_queued(lanes);
     for (int k = 0; k < 3; ++k) {
@@ -295,13 +407,25 @@ class Front {
     queued_ -= lanes;
   }
 
+  template <int k>
+  HWY_INLINE void store_corner(const Corners& c, const Packing& packing) {
+    packing.store(c.x[k], queue_x_[k] + queued_);
+    packing.store(c.y[k], queue_y_[k] + queued_);
+    packing.store(c.z[k], queue_z_[k] + queued_);
+  }
+
+  template <int k>
+  HWY_INLINE void load_corner(Corners& c) {
+    c.x[k] = hn::Load(i32, queue_x_[k]);
+    c.y[k] = hn::Load(i32, queue_y_[k]);
+    c.z[k] = hn::Load(f, queue_z_[k]);
+  }
+
   HWY_INLINE void draw_queued(std::int32_t count) {
     Corners c;
-    for (int k = 0; k < 3; ++k) {
-      c.x[k] = hn::Load(i32, queue_x_[k]);
-      c.y[k] = hn::Load(i32, queue_y_[k]);
-      c.z[k] = hn::Load(f, queue_z_[k]);
-    }
+    load_corner<0>(c);
+    load_corner<1>(c);
+    load_corner<2>(c);
     c.id = hn::Load(i32, queue_id_);
     draw(c, extent_of(c), hn::FirstN(i32, static_cast<std::size_t>(count)));
   }
@@ -327,51 +451,17 @@ class Front {
     const std::int32_t tile = (row[first] - sink_.first_row) * sink_.columns + column[first] - sink_.first_column;
     for (std::int32_t s = 0; s < run_.sample_count; ++s) {
       const Candidates n = candidates_of(c, e, t, run_.sample_x[s], run_.sample_y[s]);
-      if (!is_one_tile)
-        for_covered<4>(t, n, dead, [&](MI m, int i, int j, VF z) HWY_ATTR { scatter(m, s, i, j, z, n, c.id); });
-      else if (fits_2x2)
-        emit_in_tile<2>(t, n, dead, tile, s, c.id);
+      if (!is_one_tile) {
+        cover<4>(t, n, dead, Scatter{run_, sink_, n, c.id, s});
+        continue;
+      }
+      const VI in_tile = set(63);
+      const VI place = hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile));
+      const Append append{sink_, tile, hn::Add(place, set(s << 12)), c.id};
+      if (fits_2x2)
+        cover<2>(t, n, dead, append);
       else
-        emit_in_tile<4>(t, n, dead, tile, s, c.id);
-    }
-  }
-
-  template <int size>
-  HWY_INLINE void emit_in_tile(const Small& t, const Candidates& n, VI dead, std::int32_t tile, std::int32_t s, VI id) {
-    const VI in_tile = set(63);
-    const VI first =
-        hn::Add(hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile)), set(s << 12));
-    SampleFragments* part = sink_.last[tile];
-    for_covered<size>(t, n, dead, [&](MI mask, int i, int j, VF z) HWY_ATTR {
-      if (!part || part->count > SampleFragments::capacity - lanes) part = sink_.grow(sink_, tile);
-      const std::int32_t at = part->count;
-      hn::CompressStore(z, hn::RebindMask(f, mask), f, part->depth + at);
-      hn::CompressStore(id, mask, i32, part->id + at);
-      const VI place = hn::Add(first, set(j * 64 + i));
-      part->count = at + static_cast<std::int32_t>(
-                             hn::CompressStore(place, mask, i32, reinterpret_cast<std::int32_t*>(part->at) + at));
-    });
-  }
-
-  HWY_NOINLINE void scatter(MI mask, std::int32_t s, int i, int j, VF z, const Candidates& n, VI id) {
-    alignas(64) std::int32_t x[lanes], y[lanes], ids[lanes];
-    alignas(64) float depth[lanes];
-    hn::Store(hn::Add(n.pixel_x, set(i)), i32, x);
-    hn::Store(hn::Add(n.pixel_y, set(j)), i32, y);
-    hn::Store(id, i32, ids);
-    hn::Store(z, f, depth);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(i32, mask, bits);
-    for (std::int32_t lane = 0; lane < lanes; ++lane) {
-      if (!(bits[0] >> lane & 1)) continue;
-      const std::int32_t px = x[lane], py = y[lane];
-      if (px < run_.left || px > run_.right || py < run_.top || py > run_.bottom) continue;
-      const std::int32_t tile = ((py >> 6) - sink_.first_row) * sink_.columns + (px >> 6) - sink_.first_column;
-      SampleFragments* part = sink_.last[tile];
-      if (!part || part->count == SampleFragments::capacity) part = sink_.grow(sink_, tile);
-      part->depth[part->count] = depth[lane];
-      part->id[part->count] = ids[lane];
-      part->at[part->count++] = static_cast<std::uint32_t>((s << 12) + ((py & 63) << 6) + (px & 63));
+        cover<4>(t, n, dead, append);
     }
   }
 
