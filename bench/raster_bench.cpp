@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/bin.h"
@@ -30,11 +31,13 @@ void geometry(benchmark::State& state, const char* name) {
   std::size_t triangles = 0;
   with_threads(static_cast<int>(state.range(1)), [&] {
     const SceneDraws draws = make_draws(scene, clip_from_world, options);
+    ProjectedDraws projected;
+    Bins bins;
     for (auto _ : state) {
       const double start = processor_ms();
-      const ProjectedDraws projected = project_draws(draws.draws, target.viewport, options.isa);
+      projected = project_draws(draws.draws, target.viewport, options.isa, std::move(projected));
       const double transformed = processor_ms();
-      const Bins bins = bin_triangles(projected, target, {.viewport = target.viewport}, options.isa);
+      bins = bin_triangles(projected, target, {.viewport = target.viewport}, options.isa, std::move(bins));
       const double binned = processor_ms();
       benchmark::DoNotOptimize(bins.set_up);
       vertices_ms = std::min(vertices_ms, transformed - start);

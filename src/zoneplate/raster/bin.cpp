@@ -1,6 +1,7 @@
 #include "zoneplate/raster/bin.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/clip.h"
@@ -77,7 +78,7 @@ class Binner {
   }
 
   static SampleFragments* grow(FragmentSink& sink, std::int32_t tile) {
-    auto* part = static_cast<Arena*>(sink.owner)->take<SampleFragments>();
+    auto* part = reinterpret_cast<SampleFragments*>(static_cast<Arena*>(sink.owner)->take(sizeof(SampleFragments)));
     part->previous = sink.last[tile];
     part->count = 0;
     return sink.last[tile] = part;
@@ -161,14 +162,26 @@ class Binner {
 
 }  // namespace
 
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa) {
-  Bins bins;
+void Bins::Worker::clear(std::size_t tile_count) {
+  arena.clear();
+  triangles.clear();
+  drawn = 0;
+  for (std::array<TileList, 3>& lists : tiles)
+    for (TileList& list : lists) list.clear();
+  tiles.resize(tile_count);
+  fragments.assign(tile_count, nullptr);
+}
+
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
+                   Bins reused) {
+  Bins bins = std::move(reused);
+  bins.set_up = 0;
   bins.first_column = target.x / tile_size;
   bins.first_row = target.y / tile_size;
   bins.columns = (target.x + target.width - 1) / tile_size - bins.first_column + 1;
   bins.rows = (target.y + target.height - 1) / tile_size - bins.first_row + 1;
   bins.workers.resize(static_cast<std::size_t>(thread_limit()));
-  for (Bins::Worker& w : bins.workers) w.tiles.resize(bins.tiles()), w.fragments.resize(bins.tiles());
+  for (Bins::Worker& w : bins.workers) w.clear(bins.tiles());
 
   struct Part {
     std::size_t draw;

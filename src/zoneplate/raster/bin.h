@@ -26,6 +26,9 @@ struct Bins {
     std::vector<std::array<TileList, 3>> tiles;  ///< by tile and Surface: indices into triangles
     std::vector<SampleFragments*> fragments;     ///< by tile: the last part of its list, or null
     std::uint64_t drawn = 0;                     ///< triangles that became fragments
+
+    /// Empties the lists and makes them for that number of tiles.
+    void clear(std::size_t tiles);
   };
   std::vector<Worker> workers;
   std::uint64_t set_up = 0;  ///< triangles that survived culling and clipping
@@ -33,7 +36,8 @@ struct Bins {
   std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-/// Culls, clips, sets up and sorts into tiles, in parallel.
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa);
+/// Culls, clips, sets up and sorts into tiles, in parallel. The memory of `reused` serves again.
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
+                   Bins reused = {});
 
 }  // namespace zoneplate
