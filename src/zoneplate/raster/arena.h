@@ -46,37 +46,73 @@ class Arena {
   std::byte *at_ = nullptr, *end_ = nullptr;
 };
 
-/// A list that grows by chunks from an arena, so that what is in it never moves. Holds plain data.
-template <class T, std::size_t chunk_size>
-class ChunkedList {
+/// Plain data in order, by number; what is in it never moves.
+template <class T>
+class ArenaArray {
  public:
-  void push_back(const T& value, Arena& arena) {
-    if (size_ == chunks_.size() * chunk_size)
-      chunks_.push_back(reinterpret_cast<T*>(arena.take(chunk_size * sizeof(T))));
-    chunks_.back()[size_++ % chunk_size] = value;
+  /// Room for one more, uninitialised.
+  T* append(Arena& arena) {
+    if (size_ == chunks_.size() * chunk_size) chunks_.push_back(reinterpret_cast<T*>(arena.take(chunk_bytes)));
+    return chunks_.back() + size_++ % chunk_size;
   }
   const T& operator[](std::size_t i) const { return chunks_[i / chunk_size][i % chunk_size]; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   void clear() { chunks_.clear(), size_ = 0; }
 
+ private:
+  static constexpr std::size_t chunk_size = 256, chunk_bytes = chunk_size * sizeof(T);
+  static_assert(chunk_bytes <= Arena::largest);
+  std::vector<T*> chunks_;
+  std::size_t size_ = 0;
+};
+
+/// Plain data that is only added to and read from the start on.
+template <class T>
+class ArenaList {
+ public:
+  void push_back(T value, Arena& arena) {
+    if (at_ == end_) grow(arena);
+    *at_++ = value;
+  }
+  bool empty() const { return !first_; }
+  void clear() { *this = {}; }
+
+ private:
+  struct Chunk {
+    static constexpr std::size_t capacity = (256 - sizeof(void*)) / sizeof(T);
+    Chunk* next;
+    T value[capacity];
+  };
+  void grow(Arena& arena) {
+    auto* chunk = reinterpret_cast<Chunk*>(arena.take(sizeof(Chunk)));
+    chunk->next = nullptr;
+    (last_ ? last_->next : first_) = chunk;
+    last_ = chunk;
+    at_ = chunk->value;
+    end_ = at_ + Chunk::capacity;
+  }
+
+  Chunk *first_ = nullptr, *last_ = nullptr;
+  T *at_ = nullptr, *end_ = nullptr;  ///< in the last chunk
+
+ public:
   class Iterator {
    public:
-    Iterator(const ChunkedList* list, std::size_t at) : list_(list), at_(at) {}
-    const T& operator*() const { return (*list_)[at_]; }
-    Iterator& operator++() { return ++at_, *this; }
+    Iterator(const Chunk* chunk, const T* at) : chunk_(chunk), at_(at) {}
+    const T& operator*() const { return *at_; }
+    Iterator& operator++() {
+      if (++at_ == chunk_->value + Chunk::capacity && chunk_->next) chunk_ = chunk_->next, at_ = chunk_->value;
+      return *this;
+    }
     bool operator!=(const Iterator& o) const { return at_ != o.at_; }
 
    private:
-    const ChunkedList* list_;
-    std::size_t at_;
+    const Chunk* chunk_;
+    const T* at_;
   };
-  Iterator begin() const { return {this, 0}; }
-  Iterator end() const { return {this, size_}; }
-
- private:
-  std::vector<T*> chunks_;
-  std::size_t size_ = 0;
+  Iterator begin() const { return {first_, first_ ? first_->value : nullptr}; }
+  Iterator end() const { return {last_, at_}; }
 };
 
 }  // namespace zoneplate

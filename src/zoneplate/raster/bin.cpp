@@ -1,6 +1,7 @@
 #include "zoneplate/raster/bin.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
@@ -13,15 +14,10 @@ namespace {
 // With more samples a record is smaller than the fragments of a triangle.
 constexpr std::int32_t most_samples_in_fragments = 16;
 
-/// True if some sample of the pattern lies within the bounds of the three vertices.
-bool may_cover_a_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Target& target) {
-  const std::int32_t cx = target.viewport.width * 128, cy = target.viewport.height * 128;
-  const std::int32_t low_x = std::min({p.x, q.x, r.x}) + cx, high_x = std::max({p.x, q.x, r.x}) + cx;
-  const std::int32_t low_y = std::min({p.y, q.y, r.y}) + cy, high_y = std::max({p.y, q.y, r.y}) + cy;
-  return std::any_of(target.samples.begin(), target.samples.end(), [&](SamplePosition s) {
-    return (low_x - s.x + 255) >> 8 <= (high_x - s.x) >> 8 && (low_y - s.y + 255) >> 8 <= (high_y - s.y) >> 8;
-  });
-}
+/// The bounds of three vertices, 1/256 pixel from the picture's top-left corner.
+struct Extent {
+  std::int32_t low_x, high_x, low_y, high_y;
+};
 
 /// The pattern's places as plain arrays.
 struct SampleArrays {
@@ -77,6 +73,20 @@ class Binner {
     return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
   }
 
+  Extent extent_of(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) const {
+    const std::int32_t cx = rules_.viewport.width * 128, cy = rules_.viewport.height * 128;
+    return {std::min({p.x, q.x, r.x}) + cx, std::max({p.x, q.x, r.x}) + cx, std::min({p.y, q.y, r.y}) + cy,
+            std::max({p.y, q.y, r.y}) + cy};
+  }
+
+  /// True if some sample of the pattern lies within the bounds of the three vertices.
+  bool may_cover_a_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) const {
+    const Extent e = extent_of(p, q, r);
+    return std::any_of(target_.samples.begin(), target_.samples.end(), [&](SamplePosition s) {
+      return (e.low_x - s.x + 255) >> 8 <= (e.high_x - s.x) >> 8 && (e.low_y - s.y + 255) >> 8 <= (e.high_y - s.y) >> 8;
+    });
+  }
+
   static SampleFragments* grow(FragmentSink& sink, std::int32_t tile) {
     auto* part = reinterpret_cast<SampleFragments*>(static_cast<Arena*>(sink.owner)->take(sizeof(SampleFragments)));
     part->previous = sink.last[tile];
@@ -101,7 +111,7 @@ class Binner {
     const ScreenVertex &p = screen[v[0]], &q = screen[v[1]], &r = screen[v[2]];
     if (p.needs_clipping() || q.needs_clipping() || r.needs_clipping()) return add_clipped(d, triangle, v);
     const std::int64_t area = doubled_area(p, q, r);
-    if (area == 0 || is_culled(draw, area > 0) || !may_cover_a_sample(p, q, r, target_)) return;
+    if (area == 0 || is_culled(draw, area > 0) || !may_cover_a_sample(p, q, r)) return;
     emit(draw, p, q, r, triangle);
   }
 
@@ -118,20 +128,24 @@ class Binner {
       const ScreenVertex& r = polygon.vertex[static_cast<std::size_t>(i)];
       const std::int64_t area = doubled_area(p, q, r);
       // Snapping may turn a sliver of the fan over; the pieces beside it cover its place.
-      if (area != 0 && (area > 0) == facing.is_clockwise && may_cover_a_sample(p, q, r, target_))
-        emit(draw, p, q, r, triangle);
+      if (area != 0 && (area > 0) == facing.is_clockwise && may_cover_a_sample(p, q, r)) emit(draw, p, q, r, triangle);
     }
   }
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
-    const Triangle t = make_triangle(p, q, r, id, rules_);
-    const int left = std::max(t.min_x, target_.x), right = std::min(t.max_x, target_.x + target_.width - 1);
-    const int top = std::max(t.min_y, target_.y), bottom = std::min(t.max_y, target_.y + target_.height - 1);
+    const Extent e = extent_of(p, q, r);
+    const int left = std::max(e.low_x >> 8, target_.x), right = std::min(e.high_x >> 8, target_.x + target_.width - 1);
+    const int top = std::max(e.low_y >> 8, target_.y), bottom = std::min(e.high_y >> 8, target_.y + target_.height - 1);
     if (left > right || top > bottom) return;
     const auto number = static_cast<std::uint32_t>(worker_.triangles.size());
-    worker_.triangles.push_back(t, worker_.arena);
-    for (int row = top / tile_size; row <= bottom / tile_size; ++row)
-      for (int column = left / tile_size; column <= right / tile_size; ++column)
+    // Made in its place: to copy what was just written a piece at a time stalls the processor.
+    const Triangle& t = *::new (worker_.triangles.append(worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
+    const int first_column = left / tile_size, last_column = right / tile_size;
+    const int first_row = top / tile_size, last_row = bottom / tile_size;
+    if (first_column == last_column && first_row == last_row)
+      return tile_list(draw, first_column, first_row).push_back(number, worker_.arena);
+    for (int row = first_row; row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; ++column)
         if (touches(t, column * tile_size, row * tile_size))
           tile_list(draw, column, row).push_back(number, worker_.arena);
   }

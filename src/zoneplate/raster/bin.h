@@ -19,10 +19,10 @@ namespace zoneplate {
 /// `fragments`.
 struct Bins {
   int first_column = 0, first_row = 0, columns = 0, rows = 0;  ///< tiles of 64 × 64 on the picture's own grid
-  using TileList = ChunkedList<std::uint32_t, 48>;
+  using TileList = ArenaList<std::uint32_t>;
   struct alignas(128) Worker {
     Arena arena;
-    ChunkedList<Triangle, 256> triangles;
+    ArenaArray<Triangle> triangles;
     std::vector<std::array<TileList, 3>> tiles;  ///< by tile and Surface: indices into triangles
     std::vector<SampleFragments*> fragments;     ///< by tile: the last part of its list, or null
     std::uint64_t drawn = 0;                     ///< triangles that became fragments
