@@ -1,6 +1,8 @@
 #include "zoneplate/raster/bin.h"
 
 #include <algorithm>
+#include <new>
+#include <utility>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/clip.h"
@@ -9,15 +11,21 @@
 namespace zoneplate {
 namespace {
 
-/// True if some sample of the pattern lies within the bounds of the three vertices.
-bool may_cover_a_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Target& target) {
-  const std::int32_t cx = target.viewport.width * 128, cy = target.viewport.height * 128;
-  const std::int32_t low_x = std::min({p.x, q.x, r.x}) + cx, high_x = std::max({p.x, q.x, r.x}) + cx;
-  const std::int32_t low_y = std::min({p.y, q.y, r.y}) + cy, high_y = std::max({p.y, q.y, r.y}) + cy;
-  return std::any_of(target.samples.begin(), target.samples.end(), [&](SamplePosition s) {
-    return (low_x - s.x + 255) >> 8 <= (high_x - s.x) >> 8 && (low_y - s.y + 255) >> 8 <= (high_y - s.y) >> 8;
-  });
-}
+// With more samples a record is smaller than the fragments of a triangle.
+constexpr std::int32_t most_samples_in_fragments = 16;
+
+/// The bounds of three vertices, 1/256 pixel from the picture's top-left corner.
+struct Extent {
+  std::int32_t low_x, high_x, low_y, high_y;
+};
+
+/// The pattern's places as plain arrays.
+struct SampleArrays {
+  std::vector<std::int32_t> x, y;
+  explicit SampleArrays(const SamplePattern& samples) {
+    for (const SamplePosition s : samples) x.push_back(s.x), y.push_back(s.y);
+  }
+};
 
 /// The work of one thread on a run of triangles of one draw.
 class Binner {
@@ -29,20 +37,82 @@ class Binner {
         bins_(bins),
         worker_(bins.workers[static_cast<std::size_t>(thread_index())]) {}
 
-  void add(std::size_t d, std::int32_t triangle) {
+  void add(std::size_t d, std::int32_t begin, std::int32_t end, const SampleArrays& samples,
+           const FrontKernels& kernels) {
     const Draw& draw = projected_.draws[d];
-    const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(triangle - projected_.first_triangle[d])];
-    const std::vector<ScreenVertex>& screen = projected_.screen[d];
-    const ScreenVertex &p = screen[v[0]], &q = screen[v[1]], &r = screen[v[2]];
-    if (p.needs_clipping() || q.needs_clipping() || r.needs_clipping()) return add_clipped(d, triangle, v);
-    const std::int64_t area = doubled_area(p, q, r);
-    if (area == 0 || is_culled(draw, area > 0)) return;
-    emit(draw, p, q, r, triangle);
+    FrontRun run{.screen = projected_.screen[d].data(), .index = nullptr, .count = 0, .first_id = 0};
+    run.viewport = rules_.viewport;
+    run.left = target_.x, run.right = target_.x + target_.width - 1;
+    run.top = target_.y, run.bottom = target_.y + target_.height - 1;
+    run.sample_x = samples.x.data(), run.sample_y = samples.y.data();
+    run.sample_count = static_cast<std::int32_t>(samples.x.size());
+    run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
+    run.is_top_left = rules_.is_top_left;
+    run.draws_fragments =
+        draw.surface == Surface::Opaque && !rules_.is_flat_depth && run.sample_count <= most_samples_in_fragments;
+    FragmentSink sink{.first_column = bins_.first_column,
+                      .first_row = bins_.first_row,
+                      .columns = bins_.columns,
+                      .last = worker_.fragments.data(),
+                      .owner = &worker_.arena,
+                      .grow = grow};
+    FrontResult result;
+    for (std::int32_t first = begin; first < end; first += FrontRun::capacity) {
+      run.index = draw.index.data() + 3 * static_cast<std::size_t>(first - projected_.first_triangle[d]);
+      run.first_id = first;
+      run.count = std::min(FrontRun::capacity, end - first);
+      kernels.run(run, sink, result);
+      worker_.drawn += result.drawn;
+      for (std::int32_t i = 0; i < result.kept_count; ++i) add_kept(d, first + result.kept[i]);
+      for (std::int32_t i = 0; i < result.general_count; ++i) add_general(d, first + result.general[i]);
+    }
   }
 
  private:
   static bool is_culled(const Draw& draw, bool is_clockwise) {
     return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
+  }
+
+  Extent extent_of(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) const {
+    const std::int32_t cx = rules_.viewport.width * 128, cy = rules_.viewport.height * 128;
+    return {std::min({p.x, q.x, r.x}) + cx, std::max({p.x, q.x, r.x}) + cx, std::min({p.y, q.y, r.y}) + cy,
+            std::max({p.y, q.y, r.y}) + cy};
+  }
+
+  /// True if some sample of the pattern lies within the bounds of the three vertices.
+  bool may_cover_a_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) const {
+    const Extent e = extent_of(p, q, r);
+    return std::any_of(target_.samples.begin(), target_.samples.end(), [&](SamplePosition s) {
+      return (e.low_x - s.x + 255) >> 8 <= (e.high_x - s.x) >> 8 && (e.low_y - s.y + 255) >> 8 <= (e.high_y - s.y) >> 8;
+    });
+  }
+
+  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile) {
+    auto* part = reinterpret_cast<SampleFragments*>(static_cast<Arena*>(sink.owner)->take(sizeof(SampleFragments)));
+    part->previous = sink.last[tile];
+    part->count = 0;
+    return sink.last[tile] = part;
+  }
+
+  const std::uint32_t* corners(std::size_t d, std::int32_t triangle) const {
+    return &projected_.draws[d].index[3 * static_cast<std::size_t>(triangle - projected_.first_triangle[d])];
+  }
+
+  void add_kept(std::size_t d, std::int32_t triangle) {
+    const std::uint32_t* v = corners(d, triangle);
+    const auto& screen = projected_.screen[d];
+    emit(projected_.draws[d], screen[v[0]], screen[v[1]], screen[v[2]], triangle);
+  }
+
+  void add_general(std::size_t d, std::int32_t triangle) {
+    const Draw& draw = projected_.draws[d];
+    const std::uint32_t* v = corners(d, triangle);
+    const auto& screen = projected_.screen[d];
+    const ScreenVertex &p = screen[v[0]], &q = screen[v[1]], &r = screen[v[2]];
+    if (p.needs_clipping() || q.needs_clipping() || r.needs_clipping()) return add_clipped(d, triangle, v);
+    const std::int64_t area = doubled_area(p, q, r);
+    if (area == 0 || is_culled(draw, area > 0) || !may_cover_a_sample(p, q, r)) return;
+    emit(draw, p, q, r, triangle);
   }
 
   void add_clipped(std::size_t d, std::int32_t triangle, const std::uint32_t* v) {
@@ -58,21 +128,26 @@ class Binner {
       const ScreenVertex& r = polygon.vertex[static_cast<std::size_t>(i)];
       const std::int64_t area = doubled_area(p, q, r);
       // Snapping may turn a sliver of the fan over; the pieces beside it cover its place.
-      if (area != 0 && (area > 0) == facing.is_clockwise) emit(draw, p, q, r, triangle);
+      if (area != 0 && (area > 0) == facing.is_clockwise && may_cover_a_sample(p, q, r)) emit(draw, p, q, r, triangle);
     }
   }
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
-    if (!may_cover_a_sample(p, q, r, target_)) return;
-    const Triangle t = make_triangle(p, q, r, id, rules_);
-    const int left = std::max(t.min_x, target_.x), right = std::min(t.max_x, target_.x + target_.width - 1);
-    const int top = std::max(t.min_y, target_.y), bottom = std::min(t.max_y, target_.y + target_.height - 1);
+    const Extent e = extent_of(p, q, r);
+    const int left = std::max(e.low_x >> 8, target_.x), right = std::min(e.high_x >> 8, target_.x + target_.width - 1);
+    const int top = std::max(e.low_y >> 8, target_.y), bottom = std::min(e.high_y >> 8, target_.y + target_.height - 1);
     if (left > right || top > bottom) return;
     const auto number = static_cast<std::uint32_t>(worker_.triangles.size());
-    worker_.triangles.push_back(t);
-    for (int row = top / tile_size; row <= bottom / tile_size; ++row)
-      for (int column = left / tile_size; column <= right / tile_size; ++column)
-        if (touches(t, column * tile_size, row * tile_size)) tile_list(draw, column, row).push_back(number);
+    // Made in its place: to copy what was just written a piece at a time stalls the processor.
+    const Triangle& t = *::new (worker_.triangles.append(worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
+    const int first_column = left / tile_size, last_column = right / tile_size;
+    const int first_row = top / tile_size, last_row = bottom / tile_size;
+    if (first_column == last_column && first_row == last_row)
+      return tile_list(draw, first_column, first_row).push_back(number, worker_.arena);
+    for (int row = first_row; row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; ++column)
+        if (touches(t, column * tile_size, row * tile_size))
+          tile_list(draw, column, row).push_back(number, worker_.arena);
   }
 
   /// False if an edge has the whole tile, corner to corner, on its outer side.
@@ -87,7 +162,7 @@ class Binner {
     return true;
   }
 
-  std::vector<std::uint32_t>& tile_list(const Draw& draw, int column, int row) {
+  Bins::TileList& tile_list(const Draw& draw, int column, int row) {
     const int tile = (row - bins_.first_row) * bins_.columns + column - bins_.first_column;
     return worker_.tiles[static_cast<std::size_t>(tile)][static_cast<std::size_t>(draw.surface)];
   }
@@ -101,29 +176,43 @@ class Binner {
 
 }  // namespace
 
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules) {
-  Bins bins;
+void Bins::Worker::clear(std::size_t tile_count) {
+  arena.clear();
+  triangles.clear();
+  drawn = 0;
+  for (std::array<TileList, 3>& lists : tiles)
+    for (TileList& list : lists) list.clear();
+  tiles.resize(tile_count);
+  fragments.assign(tile_count, nullptr);
+}
+
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
+                   Bins reused) {
+  Bins bins = std::move(reused);
+  bins.set_up = 0;
   bins.first_column = target.x / tile_size;
   bins.first_row = target.y / tile_size;
   bins.columns = (target.x + target.width - 1) / tile_size - bins.first_column + 1;
   bins.rows = (target.y + target.height - 1) / tile_size - bins.first_row + 1;
   bins.workers.resize(static_cast<std::size_t>(thread_limit()));
-  for (Bins::Worker& w : bins.workers) w.tiles.resize(bins.tiles());
+  for (Bins::Worker& w : bins.workers) w.clear(bins.tiles());
 
   struct Part {
     std::size_t draw;
     std::int32_t begin, end;
   };
-  constexpr std::int32_t part_size = 512;
+  constexpr std::int32_t part_size = 4096;
   std::vector<Part> parts;
   for (std::size_t d = 0; d < projected.draws.size(); ++d)
     for (std::int32_t t = projected.first_triangle[d]; t < projected.first_triangle[d + 1]; t += part_size)
       parts.push_back({d, t, std::min(projected.first_triangle[d + 1], t + part_size)});
+  const SampleArrays samples(target.samples);
+  const FrontKernels& kernels = front_kernels(isa);
   parallel_for(parts.size(), [&](std::size_t i) {
     Binner binner(projected, target, rules, bins);
-    for (std::int32_t t = parts[i].begin; t < parts[i].end; ++t) binner.add(parts[i].draw, t);
+    binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels);
   });
-  for (const Bins::Worker& w : bins.workers) bins.set_up += w.triangles.size();
+  for (const Bins::Worker& w : bins.workers) bins.set_up += w.triangles.size() + w.drawn;
   return bins;
 }
 

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "zoneplate/raster/arena.h"
 #include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/front.h"
 #include "zoneplate/raster/setup.h"
 #include "zoneplate/raster/target.h"
 
@@ -13,12 +15,20 @@ namespace zoneplate {
 /// The triangles of a frame by the tiles that they may touch.
 ///
 /// Each thread fills its own lists; which thread set up a triangle leaves no trace in the picture, because what is
-/// visible does not depend on the order of drawing.
+/// visible does not depend on the order of drawing. Small opaque triangles leave no record: what they cover is in
+/// `fragments`.
 struct Bins {
   int first_column = 0, first_row = 0, columns = 0, rows = 0;  ///< tiles of 64 × 64 on the picture's own grid
-  struct Worker {
-    std::vector<Triangle> triangles;
-    std::vector<std::array<std::vector<std::uint32_t>, 3>> tiles;  ///< by tile and Surface: indices into triangles
+  using TileList = ArenaList<std::uint32_t>;
+  struct alignas(128) Worker {
+    Arena arena;
+    ArenaArray<Triangle> triangles;
+    std::vector<std::array<TileList, 3>> tiles;  ///< by tile and Surface: indices into triangles
+    std::vector<SampleFragments*> fragments;     ///< by tile: the last part of its list, or null
+    std::uint64_t drawn = 0;                     ///< triangles that became fragments
+
+    /// Empties the lists and makes them for that number of tiles.
+    void clear(std::size_t tiles);
   };
   std::vector<Worker> workers;
   std::uint64_t set_up = 0;  ///< triangles that survived culling and clipping
@@ -26,7 +36,8 @@ struct Bins {
   std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-/// Culls, clips, sets up and sorts into tiles, in parallel.
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules);
+/// Culls, clips, sets up and sorts into tiles, in parallel. The memory of `reused` serves again.
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
+                   Bins reused = {});
 
 }  // namespace zoneplate

@@ -1,6 +1,7 @@
 #include "zoneplate/raster/draw.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
@@ -13,15 +14,21 @@ std::size_t ProjectedDraws::draw_of(std::int32_t triangle) const {
   return static_cast<std::size_t>(after - first_triangle.begin()) - 1;
 }
 
-ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa) {
-  ProjectedDraws out{.draws = draws, .screen = {}, .first_triangle = {}};
-  std::size_t total = 0;
+ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused) {
+  ProjectedDraws out = std::move(reused);
+  out.draws = draws;
+  out.screen.clear();
+  out.first_triangle.clear();
+  std::size_t total = 0, vertices = 0;
+  for (const Draw& draw : draws) vertices += draw.vertices();
+  auto* place = reinterpret_cast<ScreenVertex*>(out.memory.room(vertices * sizeof(ScreenVertex)));
   struct Part {
     std::size_t draw, begin, end;
   };
   std::vector<Part> parts;
   for (std::size_t d = 0; d < draws.size(); ++d) {
-    out.screen.emplace_back(draws[d].vertices());
+    out.screen.emplace_back(place, draws[d].vertices());
+    place += draws[d].vertices();
     out.first_triangle.push_back(static_cast<std::int32_t>(total));
     total += draws[d].triangles();
     if (total > 0x7ffffffeu) throw Error(Trouble::Failed, "the scene has more than 2147483646 triangles");

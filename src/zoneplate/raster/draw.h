@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "zoneplate/raster/arena.h"
 #include "zoneplate/raster/batch.h"
 #include "zoneplate/raster/interpolate.h"
 #include "zoneplate/raster/project.h"
@@ -48,15 +49,18 @@ struct Draw {
 /// Draws with their screen vertices and triangle numbers.
 struct ProjectedDraws {
   std::span<const Draw> draws;
-  std::vector<std::vector<ScreenVertex>> screen;  ///< by draw
-  std::vector<std::int32_t> first_triangle;       ///< by draw, and the total at the end
+  std::vector<std::span<ScreenVertex>> screen;  ///< by draw
+  std::vector<std::int32_t> first_triangle;     ///< by draw, and the total at the end
+  RawMemory memory;                             ///< of the screen vertices
 
   /// The draw that a triangle belongs to.
   std::size_t draw_of(std::int32_t triangle) const;
 };
 
-/// Transforms all vertices, in parallel. Errors: Trouble::Failed past 2^31 - 2 triangles.
-ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa);
+/// Transforms all vertices, in parallel. The memory of `reused` serves again.
+///
+/// Errors    Trouble::Failed past 2^31 - 2 triangles.
+ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused = {});
 
 /// What shading and culling need to know of a triangle as a whole.
 struct TriangleFacing {

@@ -1,6 +1,7 @@
 #include "zoneplate/raster/rasterize.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "zoneplate/base/clock.h"
@@ -11,13 +12,18 @@
 namespace zoneplate {
 
 RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
-                       const Target& target) {
+                       const Target& target, RasterMemory* memory) {
   RasterCounts counts;
   const Stopwatch geometry;
-  const ProjectedDraws projected = project_draws(draws, target.viewport, rules.isa);
-  const Bins bins =
-      bin_triangles(projected, target,
-                    {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter});
+  RasterMemory own;
+  RasterMemory& kept = memory ? *memory : own;
+  kept.projected = project_draws(draws, target.viewport, rules.isa, std::move(kept.projected));
+  kept.bins =
+      bin_triangles(kept.projected, target,
+                    {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter},
+                    rules.isa, std::move(kept.bins));
+  const ProjectedDraws& projected = kept.projected;
+  const Bins& bins = kept.bins;
   counts.geometry_ms = geometry.ms();
   counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
   counts.set_up = bins.set_up;

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/draw.h"
 #include "zoneplate/raster/setup.h"
 #include "zoneplate/raster/target.h"
@@ -26,6 +27,12 @@ struct RasterRules {
   Isa isa = best_isa();
 };
 
+/// What frames that are drawn one after the other may share.
+struct RasterMemory {
+  ProjectedDraws projected;
+  Bins bins;
+};
+
 struct RasterCounts {
   double geometry_ms = 0, tiles_ms = 0;
   std::uint64_t triangles = 0, set_up = 0, shaded = 0;
@@ -38,7 +45,8 @@ struct RasterCounts {
 ///           triangles have equal depth at a sample.
 /// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
 ///           Carpenter, The A-buffer, SIGGRAPH 1984.
+/// A `memory` that was used for an earlier frame saves the system's work of finding new pages.
 RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
-                       const Target& target);
+                       const Target& target, RasterMemory* memory = nullptr);
 
 }  // namespace zoneplate

@@ -1,7 +1,6 @@
 #include "zoneplate/raster/setup.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace zoneplate {
 
@@ -11,23 +10,25 @@ std::int64_t doubled_area(const ScreenVertex& p, const ScreenVertex& q, const Sc
 
 Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id,
                        const SetupRules& rules) {
-  // Edges are taken clockwise on the screen, so that inside is positive.
+  // Corners are taken clockwise on the screen, so that inside is positive.
   const std::int64_t area = doubled_area(p, q, r);
-  const ScreenVertex* v[3] = {&p, &q, &r};
-  if (area < 0) std::swap(v[1], v[2]);
+  const ScreenVertex& second = area < 0 ? r : q;
+  const ScreenVertex& third = area < 0 ? q : r;
   const std::int32_t centre_x = rules.viewport.width * 128, centre_y = rules.viewport.height * 128;
-  std::int32_t x[3], y[3];
-  for (int k = 0; k < 3; ++k) x[k] = v[k]->x + centre_x, y[k] = v[k]->y + centre_y;
+  const std::int32_t x[3] = {p.x + centre_x, second.x + centre_x, third.x + centre_x};
+  const std::int32_t y[3] = {p.y + centre_y, second.y + centre_y, third.y + centre_y};
 
-  Triangle t{};
-  for (int k = 0; k < 3; ++k) {
-    const int from = (k + 1) % 3, to = (k + 2) % 3;
+  Triangle t;
+  const auto set_edge = [&](int k, int from, int to) {
     const std::int32_t dx = x[to] - x[from], dy = y[to] - y[from];
-    const bool owns_edge = dy < 0 || (dy == 0 && dx > 0) || !rules.is_top_left;
+    const bool owns_edge = (dy < 0) | ((dy == 0) & (dx > 0)) | !rules.is_top_left;
     t.a[k] = -dy;
     t.b[k] = dx;
-    t.c[k] = static_cast<std::int64_t>(dy) * x[from] - static_cast<std::int64_t>(dx) * y[from] - (owns_edge ? 0 : 1);
-  }
+    t.c[k] = static_cast<std::int64_t>(dy) * x[from] - static_cast<std::int64_t>(dx) * y[from] - !owns_edge;
+  };
+  set_edge(0, 1, 2);
+  set_edge(1, 2, 0);
+  set_edge(2, 0, 1);
 
   // A pixel's samples lie at offsets 0 to 255 of its corner, so the pixels of the box are those of its ends.
   t.min_x = std::min({x[0], x[1], x[2]}) >> 8;
@@ -35,7 +36,7 @@ Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const Scree
   t.min_y = std::min({y[0], y[1], y[2]}) >> 8;
   t.max_y = std::max({y[0], y[1], y[2]}) >> 8;
 
-  const double z0 = v[0]->z, dz1 = v[1]->z - z0, dz2 = v[2]->z - z0;
+  const double z0 = p.z, dz1 = second.z - z0, dz2 = third.z - z0;
   const double dx1 = x[1] - x[0], dy1 = y[1] - y[0], dx2 = x[2] - x[0], dy2 = y[2] - y[0];
   const double inverse_area = 1.0 / static_cast<double>(area < 0 ? -area : area);
   t.x0 = x[0];
@@ -43,12 +44,11 @@ Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const Scree
   t.z0 = z0;
   t.dzdx = (dz1 * dy2 - dz2 * dy1) * inverse_area;
   t.dzdy = (dz2 * dx1 - dz1 * dx2) * inverse_area;
-  t.z_low = std::min({v[0]->z, v[1]->z, v[2]->z});
-  t.z_high = std::max({v[0]->z, v[1]->z, v[2]->z});
+  t.z_low = std::min({p.z, second.z, third.z});
+  t.z_high = std::max({p.z, second.z, third.z});
   t.id = id;
   if (rules.is_flat_depth) {
-    const double mean =
-        (static_cast<double>(v[0]->z) + static_cast<double>(v[1]->z) + static_cast<double>(v[2]->z)) / 3;
+    const double mean = (z0 + static_cast<double>(second.z) + static_cast<double>(third.z)) / 3;
     t.z0 = mean;
     t.dzdx = t.dzdy = 0;
     t.z_low = t.z_high = static_cast<float>(mean);

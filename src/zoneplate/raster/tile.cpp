@@ -62,6 +62,7 @@ void TileRenderer::render(std::size_t tile) {
 }
 
 void TileRenderer::gather(std::size_t tile) {
+  tile_ = tile;
   const int column = bins_.first_column + static_cast<int>(tile) % bins_.columns;
   const int row = bins_.first_row + static_cast<int>(tile) / bins_.columns;
   tile_x_ = column * tile_size;
@@ -252,6 +253,7 @@ void TileRenderer::draw_opaque() {
                           tile_triangle_.last_y - tile_triangle_.first_y >= tile_size / 2;
     if (has_risen && is_large) tile_far = *std::min_element(std::begin(block_far_), std::end(block_far_));
   }
+  draw_fragments();
 }
 
 Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {

@@ -58,6 +58,7 @@ class TileRenderer {
   void begin_pass(int first_sample, int sample_count);
   void render_pass(int first_sample, int sample_count);
   void draw_opaque();
+  void draw_fragments();
   void draw_masked();
 
   /// True if the picture's colour is all that is wanted, and all of it can be had from the owners of the samples.
@@ -103,6 +104,7 @@ class TileRenderer {
   const Target& target_;
   PointBatcher shader_;
 
+  std::size_t tile_ = 0;                             ///< its number in the bins
   int tile_x_ = 0, tile_y_ = 0;                      ///< first pixel of the tile in the picture
   int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  ///< the part to be drawn, in the tile
   int first_sample_ = 0, pass_samples_ = 0;          ///< of this pass

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace zoneplate {
+
+/// Uninitialised memory for plain data, on a cache line's start. What is large asks the system for large pages: to
+/// touch new pages costs more than to fill them.
+class RawMemory {
+ public:
+  /// At least `size` bytes. Memory that is large enough already is kept, and what was in it is lost.
+  std::byte* room(std::size_t size);
+
+ private:
+  struct Free {
+    std::size_t alignment;
+    void operator()(std::byte* data) const;
+  };
+  std::unique_ptr<std::byte[], Free> data_;
+  std::size_t size_ = 0;
+};
+
+/// Memory for one frame's lists on one thread: taken in order, given back all at once, kept for the next frame.
+class Arena {
+ public:
+  /// `size` bytes on a cache line's start, uninitialised. Requires: size <= largest.
+  std::byte* take(std::size_t size) {
+    const std::size_t rounded = (size + 63) / 64 * 64;
+    if (rounded > static_cast<std::size_t>(end_ - at_)) next_block();
+    std::byte* taken = at_;
+    at_ += rounded;
+    return taken;
+  }
+  /// Gives everything back; what was taken may not be used any more.
+  void clear();
+
+  static constexpr std::size_t largest = std::size_t{1} << 17;
+
+ private:
+  void next_block();
+
+  std::vector<RawMemory> blocks_;
+  std::size_t used_ = 0;  ///< blocks in use
+  std::byte *at_ = nullptr, *end_ = nullptr;
+};
+
+/// Plain data in order, by number; what is in it never moves.
+template <class T>
+class ArenaArray {
+ public:
+  /// Room for one more, uninitialised.
+  T* append(Arena& arena) {
+    if (size_ == chunks_.size() * chunk_size) chunks_.push_back(reinterpret_cast<T*>(arena.take(chunk_bytes)));
+    return chunks_.back() + size_++ % chunk_size;
+  }
+  const T& operator[](std::size_t i) const { return chunks_[i / chunk_size][i % chunk_size]; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  void clear() { chunks_.clear(), size_ = 0; }
+
+ private:
+  static constexpr std::size_t chunk_size = 256, chunk_bytes = chunk_size * sizeof(T);
+  static_assert(chunk_bytes <= Arena::largest);
+  std::vector<T*> chunks_;
+  std::size_t size_ = 0;
+};
+
+/// Plain data that is only added to and read from the start on.
+template <class T>
+class ArenaList {
+ public:
+  void push_back(T value, Arena& arena) {
+    if (at_ == end_) grow(arena);
+    *at_++ = value;
+  }
+  bool empty() const { return !first_; }
+  void clear() { *this = {}; }
+
+ private:
+  struct Chunk {
+    static constexpr std::size_t capacity = (256 - sizeof(void*)) / sizeof(T);
+    Chunk* next;
+    T value[capacity];
+  };
+  void grow(Arena& arena) {
+    auto* chunk = reinterpret_cast<Chunk*>(arena.take(sizeof(Chunk)));
+    chunk->next = nullptr;
+    (last_ ? last_->next : first_) = chunk;
+    last_ = chunk;
+    at_ = chunk->value;
+    end_ = at_ + Chunk::capacity;
+  }
+
+  Chunk *first_ = nullptr, *last_ = nullptr;
+  T *at_ = nullptr, *end_ = nullptr;  ///< in the last chunk
+
+ public:
+  class Iterator {
+   public:
+    Iterator(const Chunk* chunk, const T* at) : chunk_(chunk), at_(at) {}
+    const T& operator*() const { return *at_; }
+    Iterator& operator++() {
+      if (++at_ == chunk_->value + Chunk::capacity && chunk_->next) chunk_ = chunk_->next, at_ = chunk_->value;
+      return *this;
+    }
+    bool operator!=(const Iterator& o) const { return at_ != o.at_; }
+
+   private:
+    const Chunk* chunk_;
+    const T* at_;
+  };
+  Iterator begin() const { return {first_, first_ ? first_->value : nullptr}; }
+  Iterator end() const { return {last_, at_}; }
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/raster/project.h"
+
+namespace zoneplate {
+
+/// Samples of one tile that small triangles cover, in any order; a list of these is what a thread has for a tile.
+///
+/// Units     at = sample × 4096 + 64 y + x, with the pixel (x, y) within the tile.
+struct SampleFragments {
+  static constexpr int capacity = 340;
+  SampleFragments* previous;
+  std::int32_t count;
+  float depth[capacity];
+  std::int32_t id[capacity];
+  std::uint32_t at[capacity];
+};
+
+/// Where the fragments of one thread go: by tile of the picture's grid, the list's last part, or null.
+struct FragmentSink {
+  std::int32_t first_column, first_row, columns;
+  SampleFragments** last;
+  void* owner;
+  SampleFragments* (*grow)(FragmentSink& sink, std::int32_t tile);  ///< gives the list a new, empty last part
+};
+
+/// A run of consecutive triangles of one draw, and what they are tested against.
+struct FrontRun {
+  const ScreenVertex* screen;
+  const std::uint32_t* index;  ///< three a triangle
+  std::int32_t count;          ///< at most `capacity`
+  std::int32_t first_id;
+  Viewport viewport;
+  std::int32_t left, top, right, bottom;  ///< the pixels that are drawn, ends included
+  const std::int32_t *sample_x, *sample_y;
+  std::int32_t sample_count;
+  std::int32_t facing;   ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
+  bool is_top_left;      ///< as SetupRules
+  bool draws_fragments;  ///< small triangles become fragments; otherwise they are listed with the rest
+
+  static constexpr int capacity = 256;
+};
+
+/// What became of a run's triangles, as numbers within the run.
+struct FrontResult {
+  std::int32_t general_count = 0, kept_count = 0;
+  std::uint64_t drawn = 0;                        ///< small triangles that went on to be fragments
+  std::int32_t general[FrontRun::capacity + 16];  ///< need clipping, or are larger than 64 pixels: not yet tested
+  std::int32_t kept[FrontRun::capacity + 16];     ///< face the eye, have a sample in their bounds, are in the rectangle
+};
+
+struct FrontKernels {
+  /// Culls a run of triangles, draws the small ones as fragments and lists the rest.
+  ///
+  /// A triangle is small if its bounds are less than 4 pixels in both directions. Its samples and their depths are
+  /// those of make_tile_triangle and depth_at, bit for bit.
+  void (*run)(const FrontRun& run, FragmentSink& sink, FrontResult& result);
+};
+
+namespace scalar {
+extern const FrontKernels front_kernels;
+}
+namespace N_SSE4 {
+extern const FrontKernels front_kernels;
+}
+namespace N_AVX2 {
+extern const FrontKernels front_kernels;
+}
+inline const FrontKernels& front_kernels(Isa isa) {
+  return pick(isa, scalar::front_kernels, N_SSE4::front_kernels, N_AVX2::front_kernels);
+}
+
+inline constexpr std::int32_t small_extent = 1023;   ///< 1/256 pixel; at most 4 samples of a kind in each direction
+inline constexpr std::int32_t large_extent = 16383;  ///< products of two differences stay within 28 bits
+
+}  // namespace zoneplate
