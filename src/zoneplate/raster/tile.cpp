@@ -112,7 +112,7 @@ void TileRenderer::begin_pass(int first_sample, int sample_count) {
 }
 
 void TileRenderer::render_plain() {
-  if (sources_[0].empty() && sources_[1].empty() && !has_layers()) return;
+  if (sources_[0].empty() && sources_[1].empty() && !has_layers() && !has_fragments()) return;
   begin_pass(0, static_cast<int>(target_.samples.size()));
   draw_opaque();
   draw_masked();

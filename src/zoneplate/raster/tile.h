@@ -59,6 +59,7 @@ class TileRenderer {
   void render_pass(int first_sample, int sample_count);
   void draw_opaque();
   void draw_fragments();
+  bool has_fragments() const;
   void draw_masked();
 
   /// True if the picture's colour is all that is wanted, and all of it can be had from the owners of the samples.
