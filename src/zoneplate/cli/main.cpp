@@ -26,7 +26,8 @@ struct Verb {
 constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (the verb may be left out)", run_render},
                           {"list", "antialiasing methods, built-in scenes, file formats", run_list},
                           {"info", "what is in a model", run_info},
-                          {"metrics", "how far pictures are from a reference", run_metrics}};
+                          {"metrics", "how far pictures are from a reference", run_metrics},
+                          {"demo", "lessons about aliasing, each a picture that explains itself", run_demo}};
 
 const Verb* find_verb(std::string_view name) {
   for (const Verb& verb : verbs)
