@@ -85,7 +85,8 @@ void save_lesson(const Lesson& lesson, const DemoSize& size, const std::string& 
   Animation animation{.frames = {}, .seconds = lesson.seconds, .per = lesson.per};
   for (const Figure& figure : lesson.frames) animation.frames.push_back(compose(figure, size.style()));
   if (animation.frames.size() == 1)
-    return save_bytes(path, encode_png(animation.frames[0], {.has_alpha = false, .is_small = true}));
+    return save_bytes(path,
+                      encode_png(animation.frames[0], {.has_alpha = false, .is_small = true, .may_be_indexed = true}));
   const auto apng = encode_apng(animation), webp = encode_webp(animation);
   save_bytes(path, apng);
   save_bytes(std::filesystem::path(path).replace_extension(".webp").string(), webp);

@@ -6,7 +6,6 @@
 
 #include "zoneplate/cli/demo.h"
 #include "zoneplate/cli/demo_picture.h"
-#include "zoneplate/report/plot.h"
 #include "zoneplate/signal/aliasing.h"
 #include "zoneplate/signal/functions.h"
 #include "zoneplate/signal/resample.h"
@@ -89,15 +88,15 @@ Table kernel_table(const std::array<Reduction, 2>& measured) {
 
 Lesson make(const DemoSize& size) {
   const int side = size.panel, gap = size.style().gap_px, tenths = std::max(1, side / 10);
-  const PlotSize plot_size{2 * side + gap, side * 9 / 10};
+  const int width = 2 * side + gap, height = side * 9 / 10;
   Figure figure{.title = "Aliases: different waves, the same samples"};
   const double seen = std::abs(apparent_frequency(frequency, 1));
   figure.rows.push_back(
-      {{plot_picture(waves_plot(), plot_size),
+      {{plot_at(waves_plot(), width, height),
         fmt::format("Nobody can tell them apart\nWaves of {} and of {} cycles a sample agree at every sample; the "
                     "slower one is what is seen.",
                     number(frequency, 1), number(seen, 1))},
-       {plot_picture(folding_plot(), plot_size),
+       {plot_at(folding_plot(), width, height),
         "Frequencies fold at ½\nHalf a cycle a sample is the Nyquist frequency: beyond it everything is seen as a "
         "slower wave, its alias."}});
 
@@ -105,23 +104,24 @@ Lesson make(const DemoSize& size) {
   std::vector<Panel>& row = figure.rows.emplace_back();
   for (const Reduction& r : {Reduction{20 * tenths, 10 * tenths}, Reduction{37 * tenths, 10 * tenths}}) {
     const Plane<float> plate = zone_plate(r.from);
-    const AliasFigures figures = measure_aliases(plate, r.to, r.to, kernel);
     const std::string factor = number(r.factor(), r.factor() > 3 ? 1 : 0);
     row.push_back(
         {shown(resample_nearest(plate, r.to, r.to)),
          fmt::format("{} times smaller, unfiltered\nOnly the rings around the centre belong there.", factor)});
-    row.push_back({shown(resample(plate, r.to, r.to, kernel, {.border = Border::Wrap})),
-                   fmt::format("{} times smaller, {}\nAliases {} dB; far ones {} dB.", factor, shown_kernel,
-                               decibels(figures.all_db), decibels(figures.far_db))});
+    row.push_back(
+        {shown(resample(plate, r.to, r.to, kernel, {.border = Border::Wrap})),
+         fmt::format("{} times smaller, {}\nWhat the pixels cannot hold has become grey.", factor, shown_kernel)});
   }
 
-  const Table table = kernel_table(reductions(size));
+  const auto measured = reductions(size);
+  const Table table = kernel_table(measured);
   figure.rows.push_back({{table_picture(table, size.style(), 4 * side + 3 * gap), ""}});
-  figure.text =
-      "What is left of the aliases when a zone plate is made smaller through each kernel, in dB of their energy "
-      "without a filter, measured and from the kernel’s frequency response. Far: those from 1.5 times the new Nyquist "
-      "frequency and beyond, which come out coarse. Less is better; a wide kernel also takes more of what could have "
-      "stayed.";
+  figure.text = fmt::format(
+      "What each kernel leaves of the aliases when zone plates of {} and {} pixels are made smaller, in dB of their "
+      "energy without a filter: measured in the picture, and from the kernel’s frequency response. Far: those from 1.5 "
+      "times the new Nyquist frequency and beyond, which come out coarse. Less is better, but a wide kernel also takes "
+      "more of what could have stayed.",
+      measured[0].from, measured[1].from);
   return {.frames = {figure}, .tables = {table}};
 }
 

@@ -14,12 +14,14 @@
 #include "zoneplate/metrics/magma.h"
 #include "zoneplate/report/typeface.h"
 #include "zoneplate/scene/builtin.h"
+#include "zoneplate/signal/resample.h"
 #include "zoneplate/signal/spectrum.h"
 
 namespace zoneplate::cli {
 namespace {
 
 constexpr float background_code = 0.2f;        // as `zoneplate render` has it
+constexpr int least_plot_width = 720;          // plots have letters of one size, made for this
 constexpr Rgba8 mark_color{255, 196, 0, 255};  // of crops: on light and on dark
 
 }  // namespace
@@ -81,7 +83,7 @@ struct Corner {
   int x, y, pixels;
 };
 Corner corner_of(const Rgba8Image& picture, int centre_x, int centre_y, int factor, int side) {
-  const int pixels = std::min({side / factor, picture.width(), picture.height()});
+  const int pixels = std::min({(side + factor - 1) / factor, picture.width(), picture.height()});
   return {std::clamp(centre_x - pixels / 2, 0, picture.width() - pixels),
           std::clamp(centre_y - pixels / 2, 0, picture.height() - pixels), pixels};
 }
@@ -90,10 +92,11 @@ Corner corner_of(const Rgba8Image& picture, int centre_x, int centre_y, int fact
 
 Rgba8Image crop_of(const Rgba8Image& picture, int centre_x, int centre_y, int factor, int side) {
   const Corner corner = corner_of(picture, centre_x, centre_y, factor, side);
-  Rgba8Image part(corner.pixels, corner.pixels);
-  for (int y = 0; y < corner.pixels; ++y)
-    for (int x = 0; x < corner.pixels; ++x) part(x, y) = picture(corner.x + x, corner.y + y);
-  return enlarged(part, factor);
+  const int shown_side = std::min(side, corner.pixels * factor);
+  Rgba8Image part(shown_side, shown_side);
+  for (int y = 0; y < shown_side; ++y)
+    for (int x = 0; x < shown_side; ++x) part(x, y) = picture(corner.x + x / factor, corner.y + y / factor);
+  return part;
 }
 
 Rgba8Image marked(Rgba8Image picture, int centre_x, int centre_y, int factor, int side) {
@@ -114,6 +117,18 @@ Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& 
   Rgba8Image picture(width, height, style.paper);
   face.draw(picture, 0, (height - face.leading()) / 2, sign, style.ink);
   return picture;
+}
+
+Rgba8Image plot_at(const Plot& plot, int width, int height) {
+  const int drawn_width = std::max(width, least_plot_width);
+  const int drawn_height = static_cast<int>(std::int64_t{height} * drawn_width / width);
+  const Rgba8Image drawn = plot_picture(plot, {drawn_width, drawn_height});
+  if (drawn_width == width) return drawn;
+  LinearImage light(drawn_width, drawn_height);
+  std::transform(drawn.values().begin(), drawn.values().end(), light.values().begin(), [](Rgba8 c) {
+    return Linear{decode_srgb8(c.r), decode_srgb8(c.g), decode_srgb8(c.b), 1};
+  });
+  return shown(resample(light, width, height, make_kernel("mitchell")));
 }
 
 double rms_difference(const Plane<float>& a, const Plane<float>& b) {

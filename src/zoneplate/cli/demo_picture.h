@@ -5,6 +5,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/report/figure.h"
+#include "zoneplate/report/plot.h"
 #include "zoneplate/signal/fourier.h"
 
 namespace zoneplate::cli {
@@ -32,7 +33,8 @@ Plane<float> luminance_of(const LinearImage& light);
 /// The centred spectrum, logarithmic over `range_db`, in false colours: what is no picture does not look like one.
 Rgba8Image spectrum_picture(const Spectrum& spectrum, double range_db = 100);
 
-/// A square crop around a place, `factor` times enlarged to `side` pixels, kept inside of the picture.
+/// A square crop around a place, `factor` times enlarged to `side` pixels, kept inside of the picture; the last pixels
+/// are cut where `side` is no multiple.
 Rgba8Image crop_of(const Rgba8Image& picture, int centre_x, int centre_y, int factor, int side);
 
 /// The picture with the outline of that crop drawn into it.
@@ -40,6 +42,9 @@ Rgba8Image marked(Rgba8Image picture, int centre_x, int centre_y, int factor, in
 
 /// A sign such as = between two pictures of this height, on paper.
 Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& style);
+
+/// The plot at this size; below the size that its letters are made for, as that one made smaller.
+Rgba8Image plot_at(const Plot& plot, int width, int height);
 
 /// Root of the mean squared difference.
 double rms_difference(const Plane<float>& a, const Plane<float>& b);

@@ -6,7 +6,6 @@
 
 #include "zoneplate/cli/demo.h"
 #include "zoneplate/cli/demo_picture.h"
-#include "zoneplate/report/plot.h"
 #include "zoneplate/signal/functions.h"
 #include "zoneplate/signal/series.h"
 
@@ -14,16 +13,31 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr double bandwidth = 1;                       // Hz
-constexpr std::array<double, 3> rates = {4, 2, 1.3};  // samples a second
 constexpr double shown_seconds = 4, shown_hertz = 5;  // to both sides
 constexpr double taken_seconds = 200;                 // to both sides: what lies beyond is below 3e-6
 
-/// A pulse whose spectrum is a triangle, 1 at 0 and 0 from the bandwidth on.
-double signal(double t) {
-  const double s = sinc(bandwidth * t);
-  return s * s;
-}
-double spectrum(double f) { return std::max(0.0, 1 - std::abs(f) / bandwidth) / bandwidth; }
+/// A pulse whose spectrum is a triangle, 1 at 0 and 0 at the bandwidth, of which a filter has taken what lies from
+/// `limit` on.
+struct Pulse {
+  double limit = bandwidth;
+
+  // The triangle is what its flat part, 1 - limit high, and the smaller triangle on it are.
+  double value(double t) const {
+    const double s = sinc(limit * t);
+    return 2 * limit * (1 - limit) * sinc(2 * limit * t) + limit * limit * s * s;
+  }
+  double spectrum(double f) const { return std::abs(f) > limit ? 0 : std::max(0.0, 1 - std::abs(f)); }
+};
+static_assert(bandwidth == 1, "the pulse is written for it");
+
+/// How the pulse is sampled.
+struct Way {
+  double rate;
+  bool is_filtered;
+
+  Pulse pulse() const { return {is_filtered ? rate / 2 : bandwidth}; }
+};
+constexpr std::array<Way, 4> ways = {{{4, false}, {2, false}, {1.3, false}, {1.3, true}}};
 
 struct Samples {
   double rate;
@@ -32,10 +46,10 @@ struct Samples {
 
   double time(std::size_t i) const { return (first + static_cast<int>(i)) / rate; }
 };
-Samples taken(double rate) {
-  const int last = static_cast<int>(taken_seconds * rate);
-  Samples samples{rate, -last, {}};
-  for (int k = -last; k <= last; ++k) samples.values.push_back(signal(k / rate));
+Samples taken(const Way& way) {
+  const int last = static_cast<int>(taken_seconds * way.rate);
+  Samples samples{way.rate, -last, {}};
+  for (int k = -last; k <= last; ++k) samples.values.push_back(way.pulse().value(k / way.rate));
   return samples;
 }
 
@@ -64,6 +78,8 @@ Curve curve(std::string name, double reach, int points, Function value) {
   return c;
 }
 
+double signal(double t) { return Pulse{}.value(t); }
+
 Plot time_plot(const Samples& samples) {
   Plot plot{.x = {"time (s)", -shown_seconds, shown_seconds}, .y = {"signal", -0.3, 1.1}};
   Curve stems{.name = "samples", .mark = Curve::Mark::Stems, .color = 1};
@@ -77,16 +93,21 @@ Plot time_plot(const Samples& samples) {
   return plot;
 }
 
-Plot spectrum_plot(const Samples& samples) {
+Plot spectrum_plot(const Way& way, const Samples& samples) {
   Plot plot{.x = {"frequency (Hz)", -shown_hertz, shown_hertz}, .y = {"spectrum", 0, 1.2}};
-  Curve own = curve("signal", shown_hertz, 200, spectrum);
+  Curve own = curve("signal", shown_hertz, 200, [](double f) { return Pulse{}.spectrum(f); });
   own.mark = Curve::Mark::Area, own.color = Curve::grey;
   plot.curves.push_back(own);
+  const Pulse pulse = way.pulse();
   for (int copy = -8; copy <= 8; ++copy) {
-    if (copy == 0 || std::abs(copy * samples.rate) > shown_hertz + bandwidth) continue;
+    const double at = copy * way.rate, edge = pulse.spectrum(pulse.limit);
+    if (copy == 0 || std::abs(at) > shown_hertz + bandwidth) continue;
     Curve c{.name = copy == 1 ? "copies" : "", .mark = Curve::Mark::Dashed, .color = 1};
-    const double at = copy * samples.rate;
-    c.points = {{at - bandwidth, 0}, {at, 1 / bandwidth}, {at + bandwidth, 0}};
+    c.points = {{at - pulse.limit, 0},
+                {at - pulse.limit, edge},
+                {at, pulse.spectrum(0)},
+                {at + pulse.limit, edge},
+                {at + pulse.limit, 0}};
     plot.curves.push_back(c);
   }
   Curve sum = curve("samples", shown_hertz, 400, [&](double f) { return spectrum_of(samples, f); });
@@ -112,25 +133,29 @@ double error_of(const Samples& samples) {
   return std::sqrt(error / all);
 }
 
-std::string words_of(double rate) {
-  const Band band = overlap_of_copies(bandwidth, rate);
+std::string words_of(const Way& way) {
+  if (way.is_filtered)
+    return "They meet and do not overlap: what the rate cannot hold was taken away, and returns nowhere.";
+  const Band band = overlap_of_copies(bandwidth, way.rate);
   if (band.low < band.high)
     return fmt::format("They overlap from {} to {} Hz and add up: what is there cannot be taken apart.",
                        number(band.low, 1), number(band.high, 1));
-  return rate > 2 * bandwidth ? "They stand apart: a low-pass at half the rate gives the signal back."
-                              : "They touch: twice the bandwidth is the least rate that suffices.";
+  return way.rate > 2 * bandwidth ? "They stand apart: a low-pass at half the rate gives the signal back."
+                                  : "They touch: twice the bandwidth is the least rate that suffices.";
 }
 
 Lesson make(const DemoSize& size) {
-  const PlotSize plot_size{2 * size.panel, size.panel * 7 / 8};
+  const int width = 2 * size.panel, height = size.panel * 3 / 4;
   Figure figure{.title = "Sampling copies the spectrum: sample too slowly, and the copies overlap"};
-  for (const double rate : rates) {
-    const Samples samples = taken(rate);
-    figure.rows.push_back({{plot_picture(time_plot(samples), plot_size),
-                            fmt::format("{} samples a second\nRebuilt with an error of {} %.",
-                                        number(rate, rate < 2 ? 1 : 0), number(100 * error_of(samples), 1))},
-                           {plot_picture(spectrum_plot(samples), plot_size),
-                            fmt::format("Copies {} Hz apart\n{}", number(rate, rate < 2 ? 1 : 0), words_of(rate))}});
+  for (const Way& way : ways) {
+    const Samples samples = taken(way);
+    const std::string rate = number(way.rate, way.rate < 2 ? 1 : 0);
+    figure.rows.push_back({{plot_at(time_plot(samples), width, height),
+                            fmt::format("{} samples a second{}\nRebuilt with an error of {} %{}.", rate,
+                                        way.is_filtered ? ", filtered before" : "", number(100 * error_of(samples), 1),
+                                        way.is_filtered ? ", without false waves" : "")},
+                           {plot_at(spectrum_plot(way, samples), width, height),
+                            fmt::format("Copies {} Hz apart\n{}", rate, words_of(way))}});
   }
   figure.text = fmt::format(
       "A pulse with frequencies up to {} Hz. Its samples have its spectrum, repeated at every multiple of their rate: "

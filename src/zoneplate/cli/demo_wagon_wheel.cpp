@@ -73,7 +73,7 @@ Lesson make(const DemoSize& size) {
       signed_number(main.apparent, 4));
   const std::string open = fmt::format(
       "Filmed, shutter always open\nEach frame is the mean of {} instants. The spokes keep |sinc {}| = {} of their "
-      "contrast (measured {}): what would go backwards is nearly gone.",
+      "contrast (measured {}): a faint shadow is all that goes backwards.",
       shown_speed, number(cycles, 1), percent(shutter_contrast(cycles)), percent(main.contrast));
   const std::string about =
       "Speeds in spokes a frame; half a spoke has no direction. An open shutter is a box filter in time: it cannot "

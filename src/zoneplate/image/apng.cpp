@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/image/png.h"
 
 namespace zoneplate {
@@ -83,8 +84,15 @@ class Writer {
 
   Bytes write() {
     const std::vector<Rgba8Image>& frames = animation_.frames;
-    write_first(encoded(frames[0], {0, 0, frames[0].width(), frames[0].height()}, animation_.has_alpha));
-    for (std::size_t i = 1; i < frames.size(); ++i) write_next(frames[i - 1], frames[i]);
+    std::vector<Rectangle> rectangles(frames.size());
+    std::vector<Bytes> files(frames.size());
+    parallel_for(frames.size(), [&](std::size_t i) {
+      rectangles[i] =
+          i == 0 ? Rectangle{0, 0, frames[0].width(), frames[0].height()} : difference(frames[i - 1], frames[i]);
+      files[i] = encoded(frames[i], rectangles[i], animation_.has_alpha);
+    });
+    write_first(files[0]);
+    for (std::size_t i = 1; i < frames.size(); ++i) write_next(files[i], rectangles[i]);
     put_chunk(out_, "IEND", {});
     return std::move(out_);
   }
@@ -108,10 +116,9 @@ class Writer {
     });
   }
 
-  void write_next(const Rgba8Image& before, const Rgba8Image& now) {
-    const Rectangle r = difference(before, now);
+  void write_next(const Bytes& png, const Rectangle& r) {
     write_control(r);
-    for_chunks(encoded(now, r, animation_.has_alpha), [&](std::string_view name, auto data, auto) {
+    for_chunks(png, [&](std::string_view name, auto data, auto) {
       if (name != "IDAT") return;
       Bytes numbered;
       put32(numbered, sequence_++);
