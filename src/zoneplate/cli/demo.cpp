@@ -2,6 +2,7 @@
 #include "zoneplate/cli/demo.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -92,11 +93,35 @@ void save_lesson(const Lesson& lesson, const DemoSize& size, const std::string& 
   save_bytes(std::filesystem::path(path).replace_extension(".webp").string(), webp);
 }
 
+/// Words in lines of a terminal, each indented.
+std::string paragraph(std::string_view words, std::string_view indent) {
+  constexpr std::size_t columns = 100;
+  std::string text;
+  std::size_t column = 0;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find_first_of(" \n"), words.size());
+    const std::string_view word = words.substr(0, end);
+    if (column > 0 && column + 1 + word.size() > columns) text += '\n', column = 0;
+    const std::string_view before = column == 0 ? indent : " ";
+    text.append(before).append(word);
+    column += before.size() + word.size();
+    if (end < words.size() && words[end] == '\n') text += '\n', column = 0;
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return text + '\n';
+}
+
 void make_folder(const std::string& path) {
   std::error_code trouble;
   std::filesystem::create_directory(path, trouble);
   if (!std::filesystem::is_directory(path))
     throw Error(Trouble::Output, fmt::format("{}: the folder cannot be made: {}", path, trouble.message()));
+}
+
+/// Fails at once, not after a lesson's work.
+void check_writable(const std::string& folder) {
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(Trouble::Output, fmt::format("{}: nothing can be written there: {}", folder, std::strerror(errno)));
 }
 
 void check_output(const std::string& lesson, const std::string& output) {
@@ -111,38 +136,18 @@ void check_output(const std::string& lesson, const std::string& output) {
 FigureStyle DemoSize::style() const { return {.text_px = std::max(8, panel / 20), .gap_px = std::max(6, panel / 15)}; }
 
 std::string text_of(const Lesson& lesson) {
-  constexpr std::size_t columns = 100;
-  std::string text;
-  const auto add = [&](std::string_view words, std::string_view indent) {
-    std::size_t column = 0;
-    while (!words.empty()) {
-      const std::size_t end = std::min(words.find_first_of(" \n"), words.size());
-      const std::string_view word = words.substr(0, end);
-      if (column > 0 && column + 1 + word.size() > columns) text += '\n', column = 0;
-      text += column == 0 ? indent : " ";
-      text += word;
-      column += word.size() + (column == 0 ? indent.size() : 1);
-      if (end < words.size() && words[end] == '\n') text += '\n', column = 0;
-      words.remove_prefix(std::min(end + 1, words.size()));
-    }
-    text += '\n';
-  };
   const Figure& figure = lesson.frames.at(0);
-  add(figure.title, "");
-  text += '\n';
+  std::string text = paragraph(figure.title, "") + '\n';
   for (const auto& row : figure.rows)
     for (const Panel& panel : row) {
       if (panel.caption.empty()) continue;
       std::string caption = panel.caption;
       const std::size_t end = caption.find('\n');
       if (end != std::string::npos) caption.replace(end, 1, ": ");
-      add(caption, "  ");
+      text += paragraph(caption, "  ");
     }
   for (const Table& table : lesson.tables) text += '\n' + table_text(table);
-  if (!figure.text.empty()) {
-    text += '\n';
-    add(figure.text, "");
-  }
+  if (!figure.text.empty()) text += '\n' + paragraph(figure.text, "");
   return text;
 }
 
@@ -156,6 +161,7 @@ void run_demo(std::span<const std::string> arguments) {
   const std::vector<Demo> lessons = chosen(name);
   check_output(name, args.output);
   if (name == "all") make_folder(args.output);
+  check_writable(name == "all" ? args.output : std::filesystem::path(args.output).parent_path().string());
   with_threads(args.threads, [&] {
     for (const Demo& demo : lessons) {
       const std::string path = name == "all" ? fmt::format("{}/{}.png", args.output, demo.name) : args.output;

@@ -71,45 +71,49 @@ Table border_table(const Plane<float>& picture, const Plane<float>& kernel) {
   return table;
 }
 
+Spectrum product(Spectrum a, const Spectrum& b) {
+  for (std::size_t i = 0; i < a.half.values().size(); ++i) a.half.values()[i] *= b.half.values()[i];
+  return a;
+}
+
+/// The greatest value as white.
+Plane<float> brightened(Plane<float> plane) {
+  const float peak = *std::max_element(plane.values().begin(), plane.values().end());
+  for (float& v : plane.values()) v /= peak;
+  return plane;
+}
+
+/// How well the theorem holds where it does.
+std::string agreement(double most) {
+  return most == 0 ? "the same bits" : "they differ by " + small(most) + " at most";
+}
+
 Lesson make(const DemoSize& size) {
   const int side = size.panel, radius = side / 40 + 1;
-  const FigureStyle style = size.style();
   const Plane<float> picture = luminance_of(shoot(scene_of("city"), "msaa:n=8", side, side));
-  const Plane<float> kernel = disk(radius);
+  const Plane<float> kernel = disk(radius), lens = placed(kernel, side);
   const Plane<float> space = convolve(picture, kernel, {.border = Border::Wrap});
-  const Plane<float> product = convolve_by_fourier(picture, kernel, Border::Wrap);
-
-  const Spectrum spectrum = fourier(picture);
-  Plane<float> lens = placed(kernel, side);
-  const Spectrum lens_spectrum = fourier(lens);
-  Spectrum both = spectrum;
-  for (std::size_t i = 0; i < both.half.values().size(); ++i) both.half.values()[i] *= lens_spectrum.half.values()[i];
-
-  const float peak = *std::max_element(lens.values().begin(), lens.values().end());
-  Plane<float> lens_shown = lens;
-  for (float& v : lens_shown.values()) v /= peak;
-
-  const double most = greatest(space, product);
-  const std::string agreement = most == 0 ? "the same bits" : "they differ by " + small(most) + " at most";
-
-  const auto sign = [&](const char* text) { return Panel{sign_picture(text, side, style), ""}; };
+  const Plane<float> back = convolve_by_fourier(picture, kernel, Border::Wrap);
+  const Spectrum spectrum = fourier(picture), lens_spectrum = fourier(lens);
   const Table table = border_table(picture, kernel);
-  const int width = 3 * side + 2 * sign("=").picture.width() + 4 * style.gap_px;
+
+  const auto sign = [&](const char* text) { return Panel{sign_picture(text, side, size.style()), ""}; };
+  const auto drawn = [](const Spectrum& s) { return spectrum_picture(s, range_db); };
   Figure figure{.title = "The convolution theorem: convolving pictures is multiplying spectra"};
   figure.rows = {
       {{shown(picture), "A picture\nIts edges are sharp."},
        sign("∗"),
-       {shown(lens_shown),
+       {shown(brightened(lens)),
         fmt::format("A kernel\nA disk of {} pixels, as a lens out of focus makes of a point.", 2 * radius)},
        sign("="),
        {shown(space), "Convolved\nEvery point of the picture becomes a disk; they add."}},
-      {{spectrum_picture(spectrum, range_db),
-        "Its spectrum\nEdges are streaks that reach far out; the middle is frequency 0."},
+      {{drawn(spectrum), "Its spectrum\nEdges are streaks that reach far out; the middle is frequency 0."},
        sign("×"),
-       {spectrum_picture(lens_spectrum, range_db), "Its spectrum\nRings of zeros: the waves that a disk takes out."},
+       {drawn(lens_spectrum), "Its spectrum\nRings of zeros: the waves that a disk takes out."},
        sign("="),
-       {spectrum_picture(both, range_db), "The product\nTransformed back it is the picture above: " + agreement + "."}},
-      {{table_picture(table, style, width), ""}}};
+       {drawn(product(spectrum, lens_spectrum)),
+        fmt::format("The product\nTransformed back it is the picture above: {}.", agreement(greatest(space, back)))}},
+      {{table_picture(table, size.style(), 2 * side), ""}}};
   figure.text =
       "Greatest difference between convolving in space and multiplying spectra, white being 1. The theorem is about "
       "pictures that repeat: as it stands it holds where the border wraps around. For other borders write the border "

@@ -44,10 +44,10 @@ Lesson make(const DemoSize& size) {
     const LinearImage light = shoot(scene, way.method, side, height, &done);
     const double error = std::sqrt(metrics::mean_squared_error(truth_display, make_display(light, {})));
     add(light, fmt::format("{}\n{}", way.heading, way.words),
-        fmt::format("--aa {}\n{} points shaded, error {} %.", way.method, counted(done.shaded),
+        fmt::format("--aa {}\n{} points shaded, error {}\u00a0%.", way.method, counted(done.shaded),
                     number(100 * error, 2)));
   }
-  add(truth, "256 samples: the truth\nA 16 × 16 grid in each pixel stands for the area itself.",
+  add(truth, "256 samples, the truth\nA 16 × 16 grid in each pixel stands for the area itself.",
       fmt::format("--aa {}\n{} points shaded.", reference, counted(counts.shaded)));
   figure.text =
       "The frames mark what is shown below, 8 times enlarged; the error is the root mean square of the difference from "

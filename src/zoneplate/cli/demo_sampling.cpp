@@ -138,7 +138,7 @@ std::string words_of(const Way& way) {
     return "They meet and do not overlap: what the rate cannot hold was taken away, and returns nowhere.";
   const Band band = overlap_of_copies(bandwidth, way.rate);
   if (band.low < band.high)
-    return fmt::format("They overlap from {} to {} Hz and add up: what is there cannot be taken apart.",
+    return fmt::format("They overlap from {} to {}\u00a0Hz and add up: what is there cannot be taken apart.",
                        number(band.low, 1), number(band.high, 1));
   return way.rate > 2 * bandwidth ? "They stand apart: a low-pass at half the rate gives the signal back."
                                   : "They touch: twice the bandwidth is the least rate that suffices.";
@@ -151,14 +151,15 @@ Lesson make(const DemoSize& size) {
     const Samples samples = taken(way);
     const std::string rate = number(way.rate, way.rate < 2 ? 1 : 0);
     figure.rows.push_back({{plot_at(time_plot(samples), width, height),
-                            fmt::format("{} samples a second{}\nRebuilt with an error of {} %{}.", rate,
+                            fmt::format("{} samples a second{}\nRebuilt with an error of {}\u00a0%{}.", rate,
                                         way.is_filtered ? ", filtered before" : "", number(100 * error_of(samples), 1),
                                         way.is_filtered ? ", without false waves" : "")},
                            {plot_at(spectrum_plot(way, samples), width, height),
-                            fmt::format("Copies {} Hz apart\n{}", rate, words_of(way))}});
+                            fmt::format("Copies {}\u00a0Hz apart\n{}", rate, words_of(way))}});
   }
   figure.text = fmt::format(
-      "A pulse with frequencies up to {} Hz. Its samples have its spectrum, repeated at every multiple of their rate: "
+      "A pulse with frequencies up to {}\u00a0Hz. Its samples have its spectrum, repeated at every multiple of their "
+      "rate: "
       "measured in the samples (blue), and as the sum of shifted copies says. Half the rate is the Nyquist frequency; "
       "what lies above it is seen below.",
       number(bandwidth, 0));

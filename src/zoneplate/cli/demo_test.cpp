@@ -83,7 +83,17 @@ TEST(Demo, SaysWhatIsMissingOrUnknown) {
             "--output: x.jpg is not a format that a lesson is written in (.png)");
 }
 
-// The folding and the suppression that the lesson shows are numbers of the table: lanczos3 is what was promised.
+TEST(Demo, FailsAtOnceWhereNothingCanBeWritten) {
+  try {
+    run_demo(std::vector<std::string>{"jaggies", "-o", "/no/such/folder/x.png"});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.trouble(), Trouble::Output);
+    EXPECT_STREQ(error.what(), "/no/such/folder: nothing can be written there: No such file or directory");
+  }
+}
+
+// The table holds each kernel's figures near their theory, and lanczos3 keeps what is promised of it.
 TEST(Demo, AliasesHaveEveryKernelBesideItsTheory) {
   const Lesson lesson = demo_aliases().make(small);
   const Table& table = lesson.tables.at(0);
