@@ -87,7 +87,7 @@ Table kernel_table(const std::array<Reduction, 2>& measured) {
 }
 
 Lesson make(const DemoSize& size) {
-  const int side = size.panel, gap = size.style().gap_px, tenths = std::max(1, side / 10);
+  const int side = size.panel, gap = size.style().gap_px, tenths = (side + 2 * seam) / 10;
   const int width = 2 * side + gap, height = side * 9 / 10;
   Figure figure{.title = "Aliases: different waves, the same samples"};
   const double seen = std::abs(apparent_frequency(frequency, 1));
@@ -106,10 +106,10 @@ Lesson make(const DemoSize& size) {
     const Plane<float> plate = zone_plate(r.from);
     const std::string factor = number(r.factor(), r.factor() > 3 ? 1 : 0);
     row.push_back(
-        {shown(resample_nearest(plate, r.to, r.to)),
+        {shown(inside(resample_nearest(plate, r.to, r.to))),
          fmt::format("{} times smaller, unfiltered\nOnly the rings around the centre belong there.", factor)});
     row.push_back(
-        {shown(resample(plate, r.to, r.to, kernel, {.border = Border::Wrap})),
+        {shown(inside(resample(plate, r.to, r.to, kernel, {.border = Border::Wrap}))),
          fmt::format("{} times smaller, {}\nWhat the pixels cannot hold has become grey.", factor, shown_kernel)});
   }
 

@@ -36,15 +36,16 @@ Column column(const Rgba8Image& picture, Place crop, const std::string& caption,
 }
 
 std::array<Column, 2> rings(int side) {
-  const Plane<float> plate = zone_plate(2 * side);
+  const int whole = side + 2 * seam;
+  const Plane<float> plate = zone_plate(2 * whole);
   const Kernel kernel = make_kernel(kernel_name);
-  const AliasFigures figures = measure_aliases(plate, side, side, kernel);
+  const AliasFigures figures = measure_aliases(plate, whole, whole, kernel);
   const Place place{side * 93 / 100, side / 2};
-  return {column(shown(resample_nearest(plate, side, side)), place,
+  return {column(shown(inside(resample_nearest(plate, whole, whole))), place,
                  "Rings, every second pixel taken\nThe rings grow finer outwards. There is one centre; the others are "
                  "moiré.",
                  "Where rings stand a pixel apart, the pixels show a slow wave that is not in the original."),
-          column(shown(resample(plate, side, side, kernel, {.border = Border::Wrap})), place,
+          column(shown(inside(resample(plate, whole, whole, kernel, {.border = Border::Wrap}))), place,
                  fmt::format("Rings, filtered first\nA {} filter, then every second pixel: aliases fall by {}\u00a0dB.",
                              kernel_name, number(-figures.all_db, 1)),
                  "What cannot be shown becomes an even grey: no detail, and no lie.")};

@@ -14,6 +14,7 @@
 #include "zoneplate/metrics/magma.h"
 #include "zoneplate/report/typeface.h"
 #include "zoneplate/scene/builtin.h"
+#include "zoneplate/signal/border.h"
 #include "zoneplate/signal/resample.h"
 #include "zoneplate/signal/spectrum.h"
 
@@ -63,6 +64,10 @@ Rgba8Image shown(const Plane<float>& light) {
     return Rgba8{code, code, code, 255};
   });
   return picture;
+}
+
+Plane<float> inside(const Plane<float>& plate) {
+  return cropped(plate, seam, seam, plate.width() - 2 * seam, plate.height() - 2 * seam);
 }
 
 // Rec.709.

@@ -27,6 +27,11 @@ Rgba8Image shown(const LinearImage& light);
 /// Linear light in [0, 1] as greys.
 Rgba8Image shown(const Plane<float>& light);
 
+/// A reduced zone plate without its outermost `seam` pixels: at its edges waves of the Nyquist frequency meet their
+/// mirror images, and filters see that.
+Plane<float> inside(const Plane<float>& plate);
+inline constexpr int seam = 5;
+
 /// The luminance of every pixel of an opaque picture.
 Plane<float> luminance_of(const LinearImage& light);
 
