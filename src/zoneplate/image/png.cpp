@@ -9,6 +9,7 @@
 #include <csetjmp>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 
@@ -159,6 +160,8 @@ struct Rows {
   std::size_t stride;
   int color_type, bit_depth;
   bool drops_alpha;
+  int filters = PNG_FILTER_UP;
+  std::span<const png_color> palette = {};
 };
 
 struct Output {
@@ -227,13 +230,14 @@ class Writer {
     png_set_IHDR(png_, info_, static_cast<png_uint_32>(rows.width), static_cast<png_uint_32>(rows.height),
                  rows.bit_depth, rows.color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    if (!rows.palette.empty()) png_set_PLTE(png_, info_, rows.palette.data(), static_cast<int>(rows.palette.size()));
     if (options.is_srgb) png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!text.empty()) png_set_text(png_, info_, text.data(), static_cast<int>(text.size()));
 
     // Rendered pictures: rows differ little from the row above, and runs of zeros are what then remains.
     png_set_compression_level(png_, options.is_small ? Z_BEST_COMPRESSION : Z_BEST_SPEED);
     png_set_compression_strategy(png_, options.is_small ? Z_DEFAULT_STRATEGY : Z_RLE);
-    png_set_filter(png_, PNG_FILTER_TYPE_BASE, options.is_small ? PNG_ALL_FILTERS : PNG_FILTER_UP);
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, rows.filters);
     png_set_compression_buffer_size(png_, std::size_t{1} << 18);
     png_write_info(png_, info_);
   }
@@ -252,18 +256,68 @@ class Writer {
   png_infop info_ = nullptr;
 };
 
+/// Where small files are wanted, filters pay for shaded pictures and cost for drawn ones: both are tried.
+std::vector<std::uint8_t> encode(Rows rows, const PngOptions& options) {
+  if (!options.is_small) return Writer().encode(rows, options);
+  rows.filters = PNG_FILTER_NONE;
+  std::vector<std::uint8_t> plain = Writer().encode(rows, options);
+  rows.filters = PNG_ALL_FILTERS;
+  std::vector<std::uint8_t> filtered = Writer().encode(rows, options);
+  return plain.size() <= filtered.size() ? plain : filtered;
+}
+
 template <class T>
 std::vector<std::uint8_t> encode(const Plane<T>& image, const PngOptions& options, int bit_depth, bool is_grey) {
   const bool drops_alpha = !is_grey && !options.has_alpha;
   const int color_type = is_grey ? PNG_COLOR_TYPE_GRAY : drops_alpha ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA;
   const std::size_t stride = static_cast<std::size_t>(image.width()) * sizeof(T);
-  return Writer().encode(
-      {image.values().data(), image.width(), image.height(), stride, color_type, bit_depth, drops_alpha}, options);
+  return encode({image.values().data(), image.width(), image.height(), stride, color_type, bit_depth, drops_alpha},
+                options);
+}
+
+std::uint32_t word_of(Rgba8 c) { return std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b; }
+
+/// The colours of a picture, rising, alpha left out; empty where there are more than 256.
+std::vector<std::uint32_t> colors_of(const Rgba8Image& image) {
+  std::vector<std::uint32_t> colors;
+  std::uint32_t last = ~std::uint32_t{0};
+  for (const Rgba8 c : image.values()) {
+    if (word_of(c) == std::exchange(last, word_of(c))) continue;
+    const auto place = std::lower_bound(colors.begin(), colors.end(), last);
+    if (place != colors.end() && *place == last) continue;
+    if (colors.size() == 256) return {};
+    colors.insert(place, last);
+  }
+  return colors;
+}
+
+std::vector<std::uint8_t> encode_indexed(const Rgba8Image& image, const std::vector<std::uint32_t>& colors,
+                                         const PngOptions& options) {
+  Plane<std::uint8_t> numbers(image.width(), image.height());
+  std::transform(image.values().begin(), image.values().end(), numbers.values().begin(), [&](Rgba8 c) {
+    return static_cast<std::uint8_t>(std::lower_bound(colors.begin(), colors.end(), word_of(c)) - colors.begin());
+  });
+  std::vector<png_color> palette;
+  for (const std::uint32_t c : colors)
+    palette.push_back(
+        {static_cast<png_byte>(c >> 16), static_cast<png_byte>(c >> 8 & 255), static_cast<png_byte>(c & 255)});
+  return encode({.pixels = numbers.values().data(),
+                 .width = image.width(),
+                 .height = image.height(),
+                 .stride = static_cast<std::size_t>(image.width()),
+                 .color_type = PNG_COLOR_TYPE_PALETTE,
+                 .bit_depth = 8,
+                 .drops_alpha = false,
+                 .palette = palette},
+                options);
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Rgba8Image& image, const PngOptions& options) {
+  if (options.may_be_indexed && !options.has_alpha)
+    if (const std::vector<std::uint32_t> colors = colors_of(image); !colors.empty())
+      return encode_indexed(image, colors, options);
   return encode(image, options, 8, false);
 }
 

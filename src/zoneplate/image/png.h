@@ -21,9 +21,10 @@ PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name
                     std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 struct PngOptions {
-  bool has_alpha = true;  ///< false: RGB is written
-  bool is_srgb = true;    ///< writes the sRGB chunk; false for data (depth, normals, ids)
-  bool is_small = false;  ///< slower, smaller
+  bool has_alpha = true;        ///< false: RGB is written
+  bool is_srgb = true;          ///< writes the sRGB chunk; false for data (depth, normals, ids)
+  bool is_small = false;        ///< slower, smaller
+  bool may_be_indexed = false;  ///< an opaque picture of at most 256 colours is written as numbers of them
   std::vector<std::pair<std::string, std::string>> text = {};  ///< tEXt chunks (iTXt where not ASCII)
 };
 

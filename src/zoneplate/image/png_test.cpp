@@ -250,6 +250,20 @@ std::pair<std::string, std::string> chunks_of(const Bytes& png, std::string_view
   return {names, data};
 }
 
+TEST(Png, NumbersTheColoursOfAPictureThatHasFew) {
+  for (const int colors : {1, 2, 255, 256, 257}) {
+    Rgba8Image image(40, 30);
+    for (int i = 0; i < 1200; ++i) {
+      const int c = i * 7 % colors;
+      image(i % 40, i / 40) = {static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(c / 256), 9, 255};
+    }
+    const auto file = encode_png(image, {.has_alpha = false, .is_small = true, .may_be_indexed = true});
+    EXPECT_EQ(decode_png(file, "a").pixels, image);
+    EXPECT_EQ(file[25], colors <= 256 ? 3 : 2) << colors;  // the header's colour type: indexed, RGB
+    EXPECT_EQ(encode_png(image, {.may_be_indexed = true})[25], 6);
+  }
+}
+
 TEST(Png, WritesOnlyTheChunksAskedFor) {
   const Rgba8Image image = noise8(4, 4);
   EXPECT_EQ(chunks_of(encode_png(image), "").first, "IHDR sRGB IDAT IEND ");

@@ -14,15 +14,39 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::array makers = {builtin_teapot, builtin_checkerboard, builtin_triangles,      builtin_cyclic,
-                               builtin_sphere, builtin_city,         builtin_city_trilinear, builtin_tri10k,
-                               builtin_tri1m,  builtin_micro,        builtin_fill,           builtin_fillblend};
+constexpr std::array makers = {builtin_teapot,   builtin_checkerboard, builtin_triangles, builtin_cyclic,
+                               builtin_sphere,   builtin_wheel,        builtin_city,      builtin_city_trilinear,
+                               builtin_tri10k,   builtin_tri1m,        builtin_micro,     builtin_fill,
+                               builtin_fillblend};
+
+/// A parameter's value as it is written: 500 of three decimals is "0.5".
+std::string shown(std::int64_t value, int decimals) {
+  std::int64_t scale = 1;
+  for (int i = 0; i < decimals; ++i) scale *= 10;
+  return fmt::format("{}", static_cast<double>(value) / static_cast<double>(scale));
+}
 
 std::string list_of(std::span<const BuiltinParam> params) {
   std::string text;
   for (const BuiltinParam& p : params)
-    text += fmt::format("{}{} ({}, {} to {})", text.empty() ? "" : ", ", p.name, p.meaning, p.low, p.high);
+    text += fmt::format("{}{} ({}, {} to {})", text.empty() ? "" : ", ", p.name, p.meaning, shown(p.low, p.decimals),
+                        shown(p.high, p.decimals));
   return text.empty() ? "no parameters" : text;
+}
+
+/// The text as a number of at most so many decimals; nothing if it is none.
+std::optional<std::int64_t> parse_value(std::string_view text, int decimals) {
+  const std::size_t point = decimals > 0 ? text.find('.') : std::string_view::npos;
+  std::string digits(text.substr(0, point));
+  const std::string_view fraction = point == std::string_view::npos ? std::string_view{} : text.substr(point + 1);
+  if (fraction.size() > static_cast<std::size_t>(decimals)) return std::nullopt;
+  digits.append(fraction).append(static_cast<std::size_t>(decimals) - fraction.size(), '0');
+
+  std::int64_t value = 0;
+  const auto [end, trouble] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool has_digit = text.find_first_of("0123456789") != std::string_view::npos;
+  if (!has_digit || trouble != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
 }
 
 /// Sets the value that `setting` (name=value) names.
@@ -33,11 +57,14 @@ void apply(const BuiltinMaker& maker, std::string_view setting, std::vector<std:
   for (std::size_t i = 0; i < maker.params.size(); ++i) {
     const BuiltinParam& p = maker.params[i];
     if (name != p.name) continue;
-    const auto [end, trouble] = std::from_chars(value.data(), value.data() + value.size(), values[i]);
-    if (trouble == std::errc{} && end == value.data() + value.size() && values[i] >= p.low && values[i] <= p.high)
+    const std::optional<std::int64_t> number = parse_value(value, p.decimals);
+    if (number && *number >= p.low && *number <= p.high) {
+      values[i] = *number;
       return;
-    throw Error(Trouble::Usage, fmt::format("scene {}: {} is '{}', wants a whole number from {} to {}", maker.name,
-                                            p.name, value, p.low, p.high));
+    }
+    const std::string kind = p.decimals == 0 ? "whole number" : fmt::format("number of {} decimals", p.decimals);
+    throw Error(Trouble::Usage, fmt::format("scene {}: {} is '{}', wants a {} from {} to {}", maker.name, p.name, value,
+                                            kind, shown(p.low, p.decimals), shown(p.high, p.decimals)));
   }
   throw Error(Trouble::Usage,
               fmt::format("scene {}: unknown parameter '{}'; it has {}", maker.name, name, list_of(maker.params)));
@@ -52,7 +79,7 @@ std::span<const BuiltinScene> builtin_scenes() {
       const BuiltinMaker maker = maker_of();
       std::string params;
       for (const BuiltinParam& p : maker.params)
-        params += fmt::format("{}{}={}", params.empty() ? "" : ",", p.name, p.otherwise);
+        params += fmt::format("{}{}={}", params.empty() ? "" : ",", p.name, shown(p.otherwise, p.decimals));
       list.push_back({maker.name, maker.summary, params});
     }
     return list;

@@ -7,11 +7,13 @@
 
 namespace zoneplate {
 
-/// A whole number that changes a built-in scene.
+/// A number that changes a built-in scene: whole, or with decimals and then held as a whole number of the last of them
+/// (0.5 with three decimals is 500), so that no rounding comes between the text and the scene.
 struct BuiltinParam {
   const char* name;
   const char* meaning;
   std::int64_t otherwise, low, high;
+  int decimals = 0;
 };
 
 /// How a built-in scene is made: its parameters arrive in the order in which it lists them.
@@ -35,6 +37,7 @@ BuiltinMaker builtin_city_trilinear();
 BuiltinMaker builtin_fill();
 BuiltinMaker builtin_fillblend();
 BuiltinMaker builtin_micro();
+BuiltinMaker builtin_wheel();
 
 /// A camera at `eye` that looks at `target`, upright.
 Camera camera_at(float3 eye, float3 target, float vertical_fov, float near, float far);
