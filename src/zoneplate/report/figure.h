@@ -10,7 +10,7 @@ namespace zoneplate {
 /// One picture of a figure, with the line or two below it that say what it shows.
 struct Panel {
   Rgba8Image picture;
-  std::string caption;  ///< UTF-8; wrapped at the picture's width, a line end starts a new line
+  std::string caption;  ///< UTF-8; wrapped at the picture's width; of several lines, the first is a heading, in bold
 };
 
 /// Pictures side by side that explain themselves: a title, rows of panels, and a text below.
@@ -27,9 +27,10 @@ struct FigureStyle {
   Rgba8 ink{32, 32, 32, 255};
 };
 
-/// The figure as one picture, as wide as its widest row.
+/// The figure as one picture, as wide as its widest row (and at least 20 `text_px`).
 ///
-/// Exact     the same bits on every machine with the same version of the font.
+/// Pictures keep their pixels. One whose rim is not paper gets an outline of one pixel around it.
+/// Exact     the same bits on every machine with the same versions of the font and of FreeType.
 /// Errors    Trouble::Failed naming the font and its package where it is not installed.
 Rgba8Image compose(const Figure& figure, const FigureStyle& style = {});
 

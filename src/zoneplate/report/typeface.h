@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+
+struct FT_LibraryRec_;
+struct FT_FaceRec_;
+
+namespace zoneplate {
+
+/// DejaVu Sans at one size: lines of text in pictures.
+///
+/// Letters stand at 1/64 pixel along the line, kerned, and on whole pixels across it.
+/// Shape     text is UTF-8; what is not, and what the font lacks, is shown by its sign for that.
+/// Units     pixels.
+/// Exact     the same bits on every machine with the same versions of the font and of FreeType.
+class Typeface {
+ public:
+  enum class Weight { Regular, Bold };
+
+  /// Errors    Trouble::Failed naming the font's file and package where it cannot be read.
+  Typeface(Weight weight, int px);
+
+  int ascent() const;   ///< from the top of a line to its baseline
+  int leading() const;  ///< from one baseline to the next
+  double width(std::string_view line) const;
+
+  /// The text in lines of at most this width, parted at spaces and line ends; a longer word is parted anywhere.
+  std::vector<std::string> wrapped(std::string_view text, int width) const;
+
+  /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the picture clips it.
+  void draw(Rgba8Image& picture, int left, int top, std::string_view line, Rgba8 ink) const;
+
+ private:
+  struct Close {
+    void operator()(FT_LibraryRec_* library) const;
+    void operator()(FT_FaceRec_* face) const;
+  };
+  std::unique_ptr<FT_LibraryRec_, Close> library_;
+  std::unique_ptr<FT_FaceRec_, Close> face_;
+  int px_;
+};
+
+/// `over` laid over `under` with this much coverage of a pixel, in linear light; `under` is opaque.
+Rgba8 laid_over(Rgba8 under, Rgba8 over, int coverage255);
+
+}  // namespace zoneplate
