@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,12 +11,25 @@
 namespace zoneplate {
 
 /// One curve of a plot.
+///
+/// Edges     a point that is not finite interrupts the line.
 struct Curve {
-  enum class Mark { Line, Points, LineAndPoints, Stems, Steps };
+  enum class Mark {
+    Line,
+    Dashed,  ///< thinner and behind what the others say: a reference, a limit
+    Points,
+    LineAndPoints,
+    Stems,  ///< a line from 0 to each point
+    Steps,  ///< level from each point to the next
+    Area,   ///< filled lightly down to 0, with its outline
+  };
 
   std::string name;  ///< in the key; empty: none
   std::vector<std::pair<double, double>> points;
   Mark mark = Mark::Line;
+  /// Which colour of the palette; -1: the place among the curves; `grey`: for what should step back.
+  int color = -1;
+  static constexpr int grey = -2;
 };
 
 struct Axis {
@@ -36,9 +50,25 @@ struct PlotSize {
 
 /// The plot as the text of an SVG file, or as a picture; legible at half size.
 ///
-/// Drawn by gnuplot, a program of its own, in a child process with a time limit.
+/// Drawn by gnuplot, a program of its own, in a child process with a time limit. Texts are shown as they are,
+/// but for ' which becomes ’.
+/// Exact     no time stamp; the same bytes wherever gnuplot and its fonts are the same.
 /// Errors    Trouble::Failed naming gnuplot and its package where it is not installed or does not answer.
 std::string plot_svg(const Plot& plot, const PlotSize& size = {});
 Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {});
+
+/// Several plots of this size each, `columns` beside one another, row by row.
+///
+/// Requires  plots are not empty, columns >= 1.
+std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size = {});
+Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size = {});
+
+/// Colours that the colour-blind can tell apart, in the order in which curves take them.
+///
+/// Source    Okabe and Ito, Color Universal Design, 2008; without its yellow, which is lost on white.
+std::span<const Rgba8> plot_palette();
+
+/// What gnuplot is told to draw them, for a terminal of its ("svg" or "pngcairo").
+std::string plot_script(std::span<const Plot> plots, int columns, const PlotSize& size, const std::string& terminal);
 
 }  // namespace zoneplate

@@ -1,0 +1,206 @@
+#include "zoneplate/report/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/image/png.h"
+#include "zoneplate/report/child.h"
+
+namespace zoneplate {
+namespace {
+
+// Sizes in pixels for a plot of the default size; half of each is still read without effort.
+constexpr int text_px = 17, title_px = 20;
+constexpr int margin_px = 10, heading_px = 30, key_row_px = 25, sample_px = 46, axes_px = 100;
+constexpr double letter_em = 0.58;  // of DejaVu Sans, in the mean
+constexpr double line_px = 2.4, dash_px = 1.6, point_size = 1.1;
+
+constexpr Rgba8 palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
+                             {230, 159, 0}, {86, 180, 233}, {40, 40, 40}};
+constexpr Rgba8 grey = {130, 130, 130};
+
+std::string hex(Rgba8 c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
+
+// A word of gnuplot's in which nothing is special: between single quotes, of which it must hold none.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    const bool is_control = static_cast<unsigned char>(c) < 32 || c == 127;
+    out += c == '\'' ? "’" : is_control ? " " : std::string(1, c);
+  }
+  return out + '\'';
+}
+
+Rgba8 color_of(const Curve& curve, std::size_t place) {
+  if (curve.color == Curve::grey) return grey;
+  return palette[(curve.color < 0 ? place : static_cast<std::size_t>(curve.color)) % std::size(palette)];
+}
+
+// The part of a plot command that draws one curve from the data block of this name.
+std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place) {
+  using Mark = Curve::Mark;
+  const std::string color = hex(color_of(curve, place));
+  const std::string title = curve.name.empty() ? "notitle" : "title " + quoted(curve.name);
+  const auto line = [&](double width) { return fmt::format("lw {} lc rgb '{}'", width, color); };
+  const auto with = [&](const std::string& style, const std::string& name) {
+    return fmt::format("{} using 1:2 with {} {}", block, style, name);
+  };
+  switch (curve.mark) {
+    case Mark::Line:
+      return with("lines " + line(line_px), title);
+    case Mark::Dashed:
+      return with("lines dt (9,7) " + line(dash_px), title);
+    case Mark::Points:
+      return with(fmt::format("points pt 7 ps {} lc rgb '{}'", point_size, color), title);
+    case Mark::LineAndPoints:
+      return with(fmt::format("linespoints pt 7 ps {} {}", 0.7 * point_size, line(line_px)), title);
+    case Mark::Stems:
+      return with("impulses " + line(line_px), "notitle") + ", " +
+             with(fmt::format("points pt 7 ps {} lc rgb '{}'", point_size, color), title);
+    case Mark::Steps:
+      return with("steps " + line(line_px), title);
+    case Mark::Area:
+      break;
+  }
+  return with(fmt::format("filledcurves y1=0 fs transparent solid 0.25 noborder lc rgb '{}'", color), title) + ", " +
+         with("lines " + line(dash_px), "notitle");
+}
+
+std::string axis_of(char name, const Axis& axis) {
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  text += axis.is_logarithmic ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name)
+                              : fmt::format("unset logscale {0}\nset format {0} '%g'\n", name);
+  text += axis.low == 0 && axis.high == 0 ? fmt::format("set autoscale {}\n", name)
+                                          : fmt::format("set {}range [{}:{}]\n", name, axis.low, axis.high);
+  return text;
+}
+
+// Data are sent with 10 digits, far finer than a picture shows and the same whatever computed the last bits.
+std::string data_of(const Curve& curve, const std::string& block) {
+  std::string text = block + " << EOD\n";
+  for (const auto& [x, y] : curve.points)
+    text += std::isfinite(x) && std::isfinite(y) ? fmt::format("{:.10g} {:.10g}\n", x, y) : "\n";
+  return text + "EOD\n";
+}
+
+// The key in columns as wide as its longest name.
+struct Key {
+  int columns = 1, rows = 0;
+};
+Key key_of(const Plot& plot, int width) {
+  std::size_t longest = 0;
+  int names = 0;
+  for (const Curve& curve : plot.curves) {
+    if (curve.name.empty() || curve.points.empty()) continue;
+    const auto is_start = [](char c) {
+      return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    };  // of a letter in UTF-8
+    longest =
+        std::max(longest, static_cast<std::size_t>(std::count_if(curve.name.begin(), curve.name.end(), is_start)));
+    ++names;
+  }
+  if (names == 0) return {};
+  const double column = sample_px + (static_cast<double>(longest) + 2) * letter_em * text_px;
+  const int columns = std::clamp(static_cast<int>((width - axes_px) / column), 1, names);
+  return {columns, (names + columns - 1) / columns};
+}
+
+// A size in pixels in the terminal's unit: SVG's is the pixel, Cairo's the point at 96 dots an inch.
+double font_size(int px, const std::string& terminal) { return terminal == "svg" ? px : 0.75 * px; }
+
+// Title and key stand left above the plot whose top is `top` pixels from the top of a sheet `height` high.
+std::string heading_of(const Plot& plot, const PlotSize& size, int top, int height, const std::string& terminal) {
+  const Key key = key_of(plot, size.width);
+  const auto from_top = [&](int y) { return fmt::format("screen {:.6f}", 1 - static_cast<double>(top + y) / height); };
+  std::string text;
+  int y = margin_px;
+  if (!plot.title.empty()) {
+    text += fmt::format("set label 1 {} at graph 0,{} left font 'DejaVu Sans,{}' textcolor rgb '#202020'\n",
+                        quoted(plot.title), from_top(y + heading_px / 2), font_size(title_px, terminal));
+    y += heading_px;
+  }
+  text += key.rows == 0 ? "unset key\n"
+                        : fmt::format(
+                              "set key at graph 0,{} left top Left reverse horizontal maxcols {} samplen 1.6 "
+                              "spacing 1.1 textcolor rgb '#303030'\n",
+                              from_top(y), key.columns);
+  return text + fmt::format("set tmargin at {}\n", from_top(y + key.rows * key_row_px + margin_px));
+}
+
+std::string body_of(const Plot& plot, std::size_t number) {
+  std::string text = axis_of('x', plot.x) + axis_of('y', plot.y);
+  std::string drawings;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    if (plot.curves[i].points.empty()) continue;
+    const std::string block = fmt::format("$d{}_{}", number, i);
+    text += data_of(plot.curves[i], block);
+    drawings += (drawings.empty() ? "" : ", ") + drawing_of(plot.curves[i], block, i);
+  }
+  return text + "plot " + (drawings.empty() ? "NaN notitle" : drawings) + "\nunset label 1\n";
+}
+
+// What is the same for every plot: a light grid, two axes instead of a frame, the key above the curves.
+std::string style_of(const std::string& terminal, int width, int height) {
+  const std::string more = terminal == "svg" ? "dynamic" : "";
+  return fmt::format(
+      "set encoding utf8\n"
+      "set terminal {} size {},{} font 'DejaVu Sans,{}' background '#ffffff' rounded noenhanced {}\n"
+      "set minussign\n"
+      "set border 3 lw 1 lc rgb '#606060'\n"
+      "set tics out nomirror scale 0.6 textcolor rgb '#303030'\n"
+      "set grid lw 1 lc rgb '#e6e6e6' lt 1\n"
+      "set xlabel textcolor rgb '#303030'\nset ylabel textcolor rgb '#303030'\n"
+      "set rmargin 3\n"
+      "set samples 2\n",
+      terminal, width, height, font_size(text_px, terminal), more);
+}
+
+std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const PlotSize& size,
+                                const std::string& terminal) {
+  // `-d` keeps settings of the machine's out.
+  const ChildAnswer answer = [&] {
+    try {
+      return run_child("gnuplot", {"-d", "-"}, plot_script(plots, columns, size, terminal));
+    } catch (const Error& error) {
+      throw Error(Trouble::Failed, std::string(error.what()) + "; plots need it (Debian's package gnuplot-nox)");
+    }
+  }();
+  if (answer.code != 0 || answer.out.empty())
+    throw Error(Trouble::Failed,
+                fmt::format("gnuplot (Debian's package gnuplot-nox): exit code {}: {}", answer.code, answer.complaint));
+  return answer.out;
+}
+
+}  // namespace
+
+std::span<const Rgba8> plot_palette() { return palette; }
+
+std::string plot_script(std::span<const Plot> plots, int columns, const PlotSize& size, const std::string& terminal) {
+  assert(!plots.empty() && columns >= 1);
+  const int count = static_cast<int>(plots.size()), rows = (count + columns - 1) / columns;
+  std::string text = style_of(terminal, size.width * std::min(columns, count), size.height * rows);
+  if (count > 1) text += fmt::format("set multiplot layout {},{}\n", rows, std::min(columns, count));
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const int row = static_cast<int>(i) / columns;
+    text += heading_of(plots[i], size, row * size.height, rows * size.height, terminal) + body_of(plots[i], i);
+  }
+  return text + (count > 1 ? "unset multiplot\n" : "");
+}
+
+std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size) {
+  const std::vector<std::uint8_t> bytes = drawn(plots, columns, size, "svg");
+  return {bytes.begin(), bytes.end()};
+}
+
+Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size) {
+  return decode_png(drawn(plots, columns, size, "pngcairo"), "the plot").pixels;
+}
+
+std::string plot_svg(const Plot& plot, const PlotSize& size) { return plots_svg({&plot, 1}, 1, size); }
+Rgba8Image plot_picture(const Plot& plot, const PlotSize& size) { return plots_picture({&plot, 1}, 1, size); }
+
+}  // namespace zoneplate
