@@ -26,7 +26,8 @@ struct Verb {
 constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (the verb may be left out)", run_render},
                           {"list", "antialiasing methods, built-in scenes, file formats", run_list},
                           {"info", "what is in a model", run_info},
-                          {"metrics", "how far pictures are from a reference", run_metrics}};
+                          {"metrics", "how far pictures are from a reference", run_metrics},
+                          {"signal", "spectra, filters and sampling, with pictures that explain them", run_signal}};
 
 const Verb* find_verb(std::string_view name) {
   for (const Verb& verb : verbs)

@@ -12,5 +12,6 @@ void run_render(std::span<const std::string> arguments);
 void run_list(std::span<const std::string> arguments);
 void run_info(std::span<const std::string> arguments);
 void run_metrics(std::span<const std::string> arguments);
+void run_signal(std::span<const std::string> arguments);
 
 }  // namespace zoneplate::cli

@@ -1,0 +1,328 @@
+// zoneplate signal convolve: an image or a list of numbers with a kernel, in space, by its spectrum, or both.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/signal.h"
+#include "zoneplate/cli/signal_args.h"
+#include "zoneplate/cli/signal_kernel.h"
+#include "zoneplate/cli/signal_show.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/signal/convolve.h"
+#include "zoneplate/signal/resample.h"
+
+namespace zoneplate::cli {
+namespace {
+
+enum class Via { Space, Frequency, Both };
+
+struct ConvolveArgs : SignalArgs {
+  KernelChoice kernel = parse_kernel_choice("gaussian:sigma=2");
+  std::optional<Plane<double>> values;
+  Via via = Via::Space;
+  Border border = Border::Clamp;
+  bool is_side_by_side = false;
+};
+
+/// How far two ways to the same result are apart.
+struct Difference {
+  double greatest = 0;
+  int x = 0, y = 0;
+};
+
+Difference difference(const LinearImage& a, const LinearImage& b) {
+  Difference out;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x) {
+      const Linear &p = a(x, y), &q = b(x, y);
+      for (const float d : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a})
+        if (std::abs(static_cast<double>(d)) > out.greatest) out = {std::abs(static_cast<double>(d)), x, y};
+    }
+  return out;
+}
+
+double range_of(const LinearImage& image) {
+  float low = image.values()[0].r, high = low;
+  for (const Linear& c : image.values()) low = std::min({low, c.r, c.g, c.b}), high = std::max({high, c.r, c.g, c.b});
+  return static_cast<double>(high) - static_cast<double>(low);
+}
+
+LinearImage in_space(const LinearImage& image, const KernelChoice& kernel, Border border) {
+  return kernel.is_separable() ? convolve_separable(image, kernel.taps, kernel.taps, {.border = border})
+                               : convolve(image, kernel.weights, {.border = border});
+}
+
+struct Results {
+  LinearImage image;  ///< the one that is written
+  double space_ms = 0, frequency_ms = 0;
+  std::optional<Difference> apart;  ///< of the two ways
+  std::optional<Difference> bare;   ///< of the product of the bare spectra, which is the rule wrap, from this rule
+};
+
+Results convolved(const ConvolveArgs& args, const LinearImage& image, const KernelChoice& kernel) {
+  Results out;
+  LinearImage by_product;
+  const Stopwatch watch;
+  if (args.via != Via::Frequency) out.image = in_space(image, kernel, args.border);
+  out.space_ms = watch.ms();
+  if (args.via == Via::Space) return out;
+  by_product = convolve_by_fourier(image, kernel.weights, args.border);
+  out.frequency_ms = watch.ms() - out.space_ms;
+  if (args.via == Via::Frequency) {
+    out.image = std::move(by_product);
+    return out;
+  }
+  out.apart = difference(out.image, by_product);
+  if (args.border != Border::Wrap)
+    out.bare = difference(out.image, convolve_by_fourier(image, kernel.weights, Border::Wrap));
+  return out;
+}
+
+std::string text_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
+                    const KernelChoice& kernel, const Results& results) {
+  std::string text = fmt::format("{}, {} × {} with {} ({} × {} weights, sum {:.6g}), border {}\n", input, image.width(),
+                                 image.height(), kernel.name, kernel.weights.width(), kernel.weights.height(),
+                                 kernel.sum(), name_of(args.border));
+  if (!results.apart) return text;
+  const double range = range_of(image), relative = range > 0 ? results.apart->greatest / range : 0;
+  text += fmt::format(
+      "  in space {:.1f} ms, by the spectra {:.1f} ms\n"
+      "  greatest difference {:.3g} ({:.3g} of the range) at pixel {},{}\n",
+      results.space_ms, results.frequency_ms, results.apart->greatest, relative, results.apart->x, results.apart->y);
+  if (results.bare)
+    text += fmt::format(
+        "  the bare product of the spectra, without the border written out, would be {:.3g} off at pixel {},{}\n",
+        results.bare->greatest, results.bare->x, results.bare->y);
+  return text;
+}
+
+Json::Object json_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
+                     const KernelChoice& kernel, const Results& results) {
+  Json::Object json{{"input", input},
+                    {"output", args.output},
+                    {"width", image.width()},
+                    {"height", image.height()},
+                    {"kernel", kernel.name},
+                    {"kernel_width", kernel.weights.width()},
+                    {"kernel_height", kernel.weights.height()},
+                    {"kernel_sum", kernel.sum()},
+                    {"border", name_of(args.border)}};
+  const auto add = [&](const char* name, const std::optional<Difference>& d) {
+    if (d) json.emplace_back(name, Json::Object{{"greatest", d->greatest}, {"x", d->x}, {"y", d->y}});
+  };
+  if (results.apart) json.emplace_back("range", range_of(image));
+  add("difference", results.apart);
+  add("difference_of_bare_product", results.bare);
+  if (results.apart)
+    json.emplace_back("ms", Json::Object{{"space", results.space_ms}, {"frequency", results.frequency_ms}});
+  return json;
+}
+
+Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
+  // Weights that sum to nothing take the mean away: what is left are differences.
+  return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
+}
+
+/// The weights as grey levels, the greatest magnitude white or black on mid-grey where some are negative.
+Rgba8Image kernel_picture(const Plane<float>& weights) {
+  float low = 0, greatest = 0;
+  for (const float w : weights.values()) low = std::min(low, w), greatest = std::max(greatest, std::abs(w));
+  LinearImage image(weights.width(), weights.height());
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    const float v = greatest > 0 ? weights.values()[i] / greatest : 0.0f;
+    const float code = low < 0 ? 0.5f + v / 2 : v;
+    image.values()[i] = {code, code, code, 1};
+  }
+  // As large as the panels beside it; every weight a rectangle, whose sides may differ by a pixel.
+  const double enlarging = static_cast<double>(panel_px) / std::max(weights.width(), weights.height());
+  const auto side = [&](int n) { return std::max(1, static_cast<int>(n * enlarging + 0.5)); };
+  return shown(resample_nearest(image, side(weights.width()), side(weights.height())), true);
+}
+
+/// The spectrum of the kernel on a plane of the image's size.
+Spectrum spectrum_of(const Plane<float>& weights, int width, int height) {
+  Plane<double> plane(width, height);
+  for (int y = 0; y < weights.height(); ++y)
+    for (int x = 0; x < weights.width(); ++x)
+      plane(border_index(x, width, Border::Wrap), border_index(y, height, Border::Wrap)) +=
+          static_cast<double>(weights(x, y));
+  return fourier(plane);
+}
+
+Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
+                     const KernelChoice& kernel, const LinearImage& result) {
+  const Spectrum of_image = fourier(luminance(image)), of_result = fourier(luminance(result));
+  const Spectrum of_kernel = spectrum_of(kernel.weights, image.width(), image.height());
+  // On this scale the third picture is the sum of the other two, in decibels below their palest.
+  const double image_peak = strongest_magnitude(of_image), kernel_peak = strongest_magnitude(of_kernel);
+  return compose(
+      {.title = fmt::format("{} with {}", input, kernel.name),
+       .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nAs it came."},
+                 {kernel_picture(kernel.weights),
+                  fmt::format("Kernel\n{} × {} weights, enlarged.", kernel.weights.width(), kernel.weights.height())},
+                 {fitted(picture_of(args, kernel, result)), "Convolution\nEvery pixel spread by the kernel."}},
+                {{magnitude_panel(of_image, {.peak = image_peak}),
+                  "Spectrum of the image\nFrequency 0 in the middle, ½ cycle per pixel at the edges; 80 dB from black "
+                  "to the palest."},
+                 {magnitude_panel(of_kernel, {.peak = kernel_peak}),
+                  "Spectrum of the kernel\nOn the same scale of frequency."},
+                 {magnitude_panel(of_result, {.peak = image_peak * kernel_peak}),
+                  "Spectrum of the convolution\nThe product of the two beside it."}}},
+       .text = {}});
+}
+
+void run_image(const ConvolveArgs& args, const std::string& input) {
+  const LinearImage image = working_image(load_signal(input), args.uses_codes);
+  const KernelChoice& kernel = args.kernel;
+  const Results results = convolved(args, image, kernel);
+  if (!args.output.empty())
+    save_picture(args.output, args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
+                                                   : picture_of(args, kernel, results.image));
+  tell(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results));
+}
+
+// One row of numbers as the image, the kernel along it: what a course does by hand.
+
+struct Row {
+  std::vector<double> in, taps, out;
+  std::optional<double> apart;
+};
+
+Plane<double> parse_values(const std::string& text) {
+  Plane<double> values = parse_number_rows(text);
+  if (values.height() != 1) throw Error(Trouble::Usage, "one row of numbers is wanted");
+  return values;
+}
+
+Plane<float> plane_of(const std::vector<double>& row) {
+  Plane<float> plane(static_cast<int>(row.size()), 1);
+  for (std::size_t i = 0; i < row.size(); ++i) plane.values()[i] = static_cast<float>(row[i]);
+  return plane;
+}
+
+Row convolved_row(const ConvolveArgs& args) {
+  const KernelChoice& kernel = args.kernel;
+  Row row{{args.values->values().begin(), args.values->values().end()}, kernel.taps, {}, {}};
+  if (!kernel.is_separable()) {
+    if (kernel.weights.height() != 1)
+      throw Error(Trouble::Usage, "--kernel: for --values one row of numbers is wanted");
+    row.taps.assign(kernel.weights.values().begin(), kernel.weights.values().end());
+  }
+  const Plane<float> in = plane_of(row.in), taps = plane_of(row.taps);
+  const Plane<float> out = args.via == Via::Frequency ? convolve_by_fourier(in, taps, args.border)
+                                                      : convolve(in, taps, {.border = args.border});
+  row.out.assign(out.values().begin(), out.values().end());
+  if (args.via == Via::Both) {
+    const Plane<float> other = convolve_by_fourier(in, taps, args.border);
+    row.apart = 0;
+    for (std::size_t i = 0; i < row.out.size(); ++i)
+      row.apart = std::max(*row.apart, std::abs(row.out[i] - static_cast<double>(other.values()[i])));
+  }
+  return row;
+}
+
+std::string joined(const std::vector<double>& values) {
+  std::string text;
+  for (const double v : values) text += fmt::format("{:>8.5g}", v);
+  return text;
+}
+
+Plot row_plot(const ConvolveArgs& args, const Row& row) {
+  Curve in{"values", {}, Curve::Mark::Stems, Curve::grey},
+      out{"convolved with " + args.kernel.name, {}, Curve::Mark::LineAndPoints, 1};
+  for (std::size_t i = 0; i < row.in.size(); ++i) {
+    in.points.emplace_back(static_cast<double>(i), row.in[i]);
+    out.points.emplace_back(static_cast<double>(i), row.out[i]);
+  }
+  return {.title = "Convolution",
+          .x = {"place (samples)", -0.5, static_cast<double>(row.in.size()) - 0.5},
+          .y = {"value"},
+          .curves = {in, out}};
+}
+
+void run_row(const ConvolveArgs& args) {
+  const Row row = convolved_row(args);
+  std::string text =
+      fmt::format("values {}\nkernel {}\nresult {}\n", joined(row.in), joined(row.taps), joined(row.out));
+  if (row.apart) text += fmt::format("greatest difference between space and frequency {:.3g}\n", *row.apart);
+  Json::Array result;
+  for (const double v : row.out) result.emplace_back(static_cast<float>(v));
+  Json::Object json{{"values", Json::Array(row.in.begin(), row.in.end())},
+                    {"kernel", Json::Array(row.taps.begin(), row.taps.end())},
+                    {"border", name_of(args.border)},
+                    {"result", std::move(result)}};
+  if (row.apart) json.emplace_back("difference", *row.apart);
+  if (!args.output.empty()) save_plots(args.output, {row_plot(args, row)}, 1, {});
+  tell(args, text, json);
+}
+
+Syntax make_syntax(ConvolveArgs& args) {
+  std::string notes =
+      "Kernels: a name, as gaussian:sigma=2 (along rows and columns, its weights scaled to sum 1); numbers, as\n"
+      "\"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row. Numbers are "
+      "taken\n"
+      "as they are, not scaled. A kernel of sum 0 leaves differences, shown around mid-grey: code 1/2 + value / 2.\n"
+      "Names: box:width= tent:radius= gaussian:sigma= mitchell b-spline catmull-rom lanczos2 lanczos3 lanczos:lobes=\n"
+      "blackman-harris:radius= kaiser:radius=,beta=\n\n"
+      "The convolution theorem: the spectrum of a convolution is the product of the spectra. It is about signals that\n"
+      "repeat without end, and so it holds as it stands for\n"
+      "  wrap    the image is one tile of an endless wall: the very signal that a discrete transform describes\n"
+      "  zero    once the image has as many zeros around it as the kernel reaches; else its left border would bleed\n"
+      "          into the right one\n"
+      "and does not hold as it stands for\n"
+      "  clamp, reflect   what lies beyond the border depends on the place where the border is; a convolution only\n"
+      "                   knows distances. They come out right if the border is written out around the image first,\n"
+      "                   as wide as the kernel reaches, and cut off after: that is what is done here\n"
+      "--via both takes both ways, prints their greatest difference, and how far off the bare product would be.\n\n";
+  Syntax syntax{.verb = "signal convolve",
+                .summary = "Convolve an image, or a row of numbers, with a kernel",
+                .operands = "IMAGE | --values NUMBERS",
+                .examples =
+                    "  zoneplate signal convolve photo.jpg --kernel gaussian:sigma=2 -o soft.png\n"
+                    "  zoneplate signal convolve bricks --kernel \"-1 0 1; -2 0 2; -1 0 1\" -o edges.png\n"
+                    "  zoneplate signal convolve zone-plate --kernel box:width=9 --via both --border wrap\n"
+                    "  zoneplate signal convolve --values \"1 3 5 3 7 1 3 8 6 4\" --kernel \"1/4 1/2 1/4\"\n",
+                .notes = notes + image_notes()};
+  const std::string group = "Options";
+  syntax.options = {
+      {"--kernel", "KERNEL", "A name, numbers or a file of numbers; default gaussian:sigma=2", group, true,
+       [&](auto& text) { args.kernel = parse_kernel_choice(text); }},
+      {"--values", "NUMBERS", "A row of numbers to convolve instead of an image; -o then writes a plot", group, true,
+       [&](auto& text) { args.values = parse_values(text); }},
+      {"--via", "WAY", "space (by the definition), frequency (product of the spectra) or both; default space", group,
+       true,
+       [&](auto& text) {
+         constexpr Via ways[] = {Via::Space, Via::Frequency, Via::Both};
+         args.via = ways[parse_choice(text, {"space", "frequency", "both"})];
+       }},
+      border_option(args.border, "clamp, reflect, wrap, zero"),
+      {"--side-by-side", "", "The picture shows image, kernel and result above their spectra, with captions", group,
+       true, [&](auto&) { args.is_side_by_side = true; }},
+      codes_option(args)};
+  for (Option& option : signal_options(args, "The picture to write: a .png file, or - for stdout"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+}  // namespace
+
+void run_signal_convolve(std::span<const std::string> arguments) {
+  ConvolveArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  if (args.values && !syntax.found_operands.empty())
+    throw Error(Trouble::Usage, "either an IMAGE or --values is convolved, not both");
+  if (args.values) {
+    check_plot_name(args.output);
+    return with_threads(args.threads, [&] { run_row(args); });
+  }
+  const std::string& input = only_operand(syntax, "one IMAGE, or --values");
+  check_picture_name(args.output);
+  with_threads(args.threads, [&] { run_image(args, input); });
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+#include "zoneplate/metrics/picture.h"
+#include "zoneplate/report/figure.h"
+#include "zoneplate/signal/fourier.h"
+
+namespace zoneplate::cli {
+
+// How images and spectra are shown in the pictures of `zoneplate signal`.
+
+/// The greatest side of a panel's picture.
+constexpr int panel_px = 512;
+
+/// The numbers that a subcommand works on: linear light, or display codes; premultiplied either way.
+LinearImage working_image(const metrics::Picture& picture, bool uses_codes);
+
+/// And back to a picture. What is below 0 or above 1 is clamped.
+Rgba8Image shown(const LinearImage& image, bool uses_codes);
+
+/// An image of differences: 0 is mid-grey, code ½ + value / 2, opaque.
+Rgba8Image shown_around_grey(const LinearImage& image);
+
+/// Rec.709 luminance of the working numbers, on black.
+Plane<float> luminance(const LinearImage& image);
+
+/// How magnitudes are painted: the palest is `peak`, black what is `range_db` decibels below it.
+struct MagnitudeScale {
+  double range_db = 80;
+  double peak = 0;  ///< a magnitude |X|; 0: the strongest wave of the spectrum itself
+};
+
+/// The greatest |X| but for the mean; of a constant the mean.
+double strongest_magnitude(const Spectrum& spectrum);
+
+/// Frequency 0 in the middle, one bin a pixel. Magnitudes in magma, each decibel a step of equal lightness; phases in a
+/// ring of colours: white 0, orange a quarter turn, black a half, blue three quarters.
+Rgba8Image paint_magnitude(const Spectrum& spectrum, const MagnitudeScale& scale = {});
+Rgba8Image paint_phase(const Spectrum& spectrum);
+
+/// The same at the size of a panel: of a large spectrum the strongest of each block of bins, so that no line is lost.
+Rgba8Image magnitude_panel(const Spectrum& spectrum, const MagnitudeScale& scale = {});
+
+/// The picture at the size of a panel: enlarged by a whole factor, pixels repeated, or reduced by a filter.
+Rgba8Image fitted(const Rgba8Image& picture);
+
+}  // namespace zoneplate::cli
