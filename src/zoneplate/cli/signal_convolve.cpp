@@ -127,20 +127,22 @@ Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, cons
   return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
 }
 
-/// The weights as grey levels, the greatest magnitude white or black on mid-grey where some are negative.
+/// The weights as grey levels among weights of 0, the greatest white; where some are negative mid-grey is 0.
 Rgba8Image kernel_picture(const Plane<float>& weights) {
   float low = 0, greatest = 0;
   for (const float w : weights.values()) low = std::min(low, w), greatest = std::max(greatest, std::abs(w));
-  LinearImage image(weights.width(), weights.height());
+  const int margin = 1 + std::max(weights.width(), weights.height()) / 6;
+  const Plane<float> wide = padded(weights, {margin, margin, margin, margin}, Border::Zero);
+  LinearImage image(wide.width(), wide.height());
   for (std::size_t i = 0; i < image.values().size(); ++i) {
-    const float v = greatest > 0 ? weights.values()[i] / greatest : 0.0f;
+    const float v = greatest > 0 ? wide.values()[i] / greatest : 0.0f;
     const float code = low < 0 ? 0.5f + v / 2 : v;
     image.values()[i] = {code, code, code, 1};
   }
   // As large as the panels beside it; every weight a rectangle, whose sides may differ by a pixel.
-  const double enlarging = static_cast<double>(panel_px) / std::max(weights.width(), weights.height());
+  const double enlarging = static_cast<double>(panel_px) / std::max(wide.width(), wide.height());
   const auto side = [&](int n) { return std::max(1, static_cast<int>(n * enlarging + 0.5)); };
-  return shown(resample_nearest(image, side(weights.width()), side(weights.height())), true);
+  return shown(resample_nearest(image, side(wide.width()), side(wide.height())), true);
 }
 
 /// The spectrum of the kernel on a plane of the image's size.
@@ -163,7 +165,8 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
       {.title = fmt::format("{} with {}", input, kernel.name),
        .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nAs it came."},
                  {kernel_picture(kernel.weights),
-                  fmt::format("Kernel\n{} × {} weights, enlarged.", kernel.weights.width(), kernel.weights.height())},
+                  fmt::format("Kernel\n{} × {} weights, enlarged, and the zeros around them.", kernel.weights.width(),
+                              kernel.weights.height())},
                  {fitted(picture_of(args, kernel, result)), "Convolution\nEvery pixel spread by the kernel."}},
                 {{magnitude_panel(of_image, {.peak = image_peak}),
                   "Spectrum of the image\nFrequency 0 in the middle, ½ cycle per pixel at the edges; 80 dB from black "
@@ -262,22 +265,23 @@ void run_row(const ConvolveArgs& args) {
 
 Syntax make_syntax(ConvolveArgs& args) {
   std::string notes =
-      "Kernels: a name, as gaussian:sigma=2 (along rows and columns, its weights scaled to sum 1); numbers, as\n"
-      "\"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row. Numbers are "
-      "taken\n"
-      "as they are, not scaled. A kernel of sum 0 leaves differences, shown around mid-grey: code 1/2 + value / 2.\n"
-      "Names: box:width= tent:radius= gaussian:sigma= mitchell b-spline catmull-rom lanczos2 lanczos3 lanczos:lobes=\n"
-      "blackman-harris:radius= kaiser:radius=,beta=\n\n"
-      "The convolution theorem: the spectrum of a convolution is the product of the spectra. It is about signals that\n"
-      "repeat without end, and so it holds as it stands for\n"
-      "  wrap    the image is one tile of an endless wall: the very signal that a discrete transform describes\n"
-      "  zero    once the image has as many zeros around it as the kernel reaches; else its left border would bleed\n"
-      "          into the right one\n"
+      "Kernels: a name, as gaussian:sigma=2 (along rows and columns, its weights scaled to sum 1); numbers,\n"
+      "as \"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row.\n"
+      "Numbers are taken as they are, not scaled. A kernel of sum 0 leaves differences, shown around\n"
+      "mid-grey: code 1/2 + value / 2.\n"
+      "Names: box:width= tent:radius= gaussian:sigma= mitchell b-spline catmull-rom lanczos2 lanczos3\n"
+      "lanczos:lobes= blackman-harris:radius= kaiser:radius=,beta=\n\n"
+      "The convolution theorem: the spectrum of a convolution is the product of the spectra. It is about\n"
+      "signals that repeat without end, and so it holds as it stands for\n"
+      "  wrap    the image is one tile of an endless wall: the signal that a discrete transform describes\n"
+      "  zero    once the image has as many zeros around it as the kernel reaches; else its left border\n"
+      "          would bleed into the right one\n"
       "and does not hold as it stands for\n"
-      "  clamp, reflect   what lies beyond the border depends on the place where the border is; a convolution only\n"
-      "                   knows distances. They come out right if the border is written out around the image first,\n"
-      "                   as wide as the kernel reaches, and cut off after: that is what is done here\n"
-      "--via both takes both ways, prints their greatest difference, and how far off the bare product would be.\n\n";
+      "  clamp, reflect   what lies beyond the border depends on where the border is; a convolution only\n"
+      "                   knows distances. They come out right if the border is written out around the\n"
+      "                   image first, as wide as the kernel reaches, and cut off after: as is done here\n"
+      "--via both takes both ways, prints their greatest difference, and how far off the bare product of\n"
+      "the spectra would be.\n\n";
   Syntax syntax{.verb = "signal convolve",
                 .summary = "Convolve an image, or a row of numbers, with a kernel",
                 .operands = "IMAGE | --values NUMBERS",

@@ -92,8 +92,13 @@ Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const P
   const auto image = [&](const LinearImage& of, const std::string& caption) {
     return Panel{fitted(shown(of, args.uses_codes)), caption};
   };
-  const auto spectrum = [](const LinearImage& of, const std::string& caption) {
-    return Panel{magnitude_panel(fourier(luminance(of))), caption};
+  // One scale for all: the amplitude of a wave is its magnitude over the number of pixels.
+  constexpr double range_db = 50;
+  const auto pixels = [](const Spectrum& of) { return static_cast<double>(of.width) * of.height(); };
+  const Spectrum whole = fourier(luminance(pair.image));
+  const double amplitude = strongest_magnitude(whole) / pixels(whole);
+  const auto spectrum = [&](const Spectrum& of, const std::string& caption) {
+    return Panel{magnitude_panel(of, {range_db, amplitude * pixels(of)}), caption};
   };
   return compose(
       {.title = fmt::format("{}, made smaller by {:g}", input, args.by),
@@ -107,11 +112,13 @@ Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const P
              image(pair.filtered,
                    fmt::format("Filtered, then sampled\nBy {}. What the new grid cannot hold is taken away first.",
                                args.kernel))},
-            {spectrum(pair.image,
-                      fmt::format("Its spectrum\nThe new grid holds the middle, up to {:.3g} cycle per pixel.",
-                                  0.5 / args.by)),
-             spectrum(pair.naive, "Spectrum\nThe middle, and all that lay outside folded into it."),
-             spectrum(pair.filtered, "Spectrum\nThe middle alone.")}},
+            {spectrum(whole,
+                      fmt::format(
+                          "Its spectrum\nThe new grid holds the middle, up to {:.3g} cycle per pixel. Black is {:g} dB "
+                          "below the palest, in all three.",
+                          0.5 / args.by, range_db)),
+             spectrum(fourier(luminance(pair.naive)), "Spectrum\nThe middle, and all that lay outside folded into it."),
+             spectrum(fourier(luminance(pair.filtered)), "Spectrum\nThe middle alone.")}},
        .text = {}});
 }
 
@@ -134,13 +141,11 @@ Syntax make_syntax(DecimateArgs& args) {
           "  zoneplate signal decimate photo.jpg --by 4 --kernel mitchell -o compare.png --filtered small.png\n"
           "  zoneplate signal decimate zone-plate:size=370 --by 3.7 --all-kernels\n",
       .notes =
-          "A grid of every n-th pixel holds frequencies up to 1/(2n) cycle per pixel. What the image has above that "
-          "does\n"
-          "not vanish when pixels are dropped: it is folded to a coarser frequency, where nothing was, and no filter "
-          "can\n"
-          "tell it from the image afterwards. It has to be taken away before. How well a kernel does that is printed "
-          "in\n"
-          "decibels: -20 dB is a tenth of the amplitude. Theory stands for an image with a flat spectrum.\n\n" +
+          "A grid of every n-th pixel holds frequencies up to 1/(2n) cycle per pixel. What the image has above\n"
+          "that does not vanish when pixels are dropped: it is folded to a coarser frequency, where nothing\n"
+          "was, and no filter can tell it from the image afterwards. It has to be taken away before. How well a\n"
+          "kernel does that is printed in decibels: -20 dB is a tenth of the amplitude. Theory stands for an\n"
+          "image with a flat spectrum.\n\n" +
           image_notes()};
   const std::string group = "Options";
   syntax.options = {

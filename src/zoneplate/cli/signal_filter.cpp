@@ -136,19 +136,17 @@ Syntax make_syntax(FilterArgs& args) {
           "  zoneplate signal filter zone-plate --band-pass 0.1:0.2 -o ring.png\n"
           "  zoneplate signal filter scan.png --band-stop 0.24:0.26 --border wrap -o clean.png\n",
       .notes =
-          "Frequencies are in cycles per pixel, in every direction alike: 0.5 is the Nyquist frequency, 0.1 a wave "
-          "of\n"
-          "10 pixels. The filter multiplies each frequency with its response; how it falls is the shape:\n"
-          "  ideal                all or nothing. A knife in frequency rings in space: ripples beside every edge\n"
+          "Frequencies are in cycles per pixel, in every direction alike: 0.5 is the Nyquist frequency, 0.1 a\n"
+          "wave of 10 pixels. The filter multiplies each frequency with its response; how it falls is the shape:\n"
+          "  ideal                all or nothing. A knife in frequency rings in space: ripples at every edge\n"
           "  gaussian             softest, without any ripple; one half at the cut\n"
-          "  butterworth:order=N  between the two: flat, then falling the steeper the greater N; one half at the "
-          "cut\n"
-          "An image whose mean is taken away (high-pass, band-pass) holds negative values: it is shown around "
-          "mid-grey,\n"
-          "code 1/2 + value / 2. Each channel is filtered alone, alpha too, premultiplied and in linear light.\n\n"
-          "The border rule reflect mirrors the image before it is transformed, so that opposite edges do not bleed\n"
-          "into one another; wrap takes it as a tile, and is exact for one. The others cannot be continued without "
-          "end.\n\n" +
+          "  butterworth:order=N  between the two: flat, then steeper the greater N; one half at the cut\n"
+          "An image whose mean is taken away (high-pass, band-pass) holds negative values: it is shown around\n"
+          "mid-grey, code 1/2 + value / 2. Each channel is filtered alone, alpha too, premultiplied and in\n"
+          "linear light.\n\n"
+          "The border rule reflect mirrors the image before it is transformed, so that opposite edges do not\n"
+          "bleed into one another; wrap takes it as a tile, and is exact for one. The other rules cannot be\n"
+          "continued without end.\n\n" +
           image_notes()};
   const std::string group = "Filter";
   syntax.options = {

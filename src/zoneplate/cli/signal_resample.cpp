@@ -61,15 +61,13 @@ Syntax make_syntax(ResampleArgs& args) {
           "  zoneplate signal resample icon.png --size 8 --kernel catmull-rom -o large.png\n"
           "  zoneplate signal resample bricks --size 0.27 --side-by-side -o why.png\n",
       .notes =
-          "The kernel interpolates between pixels; where the image becomes smaller it is stretched by the factor, so "
-          "that\n"
-          "it also takes away what the new grid cannot hold. Pixel centres stay where they are: there is no shift by "
-          "half a\n"
-          "pixel, a constant stays that constant and a ramp a ramp. Colours are mixed in linear light, premultiplied;\n"
-          "--codes mixes sRGB codes as they are stored, which darkens fine detail.\n\n"
+          "The kernel interpolates between pixels; where the image becomes smaller it is stretched by the\n"
+          "factor, so that it also takes away what the new grid cannot hold. Pixel centres stay where they are:\n"
+          "there is no shift by half a pixel, a constant stays that constant and a ramp a ramp. Colours are\n"
+          "mixed in linear light, premultiplied; --codes mixes sRGB codes, which darkens fine detail.\n\n"
           "Besides the kernels of zoneplate signal convolve there are nearest (no filter at all) and ideal (all\n"
           "frequencies that both grids hold, no other; the image is taken as a tile).\n"
-          "Negative lobes (lanczos, catmull-rom, mitchell, kaiser) overshoot at edges; what leaves 0 to 1 is "
+          "Negative lobes (lanczos, catmull-rom, mitchell, kaiser) overshoot at edges; what leaves 0 to 1 is\n"
           "clamped.\n\n" +
           image_notes()};
   const std::string group = "Options";

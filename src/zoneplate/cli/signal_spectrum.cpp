@@ -211,13 +211,12 @@ Syntax make_syntax(SpectrumArgs& args) {
           "  zoneplate signal spectrum photo.jpg --periodic --radial -o profile.svg\n"
           "  zoneplate signal spectrum sine:frequency=0.2,angle=30 --window hann --json\n",
       .notes =
-          "The spectrum is that of Rec.709 luminance, in linear light (with --codes: of luma). In pictures frequency "
-          "0\n"
-          "is in the middle and one pixel is one bin: fx grows to the right, fy downwards, and the edges are half a\n"
-          "cycle per pixel, the Nyquist frequency: the finest wave that pixels can hold.\n\n"
-          "The transform takes the image as one tile of an endless wall. Where left and right, or top and bottom,\n"
-          "do not meet, that wall has seams, and the spectrum a bright cross. Two remedies:\n"
-          "  --window hann   fades the image out towards its borders. Peaks become broad, details there are lost\n"
+          "The spectrum is that of Rec.709 luminance, in linear light (with --codes: of luma). In pictures\n"
+          "frequency 0 is in the middle and one pixel is one bin: fx grows to the right, fy downwards, and the\n"
+          "edges are half a cycle per pixel, the Nyquist frequency: the finest wave that pixels can hold.\n\n"
+          "The transform takes the image as one tile of an endless wall. Where left and right, or top and\n"
+          "bottom, do not meet, that wall has seams, and the spectrum a bright cross. Two remedies:\n"
+          "  --window hann   fades the image out towards its borders. Peaks become broad, detail there is lost\n"
           "  --periodic      takes away a smooth part that holds the jumps (Moisan 2011). Nothing is faded\n\n"
           "Windows: none, hann, hamming, blackman, kaiser:beta=8, tukey:alpha=0.5\n\n" +
           image_notes()};
