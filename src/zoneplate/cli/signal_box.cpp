@@ -61,9 +61,9 @@ Syntax make_syntax(BoxArgs& args) {
           "  zoneplate signal box --widths 3,7,15 -o boxes.svg\n"
           "  zoneplate signal box --widths 2,4 --json\n",
       .notes =
-          "The mean over a box of w pixels is a low-pass filter whose response is sinc(w f) = sin(pi w f)/(pi w f).\n"
-          "It is 0 where whole waves fit into the box, first at f = 1/w: width times first zero is always 1. Between\n"
-          "its zeros it comes back, and where it is negative light and dark change places.\n"};
+          "The mean over a box of w pixels is a low-pass filter of response sinc(w f) = sin(pi w f)/(pi w f).\n"
+          "It is 0 where whole waves fit into the box, first at f = 1/w: width times first zero is always 1.\n"
+          "Between its zeros it comes back, and where it is negative light and dark change places.\n"};
   syntax.options = {{"--widths", "W,...", "Widths in pixels; default 3,7,15", "Options", true,
                      [&](auto& text) { args.widths = parse_whole_list(text, 1, greatest_width); }}};
   for (Option& option : signal_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))

@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include "zoneplate/cli/signal.h"
 #include "zoneplate/cli/signal_for_test.h"
 
@@ -62,6 +64,16 @@ TEST_F(SignalResample, ShowsBothAndRefuses) {
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "1000000", "-o", at("r.png")}), "wants 1 to"));
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "half", "-o", at("r.png")}), "not a number"));
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--kernel", "blob"}), "--kernel: "));
+}
+
+TEST_F(SignalResample, ReadsAndWritesPipes) {
+  out(run_signal_resample, {"bricks:size=32", "--size", "1", "--kernel", "nearest", "-o", at("in.png")});
+  const std::string command = "'" ZONEPLATE_PROGRAM "' signal resample - --size 0.5 --json -o - < '" + at("in.png") +
+                              "' > '" + at("piped.png") + "' 2> '" + at("numbers.json") + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  out(run_signal_resample, {at("in.png"), "--size", "0.5", "-o", at("plain.png")});
+  EXPECT_EQ(text("piped.png"), text("plain.png"));
+  EXPECT_EQ(nlohmann::json::parse(text("numbers.json"))["width"], 16);
 }
 
 using SignalDecimate = SignalVerb;

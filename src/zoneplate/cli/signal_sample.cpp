@@ -140,10 +140,11 @@ Syntax make_syntax(SampleArgs& args) {
           "  zoneplate signal sample --frequency 3 --rate 10 -o enough.png\n"
           "  zoneplate signal sample --frequency 0.9 --rate 1     # a wheel of 0.9 spokes a frame\n",
       .notes =
-          "Samples at a rate r cannot tell f from f + r, f + 2r, ... nor from r - f, 2r - f, ... Of all these the one\n"
-          "below r/2 is seen. The same in frequency: sampling copies the spectrum to every multiple of the rate.\n"
-          "While the signal ends below r/2 the copies stay apart, and the signal can be had back exactly; beyond\n"
-          "that they overlap, and what overlaps is lost. That is why images are filtered before they are sampled.\n"};
+          "Samples at a rate r cannot tell f from f + r, f + 2r, ... nor from r - f, 2r - f, ... Of all these\n"
+          "the one below r/2 is seen. The same in frequency: sampling copies the spectrum to every multiple of\n"
+          "the rate. While the signal ends below r/2 the copies stay apart, and the signal can be had back\n"
+          "exactly; beyond that they overlap, and what overlaps is lost. That is why images are filtered\n"
+          "before they are sampled.\n"};
   const std::string group = "Options";
   syntax.options = {{"--frequency", "F", "Of the wave, in Hz", group, true,
                      [&](auto& text) { args.frequency = parse_number(text, least, greatest); }},

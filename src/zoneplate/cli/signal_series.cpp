@@ -128,9 +128,9 @@ Syntax make_syntax(SeriesArgs& args) {
           "  zoneplate signal series sawtooth --terms 100,1000 --json\n",
       .notes =
           "Each of the waves is a sum of sines of 1, 2, 3, ... cycles per period; square and triangle have odd\n"
-          "ones only. A jump needs all of them: amplitudes fall as slowly as 1/n, and any sum that ends overshoots\n"
-          "the jump by 8.949 % of it, however long (Gibbs). The triangle only bends, falls as 1/n², and does not.\n"
-          "An edge in an image is such a jump: it holds frequencies above those of any grid.\n"};
+          "ones only. A jump needs all of them: amplitudes fall as slowly as 1/n, and any sum that ends\n"
+          "overshoots the jump by 8.949 % of it, however long (Gibbs). The triangle only bends: it falls as\n"
+          "1/n², and does not. An edge in an image is such a jump: its frequencies are above those of any grid.\n"};
   syntax.options = {{"--terms", "N,...", "Highest harmonic of each sum; default 1,3,5,15", "Options", true,
                      [&](auto& text) { args.terms = parse_whole_list(text, 1, greatest_term); }}};
   for (Option& option : signal_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))

@@ -65,6 +65,31 @@ TEST_F(SignalSpectrum, WritesThePlotAndTheFigure) {
   EXPECT_GT(picture("f.png").width(), 2 * 512);
 }
 
+TEST_F(SignalSpectrum, TheSameBytesOnAnyNumberOfThreads) {
+  const auto bytes = [&](const char* threads) {
+    std::string all;
+    for (const char* what : {"--phase", "--periodic", "--codes"}) {
+      out(run_signal_spectrum, {"bricks:size=150", what, "-t", threads, "-o", at("t.png")});
+      all += text("t.png");
+    }
+    return all + out(run_signal_spectrum, {"bricks:size=150", "--radial", "--json", "-t", threads});
+  };
+  EXPECT_EQ(bytes("1"), bytes("2"));
+  EXPECT_EQ(bytes("1"), bytes("7"));
+}
+
+TEST_F(SignalSpectrum, TheSmallestImages) {
+  save_bytes(at("one.png"), encode_png(Rgba8Image(1, 1, {255, 255, 255, 255})));
+  save_bytes(at("row.png"), encode_png(Rgba8Image(5, 1, {255, 255, 255, 255})));
+  for (const char* name : {"one.png", "row.png"}) {
+    const auto json = SignalVerb::json(run_signal_spectrum, {at(name), "--radial"});
+    EXPECT_NEAR(json["mean"].get<double>(), 1, 1e-6) << name;
+    EXPECT_NEAR(json["strongest"]["amplitude"].get<double>(), 0, 1e-12) << name;
+    out(run_signal_spectrum, {at(name), "-o", at("s.png")});
+    EXPECT_EQ(picture("s.png")(picture("s.png").width() / 2, 0), metrics::magma(1)) << name;
+  }
+}
+
 TEST_F(SignalSpectrum, RefusesWhatMakesNoSense) {
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {}), "wants one IMAGE"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "--window", "hat"}), "--window: "));
