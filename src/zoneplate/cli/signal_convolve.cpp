@@ -12,7 +12,6 @@
 #include "zoneplate/cli/signal_show.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/signal/convolve.h"
-#include "zoneplate/signal/resample.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -117,21 +116,26 @@ Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, cons
 }
 
 /// The weights as grey levels among weights of 0, the greatest white; where some are negative mid-grey is 0.
-Rgba8Image kernel_picture(const Plane<float>& weights) {
+Rgba8Image kernel_picture(const Plane<float>& weights, int2 size) {
   float low = 0, greatest = 0;
   for (const float w : weights.values()) low = std::min(low, w), greatest = std::max(greatest, std::abs(w));
-  const int margin = 1 + std::max(weights.width(), weights.height()) / 6;
-  const Plane<float> wide = padded(weights, {margin, margin, margin, margin}, Border::Zero);
-  LinearImage image(wide.width(), wide.height());
-  for (std::size_t i = 0; i < image.values().size(); ++i) {
-    const float v = greatest > 0 ? wide.values()[i] / greatest : 0.0f;
-    const float code = low < 0 ? 0.5f + v / 2 : v;
-    image.values()[i] = {code, code, code, 1};
-  }
-  // As large as the panels beside it; every weight a rectangle, whose sides may differ by a pixel.
-  const double enlarging = static_cast<double>(panel_px) / std::max(wide.width(), wide.height());
-  const auto side = [&](int n) { return std::max(1, static_cast<int>(n * enlarging + 0.5)); };
-  return shown(resample_nearest(image, side(wide.width()), side(wide.height())), true);
+  const auto level = [&](float w) { return low < 0 ? 0.5f + 0.5f * w / greatest : greatest > 0 ? w / greatest : 0.0f; };
+
+  // Squares in the middle, as large as leaves a margin; where there are more weights than pixels, the nearest.
+  const double cell =
+      0.75 * std::min(static_cast<double>(size.x) / weights.width(), static_cast<double>(size.y) / weights.height());
+  const auto place = [&](int x, int pixels, int count) {
+    return static_cast<int>(std::floor((x + 0.5 - pixels / 2.0) / cell + count / 2.0));
+  };
+  LinearImage image(size.x, size.y);
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const int i = place(x, size.x, weights.width()), j = place(y, size.y, weights.height());
+      const bool is_inside = i >= 0 && j >= 0 && i < weights.width() && j < weights.height();
+      const float v = level(is_inside ? weights(i, j) : 0);
+      image(x, y) = {v, v, v, 1};
+    }
+  return shown(image, true);
 }
 
 /// The spectrum of the kernel on a plane of the image's size.
@@ -151,9 +155,9 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
   // On this scale the third picture is the sum of the other two, in decibels below their palest.
   const double image_peak = strongest_magnitude(of_image), kernel_peak = strongest_magnitude(of_kernel);
   return compose(
-      {.title = fmt::format("{} with {}", input, kernel.name),
+      {.title = fmt::format("{} with {}", title_of(input), kernel.name),
        .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nAs it came."},
-                 {kernel_picture(kernel.weights),
+                 {kernel_picture(kernel.weights, panel_size(image.width(), image.height())),
                   fmt::format("Kernel\n{} × {} weights, enlarged, and the zeros around them.", kernel.weights.width(),
                               kernel.weights.height())},
                  {fitted(picture_of(args, kernel, result)), "Convolution\nEvery pixel spread by the kernel."}},

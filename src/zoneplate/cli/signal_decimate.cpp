@@ -101,7 +101,7 @@ Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const P
     return Panel{magnitude_panel(of, {range_db, amplitude * pixels(of)}), caption};
   };
   return compose(
-      {.title = fmt::format("{}, made smaller by {:g}", input, args.by),
+      {.title = fmt::format("{}, made smaller by {:g}", title_of(input), args.by),
        .rows =
            {{image(pair.image, fmt::format("Image\n{} × {} pixels.", pair.image.width(), pair.image.height())),
              image(pair.naive,

@@ -110,14 +110,16 @@ Rgba8Image figure_of(const std::string& input, const FilterArgs& args, const Lin
   const MagnitudeScale scale{.peak = strongest_magnitude(was)};  // one for both, so that they can be compared
   const Rgba8Image plot = plot_picture(response_plot(args), {panel_px, panel_px * 3 / 4});
   const std::string around = args.loses_mean() ? " The mean is gone: mid-grey is 0." : "";
+  const std::string shape =
+      before.width() == before.height() ? "" : " In frequency it is round; the picture has the image's shape.";
   const Figure figure{
-      .title = fmt::format("{}: {}", input, name_of(args)),
+      .title = fmt::format("{}: {}", title_of(input), name_of(args)),
       .rows = {{{fitted(shown(before, args.uses_codes)), "Image\nAs it came."},
                 {magnitude_panel(was, scale), fmt::format("Its spectrum\nFrequency 0 in the middle, ½ cycle per pixel "
                                                           "at the edges; {:g} dB from black to the palest.",
                                                           scale.range_db)},
                 {response_picture(args, before.width(), before.height()),
-                 "Response\nWhat every frequency is multiplied with: white 1, black 0."}},
+                 "Response\nWhat every frequency is multiplied with: white 1, black 0." + shape}},
                {{fitted(picture_of(args, after)), "Filtered image\nThe waves that are left, added up again." + around},
                 {magnitude_panel(is, scale), "Its spectrum\nThe product of the two above, on the same scale."},
                 {plot, ""}}},

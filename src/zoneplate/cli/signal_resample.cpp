@@ -42,8 +42,8 @@ Rgba8Image figure_of(const std::string& input, const ResampleArgs& args, const L
     return Panel{fitted(shown(of, args.uses_codes)), caption};
   };
   return compose(
-      {.title =
-           fmt::format("{}: {} × {} to {} × {}", input, image.width(), image.height(), result.width(), result.height()),
+      {.title = fmt::format("{}: {} × {} to {} × {}", title_of(input), image.width(), image.height(), result.width(),
+                            result.height()),
        .rows = {{panel(image, "Image\nAs it came."),
                  panel(nearest, "nearest\nThe pixel in which each new centre falls, and nothing else."),
                  panel(result, args.kernel + "\nEach new pixel a weighted mean of those around its centre.")}},

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/magma.h"
 #include "zoneplate/signal/functions.h"
 #include "zoneplate/signal/kernel.h"
+#include "zoneplate/signal/pattern.h"
 #include "zoneplate/signal/resample.h"
 #include "zoneplate/signal/spectrum.h"
 
@@ -16,12 +18,12 @@ namespace {
 
 std::uint8_t code8(double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 1.0) * 255 + 0.5); }
 
-/// The greatest of each block of `factor` × `factor` values.
-Plane<float> greatest_of_blocks(const Plane<float>& plane, int factor) {
-  Plane<float> out((plane.width() + factor - 1) / factor, (plane.height() + factor - 1) / factor);
+/// The greatest of the values that fall on each pixel of a smaller plane.
+Plane<float> greatest_in(const Plane<float>& plane, int2 size) {
+  Plane<float> out(size.x, size.y);
   for (int y = 0; y < plane.height(); ++y)
     for (int x = 0; x < plane.width(); ++x) {
-      float& v = out(x / factor, y / factor);
+      float& v = out(x * size.x / plane.width(), y * size.y / plane.height());
       v = std::max(v, plane(x, y));
     }
   return out;
@@ -118,25 +120,46 @@ Rgba8Image paint_phase(const Spectrum& spectrum) {
 }
 
 Rgba8Image magnitude_panel(const Spectrum& spectrum, const MagnitudeScale& scale) {
-  const Plane<float> plane = levels_of(spectrum, scale);
-  const int factor = (greater_side(plane.width(), plane.height()) + panel_px - 1) / panel_px;
-  return fitted(metrics::paint_magma(factor > 1 ? greatest_of_blocks(plane, factor) : plane));
+  const Plane<float> levels = levels_of(spectrum, scale);
+  const int2 size = panel_size(levels.width(), levels.height());
+  return fitted(metrics::paint_magma(size.x < levels.width() ? greatest_in(levels, size) : levels));
+}
+
+Rgba8Image phase_panel(const Spectrum& spectrum) {
+  const Rgba8Image whole = paint_phase(spectrum);
+  const int2 size = panel_size(whole.width(), whole.height());
+  if (size.x >= whole.width()) return fitted(whole);
+  Rgba8Image middle(size.x, size.y);
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      middle(x, y) = whole(whole.width() / 2 - size.x / 2 + x, whole.height() / 2 - size.y / 2 + y);
+  return middle;
+}
+
+int2 panel_size(int width, int height) {
+  const int side = greater_side(width, height);
+  if (side <= panel_px) return {width * (panel_px / side), height * (panel_px / side)};
+  const auto scaled = [&](int n) {
+    return std::max(1, static_cast<int>(std::floor(static_cast<double>(n) * panel_px / side + 0.5)));
+  };
+  return {scaled(width), scaled(height)};
 }
 
 Rgba8Image fitted(const Rgba8Image& picture) {
-  const int side = greater_side(picture.width(), picture.height());
-  if (side <= panel_px) return enlarged(picture, std::max(1, panel_px / side));
+  const int2 size = panel_size(picture.width(), picture.height());
+  if (size.x >= picture.width()) return enlarged(picture, size.x / std::max(1, picture.width()));
   DisplayImage codes(picture.width(), picture.height());
   std::ranges::transform(picture.values(), codes.values().begin(), [](Rgba8 c) {
     const auto unit = [](std::uint8_t v) { return static_cast<float>(v) / 255; };
     return Display{unit(c.r), unit(c.g), unit(c.b), unit(c.a)};
   });
-  const auto scaled = [&](int n) {
-    return std::max(1, static_cast<int>(std::lround(static_cast<double>(n) * panel_px / side)));
-  };
-  const LinearImage small = resample(metrics::make_picture(std::move(codes)).linear, scaled(picture.width()),
-                                     scaled(picture.height()), make_kernel("mitchell"));
-  return shown(small, false);
+  return shown(resample(metrics::make_picture(std::move(codes)).linear, size.x, size.y, make_kernel("mitchell")),
+               false);
+}
+
+std::string title_of(const std::string& input) {
+  if (is_pattern(input)) return input;
+  return input == "-" ? "stdin" : std::filesystem::path(input).filename().string();
 }
 
 }  // namespace zoneplate::cli

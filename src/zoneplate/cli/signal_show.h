@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "zoneplate/math/vec.h"
 #include "zoneplate/metrics/picture.h"
 #include "zoneplate/report/figure.h"
 #include "zoneplate/signal/fourier.h"
@@ -42,7 +43,16 @@ Rgba8Image paint_phase(const Spectrum& spectrum);
 /// The same at the size of a panel: of a large spectrum the strongest of each block of bins, so that no line is lost.
 Rgba8Image magnitude_panel(const Spectrum& spectrum, const MagnitudeScale& scale = {});
 
-/// The picture at the size of a panel: enlarged by a whole factor, pixels repeated, or reduced by a filter.
+/// The size at which a picture of width × height pixels is shown: enlarged by a whole factor, or reduced to panel_px.
+int2 panel_size(int width, int height);
+
+/// The picture at the size of a panel: pixels repeated, or reduced by a filter.
 Rgba8Image fitted(const Rgba8Image& picture);
+
+/// The phase at the size of a panel; of a large spectrum the middle, because phases have no mean.
+Rgba8Image phase_panel(const Spectrum& spectrum);
+
+/// What a figure calls its input: a file's name without its folders.
+std::string title_of(const std::string& input);
 
 }  // namespace zoneplate::cli

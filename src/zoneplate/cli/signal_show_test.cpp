@@ -22,9 +22,23 @@ TEST(SignalShow, PanelsGrowByWholeFactorsAndShrinkToTheirSize) {
 
 TEST(SignalShow, ALineOfALargeSpectrumIsNotLost) {
   const Rgba8Image panel = magnitude_panel(spectrum_of("sine:size=520,frequency=0.25"));
-  EXPECT_EQ(panel.width(), 260);
-  EXPECT_EQ(panel(130 + 65, 130), metrics::magma(1));
-  EXPECT_EQ(panel(130 + 32, 130), metrics::magma(0));
+  EXPECT_EQ(panel.width(), 512);
+  EXPECT_EQ(panel((260 + 130) * 512 / 520, 260 * 512 / 520), metrics::magma(1));
+  EXPECT_EQ(panel((260 + 66) * 512 / 520, 260 * 512 / 520), metrics::magma(0));
+}
+
+TEST(SignalShow, PhasesAreNotMixed) {
+  // The middle 512 of 514: the mean is at its middle, as in the whole.
+  const Spectrum spectrum = spectrum_of("impulse:size=514");
+  const Rgba8Image whole = paint_phase(spectrum), panel = phase_panel(spectrum);
+  ASSERT_EQ(panel.width(), 512);
+  for (int x = 0; x < 512; ++x) EXPECT_EQ(panel(x, 256), whole(x + 1, 257));
+}
+
+TEST(SignalShow, TitlesNameFilesNotFolders) {
+  EXPECT_EQ(title_of("/some/where/photo.jpg"), "photo.jpg");
+  EXPECT_EQ(title_of("sine:frequency=0.2"), "sine:frequency=0.2");
+  EXPECT_EQ(title_of("-"), "stdin");
 }
 
 TEST(SignalShow, LevelsAreDecibelsBelowThePeak) {

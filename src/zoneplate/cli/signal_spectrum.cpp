@@ -187,13 +187,13 @@ Rgba8Image figure_of(const std::string& input, const SpectrumArgs& args, const A
                           : args.window == "none" ? "as it is"
                                                   : "under the window " + args.window;
   Figure figure{
-      .title = "Spectrum of " + input,
+      .title = "Spectrum of " + title_of(input),
       .rows =
           {{{fitted(shown(grey, args.uses_codes)), fmt::format("Image\nIts luminance, {}.", how)},
             {magnitude, fmt::format("Magnitude\nFrequency 0 is in the middle, ½ cycle per pixel at the edges. Palest: "
                                     "the strongest wave; black: {:g} dB weaker.",
                                     args.range_db)}},
-           {{fitted(paint_phase(a.spectrum)),
+           {{phase_panel(a.spectrum),
              "Phase\nWhere each wave begins: white 0, orange a quarter turn, black half a turn, blue three quarters."},
             {plot_picture(radial_plot(profile_of(a.spectrum), args.range_db), {panel_px, panel_px * 3 / 4}), ""}}},
       .text = {}};
