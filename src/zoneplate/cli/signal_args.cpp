@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/png.h"
-#include "zoneplate/metrics/picture_file.h"
 #include "zoneplate/signal/pattern.h"
 
 namespace zoneplate::cli {
@@ -51,10 +49,6 @@ Option border_option(Border& border, const std::string& rules) {
             if (rules.find(text) == std::string::npos)
               throw Error(Trouble::Usage, fmt::format("'{}' cannot be used here; wants {}", text, rules));
           }};
-}
-
-metrics::Picture load_signal(const std::string& operand) {
-  return is_pattern(operand) ? metrics::make_picture(make_pattern(operand)) : metrics::load_picture(operand);
 }
 
 const std::string& only_operand(const Syntax& syntax, const std::string& what) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "zoneplate/cli/args.h"
-#include "zoneplate/metrics/picture.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/plot.h"
 #include "zoneplate/signal/border.h"
@@ -28,11 +27,6 @@ Option codes_option(SignalArgs& args);
 
 /// --border with the rules that the subcommand allows, the default first: "clamp, reflect".
 Option border_option(Border& border, const std::string& rules);
-
-/// The IMAGE operand's picture: a PNG or JPEG file, "-" for stdin, or a pattern made in code (signal/pattern.h).
-///
-/// A file whose name is a pattern's is given with its folder: ./sine.
-metrics::Picture load_signal(const std::string& operand);
 
 /// The one operand of a subcommand.
 ///

@@ -9,6 +9,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/signal.h"
 #include "zoneplate/cli/signal_convolve.h"
+#include "zoneplate/cli/signal_load.h"
 #include "zoneplate/cli/signal_show.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/signal/convolve.h"
@@ -172,7 +173,7 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
 }
 
 void run_image(const ConvolveArgs& args, const std::string& input) {
-  const LinearImage image = working_image(load_signal(input), args.uses_codes);
+  const LinearImage image = load_signal(input, args.uses_codes);
   const KernelChoice& kernel = args.kernel;
   const Results results = convolved(args, image, kernel);
   if (!args.output.empty())

@@ -7,6 +7,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/signal.h"
 #include "zoneplate/cli/signal_args.h"
+#include "zoneplate/cli/signal_load.h"
 #include "zoneplate/cli/signal_reduce.h"
 #include "zoneplate/cli/signal_show.h"
 #include "zoneplate/cli/values.h"
@@ -173,7 +174,7 @@ void run_signal_decimate(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one IMAGE");
   for (const std::string& path : {args.output, args.naive_path, args.filtered_path}) check_picture_name(path);
   with_threads(args.threads, [&] {
-    const Pair pair = make_pair(args, working_image(load_signal(input), args.uses_codes));
+    const Pair pair = make_pair(args, load_signal(input, args.uses_codes));
     if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair));
     if (!args.naive_path.empty()) save_picture(args.naive_path, shown(pair.naive, args.uses_codes));
     if (!args.filtered_path.empty()) save_picture(args.filtered_path, shown(pair.filtered, args.uses_codes));

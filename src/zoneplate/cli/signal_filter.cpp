@@ -8,6 +8,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/signal.h"
 #include "zoneplate/cli/signal_args.h"
+#include "zoneplate/cli/signal_load.h"
 #include "zoneplate/cli/signal_show.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/signal/frequency_filter.h"
@@ -203,7 +204,7 @@ void run_signal_filter(std::span<const std::string> arguments) {
     throw Error(Trouble::Usage, "one of --low-pass, --high-pass, --band-pass and --band-stop is wanted");
   check_picture_name(args.output);
   with_threads(args.threads, [&] {
-    const LinearImage before = working_image(load_signal(input), args.uses_codes);
+    const LinearImage before = load_signal(input, args.uses_codes);
     const LinearImage after = filtered(before, args.filter, args.border);
     if (!args.output.empty())
       save_picture(args.output, args.is_side_by_side ? figure_of(input, args, before, after) : picture_of(args, after));

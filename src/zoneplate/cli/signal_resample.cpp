@@ -7,6 +7,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/signal.h"
 #include "zoneplate/cli/signal_args.h"
+#include "zoneplate/cli/signal_load.h"
 #include "zoneplate/cli/signal_reduce.h"
 #include "zoneplate/cli/signal_show.h"
 #include "zoneplate/cli/values.h"
@@ -96,7 +97,7 @@ void run_signal_resample(std::span<const std::string> arguments) {
   if (args.output.empty()) throw Error(Trouble::Usage, "--output is missing: where to write the picture");
   check_picture_name(args.output);
   with_threads(args.threads, [&] {
-    const LinearImage image = working_image(load_signal(input), args.uses_codes);
+    const LinearImage image = load_signal(input, args.uses_codes);
     const int2 size = size_from(args.size, image.width(), image.height());
     const LinearImage result = resampled(image, size.x, size.y, args.kernel, args.border);
     save_picture(args.output,

@@ -7,6 +7,8 @@
 
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/magma.h"
+#include "zoneplate/metrics/picture.h"
+#include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 #include "zoneplate/signal/kernel.h"
 #include "zoneplate/signal/pattern.h"
@@ -48,23 +50,16 @@ Plane<float> levels_of(const Spectrum& spectrum, const MagnitudeScale& scale) {
   const double own = greatest_power(spectrum, true);
   if (own == 0 || peak == 0) return Plane<float>(levels.width(), levels.height());
   const double above = 10 / std::numbers::ln10 * natural_log(own / (peak * peak));
-  for (float& v : levels.values())
-    v = static_cast<float>(1 + ((static_cast<double>(v) - 1) * whole_range_db + above) / scale.range_db);
+  metrics::for_rows(levels.height(), [&](int y) {
+    for (float& v : levels.row(y))
+      v = static_cast<float>(1 + ((static_cast<double>(v) - 1) * whole_range_db + above) / scale.range_db);
+  });
   return levels;
 }
 
 int greater_side(int width, int height) { return std::max({1, width, height}); }
 
 }  // namespace
-
-LinearImage working_image(const metrics::Picture& picture, bool uses_codes) {
-  if (!uses_codes) return picture.linear;
-  LinearImage out(picture.width(), picture.height());
-  std::ranges::transform(picture.display.values(), out.values().begin(), [](const Display& c) {
-    return Linear{c.r * c.a, c.g * c.a, c.b * c.a, c.a};
-  });
-  return out;
-}
 
 Rgba8Image shown(const LinearImage& image, bool uses_codes) {
   if (!uses_codes) return quantize8(metrics::make_picture(image).display);
@@ -85,8 +80,12 @@ Rgba8Image shown_around_grey(const LinearImage& image) {
 
 Plane<float> luminance(const LinearImage& image) {
   Plane<float> out(image.width(), image.height());
-  std::ranges::transform(metrics::luminance_plane(image).values(), out.values().begin(),
-                         [](double v) { return static_cast<float>(v); });
+  metrics::for_rows(image.height(), [&](int y) {
+    std::ranges::transform(image.row(y), out.row(y).begin(), [](const Linear& c) {
+      return static_cast<float>(0.2126 * static_cast<double>(c.r) + 0.7152 * static_cast<double>(c.g) +
+                                0.0722 * static_cast<double>(c.b));
+    });
+  });
   return out;
 }
 

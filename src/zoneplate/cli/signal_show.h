@@ -3,7 +3,6 @@
 #include <string>
 
 #include "zoneplate/math/vec.h"
-#include "zoneplate/metrics/picture.h"
 #include "zoneplate/report/figure.h"
 #include "zoneplate/signal/fourier.h"
 
@@ -14,10 +13,7 @@ namespace zoneplate::cli {
 /// The greatest side of a panel's picture.
 constexpr int panel_px = 512;
 
-/// The numbers that a subcommand works on: linear light, or display codes; premultiplied either way.
-LinearImage working_image(const metrics::Picture& picture, bool uses_codes);
-
-/// And back to a picture. What is below 0 or above 1 is clamped.
+/// Linear light, or display codes, premultiplied, as a picture. What is below 0 or above 1 is clamped.
 Rgba8Image shown(const LinearImage& image, bool uses_codes);
 
 /// An image of differences: 0 is mid-grey, code ½ + value / 2, opaque.

@@ -8,6 +8,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/signal.h"
 #include "zoneplate/cli/signal_args.h"
+#include "zoneplate/cli/signal_load.h"
 #include "zoneplate/cli/signal_show.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/signal/functions.h"
@@ -264,7 +265,7 @@ void run_signal_spectrum(std::span<const std::string> arguments) {
     throw Error(Trouble::Usage, "--window and --periodic are two remedies for one ill: take one of them");
   args.shown == Shown::Radial ? check_plot_name(args.output) : check_picture_name(args.output);
   with_threads(args.threads, [&] {
-    const Analysis analysis = analyse(args, working_image(load_signal(input), args.uses_codes));
+    const Analysis analysis = analyse(args, load_signal(input, args.uses_codes));
     if (!args.output.empty()) save(input, args, analysis);
     tell(args, text_of(input, args, analysis), json_of(input, args, analysis));
   });
