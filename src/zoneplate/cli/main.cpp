@@ -28,7 +28,8 @@ constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (
                           {"info", "what is in a model", run_info},
                           {"metrics", "how far pictures are from a reference", run_metrics},
                           {"bench", "how long frames take, stage by stage", run_bench},
-                          {"demo", "lessons about aliasing, each a picture that explains itself", run_demo}};
+                          {"demo", "lessons about aliasing, each a picture that explains itself", run_demo},
+                          {"signal", "spectra, filters and sampling, with pictures that explain them", run_signal}};
 
 const Verb* find_verb(std::string_view name) {
   for (const Verb& verb : verbs)

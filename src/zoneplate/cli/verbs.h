@@ -14,5 +14,6 @@ void run_info(std::span<const std::string> arguments);
 void run_metrics(std::span<const std::string> arguments);
 void run_bench(std::span<const std::string> arguments);
 void run_demo(std::span<const std::string> arguments);
+void run_signal(std::span<const std::string> arguments);
 
 }  // namespace zoneplate::cli

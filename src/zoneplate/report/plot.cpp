@@ -66,8 +66,9 @@ std::string drawing_of(const Curve& curve, const std::string& block, std::size_t
     case Mark::Area:
       break;
   }
-  return with(fmt::format("filledcurves y1=0 fs transparent solid 0.25 noborder lc rgb '{}'", color), title) + ", " +
-         with("lines " + line(dash_px), "notitle");
+  return with(fmt::format("filledcurves y1=0 fs transparent solid {} noborder lc rgb '{}'", curve.opacity, color),
+              title) +
+         ", " + with("lines " + line(dash_px), "notitle");
 }
 
 std::string axis_of(char name, const Axis& axis) {

@@ -29,6 +29,7 @@ struct Curve {
   Mark mark = Mark::Line;
   /// Which colour of the palette; -1: the place among the curves; `grey`: for what should step back.
   int color = -1;
+  double opacity = 0.25;  ///< of an Area
   static constexpr int grey = -2;
 };
 

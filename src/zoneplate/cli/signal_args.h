@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/cli/args.h"
+#include "zoneplate/report/json.h"
+#include "zoneplate/report/plot.h"
+#include "zoneplate/signal/border.h"
+
+namespace zoneplate::cli {
+
+/// What the subcommands of `signal` have in common.
+struct SignalArgs {
+  std::string output;  ///< a file, "-" for stdout, or empty: numbers only
+  bool wants_json = false;
+  bool uses_codes = false;  ///< work on display codes instead of linear light
+  int threads = 0;
+};
+
+/// --output, --json and --threads; `output_meaning` says what is written.
+std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
+
+/// --codes, for those who change pictures.
+Option codes_option(SignalArgs& args);
+
+/// --border with the rules that the subcommand allows, the default first: "clamp, reflect".
+Option border_option(Border& border, const std::string& rules);
+
+/// The one operand of a subcommand.
+///
+/// Errors    Trouble::Usage where there is none or more than one, saying that `what` is wanted.
+const std::string& only_operand(const Syntax& syntax, const std::string& what);
+
+/// What IMAGE may be and what the patterns are, for the end of the help.
+std::string image_notes();
+
+/// Refuses an output that does not end in .png (or, for a plot, .svg) and is not "-".
+void check_picture_name(const std::string& path);
+void check_plot_name(const std::string& path);
+
+void save_picture(const std::string& path, const Rgba8Image& picture);
+
+/// The plots as the output's name wants them.
+void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
+
+/// The results on stdout, for people or as a line of JSON. Where the picture takes stdout JSON goes to stderr instead.
+void tell(const SignalArgs& args, const std::string& text, const Json::Object& json);
+
+/// "1,3,5": whole numbers in [low, high], at least one.
+std::vector<int> parse_whole_list(const std::string& text, int low, int high);
+
+}  // namespace zoneplate::cli
