@@ -87,6 +87,7 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
   Stopwatch display_watch;
   DisplayOptions display = args.display;
   display.background = background_of(args);
+  frame.display = display;
   const Rgba8Image image = quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
   summary.width = image.width(), summary.height = image.height();
   summary.times.emplace_back("display", display_watch.ms());
