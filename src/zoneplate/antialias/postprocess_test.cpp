@@ -21,6 +21,10 @@ const Case cases[] = {
     {"fxaa:preset=39,threshold=overkill,mix=light", 0, 0, 4},
     // The nudge to the north-east luma turns the direction of level and upright edges.
     {"fxaa:preset=console", 70, 70, 90},
+    // Diagonals are looked for from top edges, and of two equal axes the vertical one is mixed.
+    {"smaa", 16, 14, 15},
+    {"smaa:preset=medium,edges=color", 6, 6, 3},
+    {"smaa:preset=ultra", 18, 15, 16},
 };
 
 DisplayImage shown(const Rgba8Image& codes) {
