@@ -9,9 +9,13 @@
 #include <cstring>
 #include <ctime>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
+#include "zoneplate/antialias/cmaa2.h"
 #include "zoneplate/antialias/fxaa.h"
+#include "zoneplate/antialias/mlaa.h"
 #include "zoneplate/antialias/smaa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/tonemap.h"
@@ -105,6 +109,12 @@ void register_all() {
        [](const Rgba8Image& i, Rgba8Image m) {
          return apply_smaa(i, nullptr, {.edges = SmaaOptions::Edges::Color}, std::move(m));
        }},
+      {"mlaa", [](const Rgba8Image& i, Rgba8Image m) { return apply_mlaa(i, {}, std::move(m)); }},
+      {"mlaa_reshetov",
+       [](const Rgba8Image& i, Rgba8Image m) {
+         return apply_mlaa(i, {.kind = MlaaOptions::Kind::Reshetov}, std::move(m));
+       }},
+      {"cmaa2", [](const Rgba8Image& i, Rgba8Image m) { return apply_cmaa2(i, {}, std::move(m)); }},
   };
   for (const Row& row : rows)
     for (const char* scene : {"teapot", "city"})

@@ -46,6 +46,18 @@ class Bordered {
     }
   }
 
+  /// Writes one value into the borders; it may be called before the rows are written.
+  void fill_border(T value) {
+    for (int y = -border_; y < height_ + border_; ++y) {
+      if (y < 0 || y >= height_) {
+        std::fill(at(-border_, y), at(width_ + border_ + 32, y), value);
+        continue;
+      }
+      std::fill(at(-border_, y), at(0, y), value);
+      std::fill(at(width_, y), at(width_ + border_ + 32, y), value);
+    }
+  }
+
  private:
   int width_, height_, border_;
   std::ptrdiff_t stride_;

@@ -12,6 +12,7 @@
 #include "zoneplate/base/file.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate::antialias {
@@ -59,6 +60,38 @@ inline Rgba8Image random_shapes(int width, int height, std::uint32_t seed) {
   }
   return image;
 }
+
+/// A white band on black along a line of slope 1 / run, as seen at a point of each pixel, and each pixel's share of it.
+struct Band {
+  static constexpr int width = 160, height = 56;
+  double run, thickness;
+  double below(double x) const { return 20.1 + x / run; }
+  Rgba8Image codes(double u, double v) const {
+    return make_codes(width, height, [&](int x, int y) {
+      const double depth = y + v - below(x + u);
+      return depth > 0 && depth < thickness ? Rgba8{255, 255, 255} : Rgba8{0, 0, 0};
+    });
+  }
+  double area(int x, int y) const {
+    double sum = 0;
+    for (int i = 0; i < 64; ++i) {
+      const double top = below(x + (i + 0.5) / 64);
+      sum += std::max(0.0, std::min(y + 1.0, top + thickness) - std::max<double>(y, top));
+    }
+    return sum / 64;
+  }
+  /// Root of the mean square error in linear light of the pixels at the band's rim, away from the sides.
+  double error(const Rgba8Image& image) const {
+    double sum = 0;
+    int count = 0;
+    for (int y = 4; y < height - 4; ++y)
+      for (int x = 40; x < width - 40; ++x) {
+        const double off = static_cast<double>(decode_srgb8(image(x, y).g)) - area(x, y);
+        if (area(x, y) > 0 && area(x, y) < 1) sum += off * off, ++count;
+      }
+    return std::sqrt(sum / count);
+  }
+};
 
 /// FNV-1a over the bytes of a picture.
 inline std::uint64_t hash_of(const Rgba8Image& image) {

@@ -25,6 +25,12 @@ const Case cases[] = {
     {"smaa", 16, 14, 15},
     {"smaa:preset=medium,edges=color", 6, 6, 3},
     {"smaa:preset=ultra", 18, 15, 16},
+    // A border's contrast is judged from the pixel on its right or below it.
+    {"mlaa", 5, 6, 0},
+    {"mlaa:mix=codes,steps=8", 5, 6, 0},
+    {"mlaa:kind=reshetov", 0, 0, 0},
+    {"cmaa2", 0, 0, 0},
+    {"cmaa2:preset=ultra,sharp=1", 0, 0, 0},
 };
 
 DisplayImage shown(const Rgba8Image& codes) {

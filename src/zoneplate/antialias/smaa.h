@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "zoneplate/antialias/bordered.h"
+#include "zoneplate/antialias/edge_rows.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
@@ -21,10 +21,6 @@ struct SmaaOptions {
   bool is_postprocessing = false;  ///< for tests: the rounded areas and signed corner distances of another program
   Isa isa = best_isa();
 };
-
-/// Which borders of a pixel are edges.
-enum : std::uint8_t { left_edge = 1, top_edge = 2 };
-using EdgePlane = Bordered<std::uint8_t>;
 
 /// What a pixel takes from across its borders, in 1/255.
 struct SmaaWeights {

@@ -4,12 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 #include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/edge_rows.h"
 #include "zoneplate/antialias/smaa.h"
 #include "zoneplate/antialias/smaa_kernels.h"
-#include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -67,47 +66,6 @@ const SmaaKernels smaa_kernels = {.luma_row = luma_row, .luma_edges = luma_edges
 
 namespace antialias {
 namespace {
-
-/// The last four rows made of a picture, each with two values before it and 33 after it that repeat the outermost.
-template <class T>
-class RowWindow {
- public:
-  explicit RowWindow(int width) : width_(static_cast<std::size_t>(width)), values_(4 * stride()) {}
-
-  T* begin_row(int y) { return values_.data() + static_cast<std::size_t>((y + 8) % 4) * stride() + before; }
-  void end_row(int y) {
-    T* row = begin_row(y);
-    std::fill(row - before, row, row[0]);
-    std::fill(row + width_, row + width_ + after, row[width_ - 1]);
-  }
-  /// The rows around y, when y + 1 was the last made.
-  EdgeRows<T> around(int y) { return {{begin_row(y - 2), begin_row(y - 1), begin_row(y), begin_row(y + 1)}}; }
-
- private:
-  static constexpr std::size_t before = 2, after = 33;
-  std::size_t stride() const { return width_ + before + after; }
-  std::size_t width_;
-  std::vector<T> values_;
-};
-
-/// Makes rows with `fill(y, row)` and edges of them with `detect(rows, edges)`, blocks of rows in parallel.
-template <class T, class Fill, class Detect>
-void detect_edges(EdgePlane& edges, const Fill& fill, const Detect& detect) {
-  const int height = edges.height();
-  parallel_ranges(static_cast<std::size_t>(height), rows_a_block, [&](std::size_t begin, std::size_t end) {
-    RowWindow<T> window(edges.width());
-    const auto make = [&](int y) {
-      fill(std::clamp(y, 0, height - 1), window.begin_row(y));
-      window.end_row(y);
-    };
-    const int first = static_cast<int>(begin), last = static_cast<int>(end);
-    for (int y = first - 2; y <= first; ++y) make(y);
-    for (int y = first; y < last; ++y) {
-      make(y + 1);
-      detect(window.around(y), edges.at(0, y));
-    }
-  });
-}
 
 /// Differences of depth, without adaptation.
 void detect_depth_edges(const Plane<float>& depth, float threshold, EdgePlane& edges) {
