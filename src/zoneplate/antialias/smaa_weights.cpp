@@ -81,32 +81,41 @@ class Line {
   bool is(int i, int j, std::uint8_t edge) const { return pixel_[i * along_ + j * across_] & edge; }
   int crosses(int i, int j) const { return is(i, j, cross_) ? 1 : 0; }
 
-  /// The bits of four pixels for SearchLengths: i is nearer than `beyond`.
-  std::size_t block(int i, int beyond) const {
-    std::size_t bits = 0;
-    int bit = 0;
-    for (const std::uint8_t edge : {own_, cross_})
-      for (const int j : {-1, 0})
-        for (const int k : {beyond, i}) bits |= std::size_t{is(k, j, edge)} << bit++;
-    return bits;
+  /// The four pixels between which a search fetches: i and the one beyond it, here and across.
+  struct Four {
+    int here, beyond, here_across, beyond_across;
+  };
+  Four four(int i, int beyond) const {
+    const std::uint8_t *p = pixel_ + i * along_, *q = pixel_ + beyond * along_;
+    return {*p, *q, *(p - across_), *(q - across_)};
   }
   /// Both pixels of the line are edges, and nothing crosses.
-  static bool goes_on(std::size_t block) { return (block & 0xfc) == 0x0c && (block >> 4) == 0; }
+  bool goes_on(const Four& f) const {
+    return (f.here & f.beyond & own_) != 0 && ((f.here | f.beyond | f.here_across | f.beyond_across) & cross_) == 0;
+  }
+  /// The bits of SearchLengths.
+  std::size_t bits_of(const Four& f) const {
+    const auto bits = [&](int edge) {
+      const auto is = [edge](int pixel) { return (pixel & edge) != 0; };
+      return is(f.beyond_across) | is(f.here_across) << 1 | is(f.beyond) << 2 | is(f.here) << 3;
+    };
+    return static_cast<std::size_t>(bits(own_) | bits(cross_) << 4);
+  }
 
   /// The first and the last pixel of the line, as distances; looked for two pixels at a time.
   int start(const Tables& tables, int steps) const {
     int k = 0;
-    std::size_t found = 0;
-    do found = block(-2 * k, -2 * k - 1);
+    Four found;
+    do found = four(-2 * k, -2 * k - 1);
     while (++k < steps && goes_on(found));
-    return 3 - 2 * k - tables.lengths.before[found];
+    return 3 - 2 * k - tables.lengths.before[bits_of(found)];
   }
   int end(const Tables& tables, int steps) const {
     int k = 0;
-    std::size_t found = 0;
-    do found = block(2 * k + 1, 2 * k + 2);
+    Four found;
+    do found = four(2 * k + 1, 2 * k + 2);
     while (++k < steps && goes_on(found));
-    return 2 * k - 2 + tables.lengths.after[found];
+    return 2 * k - 2 + tables.lengths.after[bits_of(found)];
   }
 
   static Areas fetch(const AreaSlot& slot, int x, float u, int y, float v) {
