@@ -31,6 +31,11 @@ const Case cases[] = {
     {"mlaa:kind=reshetov", 0, 0, 0},
     {"cmaa2", 0, 0, 0},
     {"cmaa2:preset=ultra,sharp=1", 0, 0, 0},
+    // The level blur is given in full, the upright one by half; of the long ones the level one has the last word.
+    {"dlaa", 0, 0, 65},
+    // Of two equal gradients the upper or left one is taken, and of two equal directions the horizontal one.
+    {"ddaa", 4, 2, 4},
+    {"ddaa:threshold=extreme", 4, 2, 4},
 };
 
 DisplayImage shown(const Rgba8Image& codes) {
