@@ -26,7 +26,8 @@ std::string range_of(const Param& param) {
 std::string methods_text() {
   std::string text = "Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n";
   for (const Method& method : antialias::methods()) {
-    text += fmt::format("  {:<16}{} [{}]\n", method.name, method.summary, method.source);
+    text += fmt::format("  {:<16}{} [{}{}]\n", method.name, method.summary, method.source,
+                        method.is_specification_only ? "; specification only" : "");
     for (const Param& param : method.params)
       text += fmt::format("  {:<16}  {}  {}\n", "", range_of(param), param.meaning);
   }
@@ -56,6 +57,7 @@ Json methods_json() {
     rows.emplace_back(Json::Object{{"name", method.name},
                                    {"summary", method.summary},
                                    {"source", method.source},
+                                   {"specification_only", method.is_specification_only},
                                    {"parameters", std::move(params)}});
   }
   return rows;

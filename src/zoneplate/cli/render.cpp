@@ -90,6 +90,7 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
                                              {"tiles", summary.counts.tiles_ms}});
 
   Stopwatch display_watch;
+  frame.display = display;
   const Rgba8Image image = request.is_local
                                ? std::move(frame.shown)
                                : quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));

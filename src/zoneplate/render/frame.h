@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {
@@ -38,6 +39,8 @@ struct Frame {
   Plane<float2> uv;
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
   Plane<float> coverage;
+
+  DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::finish`
 
   std::vector<LinearImage> sample_color;              ///< by sample
   std::vector<Plane<float>> sample_depth;             ///< reversed

@@ -56,6 +56,12 @@ int parse_value(std::string_view method, const Param& param, std::string_view te
   return number;
 }
 
+std::string example_of(const Param& param) {
+  const std::string value = param.names.empty() ? std::to_string(param.value)
+                                                : std::string(param.names[static_cast<std::size_t>(param.value)]);
+  return std::string(param.name) + "=" + value;
+}
+
 }  // namespace
 
 Settings::Settings(std::string_view method, std::span<const Param> params, std::string_view text) : params_(params) {
@@ -70,10 +76,9 @@ Settings::Settings(std::string_view method, std::span<const Param> params, std::
     const std::string_view key = item.substr(0, item.find('='));
     const auto param = std::find_if(params.begin(), params.end(), [&](const Param& p) { return p.name == key; });
     if (param == params.end() || key.size() == item.size())
-      reject(method, "unknown parameter '" + std::string(item) + "'" +
-                         (names.empty() ? "; it has none"
-                                        : "; it has " + listed(names) + ", as in " + std::string(names[0]) + "=" +
-                                              std::to_string(params[0].value)));
+      reject(method,
+             "unknown parameter '" + std::string(item) + "'" +
+                 (names.empty() ? "; it has none" : "; it has " + listed(names) + ", as in " + example_of(params[0])));
     values_[param->name] = {parse_value(method, *param, item.substr(key.size() + 1)), true};
   }
 }

@@ -29,6 +29,7 @@ struct Request {
   std::vector<float> weights;  ///< one a sample; empty: all equal
   Planes planes;
   bool is_local = false;  ///< the mean is the method's last word: `resolve` and `finish` change nothing
+  int halo = 0;  ///< pixels beyond a picture's sides that `finish` would read, so that a crop has the whole's bits
 };
 
 /// An antialiasing method at work on one sequence of frames. Override what the method changes.
@@ -73,6 +74,7 @@ struct Method {
   std::string_view name, summary, source;
   std::span<const Param> params = {};
   std::function<std::unique_ptr<Resolver>(const Settings&)> make;
+  bool is_specification_only = false;  ///< held to its text alone: there was no other implementation to compare with
 };
 
 /// The name nearest to `word` by edit distance, or empty if none is near; for "did you mean".

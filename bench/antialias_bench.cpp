@@ -1,0 +1,137 @@
+// Speed of the methods on shown pictures, against a copy of the same picture on the same threads.
+//
+// `ns_a_pixel` and `over_copy` are of processor time, the least of all turns, shared out to the threads: on a busy
+// machine the clock on the wall counts its other work too. Four pictures of 33 MB take turns on either side, so that
+// none is still in the last cache when its turn comes.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "zoneplate/antialias/cmaa2.h"
+#include "zoneplate/antialias/fxaa.h"
+#include "zoneplate/antialias/mlaa.h"
+#include "zoneplate/antialias/smaa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/render/render.h"
+#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/default_lights.h"
+#include "zoneplate/scene/fit.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr int width = 3840, height = 2160;
+
+/// A built-in scene with its own camera, or else the whole of it, one sample a pixel.
+Rgba8Image frame_of(const std::string& name) {
+  Scene scene = *make_builtin_scene(name);
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  const Camera camera = scene.cameras.empty() ? fit_camera(scene.bounds(), aspect, {}) : scene.cameras[0];
+  RenderOptions options;
+  options.width = width, options.height = height;
+  if (scene.lights.empty()) {
+    scene.lights = default_lights(camera);
+    options.environment = {default_environment, default_environment, default_environment};
+  }
+  return quantize8(
+      make_display(render(scene, camera, Request{}, options).color, {.background = {0.2f, 0.2f, 0.2f, 1}}));
+}
+
+const Rgba8Image& cached_frame(const std::string& name) {
+  static std::map<std::string, Rgba8Image> frames;
+  const auto found = frames.find(name);
+  return found != frames.end() ? found->second : frames.emplace(name, frame_of(name)).first->second;
+}
+
+double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void copy(const Rgba8Image& from, Rgba8Image& to) {
+  parallel_ranges(static_cast<std::size_t>(height), 32, [&](std::size_t begin, std::size_t end) {
+    std::memcpy(to.row(static_cast<int>(begin)).data(), from.row(static_cast<int>(begin)).data(),
+                (end - begin) * width * sizeof(Rgba8));
+  });
+}
+
+using Filter = std::function<Rgba8Image(const Rgba8Image&, Rgba8Image memory)>;
+
+void measure(benchmark::State& state, const char* scene, const Filter& filter) {
+  constexpr std::size_t pictures = 4;
+  std::vector<Rgba8Image> from(pictures, cached_frame(scene)), to = from;
+  const int threads = static_cast<int>(state.range(0));
+  double copy_ms = 1e9, filter_ms = 1e9;
+  std::size_t turn = 0;
+  with_threads(threads, [&] {
+    for (auto _ : state) {
+      const std::size_t a = turn % pictures, b = (turn + pictures / 2) % pictures;
+      ++turn;
+      const double start = processor_ms();
+      copy(from[a], to[b]);
+      const double copied = processor_ms();
+      to[a] = filter(from[b], std::move(to[a]));
+      const double filtered = processor_ms();
+      copy_ms = std::min(copy_ms, copied - start), filter_ms = std::min(filter_ms, filtered - copied);
+      benchmark::ClobberMemory();
+    }
+  });
+  int changed = 0;
+  const Rgba8Image last = filter(from[0], {});
+  for (std::size_t i = 0; i < last.values().size(); ++i) changed += last.values()[i] != from[0].values()[i];
+  state.counters["copy_ns"] = copy_ms * 1e6 / (width * height) / threads;
+  state.counters["ns_a_pixel"] = filter_ms * 1e6 / (width * height) / threads;
+  state.counters["over_copy"] = filter_ms / copy_ms;
+  state.counters["changed_percent"] = 100.0 * changed / (width * height);
+}
+
+struct Row {
+  const char* name;
+  Filter filter;
+};
+
+void register_all() {
+  using namespace antialias;
+  const Row rows[] = {
+      {"fxaa_12", [](const Rgba8Image& i, Rgba8Image m) { return apply_fxaa(i, {}, std::move(m)); }},
+      {"fxaa_39", [](const Rgba8Image& i, Rgba8Image m) { return apply_fxaa(i, {.preset = 39}, std::move(m)); }},
+      {"fxaa_console",
+       [](const Rgba8Image& i, Rgba8Image m) {
+         return apply_fxaa(i, {.preset = FxaaOptions::console, .threshold = 0.125, .least = 0.05}, std::move(m));
+       }},
+      {"smaa_high", [](const Rgba8Image& i, Rgba8Image m) { return apply_smaa(i, nullptr, {}, std::move(m)); }},
+      {"smaa_high_color",
+       [](const Rgba8Image& i, Rgba8Image m) {
+         return apply_smaa(i, nullptr, {.edges = SmaaOptions::Edges::Color}, std::move(m));
+       }},
+      {"mlaa", [](const Rgba8Image& i, Rgba8Image m) { return apply_mlaa(i, {}, std::move(m)); }},
+      {"mlaa_reshetov",
+       [](const Rgba8Image& i, Rgba8Image m) {
+         return apply_mlaa(i, {.kind = MlaaOptions::Kind::Reshetov}, std::move(m));
+       }},
+      {"cmaa2", [](const Rgba8Image& i, Rgba8Image m) { return apply_cmaa2(i, {}, std::move(m)); }},
+  };
+  for (const Row& row : rows)
+    for (const char* scene : {"teapot", "city"})
+      benchmark::RegisterBenchmark((std::string(row.name) + "/" + scene).c_str(),
+                                   [scene, filter = row.filter](benchmark::State& s) { measure(s, scene, filter); })
+          ->ArgName("threads")
+          ->Arg(1)
+          ->Arg(2)
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
+}
+
+}  // namespace
+}  // namespace zoneplate
+
+int main(int argc, char** argv) {
+  zoneplate::register_all();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace zoneplate {
+
+struct Cmaa2Kernels {
+  /// For n pixels of luma: bit 0 where the border to the right, bit 1 where that below exceeds `threshold` by more than
+  /// `contrast` times the greatest of the four borders that touch it at its ends.
+  ///
+  /// Shape     rows[0] is the row above, rows[1] the row itself; valid from one value before the first to two after the
+  ///           last.
+  void (*edge_row)(const float* const (&rows)[4], float threshold, float contrast, std::uint8_t* edges, std::size_t n);
+  /// All four borders of n pixels as bits (0 right, 1 below, 2 left, 3 above) from those of a row and the one above it,
+  /// and in bit x of `bits` whether pixel x has a corner.
+  ///
+  /// Shape     `edges` is valid from one value before the first; whole vectors are read and written: up to 31 values
+  ///           after the n-th; `bits` has room for n rounded up to 64.
+  void (*shape_row)(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_t* shapes, std::uint8_t* bits,
+                    std::size_t n);
+};
+
+namespace scalar {
+extern const Cmaa2Kernels cmaa2_kernels;
+}
+namespace N_SSE4 {
+extern const Cmaa2Kernels cmaa2_kernels;
+}
+namespace N_AVX2 {
+extern const Cmaa2Kernels cmaa2_kernels;
+}
+
+}  // namespace zoneplate

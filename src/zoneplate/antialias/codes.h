@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate::antialias {
+
+/// In what a method mixes colours, and so in what a transparent picture is premultiplied.
+enum class Mixing { Codes, Light };
+
+using CodeFilter = std::function<Rgba8Image(const Rgba8Image&)>;
+
+/// Applies a method that is defined on 8-bit codes to a shown picture.
+///
+/// Edges     a transparent picture is filtered premultiplied, colour and alpha together.
+/// Exact     a pixel whose codes the filter leaves alone keeps its bits; another becomes code / 255.
+DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& filter);
+
+/// `v` rounded to a code, for v in [0, 255].
+inline std::uint8_t rounded_code(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
+
+/// The pixel (1 - t) a + t b of codes as they are, t in [0, 1].
+inline Rgba8 mixed_codes(Rgba8 a, Rgba8 b, float t) {
+  const auto mix = [t](std::uint8_t from, std::uint8_t to) {
+    return rounded_code(static_cast<float>(from) + static_cast<float>(to - from) * t);
+  };
+  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b), mix(a.a, b.a)};
+}
+
+/// A pixel's linear light and alpha in [0, 1], from its codes and back.
+Linear light_of(Rgba8 codes);
+Rgba8 codes_of(Linear light);
+
+/// The pixel (1 - t) a + t b of the light that the codes stand for.
+Rgba8 mixed_light(Rgba8 a, Rgba8 b, float t);
+
+/// Rows of one block of work: the picture is cut the same way for every number of threads.
+inline constexpr std::size_t rows_a_block = 16;
+
+/// Calls `body(y)` for every row of a picture, blocks of rows in parallel.
+void for_rows(int height, const std::function<void(int)>& body);
+
+/// Allocates a picture of the size of `like`, or takes `memory` where it has that size already. The values are unset
+/// leftovers in the second case and zero in the first.
+Rgba8Image sized_like(const Rgba8Image& like, Rgba8Image memory);
+
+}  // namespace zoneplate::antialias

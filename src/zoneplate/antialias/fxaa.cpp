@@ -1,0 +1,407 @@
+// FXAA 3.11: find the direction of an edge by luma, walk along it to its ends, and fetch each pixel's colour up to half
+// a pixel across it.
+//
+// Smooths every edge that can be seen, whatever made it, at the lowest price of all. Weak where an edge is nearly
+// level: the walk ends after a dozen pixels; and it takes fine text and single pixels towards their neighbours.
+//
+// Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the quality path with its presets and the console
+// path. Colours are mixed as codes, as there, unless light is asked for.
+#include "zoneplate/antialias/fxaa.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "zoneplate/antialias/bordered.h"
+#include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/fxaa_kernels.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+void luma_row(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
+    luma[i] = static_cast<std::uint8_t>((299 * r + 587 * g + 114 * b) * 0.001f + 0.5f);
+  }
+}
+
+void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast contrast, std::uint8_t* bits,
+                  std::size_t n) {
+  std::fill_n(bits, (n + 7) / 8, std::uint8_t{0});
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint8_t* m = luma + i;
+    const auto [low, high] = std::minmax({m[0], m[-stride], m[stride], m[-1], m[1]});
+    const int share = high * contrast.factor >> 16;
+    const bool is_seen = high - low > std::max<int>(share, contrast.least);
+    bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | is_seen << i % 8);
+  }
+}
+
+}  // namespace
+
+const FxaaKernels fxaa_kernels = {.luma_row = luma_row, .contrast_row = contrast_row};
+
+}  // namespace scalar
+
+namespace antialias {
+namespace {
+
+/// A preset's search: the distances from the pixel at which it looks, in half pixels, and the last one, which it takes
+/// without looking.
+///
+/// Source    the steps of FXAA 3.11, FXAA_QUALITY__P0 and so on, added up.
+struct Search {
+  int preset;
+  std::array<int, 12> distance;  ///< in half pixels; zeros after the last
+};
+
+constexpr Search searches[] = {
+    {10, {3, 9, 33}},
+    {11, {2, 5, 11, 35}},
+    {12, {2, 5, 9, 17, 41}},
+    {13, {2, 5, 9, 13, 21, 45}},
+    {14, {2, 5, 9, 13, 17, 25, 49}},
+    {15, {2, 5, 9, 13, 17, 21, 29, 53}},
+    {20, {3, 7, 23}},
+    {21, {2, 5, 9, 25}},
+    {22, {2, 5, 9, 13, 29}},
+    {23, {2, 5, 9, 13, 17, 33}},
+    {24, {2, 5, 9, 13, 17, 23, 39}},
+    {25, {2, 5, 9, 13, 17, 21, 29, 45}},
+    {26, {2, 5, 9, 13, 17, 21, 25, 33, 49}},
+    {27, {2, 5, 9, 13, 17, 21, 25, 29, 37, 53}},
+    {28, {2, 5, 9, 13, 17, 21, 25, 29, 33, 41, 57}},
+    {29, {2, 5, 9, 13, 17, 21, 25, 29, 33, 37, 45, 61}},
+    {39, {2, 4, 6, 8, 10, 13, 17, 21, 25, 29, 37, 53}},
+};
+
+std::span<const int> distances_of(int preset) {
+  const auto search = std::ranges::find(searches, preset, &Search::preset);
+  assert(search != std::end(searches));
+  const auto end = std::ranges::find(search->distance, 0);
+  return {search->distance.begin(), end};
+}
+
+/// What of `share` × greatest and `least` the contrast must reach, as the greatest whole contrast that does not.
+FxaaContrast contrast_of(const FxaaOptions& options) {
+  const auto below = [](double v) { return static_cast<int>(std::ceil(v)) - 1; };
+  const auto is_right = [&](int factor) {
+    for (int greatest = 1; greatest < 256; ++greatest)
+      if ((greatest * factor >> 16) != below(greatest * options.threshold)) return false;
+    return true;
+  };
+  const int near = static_cast<int>(options.threshold * 65536);
+  const int factor = is_right(near) ? near : is_right(near + 1) ? near + 1 : near - 1;
+  assert(is_right(factor));
+  return {static_cast<std::uint8_t>(below(options.least * 255)), static_cast<std::uint16_t>(factor)};
+}
+
+/// Where a pixel's colour is to be fetched: this far towards its neighbour at dx, dy.
+struct Shift {
+  float amount = 0;
+  int dx = 0, dy = 0;
+};
+
+/// The 3 × 3 lumas around a pixel.
+struct Around {
+  int m, n, s, w, e, nw, ne, sw, se;
+  Around(const std::uint8_t* p, std::ptrdiff_t stride)
+      : m(p[0]),
+        n(p[-stride]),
+        s(p[stride]),
+        w(p[-1]),
+        e(p[1]),
+        nw(p[-stride - 1]),
+        ne(p[-stride + 1]),
+        sw(p[stride - 1]),
+        se(p[stride + 1]) {}
+
+  bool is_horizontal() const {
+    const int h = std::abs(nw + sw - 2 * w) + 2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e);
+    const int v = std::abs(nw + ne - 2 * n) + 2 * std::abs(w + e - 2 * m) + std::abs(sw + se - 2 * s);
+    return h >= v;
+  }
+
+  /// How far a pixel that is unlike the mean of its neighbours is moved towards them.
+  float subpixel_shift(float strength) const {
+    const int range = std::max({m, n, s, w, e}) - std::min({m, n, s, w, e});
+    const int off = std::abs(2 * (n + s + w + e) + nw + ne + sw + se - 12 * m);
+    const float c = std::min(1.0f, static_cast<float>(off) / static_cast<float>(12 * range));
+    const float smooth = (3 - 2 * c) * c * c;
+    return smooth * smooth * strength;
+  }
+};
+
+/// A luma as the original reads it. Where a search meets its threshold exactly, the rounding of these decides.
+constexpr std::array<double, 256> unit_luma = [] {
+  std::array<double, 256> table{};
+  for (std::size_t code = 0; code < 256; ++code) table[code] = static_cast<double>(code) / 255;
+  return table;
+}();
+
+/// The edge between a pixel and its neighbour across it, and how far its two ends are.
+class Edge {
+ public:
+  Edge(const std::uint8_t* pixel, std::ptrdiff_t along, std::ptrdiff_t across)
+      : pixel_(pixel),
+        along_(along),
+        across_(across),
+        end_(std::abs(unit_luma[pixel[0]] - unit_luma[pixel[across]]) * 0.25),
+        here_(boundary(0)) {}
+
+  /// The shift at which the line through the ends leaves the pixel; 0 if the nearer end bends the other way.
+  float shift(std::span<const int> distances) const {
+    int before = distances[0], after = distances[0];
+    double error_before = error(-before), error_after = error(after);
+    bool is_before_done = is_end(error_before), is_after_done = is_end(error_after);
+    if (!is_before_done) before = distances[1];
+    if (!is_after_done) after = distances[1];
+    for (std::size_t i = 2; i < distances.size() && !(is_before_done && is_after_done); ++i) {
+      if (!is_before_done) {
+        error_before = error(-before), is_before_done = is_end(error_before);
+        if (!is_before_done) before = distances[i];
+      }
+      if (!is_after_done) {
+        error_after = error(after), is_after_done = is_end(error_after);
+        if (!is_after_done) after = distances[i];
+      }
+    }
+    const double error_at_end = before < after ? error_before : error_after;
+    const bool is_below = unit_luma[pixel_[0]] - here_ < 0;
+    if ((error_at_end < 0) == is_below) return 0;
+    return 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after);
+  }
+
+ private:
+  /// The luma on the boundary, `distance` half pixels along it, less that at the pixel.
+  double error(int distance) const { return (boundary(distance >> 1) + boundary((distance + 1) >> 1)) * 0.5 - here_; }
+  double boundary(std::ptrdiff_t i) const {
+    const std::uint8_t* p = pixel_ + i * along_;
+    return (unit_luma[p[0]] + unit_luma[p[across_]]) * 0.5;
+  }
+  bool is_end(double error) const { return std::abs(error) >= end_; }
+
+  const std::uint8_t* pixel_;
+  std::ptrdiff_t along_, across_;
+  double end_, here_;
+};
+
+Shift quality_shift(const std::uint8_t* pixel, std::ptrdiff_t stride, std::span<const int> distances, float subpixel) {
+  const Around a(pixel, stride);
+  const bool is_horizontal = a.is_horizontal();
+  const int first = std::abs((is_horizontal ? a.n : a.w) - a.m), second = std::abs((is_horizontal ? a.s : a.e) - a.m);
+  const int side = first >= second ? -1 : 1;
+  const std::ptrdiff_t along = is_horizontal ? 1 : stride, across = is_horizontal ? stride : 1;
+  const float shift = Edge(pixel, along, side * across).shift(distances);
+  return {std::max(shift, a.subpixel_shift(subpixel)), is_horizontal ? 0 : side, is_horizontal ? side : 0};
+}
+
+Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
+  return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
+}
+
+using Luma = Bordered<std::uint8_t>;
+
+Luma make_luma(const Rgba8Image& image, const FxaaOptions& options, const FxaaKernels& kernels) {
+  Luma luma(image.width(), image.height(), fxaa_reach(options));
+  for_rows(image.height(), [&](int y) {
+    const auto row = image.row(y);
+    if (options.is_green_luma)
+      std::ranges::transform(row, luma.at(0, y), &Rgba8::g);
+    else
+      kernels.luma_row(&row[0].r, luma.at(0, y), row.size());
+  });
+  luma.extend();
+  return luma;
+}
+
+void quality_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, std::span<const int> distances,
+                 std::span<const std::uint8_t> bits, int y, std::span<Rgba8> out) {
+  for (int block = 0; block < image.width(); block += 64) {
+    std::uint64_t left = 0;
+    std::memcpy(&left, bits.data() + block / 8, sizeof left);
+    if (image.width() - block < 64) left &= (std::uint64_t{1} << (image.width() - block)) - 1;
+    for (; left != 0; left &= left - 1) {
+      const int x = block + std::countr_zero(left);
+      const Shift shift = quality_shift(luma.at(x, y), luma.stride(), distances, options.subpixel);
+      const Rgba8 here = image(x, y), there = pixel_at(image, x + shift.dx, y + shift.dy);
+      out[static_cast<std::size_t>(x)] =
+          options.mixes_light ? mixed_light(here, there, shift.amount) : mixed_codes(here, there, shift.amount);
+    }
+  }
+}
+
+/// A colour as four floats in codes, and the luma that goes with it.
+struct Tap {
+  float rgba[4], luma;
+};
+
+Tap mean(const Tap& a, const Tap& b) {
+  Tap out{{}, (a.luma + b.luma) * 0.5f};
+  for (int c = 0; c < 4; ++c) out.rgba[c] = (a.rgba[c] + b.rgba[c]) * 0.5f;
+  return out;
+}
+
+/// The bilinear fetch at a point, relative to the centre of pixel x, y.
+Tap fetch(const Rgba8Image& image, const Luma& luma, int x, int y, float dx, float dy) {
+  const float left = std::floor(dx), top = std::floor(dy);
+  x += static_cast<int>(left), y += static_cast<int>(top);
+  const float u = dx - left, v = dy - top;
+  const Rgba8 p[4] = {pixel_at(image, x, y), pixel_at(image, x + 1, y), pixel_at(image, x, y + 1),
+                      pixel_at(image, x + 1, y + 1)};
+  const auto mix = [&](float a, float b, float c, float d) {
+    const float upper = a + (b - a) * u, lower = c + (d - c) * u;
+    return upper + (lower - upper) * v;
+  };
+  return {{mix(p[0].r, p[1].r, p[2].r, p[3].r), mix(p[0].g, p[1].g, p[2].g, p[3].g),
+           mix(p[0].b, p[1].b, p[2].b, p[3].b), mix(p[0].a, p[1].a, p[2].a, p[3].a)},
+          mix(*luma.at(x, y), *luma.at(x + 1, y), *luma.at(x, y + 1), *luma.at(x + 1, y + 1))};
+}
+
+/// One pixel of the console path: two taps half a pixel along the edge, and two farther ones where those stay within
+/// the lumas around.
+Rgba8 console_pixel(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, int x, int y) {
+  const Rgba8 here = image(x, y);
+  const std::uint8_t* p = luma.at(x, y);
+  const std::ptrdiff_t s = luma.stride();
+  // Lumas at the four corners of the pixel; the nudge (1/384 in the original) keeps the direction from being zero.
+  const auto corner = [&](std::ptrdiff_t dx, std::ptrdiff_t dy) {
+    return static_cast<float>(p[0] + p[dx] + p[dy] + p[dx + dy]) / 4;
+  };
+  const float nw = corner(-1, -s), ne = corner(1, -s) + 255.0f / 384, sw = corner(-1, s), se = corner(1, s);
+  const float high = std::max({nw, ne, sw, se}), low = std::min({nw, ne, sw, se});
+  const float m = p[0];
+  const float wanted = std::max(static_cast<float>(options.least) * 255, high * static_cast<float>(options.threshold));
+  if (std::max(high, m) - std::min(low, m) < wanted) return here;
+
+  float dx = (sw - ne) + (se - nw), dy = (sw - ne) - (se - nw);
+  const float length = std::sqrt(dx * dx + dy * dy);
+  if (!(length > 0)) return here;
+  dx /= length, dy /= length;
+  const Tap near =
+      mean(fetch(image, luma, x, y, -dx * 0.5f, -dy * 0.5f), fetch(image, luma, x, y, dx * 0.5f, dy * 0.5f));
+
+  const float scale = std::min(std::abs(dx), std::abs(dy)) * options.sharpness;
+  const auto stretched = [&](float v) { return v == 0 ? 0.0f : 2 * std::clamp(v / scale, -2.0f, 2.0f); };
+  const float fx = stretched(dx), fy = stretched(dy);
+  const Tap far = mean(near, mean(fetch(image, luma, x, y, -fx, -fy), fetch(image, luma, x, y, fx, fy)));
+  const Tap& c = far.luma < low || far.luma > high ? near : far;
+  return {rounded_code(c.rgba[0]), rounded_code(c.rgba[1]), rounded_code(c.rgba[2]), rounded_code(c.rgba[3])};
+}
+
+}  // namespace
+
+int fxaa_reach(const FxaaOptions& options) {
+  constexpr int console_reach = 5;
+  if (options.preset == FxaaOptions::console) return console_reach;
+  // The last distance is taken without looking.
+  const std::span<const int> distances = distances_of(options.preset);
+  return (distances[distances.size() - 2] + 1) / 2 + 1;
+}
+
+Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory) {
+  if (image.empty()) return image;
+  const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels, N_SSE4::fxaa_kernels, N_AVX2::fxaa_kernels);
+  const Luma luma = make_luma(image, options, kernels);
+  Rgba8Image out = sized_like(image, std::move(memory));
+  if (options.preset == FxaaOptions::console) {
+    for_rows(image.height(), [&](int y) {
+      for (int x = 0; x < image.width(); ++x) out(x, y) = console_pixel(image, luma, options, x, y);
+    });
+    return out;
+  }
+
+  const FxaaContrast contrast = contrast_of(options);
+  const std::span<const int> distances = distances_of(options.preset);
+  const std::size_t bytes = (static_cast<std::size_t>(image.width()) + 63) / 64 * 8;
+  parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t> bits(bytes);
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      std::ranges::copy(image.row(y), out.row(y).begin());
+      kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, bits.data(),
+                           static_cast<std::size_t>(image.width()));
+      quality_row(image, luma, options, distances, bits, y, out.row(y));
+    }
+  });
+  return out;
+}
+
+namespace {
+
+constexpr std::string_view presets[] = {"10", "11", "12", "13", "14", "15", "20", "21", "22",
+                                        "23", "24", "25", "26", "27", "28", "29", "39", "console"};
+
+/// The contrast that is treated, by the names and values of the original's comments.
+struct Threshold {
+  std::string_view name;
+  double share, least;
+};
+constexpr Threshold thresholds[] = {{"fastest", 0.333, 0.0833},
+                                    {"low", 0.25, 0.0833},
+                                    {"medium", 0.166, 0.0833},
+                                    {"high", 0.125, 0.0625},
+                                    {"overkill", 0.063, 0.0312}};
+constexpr std::string_view threshold_names[] = {"fastest", "low", "medium", "high", "overkill"};
+constexpr std::string_view lumas[] = {"rec601", "green"};
+constexpr std::string_view mixings[] = {"codes", "light"};
+constexpr Param params[] = {
+    {.name = "preset", .meaning = "how far and how finely edges are followed", .value = 2, .names = presets},
+    {.name = "threshold", .meaning = "what contrast is treated", .value = 2, .names = threshold_names},
+    {.name = "subpixel", .meaning = "percent of single pixels' smoothing", .value = 75, .low = 0, .high = 100},
+    {.name = "luma", .meaning = "what contrast is measured in", .value = 0, .names = lumas},
+    {.name = "mix", .meaning = "in what colours are mixed", .value = 0, .names = mixings},
+};
+
+FxaaOptions options_of(const Settings& s) {
+  FxaaOptions o;
+  const std::string preset(s.chosen("preset"));
+  o.preset = preset == "console" ? FxaaOptions::console : std::stoi(preset);
+  if (o.preset == FxaaOptions::console && !s.is_given("threshold"))
+    o.threshold = 0.125, o.least = 0.05;  // the console path's own defaults
+  else
+    for (const Threshold& t : thresholds)
+      if (t.name == s.chosen("threshold")) o.threshold = t.share, o.least = t.least;
+  o.subpixel = static_cast<float>(s.integer("subpixel")) / 100;
+  o.is_green_luma = s.chosen("luma") == "green";
+  o.mixes_light = s.chosen("mix") == "light";
+  return o;
+}
+
+class Fxaa : public Resolver {
+ public:
+  explicit Fxaa(const FxaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request;
+    request.halo = fxaa_reach(options_);
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame&) override {
+    const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
+    return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_fxaa(i, options_); });
+  }
+
+ private:
+  FxaaOptions options_;
+};
+
+}  // namespace
+
+Method fxaa();
+
+Method fxaa() {
+  return {.name = "fxaa",
+          .summary = "one fetch across each edge, as far as its ends are near",
+          .source = "Lottes 2011, FXAA 3.11",
+          .params = params,
+          .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<Fxaa>(options_of(s)); }};
+}
+
+}  // namespace antialias
+}  // namespace zoneplate

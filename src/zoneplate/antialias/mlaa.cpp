@@ -1,0 +1,213 @@
+// Morphological antialiasing: take the borders between unlike pixels for steps of straight lines, and give each pixel
+// the share of the other side that the line through the steps' middles cuts off.
+//
+// SMAA's ancestor, in both published forms. Weak at corners, which it rounds, and where noise breaks the borders.
+//
+// Source: Jimenez, Masia, Echevarria, Navarro, Gutierrez, Practical Morphological Anti-Aliasing, GPU Pro 2, 2011 (code
+// 2.0); Reshetov, Morphological Antialiasing, HPG 2009 (see mlaa_reshetov.cpp).
+#include "zoneplate/antialias/mlaa.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/smaa_tables.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// Areas of every pair of distances and of what crosses the ends, without the smoothing that SMAA added; in codes.
+class MlaaAreas {
+ public:
+  explicit MlaaAreas(int greatest) : size_(greatest + 1), codes_(16 * static_cast<std::size_t>(size_ * size_)) {
+    for (int pattern = 0; pattern < 16; ++pattern)
+      for (int right = 0; right < size_; ++right)
+        for (int left = 0; left < size_; ++left) {
+          const AreaPair area = orthogonal_area(pattern, left, right, 0, false);
+          codes_[index(pattern, left, right)] = {static_cast<std::uint8_t>(255 * area.below + 0.5),
+                                                 static_cast<std::uint8_t>(255 * area.above + 0.5)};
+        }
+  }
+  struct Codes {
+    std::uint8_t below, above;
+  };
+  Codes at(int pattern, int left, int right) const { return codes_[index(pattern, left, right)]; }
+
+ private:
+  std::size_t index(int pattern, int left, int right) const {
+    return static_cast<std::size_t>((pattern * size_ + right) * size_ + left);
+  }
+  int size_;
+  std::vector<Codes> codes_;
+};
+
+/// A border is an edge where its difference of luma reaches the threshold and half of the greatest of the pixel's four.
+EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int border) {
+  constexpr float white = 255 * 10000;
+  const float threshold = std::round(static_cast<float>(options.threshold) * white);
+  const auto width = static_cast<std::size_t>(image.width());
+  const SmaaKernels& kernels = pick(best_isa(), scalar::smaa_kernels, N_SSE4::smaa_kernels, N_AVX2::smaa_kernels);
+  EdgePlane edges(image.width(), image.height(), border);
+  detect_edges<float>(
+      edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },
+      [&](const EdgeRows<float>& rows, std::uint8_t* out) {
+        const float *above = rows.row[1], *here = rows.row[2], *below = rows.row[3];
+        for (std::size_t x = 0; x < width; ++x) {
+          const float l = here[x], left = std::abs(l - *(here + x - 1)), top = std::abs(l - above[x]);
+          const float greatest =
+              std::max(std::max(left, top), std::max(std::abs(l - here[x + 1]), std::abs(l - below[x])));
+          const bool is_left = left >= threshold && 2 * left >= greatest,
+                     is_top = top >= threshold && 2 * top >= greatest;
+          out[x] = static_cast<std::uint8_t>(is_left | is_top << 1);
+        }
+      });
+  edges.extend();
+  return edges;
+}
+
+/// The edges along a line from one of its pixels, two at a time as the shader fetches them.
+struct Line {
+  const std::uint8_t* pixel;
+  std::ptrdiff_t along, across;
+  std::uint8_t own, cross;
+
+  int is(int i, int j, std::uint8_t edge) const { return pixel[i * along + j * across] & edge ? 1 : 0; }
+
+  /// How far the line goes on; of the last two pixels it is not known which one was an edge.
+  int distance(int direction, int steps) const {
+    for (int i = 0; i < steps; ++i) {
+      const int both = is(direction * (2 * i + 1), 0, own) + is(direction * (2 * i + 2), 0, own);
+      if (both < 2) return 2 * i + both;
+    }
+    return 2 * steps;
+  }
+
+  MlaaAreas::Codes areas(const MlaaAreas& table, int steps) const {
+    const int left = distance(-1, steps), right = distance(1, steps);
+    const int pattern = is(-left, 0, cross) * left_down | is(-left, -1, cross) * left_up |
+                        is(right + 1, 0, cross) * right_down | is(right + 1, -1, cross) * right_up;
+    return table.at(pattern, left, right);
+  }
+};
+
+/// Every weight's mixture counts by its weight.
+Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const std::uint8_t (&weights)[4], bool mixes_light) {
+  const auto at = [&](int i, int j) {
+    const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
+    if (mixes_light) return light_of(c);
+    return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
+  };
+  const Linear here = at(x, y), others[4] = {at(x, y - 1), at(x, y + 1), at(x - 1, y), at(x + 1, y)};
+  Linear sum{0, 0, 0, 0};
+  float total = 0;
+  for (int i = 0; i < 4; ++i) {
+    const float a = static_cast<float>(weights[i]) / 255;
+    sum = sum + (here * (1 - a) + others[i] * a) * a;
+    total += a;
+  }
+  const Linear out{sum.r / total, sum.g / total, sum.b / total, sum.a / total};
+  if (mixes_light) return codes_of(out);
+  return {rounded_code(out.r), rounded_code(out.g), rounded_code(out.b), rounded_code(out.a)};
+}
+
+int reach_of(const MlaaOptions& options) {
+  constexpr int whole_picture = 32768;
+  return options.kind == MlaaOptions::Kind::Reshetov ? whole_picture : 2 * options.steps + 4;
+}
+
+}  // namespace
+
+WeightPlane mlaa_jimenez_weights(const Rgba8Image& image, const MlaaOptions& options) {
+  const MlaaAreas table(2 * options.steps);
+  const EdgePlane edges = find_edges(image, options, reach_of(options));
+  WeightPlane weights(image.width(), image.height(), 1);
+  for_rows(image.height(), [&](int y) {
+    SmaaWeights* row = weights.at(0, y);
+    for (int x = 0; x < image.width(); ++x) {
+      const std::uint8_t* pixel = edges.at(x, y);
+      row[x] = {};
+      if (*pixel & top_edge) {
+        const auto codes = Line{pixel, 1, edges.stride(), top_edge, left_edge}.areas(table, options.steps);
+        row[x].from_above = codes.below, row[x].to_above = codes.above;
+      }
+      if (*pixel & left_edge) {
+        const auto codes = Line{pixel, edges.stride(), 1, left_edge, top_edge}.areas(table, options.steps);
+        row[x].from_left = codes.below, row[x].to_left = codes.above;
+      }
+    }
+  });
+  weights.extend();
+  return weights;
+}
+
+Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8Image memory) {
+  if (image.empty()) return image;
+  const WeightPlane weights =
+      options.kind == MlaaOptions::Kind::Reshetov ? mlaa_reshetov_weights(image) : mlaa_jimenez_weights(image, options);
+  Rgba8Image out = sized_like(image, std::move(memory));
+  for_rows(image.height(), [&](int y) {
+    const SmaaWeights *row = weights.at(0, y), *next = weights.at(0, y + 1);
+    std::ranges::copy(image.row(y), out.row(y).begin());
+    for (int x = 0; x < image.width(); ++x) {
+      const std::uint8_t w[4] = {row[x].from_above, next[x].to_above, row[x].from_left, row[x + 1].to_left};
+      if ((w[0] | w[1] | w[2] | w[3]) != 0) out(x, y) = mixed_pixel(image, x, y, w, options.mixes_light);
+    }
+  });
+  return out;
+}
+
+namespace {
+
+constexpr std::string_view kinds[] = {"jimenez", "reshetov"};
+constexpr std::string_view mixings[] = {"light", "codes"};
+constexpr int step_choices[] = {4, 8, 16, 32, 64};
+constexpr Param params[] = {
+    {.name = "kind",
+     .meaning = "of limited length with a table, or the first of any length",
+     .value = 0,
+     .names = kinds},
+    {.name = "steps",
+     .meaning = "jimenez: how far an edge is followed, by two pixels",
+     .value = 16,
+     .choices = step_choices},
+    {.name = "mix", .meaning = "in what colours are mixed", .value = 0, .names = mixings},
+};
+
+class Mlaa : public Resolver {
+ public:
+  explicit Mlaa(const MlaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request;
+    request.halo = reach_of(options_);
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame&) override {
+    const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
+    return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_mlaa(i, options_); });
+  }
+
+ private:
+  MlaaOptions options_;
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  return std::make_unique<Mlaa>(MlaaOptions{.kind = static_cast<MlaaOptions::Kind>(s.integer("kind")),
+                                            .steps = s.integer("steps"),
+                                            .mixes_light = s.chosen("mix") == "light"});
+}
+
+}  // namespace
+
+Method mlaa();
+
+Method mlaa() {
+  return {.name = "mlaa",
+          .summary = "borders taken for steps of straight lines, pixels mixed by the areas cut off",
+          .source = "Reshetov 2009, Jimenez 2011",
+          .params = params,
+          .make = make,
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,79 @@
+#include "zoneplate/antialias/mlaa.h"
+
+#include <gtest/gtest.h>
+
+#include "zoneplate/antialias/charts_for_test.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+using Kind = MlaaOptions::Kind;
+
+TEST(Mlaa, OutputsHaveTheirBits) {
+  const Rgba8Image image = random_shapes(200, 150, 1);
+  const auto hash = [&](const MlaaOptions& o) { return hash_of(apply_mlaa(image, o)); };
+  EXPECT_EQ(hash({.kind = Kind::Jimenez}), 0x337420ebaf291ca9u);
+  EXPECT_EQ(hash({.steps = 4, .mixes_light = false}), 0xd3f9bbbce922e22u);
+  EXPECT_EQ(hash({.kind = Kind::Reshetov}), 0xc027e75bd9b0a194u);
+}
+
+TEST(Mlaa, StepsOfOneLengthBecomeTheirLine) {
+  // Every step of a slope 1 / n is a Z, and the line through the middles of its ends is the edge itself.
+  for (const Kind kind : {Kind::Jimenez, Kind::Reshetov})
+    for (int n = 3; n < 24; ++n) {
+      const Rgba8Image stairs = make_codes(200, 90, [&](int x, int y) {
+        return y < 14 + x / n ? Rgba8{200, 200, 200} : Rgba8{50, 50, 50};
+      });
+      const Rgba8Image out = apply_mlaa(stairs, {.kind = kind, .mixes_light = false});
+      for (int x = 2 * n; x < 200 - 2 * n; ++x) {
+        if (x % n == 0 || x % n == n - 1) continue;  // the steps themselves are lines too, of one pixel
+        for (int y = 0; y < 90; ++y) {
+          const double middle = 13.5 + (x + 0.5) / n;  // where the edge passes this column
+          const double area = std::clamp(middle - y, 0.0, 1.0);
+          // A line that leaves the pixel's row inside the column is cut there: not more than 1 / (8 n).
+          ASSERT_NEAR(out(x, y).g, 50 + 150 * area, 1.5 + 150 / (8.0 * n)) << n << ": " << x << "," << y;
+        }
+      }
+    }
+}
+
+TEST(Mlaa, InvertedPicturesGiveInvertedResults) {
+  const auto inverted = [](Rgba8Image image) {
+    for (Rgba8& c : image.values()) c = {std::uint8_t(255 - c.r), std::uint8_t(255 - c.g), std::uint8_t(255 - c.b)};
+    return image;
+  };
+  const Rgba8Image image = random_shapes(120, 90, 9);
+  for (const Kind kind : {Kind::Jimenez, Kind::Reshetov}) {
+    const MlaaOptions options{.kind = kind, .mixes_light = false};
+    // Rounding halves upwards is the one thing that is not turned.
+    EXPECT_EQ(count_differing(apply_mlaa(inverted(image), options), inverted(apply_mlaa(image, options)), 1), 0);
+  }
+}
+
+TEST(Mlaa, LinesSplitWhereColoursMeet) {
+  EXPECT_EQ(split_height(0, 9, 9, 0), 0.5f);  // black and white: every height does
+  // (1 - h) near + h across = h beyond + (1 - h) beyond_near
+  for (const auto& [near, across, beyond, beyond_near] :
+       {std::array{10, 90, 60, 30}, {0, 50, 20, 5}, {7, 200, 3, 150}}) {
+    const double h = static_cast<double>(split_height(near, across, beyond, beyond_near));
+    ASSERT_GE(h, 0);
+    ASSERT_LE(h, 1);
+    EXPECT_NEAR((1 - h) * near + h * across, h * beyond + (1 - h) * beyond_near, 1e-4);
+  }
+  EXPECT_EQ(split_height(10, 20, 90, 30), 0.5f);  // no height does
+}
+
+TEST(Mlaa, WhatIsTooFaintIsNoEdge) {
+  const auto step = [](std::uint8_t low, std::uint8_t high) {
+    return make_codes(60, 30, [=](int x, int y) {
+      return y < 10 + x / 6 ? Rgba8{high, high, high} : Rgba8{low, low, low};
+    });
+  };
+  EXPECT_EQ(apply_mlaa(step(100, 125), {}), step(100, 125));
+  EXPECT_NE(apply_mlaa(step(100, 126), {}), step(100, 126));
+  EXPECT_EQ(apply_mlaa(step(100, 115), {.kind = Kind::Reshetov}), step(100, 115));
+  EXPECT_NE(apply_mlaa(step(100, 116), {.kind = Kind::Reshetov}), step(100, 116));
+}
+
+}  // namespace
+}  // namespace zoneplate::antialias

@@ -1,0 +1,170 @@
+// What every method that works on the shown picture must keep, whatever it does.
+#include <gtest/gtest.h>
+
+#include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/transfer.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// A method, and the share of an intricate chart's pixels that may differ when the chart is mirrored left to right,
+/// upside down or on its diagonal, in thousandths. Where that is not 0 the method's own definition prefers a side.
+struct Case {
+  const char* text;
+  int left_right, up_down, diagonal;
+};
+const Case cases[] = {
+    // Of two equal gradients the upper or left one is taken, and of two equal directions the horizontal one.
+    {"fxaa", 0, 0, 4},
+    {"fxaa:preset=39,threshold=overkill,mix=light", 0, 0, 4},
+    // The nudge to the north-east luma turns the direction of level and upright edges.
+    {"fxaa:preset=console", 70, 70, 90},
+    // Diagonals are looked for from top edges, and of two equal axes the vertical one is mixed.
+    {"smaa", 16, 14, 15},
+    {"smaa:preset=medium,edges=color", 6, 6, 3},
+    {"smaa:preset=ultra", 18, 15, 16},
+    // A border's contrast is judged from the pixel on its right or below it.
+    {"mlaa", 5, 6, 0},
+    {"mlaa:mix=codes,steps=8", 5, 6, 0},
+    {"mlaa:kind=reshetov", 0, 0, 0},
+    {"cmaa2", 0, 0, 0},
+    {"cmaa2:preset=ultra,sharp=1", 0, 0, 0},
+    // The level blur is given in full, the upright one by half; of the long ones the level one has the last word.
+    {"dlaa", 0, 0, 65},
+    // Of two equal gradients the upper or left one is taken, and of two equal directions the horizontal one.
+    {"ddaa", 4, 2, 4},
+    {"ddaa:threshold=extreme", 4, 2, 4},
+};
+
+DisplayImage shown(const Rgba8Image& codes) {
+  DisplayImage image(codes.width(), codes.height());
+  std::ranges::transform(codes.values(), image.values().begin(), [](Rgba8 c) {
+    return Display{static_cast<float>(c.r) / 255, static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255,
+                   static_cast<float>(c.a) / 255};
+  });
+  return image;
+}
+
+DisplayImage finished(const char* text, DisplayImage image) {
+  return make_resolver(methods(), text)->finish(std::move(image), Frame{});
+}
+
+Rgba8Image filtered(const char* text, const Rgba8Image& codes) { return quantize8(finished(text, shown(codes))); }
+
+template <class From>
+Rgba8Image moved(const Rgba8Image& image, int width, int height, const From& from) {
+  return make_codes(width, height, [&](int x, int y) {
+    const auto [i, j] = from(x, y);
+    return image(i, j);
+  });
+}
+
+TEST(PostProcess, ConstantPicturesKeepTheirBits) {
+  for (const Case& c : cases)
+    for (const Display value :
+         {Display{0.1234567f, 0.7f, 1, 1}, Display{0, 0, 0, 0}, Display{0.3f, 0.2f, 0.9f, 0.4f}}) {
+      const DisplayImage image(70, 41, value);
+      EXPECT_EQ(finished(c.text, image), image) << c.text;
+    }
+}
+
+TEST(PostProcess, PicturesOfAnySizeAreTaken) {
+  for (const Case& c : cases)
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {65, 5}, {0, 0}}) {
+      const Rgba8Image image = random_shapes(width, height, 3);
+      const Rgba8Image out = filtered(c.text, image);
+      EXPECT_EQ(out.width(), width);
+      EXPECT_EQ(out.height(), height);
+    }
+}
+
+TEST(PostProcess, SomethingIsDoneAndNotTooMuch) {
+  const Rgba8Image image = random_shapes(160, 120, 4);
+  for (const Case& c : cases) {
+    const int changed = count_differing(filtered(c.text, image), image, 0);
+    EXPECT_GT(changed, 160 * 120 / 50) << c.text;
+    EXPECT_LT(changed, 160 * 120 * 2 / 3) << c.text;
+  }
+}
+
+TEST(PostProcess, ThreadsLeaveNoTrace) {
+  const Rgba8Image image = random_shapes(150, 130, 5);
+  for (const Case& c : cases) {
+    Rgba8Image expected;
+    with_threads(1, [&] { expected = filtered(c.text, image); });
+    for (const int threads : {2, 5})
+      with_threads(threads, [&] { EXPECT_EQ(filtered(c.text, image), expected) << c.text; });
+  }
+}
+
+TEST(PostProcess, ADisplacedPictureGivesADisplacedResult) {
+  const Rgba8Image chart = random_shapes(64, 48, 6);
+  const auto placed = [&](int dx, int dy) {
+    return make_codes(340, 330, [&](int x, int y) {
+      const int i = x - dx, j = y - dy;
+      return i >= 0 && j >= 0 && i < 64 && j < 48 ? chart(i, j) : Rgba8{90, 100, 20};
+    });
+  };
+  for (const Case& c : cases) {
+    const Rgba8Image a = filtered(c.text, placed(138, 140)), b = filtered(c.text, placed(141, 145));
+    for (int y = 135; y < 193; ++y)
+      for (int x = 133; x < 207; ++x) ASSERT_EQ(a(x, y), b(x + 3, y + 5)) << c.text << " " << x << "," << y;
+  }
+}
+
+TEST(PostProcess, ACropWithItsHaloEqualsTheWhole) {
+  constexpr int width = 330, height = 310, left = 140, top = 131, right = 190, bottom = 178;
+  const Rgba8Image image = random_shapes(width, height, 7);
+  for (const Case& c : cases) {
+    const int halo = make_resolver(methods(), c.text)->ask(0).halo;
+    ASSERT_GT(halo, 0);
+    const int x0 = std::max(0, left - halo), y0 = std::max(0, top - halo);
+    const int w = std::min(width, right + halo) - x0, h = std::min(height, bottom + halo) - y0;
+    const Rgba8Image part = moved(image, w, h, [&](int x, int y) { return std::pair{x + x0, y + y0}; });
+    const Rgba8Image whole = filtered(c.text, image), out = filtered(c.text, part);
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x) ASSERT_EQ(out(x - x0, y - y0), whole(x, y)) << c.text << " " << x << "," << y;
+  }
+}
+
+TEST(PostProcess, MirroredPicturesGiveMirroredResults) {
+  constexpr int size = 160;
+  const Rgba8Image image = random_shapes(size, size, 8);
+  const auto left_right = [](int x, int y) { return std::pair{size - 1 - x, y}; };
+  const auto up_down = [](int x, int y) { return std::pair{x, size - 1 - y}; };
+  const auto diagonal = [](int x, int y) { return std::pair{y, x}; };
+  for (const Case& c : cases) {
+    const Rgba8Image out = filtered(c.text, image);
+    const auto differing = [&](const auto& mirror) {
+      const Rgba8Image mirrored = filtered(c.text, moved(image, size, size, mirror));
+      return count_differing(mirrored, moved(out, size, size, mirror), 0) * 1000 / (size * size);
+    };
+    EXPECT_LE(differing(left_right), c.left_right) << c.text;
+    EXPECT_LE(differing(up_down), c.up_down) << c.text;
+    EXPECT_LE(differing(diagonal), c.diagonal) << c.text;
+  }
+}
+
+TEST(PostProcess, TransparentPicturesKeepTheirColourAtTheEdge) {
+  // An opaque disc of one colour on nothing: its rim becomes transparent, and nowhere darker.
+  const Rgba8Image disc = make_codes(48, 48, [](int x, int y) {
+    return (x - 23) * (x - 23) + (y - 24) * (y - 24) < 300 ? Rgba8{255, 180, 60, 255} : Rgba8{0, 0, 0, 0};
+  });
+  for (const Case& c : cases) {
+    const Rgba8Image out = filtered(c.text, disc);
+    int mixed = 0;
+    for (const Rgba8 p : out.values()) {
+      mixed += p.a > 0 && p.a < 255;
+      if (p.a < 40) continue;
+      EXPECT_NEAR(p.r, 255, 4) << c.text;
+      EXPECT_NEAR(p.g, 180, 4) << c.text;
+      EXPECT_NEAR(p.b, 60, 4) << c.text;
+    }
+    EXPECT_GT(mixed, 40) << c.text;
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate::antialias

@@ -1,0 +1,171 @@
+// SMAA: find edges by contrast, follow each to its ends, and give its pixels the areas that the line through them
+// takes.
+//
+// Keeps corners, finds diagonals, and smooths long edges better than FXAA. Weak where there is less than a pixel: thin
+// wires stay broken, and an edge beyond the search's length is taken for two.
+//
+// Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
+// code v2.8: 1x and S2x. Edges are found on codes, colours are mixed in linear light.
+#include "zoneplate/antialias/smaa.h"
+
+#include <algorithm>
+
+#include "zoneplate/antialias/codes.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+float share_of(std::uint8_t weight) { return static_cast<float>(weight) / 255; }
+
+/// A pixel mixed with its neighbours on the axis of its greater weight. `right` and `below` are what the pixels there
+/// give to this one.
+Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, SmaaWeights own, std::uint8_t right, std::uint8_t below,
+                  bool mixes_light) {
+  const auto at = [&](int i, int j) {
+    const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
+    if (mixes_light) return light_of(c);
+    return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
+  };
+  const bool is_horizontal = std::max(right, own.from_left) > std::max(below, own.from_above);
+  const float first = share_of(is_horizontal ? right : below);
+  const float second = share_of(is_horizontal ? own.from_left : own.from_above);
+  const Linear here = at(x, y);
+  const Linear a = is_horizontal ? at(x + 1, y) : at(x, y + 1), b = is_horizontal ? at(x - 1, y) : at(x, y - 1);
+  const float sum = first + second, u = first / sum, v = second / sum;
+  const auto mix = [&](float c, float p, float q) { return u * (c + (p - c) * first) + v * (c + (q - c) * second); };
+  const Linear out{mix(here.r, a.r, b.r), mix(here.g, a.g, b.g), mix(here.b, a.b, b.b), mix(here.a, a.a, b.a)};
+  if (mixes_light) return codes_of(out);
+  return {rounded_code(out.r), rounded_code(out.g), rounded_code(out.b), rounded_code(out.a)};
+}
+
+/// The third pass.
+void blend_row(const Rgba8Image& image, const WeightPlane& weights, bool mixes_light, int y, std::span<Rgba8> out) {
+  std::ranges::copy(image.row(y), out.begin());
+  const SmaaWeights *row = weights.at(0, y), *next = weights.at(0, y + 1);
+  for (int x = 0; x < image.width(); ++x) {
+    const SmaaWeights own = row[x];
+    const std::uint8_t right = row[x + 1].to_left, below = next[x].to_above;
+    if ((own.from_above | own.from_left | right | below) == 0) continue;
+    out[static_cast<std::size_t>(x)] = mixed_pixel(image, x, y, own, right, below, mixes_light);
+  }
+}
+
+}  // namespace
+
+Rgba8Image apply_smaa(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options,
+                      Rgba8Image memory) {
+  if (image.empty()) return image;
+  const WeightPlane weights = smaa_weights(smaa_edges(image, depth, options), options);
+  Rgba8Image out = sized_like(image, std::move(memory));
+  for_rows(image.height(), [&](int y) { blend_row(image, weights, options.mixes_light, y, out.row(y)); });
+  return out;
+}
+
+namespace {
+
+struct Preset {
+  std::string_view name;
+  double threshold;
+  int steps, diagonal_steps, corner_rounding;
+};
+constexpr Preset presets[] = {
+    {"low", 0.15, 4, 0, 100}, {"medium", 0.1, 8, 0, 100}, {"high", 0.1, 16, 8, 25}, {"ultra", 0.05, 32, 16, 25}};
+constexpr std::string_view preset_names[] = {"low", "medium", "high", "ultra"};
+constexpr std::string_view edges_names[] = {"luma", "color", "depth"};
+constexpr std::string_view modes[] = {"1x", "s2x"};
+constexpr Param params[] = {
+    {.name = "preset", .meaning = "how faint and how long edges are found", .value = 2, .names = preset_names},
+    {.name = "edges", .meaning = "what edges are found in", .value = 0, .names = edges_names},
+    {.name = "mode", .meaning = "s2x: two samples a pixel, each treated as a picture", .value = 0, .names = modes},
+};
+
+SmaaOptions options_of(const Settings& s) {
+  SmaaOptions o;
+  for (const Preset& p : presets)
+    if (p.name == s.chosen("preset"))
+      o.threshold = p.threshold, o.steps = p.steps, o.diagonal_steps = p.diagonal_steps,
+      o.corner_rounding = p.corner_rounding;
+  o.edges = static_cast<SmaaOptions::Edges>(s.integer("edges"));
+  return o;
+}
+
+class Smaa : public Resolver {
+ public:
+  explicit Smaa(const SmaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request;
+    request.planes.depth = options_.edges == SmaaOptions::Edges::Depth;
+    request.halo = smaa_reach(options_);
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    return filter_codes(std::move(image), Mixing::Light,
+                        [&](const Rgba8Image& i) { return apply_smaa(i, &frame.reversed_depth, options_); });
+  }
+
+ private:
+  SmaaOptions options_;
+};
+
+/// The mean of two shown pictures in linear light, premultiplied.
+Display mean_light(const Display& a, const Display& b) {
+  if (a == b) return a;
+  const float alpha = (a.a + b.a) / 2;
+  if (!(alpha > 0)) return {0, 0, 0, 0};
+  const auto mean = [&](float p, float q) {
+    return encode_srgb((decode_srgb(p) * a.a + decode_srgb(q) * b.a) / (2 * alpha));
+  };
+  return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
+}
+
+/// S2x: both samples of the standard pattern of two are shown and treated by themselves, with the areas of their
+/// places.
+class SmaaS2x : public Resolver {
+ public:
+  explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request{.samples = standard_pattern(2), .rate = Rate::Surface, .weights = {}, .planes = {}};
+    request.planes.samples = true;
+    request.halo = smaa_reach(options_);
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    constexpr std::array<int, 4> slots[2] = {{1, 1, 1, 0}, {2, 2, 2, 0}};
+    DisplayImage treated[2];
+    for (std::size_t s = 0; s < 2; ++s) {
+      SmaaOptions options = options_;
+      options.slots = slots[s];
+      treated[s] = filter_codes(make_display(frame.sample_color[s], frame.display), Mixing::Light,
+                                [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
+    }
+    for_rows(image.height(), [&](int y) {
+      for (int x = 0; x < image.width(); ++x) image(x, y) = mean_light(treated[0](x, y), treated[1](x, y));
+    });
+    return image;
+  }
+
+ private:
+  SmaaOptions options_;
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  if (s.chosen("mode") == "s2x") return std::make_unique<SmaaS2x>(options_of(s));
+  return std::make_unique<Smaa>(options_of(s));
+}
+
+}  // namespace
+
+Method smaa();
+
+Method smaa() {
+  return {.name = "smaa",
+          .summary = "edges followed to their ends, pixels mixed by the areas of the lines through them",
+          .source = "Jimenez 2012, SMAA 2.8",
+          .params = params,
+          .make = make};
+}
+
+}  // namespace zoneplate::antialias

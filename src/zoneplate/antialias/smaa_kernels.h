@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace zoneplate {
+
+/// Rows of which an edge row is made: two above, one above, the row itself, one below.
+///
+/// Shape     valid from two values before the first to 33 after the last.
+template <class T>
+struct EdgeRows {
+  const T* row[4];
+};
+
+struct SmaaKernels {
+  /// 2126 R + 7152 G + 722 B, exactly, of n pixels of four codes.
+  void (*luma_row)(const std::uint8_t* rgba, float* luma, std::size_t n);
+  /// Bit 0 of `edges`: left, bit 1: top, by luma; with local contrast adaptation.
+  void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
+  /// The same by the greatest difference of red, green and blue codes.
+  void (*color_edges)(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n);
+};
+
+namespace scalar {
+extern const SmaaKernels smaa_kernels;
+}
+namespace N_SSE4 {
+extern const SmaaKernels smaa_kernels;
+}
+namespace N_AVX2 {
+extern const SmaaKernels smaa_kernels;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace zoneplate::antialias {
+
+/// The two areas that a revectorised edge takes: of the pixel below (or right of) the border and of the one above.
+struct AreaPair {
+  double below = 0, above = 0;
+};
+
+/// What crosses an edge's two ends, as bits of a pattern in [0, 16).
+enum : int { left_down = 1, right_down = 2, left_up = 4, right_up = 8 };
+
+/// Areas in a pixel of an axis-parallel edge, `left` pixels from its left end and `right` from its right one.
+///
+/// Edges     `offset` is where the sample lies across the edge, in pixels; `is_smooth` rounds short U shapes, as SMAA
+///           does and MLAA does not.
+/// Exact     the operations of the reference generator in its order.
+AreaPair orthogonal_area(int pattern, int left, int right, double offset, bool is_smooth);
+
+/// Areas at a diagonal edge whose sample is displaced by `offset_x`, `offset_y`.
+///
+/// Exact     shares of a grid of 30 × 30 points, as in the reference generator.
+AreaPair diagonal_area(int pattern, int left, int right, double offset_x, double offset_y);
+
+/// How many pixels of the last two that a search has seen still belong to its line, and where a pattern lies in a
+/// table.
+enum class AreaRounding {
+  Down,     ///< as in SMAA's own table
+  Nearest,  ///< as in other generators of it
+};
+
+/// The part of SMAA's area texture for one position of the samples.
+///
+/// Shape     80 × 80 cells of two codes each, rows from the top; orthogonal cells are indexed by 16 × code + √distance,
+///           diagonal ones by 20 × code + distance.
+struct AreaSlot {
+  static constexpr int size = 80;
+  std::array<std::uint8_t, 2 * size * size> orthogonal{}, diagonal{};
+};
+
+/// Slots 0 to 6; the diagonal part of 5 and 6 is empty. Made when first asked for, and kept.
+///
+/// Source    Jimenez et al., SMAA, v2.8, AreaTex.
+const AreaSlot& area_slot(int slot, AreaRounding rounding = AreaRounding::Down);
+
+/// SMAA's search texture: 127 times how many of the last two pixels that a search fetched belong to its line.
+///
+/// Shape     64 × 16, by the fetched values in 1/32: x of the crossing edges (the left search's half, then the right
+///           one's), y of the edges along, from 32 downwards.
+std::vector<std::uint8_t> make_search_table();
+
+}  // namespace zoneplate::antialias

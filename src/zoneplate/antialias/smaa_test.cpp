@@ -1,0 +1,190 @@
+#include "zoneplate/antialias/smaa.h"
+
+#include <gtest/gtest.h>
+
+#include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/antialias/smaa_kernels.h"
+#include "zoneplate/base/parallel.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+using Edges = SmaaOptions::Edges;
+
+/// The presets, and whether the package that made the goldens looked for corners.
+struct Case {
+  const char* name;
+  double threshold;
+  int steps, diagonal_steps;
+  bool has_corners;
+};
+constexpr Case runs[] = {{"LOW", 0.15, 4, 0, false}, {"MEDIUM", 0.1, 8, 0, false},   {"HIGH", 0.1, 16, 8, false},
+                         {"HIGH", 0.1, 16, 8, true}, {"ULTRA", 0.05, 32, 16, false}, {"ULTRA", 0.05, 32, 16, true}};
+
+SmaaOptions options_of(const Case& run, Edges edges) {
+  return {.edges = edges,
+          .threshold = run.threshold,
+          .steps = run.steps,
+          .diagonal_steps = run.diagonal_steps,
+          .corner_rounding = run.has_corners ? 25 : 100,
+          .mixes_light = false,
+          .is_postprocessing = true};
+}
+
+Rgba8Image shown(const EdgePlane& edges) {
+  return make_codes(edges.width(), edges.height(), [&](int x, int y) {
+    const auto code = [&](int edge) { return static_cast<std::uint8_t>(*edges.at(x, y) & edge ? 255 : 0); };
+    return Rgba8{code(left_edge), code(top_edge), 0, 255};
+  });
+}
+
+Rgba8Image shown(const WeightPlane& weights) {
+  return make_codes(weights.width(), weights.height(), [&](int x, int y) {
+    const SmaaWeights w = *weights.at(x, y);
+    return Rgba8{w.from_above, w.to_above, w.from_left, w.to_left};
+  });
+}
+
+/// The goldens hold red, green and blue of every pass, and alpha where it was kept.
+int count_colors_differing(const Rgba8Image& a, Rgba8Image b, bool has_alpha) {
+  if (!has_alpha)
+    for (std::size_t i = 0; i < b.values().size(); ++i) b.values()[i].a = a.values()[i].a;
+  return count_differing(a, b, 0);
+}
+
+TEST(Smaa, EveryPassEqualsAnotherImplementation) {
+  const Rgba8Image chart = chart64();
+  for (const Case& run : runs)
+    for (const auto& [edges, name] : {std::pair{Edges::Luma, "LUMA"}, {Edges::Color, "COLOR"}}) {
+      const std::string stem = fmt::format("smaa_{}_{}_c{}_", run.name, name, run.has_corners ? 1 : 0);
+      const auto golden = [&](const char* pass) { return golden_picture(stem + pass + "_postprocessing6.39.png"); };
+      if (!golden("out")) GTEST_SKIP() << "no outputs of other implementations here";
+      const SmaaOptions options = options_of(run, edges);
+      const EdgePlane found = smaa_edges(chart, nullptr, options);
+      EXPECT_EQ(count_colors_differing(shown(found), *golden("edges"), false), 0) << stem;
+      EXPECT_EQ(count_colors_differing(shown(smaa_weights(found, options)), *golden("weights"), true), 0) << stem;
+      EXPECT_EQ(count_colors_differing(apply_smaa(chart, nullptr, options), *golden("out"), false), 0) << stem;
+    }
+}
+
+TEST(Smaa, OutputsHaveTheirBits) {
+  const Rgba8Image image = random_shapes(200, 150, 1);
+  const auto hash = [&](const SmaaOptions& o) { return hash_of(apply_smaa(image, nullptr, o)); };
+  EXPECT_EQ(hash({.edges = Edges::Luma}), 0x41b66e60dacd2029u);
+  EXPECT_EQ(hash({.edges = Edges::Color}), 0x37ea59af564d9346u);
+  EXPECT_EQ(hash({.threshold = 0.15, .steps = 4, .diagonal_steps = 0, .corner_rounding = 100}), 0x44d2c6cffef1a9fau);
+  EXPECT_EQ(hash({.threshold = 0.05, .steps = 32, .diagonal_steps = 16}), 0xca556196d0ef9648u);
+  EXPECT_EQ(hash({.slots = {1, 1, 1, 0}}), 0xd95b6c422f7c91e9u);
+  EXPECT_EQ(hash({.steps = 112, .diagonal_steps = 20, .mixes_light = false}), 0xc81311afcfdf17a6u);
+}
+
+TEST(Smaa, InstructionSetsAndThreadsLeaveNoTrace) {
+  const Rgba8Image image = random_shapes(203, 77, 2);
+  for (const Edges edges : {Edges::Luma, Edges::Color}) {
+    const Rgba8Image expected = apply_smaa(image, nullptr, {.edges = edges, .isa = Isa::Scalar});
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 2, 7})
+        with_threads(threads, [&] {
+          EXPECT_EQ(apply_smaa(image, nullptr, {.edges = edges, .isa = isa}), expected) << name_of(isa) << threads;
+        });
+  }
+}
+
+TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
+  std::vector<std::uint32_t> codes(4 * 300);
+  for (std::uint32_t i = 0; std::uint32_t & c : codes) c = hash(i++) & 0x3f7f3f3f;
+  std::vector<float> lumas(codes.size());
+  scalar::smaa_kernels.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), lumas.data(), lumas.size());
+  for (const Isa isa : supported_isas()) {
+    const SmaaKernels& kernels = pick(isa, scalar::smaa_kernels, N_SSE4::smaa_kernels, N_AVX2::smaa_kernels);
+    std::vector<float> row(lumas.size());
+    kernels.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), row.data(), row.size());
+    EXPECT_EQ(row, lumas);
+    const auto rows = [](const auto& v) {
+      return EdgeRows<std::decay_t<decltype(v[0])>>{{&v[2], &v[302], &v[602], &v[902]}};
+    };
+    for (std::size_t n = 0; n <= 200; ++n) {
+      std::vector<std::uint8_t> expected(n + 1, 9), found(n + 1, 9);
+      scalar::smaa_kernels.luma_edges(rows(lumas), 100000, expected.data(), n);
+      kernels.luma_edges(rows(lumas), 100000, found.data(), n);
+      ASSERT_EQ(found, expected);
+      scalar::smaa_kernels.color_edges(rows(codes), 26, expected.data(), n);
+      kernels.color_edges(rows(codes), 26, found.data(), n);
+      ASSERT_EQ(found, expected);
+      if (n == 200) {
+        EXPECT_GT(std::ranges::count(found, 3), 10);
+      }
+    }
+  }
+}
+
+TEST(Smaa, LevelEdgesComeNearTheirArea) {
+  for (const double run : {3.0, 4.5, 8.0, 13.0, 20.0, 30.0}) {
+    const Band plane{run, 1000};
+    const Rgba8Image image = plane.codes(0.5, 0.5);
+    EXPECT_LT(plane.error(apply_smaa(image, nullptr, {})), 0.06) << run;
+    EXPECT_GT(plane.error(image), 0.24) << run;
+  }
+}
+
+/// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's picture to the other's place.
+double error_of_s2x(const Band& band, bool exchanged) {
+  const std::unique_ptr<Resolver> resolver = make_resolver(methods(), "smaa:mode=s2x");
+  const Request request = resolver->ask(0);
+  EXPECT_EQ(request.samples, standard_pattern(2));
+  Frame frame;
+  for (const std::size_t s : {exchanged ? 1u : 0u, exchanged ? 0u : 1u}) {
+    const Rgba8Image codes = band.codes(request.samples[s].x / 256.0, request.samples[s].y / 256.0);
+    LinearImage light(band.width, band.height);
+    std::ranges::transform(codes.values(), light.values().begin(), [](Rgba8 c) {
+      const float v = c.g > 0 ? 1.0f : 0.0f;
+      return Linear{v, v, v, 1};
+    });
+    frame.sample_color.push_back(light);
+  }
+  frame.sample_depth.assign(2, Plane<float>(band.width, band.height));
+  return band.error(quantize8(resolver->finish(DisplayImage(band.width, band.height), frame)));
+}
+
+TEST(Smaa, TwoSamplesSeeThinBandsAndExchangedPlacesSpoilThem) {
+  double one = 0, two = 0;
+  for (const double run : {3.0, 4.5, 7.0, 11.0, 20.0}) {
+    // A band of two thirds of a pixel is broken at one sample a pixel.
+    const Band thin{run, 0.67}, plane{run, 1000};
+    one += thin.error(apply_smaa(thin.codes(0.5, 0.5), nullptr, {}));
+    two += error_of_s2x(thin, false);
+    EXPECT_LT(error_of_s2x(plane, false), 0.09) << run;
+    EXPECT_LT(error_of_s2x(plane, false), 0.8 * error_of_s2x(plane, true)) << run;
+  }
+  EXPECT_LT(two, 0.8 * one);
+}
+
+TEST(Smaa, DepthEdgesAreFoundWhereColourHasNone) {
+  const Rgba8Image image = make_codes(40, 30, [](int x, int y) {
+    return Rgba8{static_cast<std::uint8_t>(100 + (x + y) % 3), 100, 100};
+  });
+  Plane<float> depth(40, 30, 0.25f);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 12 + y / 3; x < 40; ++x) depth(x, y) = 0.5f;
+  const EdgePlane edges = smaa_edges(image, &depth, {.edges = Edges::Depth});
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      EXPECT_EQ((*edges.at(x, y) & left_edge) != 0, x == 12 + y / 3);
+      EXPECT_EQ((*edges.at(x, y) & top_edge) != 0, y > 0 && y % 3 == 0 && x == 11 + y / 3);
+    }
+}
+
+TEST(Smaa, CornersOfRectanglesAreKept) {
+  const Rgba8Image image = make_codes(60, 50, [](int x, int y) {
+    return x >= 15 && x < 45 && y >= 12 && y < 38 ? Rgba8{240, 240, 240} : Rgba8{20, 20, 20};
+  });
+  const auto corner_loss = [&](int rounding) {
+    return 240 - apply_smaa(image, nullptr, {.corner_rounding = rounding})(15, 12).g;
+  };
+  EXPECT_LT(corner_loss(0), corner_loss(25));
+  EXPECT_LT(corner_loss(25), corner_loss(100));
+}
+
+}  // namespace
+}  // namespace zoneplate::antialias
