@@ -25,7 +25,8 @@ TEST_F(SignalConvolve, TheRowOfTheCourse) {
 
 TEST_F(SignalConvolve, AKernelIsTurnedRoundNotSlidAlong) {
   const auto row = json(run_signal_convolve, {"--values", "0 0 1 0 0", "--kernel", "1 2 3", "--via", "frequency"});
-  for (int i = 0; i < 5; ++i) EXPECT_NEAR(row["result"][i].get<double>(), i % 4, 1e-6) << i;
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(row["result"][i].get<double>(), static_cast<double>(i % 4), 1e-6) << i;
 }
 
 TEST_F(SignalConvolve, BothWaysAgreeForEveryBorderAndTheBareProductOnlyForWrap) {

@@ -43,7 +43,7 @@ Curve wave_curve(const std::string& name, double frequency, double duration, int
 
 Plot waves_plot(const SampleArgs& args) {
   const double duration = duration_of(args);
-  Curve samples{"samples of both", {}, Curve::Mark::Points, 6};
+  Curve samples{args.is_aliased() ? "samples of both" : "its samples", {}, Curve::Mark::Points, 6};
   for (int i = 0; i / args.rate <= duration; ++i)
     samples.points.emplace_back(i / args.rate, sin_pi(2 * args.frequency * i / args.rate));
   Plot plot{.title = fmt::format("{:g} Hz, sampled at {:g} Hz", args.frequency, args.rate),
@@ -106,6 +106,8 @@ std::string text_of(const SampleArgs& args) {
   if (args.is_aliased())
     text += fmt::format("  aliased: its samples are those of {:g} Hz{}\n", std::abs(seen),
                         seen < 0 ? ", running backwards" : "");
+  else if (args.frequency == args.rate / 2)
+    text += "  just half the rate: what the samples are depends on where they fall; they may all be 0\n";
   else
     text += "  not aliased: below half the rate no other wave has these samples\n";
   text += fmt::format("  the same samples: {}, ... Hz\n", others);

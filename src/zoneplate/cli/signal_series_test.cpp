@@ -13,7 +13,7 @@ TEST_F(SignalSeries, OvershootsByGibbs) {
   ASSERT_EQ(found["sums"].size(), 3u);
   EXPECT_NEAR(found["sums"][0]["greatest"].get<double>(), 4 / M_PI, 1e-5);
   EXPECT_NEAR(found["sums"][0]["missing_rms"].get<double>(), std::sqrt(1 - 8 / (M_PI * M_PI)), 1e-9);
-  for (const int i : {1, 2}) EXPECT_NEAR(found["sums"][i]["overshoot_of_jump"].get<double>(), 0.08949, 1e-4);
+  for (const std::size_t i : {1u, 2u}) EXPECT_NEAR(found["sums"][i]["overshoot_of_jump"].get<double>(), 0.08949, 1e-4);
   // The summit is where it is said to be: no other place is higher.
   for (const auto& [name, wave] :
        {std::pair{"square", Wave::Square}, {"sawtooth", Wave::Sawtooth}, {"triangle", Wave::Triangle}})

@@ -15,9 +15,19 @@ namespace {
 
 // Sizes in pixels for a plot of the default size; half of each is still read without effort.
 constexpr int text_px = 17, title_px = 20;
-constexpr int margin_px = 10, heading_px = 30, key_row_px = 25, sample_px = 46, axes_px = 100;
+constexpr int margin_px = 10, heading_px = 30, key_row_px = 22, sample_px = 46, axes_px = 100;
 constexpr double letter_em = 0.58;  // of DejaVu Sans, in the mean
 constexpr double line_px = 2.4, dash_px = 1.6, point_size = 1.1;
+
+/// One of gnuplot's terminals, and what has to be said in its units to be as large as in the others.
+struct Terminal {
+  const char* name;
+  const char* more;
+  double font;         ///< of a pixel: SVG's unit is the pixel, Cairo's the point at 96 dots an inch
+  double point;        ///< of a mark's size
+  double key_spacing;  ///< for rows of key_row_px
+};
+constexpr Terminal svg = {"svg", "dynamic", 1, 0.55, 0.86}, cairo = {"pngcairo", "", 0.75, 1, 1.12};
 
 constexpr Rgba8 palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
                              {230, 159, 0}, {86, 180, 233}, {40, 40, 40}};
@@ -41,10 +51,11 @@ Rgba8 color_of(const Curve& curve, std::size_t place) {
 }
 
 // The part of a plot command that draws one curve from the data block of this name.
-std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place) {
+std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
   using Mark = Curve::Mark;
   const std::string color = hex(color_of(curve, place));
   const std::string title = curve.name.empty() ? "notitle" : "title " + quoted(curve.name);
+  const double point = point_size * terminal.point;
   const auto line = [&](double width) { return fmt::format("lw {} lc rgb '{}'", width, color); };
   const auto with = [&](const std::string& style, const std::string& name) {
     return fmt::format("{} using 1:2 with {} {}", block, style, name);
@@ -55,12 +66,12 @@ std::string drawing_of(const Curve& curve, const std::string& block, std::size_t
     case Mark::Dashed:
       return with("lines dt (9,7) " + line(dash_px), title);
     case Mark::Points:
-      return with(fmt::format("points pt 7 ps {} lc rgb '{}'", point_size, color), title);
+      return with(fmt::format("points pt 7 ps {} lc rgb '{}'", point, color), title);
     case Mark::LineAndPoints:
-      return with(fmt::format("linespoints pt 7 ps {} {}", 0.7 * point_size, line(line_px)), title);
+      return with(fmt::format("linespoints pt 7 ps {} {}", 0.7 * point, line(line_px)), title);
     case Mark::Stems:
       return with("impulses " + line(line_px), "notitle") + ", " +
-             with(fmt::format("points pt 7 ps {} lc rgb '{}'", point_size, color), title);
+             with(fmt::format("points pt 7 ps {} lc rgb '{}'", point, color), title);
     case Mark::Steps:
       return with("steps " + line(line_px), title);
     case Mark::Area:
@@ -110,43 +121,39 @@ Key key_of(const Plot& plot, int width) {
   return {columns, (names + columns - 1) / columns};
 }
 
-// A size in pixels in the terminal's unit: SVG's is the pixel, Cairo's the point at 96 dots an inch.
-double font_size(int px, const std::string& terminal) { return terminal == "svg" ? px : 0.75 * px; }
-
 // Title and key stand left above the plot whose top is `top` pixels from the top of a sheet `height` high.
-std::string heading_of(const Plot& plot, const PlotSize& size, int top, int height, const std::string& terminal) {
+std::string heading_of(const Plot& plot, const PlotSize& size, int top, int height, const Terminal& terminal) {
   const Key key = key_of(plot, size.width);
   const auto from_top = [&](int y) { return fmt::format("screen {:.6f}", 1 - static_cast<double>(top + y) / height); };
   std::string text;
   int y = margin_px;
   if (!plot.title.empty()) {
     text += fmt::format("set label 1 {} at graph 0,{} left font 'DejaVu Sans,{}' textcolor rgb '#202020'\n",
-                        quoted(plot.title), from_top(y + heading_px / 2), font_size(title_px, terminal));
+                        quoted(plot.title), from_top(y + heading_px / 2), title_px * terminal.font);
     y += heading_px;
   }
   text += key.rows == 0 ? "unset key\n"
                         : fmt::format(
                               "set key at graph 0,{} left top Left reverse horizontal maxcols {} samplen 1.6 "
-                              "spacing 1.1 textcolor rgb '#303030'\n",
-                              from_top(y), key.columns);
+                              "spacing {} textcolor rgb '#303030'\n",
+                              from_top(y), key.columns, terminal.key_spacing);
   return text + fmt::format("set tmargin at {}\n", from_top(y + key.rows * key_row_px + margin_px));
 }
 
-std::string body_of(const Plot& plot, std::size_t number) {
+std::string body_of(const Plot& plot, std::size_t number, const Terminal& terminal) {
   std::string text = axis_of('x', plot.x) + axis_of('y', plot.y);
   std::string drawings;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     if (plot.curves[i].points.empty()) continue;
     const std::string block = fmt::format("$d{}_{}", number, i);
     text += data_of(plot.curves[i], block);
-    drawings += (drawings.empty() ? "" : ", ") + drawing_of(plot.curves[i], block, i);
+    drawings += (drawings.empty() ? "" : ", ") + drawing_of(plot.curves[i], block, i, terminal);
   }
   return text + "plot " + (drawings.empty() ? "NaN notitle" : drawings) + "\nunset label 1\n";
 }
 
 // What is the same for every plot: a light grid, two axes instead of a frame, the key above the curves.
-std::string style_of(const std::string& terminal, int width, int height) {
-  const std::string more = terminal == "svg" ? "dynamic" : "";
+std::string style_of(const Terminal& terminal, int width, int height) {
   return fmt::format(
       "set encoding utf8\n"
       "set terminal {} size {},{} font 'DejaVu Sans,{}' background '#ffffff' rounded noenhanced {}\n"
@@ -155,17 +162,30 @@ std::string style_of(const std::string& terminal, int width, int height) {
       "set tics out nomirror scale 0.6 textcolor rgb '#303030'\n"
       "set grid lw 1 lc rgb '#e6e6e6' lt 1\n"
       "set xlabel textcolor rgb '#303030'\nset ylabel textcolor rgb '#303030'\n"
-      "set rmargin 3\n"
-      "set samples 2\n",
-      terminal, width, height, font_size(text_px, terminal), more);
+      "set rmargin 3\n",
+      terminal.name, width, height, text_px * terminal.font, terminal.more);
+}
+
+// What gnuplot is told.
+std::string script_of(std::span<const Plot> plots, int columns, const PlotSize& size, const Terminal& terminal) {
+  assert(!plots.empty() && columns >= 1);
+  const int count = static_cast<int>(plots.size()), rows = (count + columns - 1) / columns;
+  std::string text = style_of(terminal, size.width * std::min(columns, count), size.height * rows);
+  if (count > 1) text += fmt::format("set multiplot layout {},{}\n", rows, std::min(columns, count));
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const int row = static_cast<int>(i) / columns;
+    text +=
+        heading_of(plots[i], size, row * size.height, rows * size.height, terminal) + body_of(plots[i], i, terminal);
+  }
+  return text + (count > 1 ? "unset multiplot\n" : "");
 }
 
 std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const PlotSize& size,
-                                const std::string& terminal) {
+                                const Terminal& terminal) {
   // `-d` keeps settings of the machine's out.
   const ChildAnswer answer = [&] {
     try {
-      return run_child("gnuplot", {"-d", "-"}, plot_script(plots, columns, size, terminal));
+      return run_child("gnuplot", {"-d", "-"}, script_of(plots, columns, size, terminal));
     } catch (const Error& error) {
       throw Error(Trouble::Failed, std::string(error.what()) + "; plots need it (Debian's package gnuplot-nox)");
     }
@@ -180,25 +200,13 @@ std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const 
 
 std::span<const Rgba8> plot_palette() { return palette; }
 
-std::string plot_script(std::span<const Plot> plots, int columns, const PlotSize& size, const std::string& terminal) {
-  assert(!plots.empty() && columns >= 1);
-  const int count = static_cast<int>(plots.size()), rows = (count + columns - 1) / columns;
-  std::string text = style_of(terminal, size.width * std::min(columns, count), size.height * rows);
-  if (count > 1) text += fmt::format("set multiplot layout {},{}\n", rows, std::min(columns, count));
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const int row = static_cast<int>(i) / columns;
-    text += heading_of(plots[i], size, row * size.height, rows * size.height, terminal) + body_of(plots[i], i);
-  }
-  return text + (count > 1 ? "unset multiplot\n" : "");
-}
-
 std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size) {
-  const std::vector<std::uint8_t> bytes = drawn(plots, columns, size, "svg");
+  const std::vector<std::uint8_t> bytes = drawn(plots, columns, size, svg);
   return {bytes.begin(), bytes.end()};
 }
 
 Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size) {
-  return decode_png(drawn(plots, columns, size, "pngcairo"), "the plot").pixels;
+  return decode_png(drawn(plots, columns, size, cairo), "the plot").pixels;
 }
 
 std::string plot_svg(const Plot& plot, const PlotSize& size) { return plots_svg({&plot, 1}, 1, size); }

@@ -69,7 +69,4 @@ Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSiz
 /// Source    Okabe and Ito, Color Universal Design, 2008; without its yellow, which is lost on white.
 std::span<const Rgba8> plot_palette();
 
-/// What gnuplot is told to draw them, for a terminal of its ("svg" or "pngcairo").
-std::string plot_script(std::span<const Plot> plots, int columns, const PlotSize& size, const std::string& terminal);
-
 }  // namespace zoneplate
