@@ -11,8 +11,11 @@
 namespace zoneplate {
 namespace {
 
-// With more samples a record is smaller than the fragments of a triangle.
-constexpr std::int32_t most_samples_in_fragments = 16;
+/// The size, in 1/256 pixel, up to which a triangle's samples are cheaper to list than the triangle: some 16 samples.
+std::int32_t small_extent(int samples) {
+  if (samples > 16) return -1;
+  return samples > 8 ? 511 : samples > 4 ? 723 : samples > 2 ? 1023 : samples > 1 ? 1447 : 2047;
+}
 
 /// The bounds of three vertices, 1/256 pixel from the picture's top-left corner.
 struct Extent {
@@ -48,8 +51,8 @@ class Binner {
     run.sample_count = static_cast<std::int32_t>(samples.x.size());
     run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
     run.is_top_left = rules_.is_top_left;
-    run.draws_fragments =
-        draw.surface == Surface::Opaque && !rules_.is_flat_depth && run.sample_count <= most_samples_in_fragments;
+    const bool draws_fragments = draw.surface == Surface::Opaque && !rules_.is_flat_depth;
+    run.small_extent = draws_fragments ? small_extent(run.sample_count) : -1;
     FragmentSink sink{.first_column = bins_.first_column,
                       .first_row = bins_.first_row,
                       .columns = bins_.columns,

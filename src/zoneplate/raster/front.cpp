@@ -74,7 +74,7 @@ void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) {
     const std::int64_t area = doubled_area(p, q, r);
     if (area == 0 || (run.facing != 0 && (area > 0) != (run.facing > 0))) continue;
     if (!may_cover_a_sample(b, run) || !is_in_rectangle(b, run)) continue;
-    if (!run.draws_fragments || width > small_extent || height > small_extent) {
+    if (std::max(width, height) > run.small_extent) {
       result.kept[result.kept_count++] = t;
       continue;
     }

@@ -37,9 +37,9 @@ struct FrontRun {
   std::int32_t left, top, right, bottom;  ///< the pixels that are drawn, ends included
   const std::int32_t *sample_x, *sample_y;
   std::int32_t sample_count;
-  std::int32_t facing;   ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
-  bool is_top_left;      ///< as SetupRules
-  bool draws_fragments;  ///< small triangles become fragments; otherwise they are listed with the rest
+  std::int32_t facing;        ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
+  bool is_top_left;           ///< as SetupRules
+  std::int32_t small_extent;  ///< 1/256 pixel: what is no wider and no higher becomes fragments; at most 2047, -1: none
 
   static constexpr int capacity = 256;
 };
@@ -55,8 +55,7 @@ struct FrontResult {
 struct FrontKernels {
   /// Culls a run of triangles, draws the small ones as fragments and lists the rest.
   ///
-  /// A triangle is small if its bounds are less than 4 pixels in both directions. Its samples and their depths are
-  /// those of make_tile_triangle and depth_at, bit for bit.
+  /// The samples of small triangles and their depths are those of make_tile_triangle and depth_at, bit for bit.
   void (*run)(const FrontRun& run, FragmentSink& sink, FrontResult& result);
 };
 
@@ -73,7 +72,6 @@ inline const FrontKernels& front_kernels(Isa isa) {
   return pick(isa, scalar::front_kernels, N_SSE4::front_kernels, N_AVX2::front_kernels);
 }
 
-inline constexpr std::int32_t small_extent = 1023;   ///< 1/256 pixel; at most 4 samples of a kind in each direction
 inline constexpr std::int32_t large_extent = 16383;  ///< products of two differences stay within 28 bits
 
 }  // namespace zoneplate

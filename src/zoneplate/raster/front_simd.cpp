@@ -231,32 +231,33 @@ HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const Sma
   return out;
 }
 
-/// Calls emit(mask, i, j, depth) for the pixels (i, j), (i + 1, j) ... of one row that have lanes inside.
-template <int size, class Emit>
-HWY_INLINE void cover_row(const Small& t, const Candidates& c, VI e0, VI e1, VI e2, VI dead, VF base, int i, int j,
-                          const Emit& emit) {
-  const VI outside = hn::Or(hn::Or(e0, e1), hn::Or(e2, dead));
+/// Calls emit(mask, i, j, depth) if the candidate pixel (i, j) has lanes inside.
+template <class Emit>
+HWY_INLINE void cover_pixel(const Small& t, const Candidates& c, VI outside, VF base, int i, int j, const Emit& emit) {
   const MI inside = hn::Not(hn::MaskFromVec(hn::BroadcastSignBit(outside)));
-  if (!hn::AllFalse(i32, inside)) {
-    const VF z = hn::Add(base, hn::Mul(t.step_x, hn::Add(c.x0, hn::Set(f, static_cast<float>(i)))));
-    emit(inside, i, j, hn::Min(hn::Max(z, t.z_low), t.z_high));
-  }
-  if constexpr (size > 1)
-    cover_row<size - 1>(t, c, hn::Sub(e0, hn::ShiftLeft<8>(t.dy[0])), hn::Sub(e1, hn::ShiftLeft<8>(t.dy[1])),
-                        hn::Sub(e2, hn::ShiftLeft<8>(t.dy[2])), dead, base, i + 1, j, emit);
+  if (hn::AllFalse(i32, inside)) return;
+  const VF z = hn::Add(base, hn::Mul(t.step_x, hn::Add(c.x0, hn::Set(f, static_cast<float>(i)))));
+  emit(inside, i, j, hn::Min(hn::Max(z, t.z_low), t.z_high));
 }
 
-/// The same for all candidate pixels of size × size.
-template <int size, class Emit>
-HWY_INLINE void cover(const Small& t, const Candidates& c, VI dead, const Emit& emit) {
-  VI e0 = c.e[0], e1 = c.e[1], e2 = c.e[2];
-  for (int j = 0;;) {
+/// The same for all candidates, two columns at a time: what lies beyond the bounds is outside.
+template <class Emit>
+HWY_INLINE void cover(const Small& t, const Candidates& c, VI dead, int columns, int rows, const Emit& emit) {
+  const VI down0 = hn::ShiftLeft<8>(t.dx[0]), down1 = hn::ShiftLeft<8>(t.dx[1]), down2 = hn::ShiftLeft<8>(t.dx[2]);
+  const VI left0 = hn::ShiftLeft<8>(t.dy[0]), left1 = hn::ShiftLeft<8>(t.dy[1]), left2 = hn::ShiftLeft<8>(t.dy[2]);
+  VI row0 = c.e[0], row1 = c.e[1], row2 = c.e[2];
+  for (int j = 0; j < rows; ++j) {
     const VF base = hn::Add(c.z, hn::Mul(t.step_y, hn::Add(c.y0, hn::Set(f, static_cast<float>(j)))));
-    cover_row<size>(t, c, e0, e1, e2, dead, base, 0, j, emit);
-    if (++j == size) return;
-    e0 = hn::Add(e0, hn::ShiftLeft<8>(t.dx[0]));
-    e1 = hn::Add(e1, hn::ShiftLeft<8>(t.dx[1]));
-    e2 = hn::Add(e2, hn::ShiftLeft<8>(t.dx[2]));
+    VI e0 = row0, e1 = row1, e2 = row2;
+    for (int i = 0;;) {
+      const VI n0 = hn::Sub(e0, left0), n1 = hn::Sub(e1, left1), n2 = hn::Sub(e2, left2);
+      cover_pixel(t, c, hn::Or(hn::Or(e0, e1), hn::Or(e2, dead)), base, i, j, emit);
+      cover_pixel(t, c, hn::Or(hn::Or(n0, n1), hn::Or(n2, dead)), base, i + 1, j, emit);
+      i += 2;
+      if (i >= columns) break;
+      e0 = hn::Sub(n0, left0), e1 = hn::Sub(n1, left1), e2 = hn::Sub(n2, left2);
+    }
+    row0 = hn::Add(row0, down0), row1 = hn::Add(row1, down1), row2 = hn::Add(row2, down2);
   }
 }
 
@@ -365,7 +366,7 @@ class Front {
                hn::Or(hn::Gt(e.low_y, set(run_.bottom * 256 + 255)), hn::Lt(e.high_y, set(run_.top * 256))));
     kept = hn::And(hn::AndNot(beside, kept), may_cover_a_sample(e, run_));
 
-    const MI small = hn::AndNot(hn::Gt(size, set(run_.draws_fragments ? small_extent : -1)), kept);
+    const MI small = hn::AndNot(hn::Gt(size, set(run_.small_extent)), kept);
     const MI larger = hn::AndNot(small, kept);
     if (!hn::AllFalse(i32, larger)) list(larger, number, result_.kept, result_.kept_count);
     const auto count = static_cast<std::int32_t>(hn::CountTrue(i32, small));
@@ -434,8 +435,11 @@ class Front {
     Small t;
     set_up(c, e, run_.is_top_left, t);
     const VI dead = hn::VecFromMask(i32, hn::Not(alive));
-    const bool fits_2x2 = hn::AllTrue(
-        i32, hn::Or(hn::Not(alive), hn::Lt(hn::Max(hn::Sub(e.high_x, e.low_x), hn::Sub(e.high_y, e.low_y)), set(512))));
+    // A sample of one kind has at most so many candidates among the pixels.
+    const VI extent_x = hn::AndNot(dead, hn::Sub(e.high_x, e.low_x)),
+             extent_y = hn::AndNot(dead, hn::Sub(e.high_y, e.low_y));
+    const int columns = (hn::GetLane(hn::MaxOfLanes(i32, extent_x)) >> 8) + 1;
+    const int rows = (hn::GetLane(hn::MaxOfLanes(i32, extent_y)) >> 8) + 1;
 
     // Where all lanes lie in one tile and in the rectangle, whole vectors go to one list.
     alignas(64) std::int32_t column[lanes], row[lanes];
@@ -452,16 +456,12 @@ class Front {
     for (std::int32_t s = 0; s < run_.sample_count; ++s) {
       const Candidates n = candidates_of(c, e, t, run_.sample_x[s], run_.sample_y[s]);
       if (!is_one_tile) {
-        cover<4>(t, n, dead, Scatter{run_, sink_, n, c.id, s});
+        cover(t, n, dead, columns, rows, Scatter{run_, sink_, n, c.id, s});
         continue;
       }
       const VI in_tile = set(63);
       const VI place = hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile));
-      const Append append{sink_, tile, hn::Add(place, set(s << 12)), c.id};
-      if (fits_2x2)
-        cover<2>(t, n, dead, append);
-      else
-        cover<4>(t, n, dead, append);
+      cover(t, n, dead, columns, rows, Append{sink_, tile, hn::Add(place, set(s << 12)), c.id});
     }
   }
 
