@@ -97,52 +97,53 @@ Luma make_luma(const Rgba8Image& image, const FxaaOptions& options, const FxaaKe
 
 /// The memory for what the kernels find in one row.
 struct RowMemory {
-  std::vector<std::uint8_t> bits, before, after, flags, range;
-  std::vector<std::uint16_t> unlikeness;
+  std::vector<std::uint8_t> bits, tied_bits, flags;
+  std::vector<float> shift;
   explicit RowMemory(int width) {
     const std::size_t n = (static_cast<std::size_t>(width) + 63) / 64 * 64;
-    bits.resize(n / 8), unlikeness.resize(n);
-    for (auto* values : {&before, &after, &flags, &range}) values->resize(n);
+    bits.resize(n / 8), tied_bits.resize(n / 8), flags.resize(n), shift.resize(n);
   }
-  FxaaEnds ends() { return {before.data(), after.data(), flags.data(), range.data(), unlikeness.data()}; }
+  FxaaEnds ends() { return {flags.data(), shift.data(), tied_bits.data()}; }
 };
 
-/// How far across the edge a pixel's colour is fetched.
-float shift_of(const RowMemory& row, std::size_t x, const std::uint8_t* luma, std::ptrdiff_t stride,
-               std::span<const int> distances, float subpixel) {
-  const int flags = row.flags[x];
-  float shift = 0;
-  if (flags & FxaaEnds::tied) {
-    const int side = flags & FxaaEnds::second_side ? 1 : -1;
-    const bool is_level = flags & FxaaEnds::level;
-    shift = fxaa_tied_shift(luma, is_level ? 1 : stride, side * (is_level ? stride : 1), distances.data(),
-                            distances.size());
-  } else if (flags & FxaaEnds::bends) {
-    const int before = row.before[x], after = row.after[x];
-    shift = 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after);
+/// Calls `body(x)` for every bit that is set.
+template <class Body>
+void for_bits(const std::vector<std::uint8_t>& bits, const Body& body) {
+  for (std::size_t byte = 0; byte < bits.size(); byte += 8) {
+    std::uint64_t left = 0;
+    for (std::memcpy(&left, bits.data() + byte, sizeof left); left != 0; left &= left - 1)
+      body(8 * byte + static_cast<std::size_t>(std::countr_zero(left)));
   }
-  // A pixel that is unlike the mean of its neighbours is moved towards them.
-  const float c = std::min(1.0f, static_cast<float>(row.unlikeness[x]) / static_cast<float>(12 * row.range[x]));
-  const float smooth = (3 - 2 * c) * c * c;
-  return std::max(shift, smooth * smooth * subpixel);
 }
 
-void quality_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, std::span<const int> distances,
-                 const RowMemory& row, int y, std::span<Rgba8> out) {
-  for (int block = 0; block < image.width(); block += 64) {
-    std::uint64_t left = 0;
-    std::memcpy(&left, row.bits.data() + block / 8, sizeof left);
-    if (image.width() - block < 64) left &= (std::uint64_t{1} << (image.width() - block)) - 1;
-    for (; left != 0; left &= left - 1) {
-      const int x = block + std::countr_zero(left);
-      const auto i = static_cast<std::size_t>(x);
-      const float shift = shift_of(row, i, luma.at(x, y), luma.stride(), distances, options.subpixel);
-      const int side = row.flags[i] & FxaaEnds::second_side ? 1 : -1;
-      const bool is_level = row.flags[i] & FxaaEnds::level;
-      const Rgba8 here = image(x, y), there = pixel_at(image, x + (is_level ? 0 : side), y + (is_level ? side : 0));
-      out[i] = options.mixes_light ? mixed_light(here, there, shift) : mixed_codes(here, there, shift);
-    }
+/// Clears the bits of what lies beyond the picture.
+void clear_beyond(std::vector<std::uint8_t>& bits, std::size_t width) {
+  if (width % 8 != 0) bits[width / 8] = static_cast<std::uint8_t>(bits[width / 8] & ((1 << width % 8) - 1));
+  std::fill(bits.begin() + static_cast<std::ptrdiff_t>((width + 7) / 8), bits.end(), std::uint8_t{0});
+}
+
+/// Fetches the colours of one row's pixels.
+void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, std::span<const int> distances,
+             const FxaaKernels& kernels, int y, RowMemory& row, std::span<Rgba8> out) {
+  for_bits(row.tied_bits, [&](std::size_t x) {
+    if (!(row.bits[x / 8] >> x % 8 & 1)) return;
+    const std::ptrdiff_t side = row.flags[x] & FxaaEnds::second_side ? 1 : -1, stride = luma.stride();
+    const bool is_level = row.flags[x] & FxaaEnds::level;
+    const float shift = fxaa_tied_shift(luma.at(static_cast<int>(x), y), is_level ? 1 : stride,
+                                        side * (is_level ? stride : 1), distances.data(), distances.size());
+    row.shift[x] = std::max(row.shift[x], shift);
+  });
+  if (!options.mixes_light) {
+    const auto codes = [&](int j) { return &image.row(std::clamp(j, 0, image.height() - 1))[0].r; };
+    kernels.mix_row(codes(y - 1), codes(y), codes(y + 1), row.bits.data(), row.ends(), &out[0].r, out.size());
+    return;
   }
+  for_bits(row.bits, [&](std::size_t i) {
+    const int x = static_cast<int>(i), side = row.flags[i] & FxaaEnds::second_side ? 1 : -1;
+    const bool is_level = row.flags[i] & FxaaEnds::level;
+    const Rgba8 there = pixel_at(image, x + (is_level ? 0 : side), y + (is_level ? side : 0));
+    out[i] = mixed_light(image(x, y), there, row.shift[i]);
+  });
 }
 
 /// A colour as four floats in codes, and the luma that goes with it.
@@ -227,15 +228,16 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
 
   const FxaaContrast contrast = contrast_of(options);
   const std::span<const int> distances = distances_of(options.preset);
+  const FxaaSearch search{distances.data(), distances.size(), options.subpixel};
   const auto width = static_cast<std::size_t>(image.width());
   parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
     RowMemory row(image.width());
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       std::ranges::copy(image.row(y), out.row(y).begin());
       kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, row.bits.data(), width);
-      kernels.ends_row(luma.at(0, y), luma.stride(), distances.data(), distances.size(), row.bits.data(), row.ends(),
-                       width);
-      quality_row(image, luma, options, distances, row, y, out.row(y));
+      clear_beyond(row.bits, width);
+      kernels.ends_row(luma.at(0, y), luma.stride(), search, row.bits.data(), row.ends(), width);
+      mix_row(image, luma, options, distances, kernels, y, row, out.row(y));
     }
   });
   return out;

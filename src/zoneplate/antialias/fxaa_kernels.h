@@ -16,13 +16,17 @@ struct FxaaEnds {
   enum : int {
     level = 1,        ///< the edge is horizontal
     second_side = 2,  ///< it lies between the pixel and the one below or on the right
-    bends = 4,        ///< its line leaves the pixel on this side of the nearer end
-    tied = 8,         ///< a comparison was of equal numbers: `before`, `after` and `bends` are not valid
   };
-  std::uint8_t *before, *after;  ///< distances of the ends, in half pixels
   std::uint8_t* flags;
-  std::uint8_t* range;        ///< of the five lumas
-  std::uint16_t* unlikeness;  ///< 12 × the difference of the luma and the weighed mean of its eight neighbours
+  float* shift;             ///< how far across the edge the colour is fetched
+  std::uint8_t* tied_bits;  ///< where a comparison was of equal numbers: `shift` is that of the pixel by itself alone
+};
+
+/// What a search is given.
+struct FxaaSearch {
+  const int* distances;  ///< where it looks, in half pixels; the last is taken without looking
+  std::size_t count;
+  float subpixel;  ///< how much a pixel unlike its neighbours is taken towards them
 };
 
 struct FxaaKernels {
@@ -35,10 +39,13 @@ struct FxaaKernels {
                        std::size_t n);
   /// Searches along the edges of the pixels whose bit is set; for others nothing valid is written.
   ///
-  /// Shape     `distances` are where the search looks, in half pixels, and the last one is taken without looking; reads
-  ///           and writes whole vectors, so that the arrays have room for n rounded up to 64.
-  void (*ends_row)(const std::uint8_t* luma, std::ptrdiff_t stride, const int* distances, std::size_t count,
-                   const std::uint8_t* bits, const FxaaEnds& ends, std::size_t n);
+  /// Shape     reads and writes whole vectors, so that the arrays have room for n rounded up to 64.
+  void (*ends_row)(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch& search, const std::uint8_t* bits,
+                   const FxaaEnds& ends, std::size_t n);
+  /// Mixes the codes of the pixels whose bit is set with those across their edges, out of the row and those above and
+  /// below it.
+  void (*mix_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                  const std::uint8_t* bits, const FxaaEnds& ends, std::uint8_t* out, std::size_t n);
 };
 
 namespace scalar {

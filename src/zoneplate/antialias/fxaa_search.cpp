@@ -28,6 +28,11 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
   }
 }
 
+/// Where the line through two ends at these distances leaves the pixel.
+float shift_between(int before, int after) {
+  return 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after);
+}
+
 /// Walks along an edge from one of its pixels, between it and the one across.
 class Walk {
  public:
@@ -81,38 +86,59 @@ class Walk {
   int gradient_, twice_;
 };
 
-void ends_of(const std::uint8_t* p, std::ptrdiff_t stride, const int* distances, std::size_t count,
-             const FxaaEnds& ends, std::size_t i) {
+void ends_of(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& search, const FxaaEnds& ends,
+             std::size_t i) {
   const int m = p[0], n = p[-stride], s = p[stride], w = p[-1], e = p[1];
   const int nw = p[-stride - 1], ne = p[-stride + 1], sw = p[stride - 1], se = p[stride + 1];
   const int h = std::abs(nw + sw - 2 * w) + 2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e);
   const int v = std::abs(nw + ne - 2 * n) + 2 * std::abs(w + e - 2 * m) + std::abs(sw + se - 2 * s);
   const bool is_level = h >= v;
   const bool is_second = std::abs((is_level ? s : e) - m) > std::abs((is_level ? n : w) - m);
-  ends.range[i] = static_cast<std::uint8_t>(std::max({m, n, s, w, e}) - std::min({m, n, s, w, e}));
-  ends.unlikeness[i] = static_cast<std::uint16_t>(std::abs(2 * (n + s + w + e) + nw + ne + sw + se - 12 * m));
 
   const Walk walk(p, is_level ? 1 : stride, (is_second ? 1 : -1) * (is_level ? stride : 1));
   int before = 0, after = 0;
   bool bends = false, is_tied = false;
-  walk.find(distances, count, before, after, bends, [&](int, int error) {
+  walk.find(search.distances, search.count, before, after, bends, [&](int, int error) {
     is_tied |= std::abs(error) == walk.gradient();
     return std::abs(error) >= walk.gradient();
   });
-  ends.before[i] = static_cast<std::uint8_t>(before), ends.after[i] = static_cast<std::uint8_t>(after);
-  ends.flags[i] = static_cast<std::uint8_t>((is_level ? FxaaEnds::level : 0) | (is_second ? FxaaEnds::second_side : 0) |
-                                            (bends ? FxaaEnds::bends : 0) | (is_tied ? FxaaEnds::tied : 0));
+  const float line = bends && !is_tied ? shift_between(before, after) : 0.0f;
+
+  // A pixel that is unlike the mean of its neighbours is moved towards them.
+  const int range = std::max({m, n, s, w, e}) - std::min({m, n, s, w, e});
+  const int unlikeness = std::abs(2 * (n + s + w + e) + nw + ne + sw + se - 12 * m);
+  const float c = std::min(1.0f, static_cast<float>(unlikeness) / static_cast<float>(12 * range));
+  const float smooth = (3 - 2 * c) * c * c;
+  ends.shift[i] = std::max(line, smooth * smooth * search.subpixel);
+  ends.flags[i] = static_cast<std::uint8_t>((is_level ? FxaaEnds::level : 0) | (is_second ? FxaaEnds::second_side : 0));
+  if (is_tied) ends.tied_bits[i / 8] = static_cast<std::uint8_t>(ends.tied_bits[i / 8] | 1 << i % 8);
 }
 
-void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const int* distances, std::size_t count,
-              const std::uint8_t* bits, const FxaaEnds& ends, std::size_t n) {
+void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch& search, const std::uint8_t* bits,
+              const FxaaEnds& ends, std::size_t n) {
+  std::fill_n(ends.tied_bits, (n + 7) / 8, std::uint8_t{0});
   for (std::size_t i = 0; i < n; ++i)
-    if (bits[i / 8] >> i % 8 & 1) ends_of(luma + i, stride, distances, count, ends, i);
+    if (bits[i / 8] >> i % 8 & 1) ends_of(luma + i, stride, search, ends, i);
+}
+
+void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::uint8_t* bits,
+             const FxaaEnds& ends, std::uint8_t* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(bits[i / 8] >> i % 8 & 1)) continue;
+    const bool is_level = ends.flags[i] & FxaaEnds::level, is_second = ends.flags[i] & FxaaEnds::second_side;
+    const std::size_t left = i > 0 ? i - 1 : 0, right = i + 1 < n ? i + 1 : i;
+    const std::uint8_t* there = is_level ? (is_second ? below : above) + 4 * i : here + 4 * (is_second ? right : left);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const float from = here[4 * i + c], to = there[c];
+      out[4 * i + c] = static_cast<std::uint8_t>(from + (to - from) * ends.shift[i] + 0.5f);
+    }
+  }
 }
 
 }  // namespace
 
-const FxaaKernels fxaa_kernels = {.luma_row = luma_row, .contrast_row = contrast_row, .ends_row = ends_row};
+const FxaaKernels fxaa_kernels = {
+    .luma_row = luma_row, .contrast_row = contrast_row, .ends_row = ends_row, .mix_row = mix_row};
 
 }  // namespace scalar
 
@@ -126,7 +152,7 @@ float fxaa_tied_shift(const std::uint8_t* pixel, std::ptrdiff_t along, std::ptrd
   walk.find(distances, count, before, after, bends, [&](int distance, int error) {
     return std::abs(error) == walk.gradient() ? walk.reaches_rounded(distance) : std::abs(error) > walk.gradient();
   });
-  return bends ? 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after) : 0;
+  return bends ? scalar::shift_between(before, after) : 0;
 }
 
 }  // namespace antialias
