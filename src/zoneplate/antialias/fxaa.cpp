@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <vector>
 
 #include "zoneplate/antialias/bordered.h"
 #include "zoneplate/antialias/codes.h"
@@ -22,34 +23,6 @@
 #include "zoneplate/render/method.h"
 
 namespace zoneplate {
-namespace scalar {
-namespace {
-
-void luma_row(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
-    luma[i] = static_cast<std::uint8_t>((299 * r + 587 * g + 114 * b) * 0.001f + 0.5f);
-  }
-}
-
-void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast contrast, std::uint8_t* bits,
-                  std::size_t n) {
-  std::fill_n(bits, (n + 7) / 8, std::uint8_t{0});
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint8_t* m = luma + i;
-    const auto [low, high] = std::minmax({m[0], m[-stride], m[stride], m[-1], m[1]});
-    const int share = high * contrast.factor >> 16;
-    const bool is_seen = high - low > std::max<int>(share, contrast.least);
-    bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | is_seen << i % 8);
-  }
-}
-
-}  // namespace
-
-const FxaaKernels fxaa_kernels = {.luma_row = luma_row, .contrast_row = contrast_row};
-
-}  // namespace scalar
-
 namespace antialias {
 namespace {
 
@@ -103,106 +76,6 @@ FxaaContrast contrast_of(const FxaaOptions& options) {
   return {static_cast<std::uint8_t>(below(options.least * 255)), static_cast<std::uint16_t>(factor)};
 }
 
-/// Where a pixel's colour is to be fetched: this far towards its neighbour at dx, dy.
-struct Shift {
-  float amount = 0;
-  int dx = 0, dy = 0;
-};
-
-/// The 3 × 3 lumas around a pixel.
-struct Around {
-  int m, n, s, w, e, nw, ne, sw, se;
-  Around(const std::uint8_t* p, std::ptrdiff_t stride)
-      : m(p[0]),
-        n(p[-stride]),
-        s(p[stride]),
-        w(p[-1]),
-        e(p[1]),
-        nw(p[-stride - 1]),
-        ne(p[-stride + 1]),
-        sw(p[stride - 1]),
-        se(p[stride + 1]) {}
-
-  bool is_horizontal() const {
-    const int h = std::abs(nw + sw - 2 * w) + 2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e);
-    const int v = std::abs(nw + ne - 2 * n) + 2 * std::abs(w + e - 2 * m) + std::abs(sw + se - 2 * s);
-    return h >= v;
-  }
-
-  /// How far a pixel that is unlike the mean of its neighbours is moved towards them.
-  float subpixel_shift(float strength) const {
-    const int range = std::max({m, n, s, w, e}) - std::min({m, n, s, w, e});
-    const int off = std::abs(2 * (n + s + w + e) + nw + ne + sw + se - 12 * m);
-    const float c = std::min(1.0f, static_cast<float>(off) / static_cast<float>(12 * range));
-    const float smooth = (3 - 2 * c) * c * c;
-    return smooth * smooth * strength;
-  }
-};
-
-/// A luma as the original reads it. Where a search meets its threshold exactly, the rounding of these decides.
-constexpr std::array<double, 256> unit_luma = [] {
-  std::array<double, 256> table{};
-  for (std::size_t code = 0; code < 256; ++code) table[code] = static_cast<double>(code) / 255;
-  return table;
-}();
-
-/// The edge between a pixel and its neighbour across it, and how far its two ends are.
-class Edge {
- public:
-  Edge(const std::uint8_t* pixel, std::ptrdiff_t along, std::ptrdiff_t across)
-      : pixel_(pixel),
-        along_(along),
-        across_(across),
-        end_(std::abs(unit_luma[pixel[0]] - unit_luma[pixel[across]]) * 0.25),
-        here_(boundary(0)) {}
-
-  /// The shift at which the line through the ends leaves the pixel; 0 if the nearer end bends the other way.
-  float shift(std::span<const int> distances) const {
-    int before = distances[0], after = distances[0];
-    double error_before = error(-before), error_after = error(after);
-    bool is_before_done = is_end(error_before), is_after_done = is_end(error_after);
-    if (!is_before_done) before = distances[1];
-    if (!is_after_done) after = distances[1];
-    for (std::size_t i = 2; i < distances.size() && !(is_before_done && is_after_done); ++i) {
-      if (!is_before_done) {
-        error_before = error(-before), is_before_done = is_end(error_before);
-        if (!is_before_done) before = distances[i];
-      }
-      if (!is_after_done) {
-        error_after = error(after), is_after_done = is_end(error_after);
-        if (!is_after_done) after = distances[i];
-      }
-    }
-    const double error_at_end = before < after ? error_before : error_after;
-    const bool is_below = unit_luma[pixel_[0]] - here_ < 0;
-    if ((error_at_end < 0) == is_below) return 0;
-    return 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after);
-  }
-
- private:
-  /// The luma on the boundary, `distance` half pixels along it, less that at the pixel.
-  double error(int distance) const { return (boundary(distance >> 1) + boundary((distance + 1) >> 1)) * 0.5 - here_; }
-  double boundary(std::ptrdiff_t i) const {
-    const std::uint8_t* p = pixel_ + i * along_;
-    return (unit_luma[p[0]] + unit_luma[p[across_]]) * 0.5;
-  }
-  bool is_end(double error) const { return std::abs(error) >= end_; }
-
-  const std::uint8_t* pixel_;
-  std::ptrdiff_t along_, across_;
-  double end_, here_;
-};
-
-Shift quality_shift(const std::uint8_t* pixel, std::ptrdiff_t stride, std::span<const int> distances, float subpixel) {
-  const Around a(pixel, stride);
-  const bool is_horizontal = a.is_horizontal();
-  const int first = std::abs((is_horizontal ? a.n : a.w) - a.m), second = std::abs((is_horizontal ? a.s : a.e) - a.m);
-  const int side = first >= second ? -1 : 1;
-  const std::ptrdiff_t along = is_horizontal ? 1 : stride, across = is_horizontal ? stride : 1;
-  const float shift = Edge(pixel, along, side * across).shift(distances);
-  return {std::max(shift, a.subpixel_shift(subpixel)), is_horizontal ? 0 : side, is_horizontal ? side : 0};
-}
-
 Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
   return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
@@ -222,20 +95,55 @@ Luma make_luma(const Rgba8Image& image, const FxaaOptions& options, const FxaaKe
   return luma;
 }
 
-void quality_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, std::span<const int> distances,
-                 std::span<const std::uint8_t> bits, int y, std::span<Rgba8> out) {
-  for (int block = 0; block < image.width(); block += 64) {
-    std::uint64_t left = 0;
-    std::memcpy(&left, bits.data() + block / 8, sizeof left);
-    if (image.width() - block < 64) left &= (std::uint64_t{1} << (image.width() - block)) - 1;
-    for (; left != 0; left &= left - 1) {
-      const int x = block + std::countr_zero(left);
-      const Shift shift = quality_shift(luma.at(x, y), luma.stride(), distances, options.subpixel);
-      const Rgba8 here = image(x, y), there = pixel_at(image, x + shift.dx, y + shift.dy);
-      out[static_cast<std::size_t>(x)] =
-          options.mixes_light ? mixed_light(here, there, shift.amount) : mixed_codes(here, there, shift.amount);
-    }
+/// The memory for what the kernels find in one row.
+struct RowMemory {
+  std::vector<std::uint8_t> bits, tied_bits, flags;
+  std::vector<float> shift;
+  explicit RowMemory(int width) {
+    const std::size_t n = (static_cast<std::size_t>(width) + 63) / 64 * 64;
+    bits.resize(n / 8), tied_bits.resize(n / 8), flags.resize(n), shift.resize(n);
   }
+  FxaaEnds ends() { return {flags.data(), shift.data(), tied_bits.data()}; }
+};
+
+/// Calls `body(x)` for every bit that is set.
+template <class Body>
+void for_bits(const std::vector<std::uint8_t>& bits, const Body& body) {
+  for (std::size_t byte = 0; byte < bits.size(); byte += 8) {
+    std::uint64_t left = 0;
+    for (std::memcpy(&left, bits.data() + byte, sizeof left); left != 0; left &= left - 1)
+      body(8 * byte + static_cast<std::size_t>(std::countr_zero(left)));
+  }
+}
+
+/// Clears the bits of what lies beyond the picture.
+void clear_beyond(std::vector<std::uint8_t>& bits, std::size_t width) {
+  if (width % 8 != 0) bits[width / 8] = static_cast<std::uint8_t>(bits[width / 8] & ((1 << width % 8) - 1));
+  std::fill(bits.begin() + static_cast<std::ptrdiff_t>((width + 7) / 8), bits.end(), std::uint8_t{0});
+}
+
+/// Fetches the colours of one row's pixels.
+void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, std::span<const int> distances,
+             const FxaaKernels& kernels, int y, RowMemory& row, std::span<Rgba8> out) {
+  for_bits(row.tied_bits, [&](std::size_t x) {
+    if (!(row.bits[x / 8] >> x % 8 & 1)) return;
+    const std::ptrdiff_t side = row.flags[x] & FxaaEnds::second_side ? 1 : -1, stride = luma.stride();
+    const bool is_level = row.flags[x] & FxaaEnds::level;
+    const float shift = fxaa_tied_shift(luma.at(static_cast<int>(x), y), is_level ? 1 : stride,
+                                        side * (is_level ? stride : 1), distances.data(), distances.size());
+    row.shift[x] = std::max(row.shift[x], shift);
+  });
+  if (!options.mixes_light) {
+    const auto codes = [&](int j) { return &image.row(std::clamp(j, 0, image.height() - 1))[0].r; };
+    kernels.mix_row(codes(y - 1), codes(y), codes(y + 1), row.bits.data(), row.ends(), &out[0].r, out.size());
+    return;
+  }
+  for_bits(row.bits, [&](std::size_t i) {
+    const int x = static_cast<int>(i), side = row.flags[i] & FxaaEnds::second_side ? 1 : -1;
+    const bool is_level = row.flags[i] & FxaaEnds::level;
+    const Rgba8 there = pixel_at(image, x + (is_level ? 0 : side), y + (is_level ? side : 0));
+    out[i] = mixed_light(image(x, y), there, row.shift[i]);
+  });
 }
 
 /// A colour as four floats in codes, and the luma that goes with it.
@@ -320,14 +228,16 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
 
   const FxaaContrast contrast = contrast_of(options);
   const std::span<const int> distances = distances_of(options.preset);
-  const std::size_t bytes = (static_cast<std::size_t>(image.width()) + 63) / 64 * 8;
+  const FxaaSearch search{distances.data(), distances.size(), options.subpixel};
+  const auto width = static_cast<std::size_t>(image.width());
   parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint8_t> bits(bytes);
+    RowMemory row(image.width());
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       std::ranges::copy(image.row(y), out.row(y).begin());
-      kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, bits.data(),
-                           static_cast<std::size_t>(image.width()));
-      quality_row(image, luma, options, distances, bits, y, out.row(y));
+      kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, row.bits.data(), width);
+      clear_beyond(row.bits, width);
+      kernels.ends_row(luma.at(0, y), luma.stride(), search, row.bits.data(), row.ends(), width);
+      mix_row(image, luma, options, distances, kernels, y, row, out.row(y));
     }
   });
   return out;

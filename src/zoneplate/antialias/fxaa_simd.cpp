@@ -57,10 +57,236 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
   }
 }
 
+using Words = hn::ScalableTag<std::int16_t>;
+using W = hn::Vec<Words>;
+using WMask = hn::Mask<Words>;
+constexpr Words dw;
+constexpr std::int32_t pixel_bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+alignas(32) constexpr std::int16_t lane_bits[16] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                    256, 512, 1024, 2048, 4096, 8192, 16384, -32768};
+
+HWY_INLINE W load_luma(const std::uint8_t* p) {
+  const hn::Rebind<std::uint8_t, Words> bytes;
+  return hn::PromoteTo(dw, hn::LoadU(bytes, p));
+}
+
+using Floats = hn::ScalableTag<float>;
+using V = hn::Vec<Floats>;
+constexpr Floats df;
+
+HWY_INLINE V lower(W v) {
+  const hn::RebindToSigned<Floats> di;
+  return hn::ConvertTo(df, hn::PromoteTo(di, hn::LowerHalf(v)));
+}
+HWY_INLINE V upper(W v) {
+  const hn::RebindToSigned<Floats> di;
+  const hn::Half<Words> half;
+  return hn::ConvertTo(df, hn::PromoteTo(di, hn::UpperHalf(half, v)));
+}
+
+HWY_INLINE void store_bytes(W v, std::uint8_t* to) {
+  const hn::Rebind<std::uint8_t, Words> bytes;
+  hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
+}
+
+/// |a + b - 2 c|
+HWY_INLINE W bend(W a, W b, W c) { return hn::Abs(hn::Sub(hn::Add(a, b), hn::Add(c, c))); }
+
+/// The edges of a vector of pixels, each with its own direction and side.
+struct Walk {
+  const std::uint8_t* pixel;
+  std::ptrdiff_t stride;
+  WMask is_level, is_second;
+  bool all_level, none_level;
+  W gradient, twice;
+
+  /// The sums of the lumas on both sides of the edge, i pixels along it.
+  HWY_INLINE W pair(std::ptrdiff_t i) const {
+    W level = hn::Zero(dw), upright = hn::Zero(dw);
+    if (!none_level) {
+      const std::uint8_t* p = pixel + i;
+      level = hn::Add(load_luma(p), hn::IfThenElse(is_second, load_luma(p + stride), load_luma(p - stride)));
+    }
+    if (!all_level) {
+      const std::uint8_t* p = pixel + i * stride;
+      upright = hn::Add(load_luma(p), hn::IfThenElse(is_second, load_luma(p + 1), load_luma(p - 1)));
+    }
+    return hn::IfThenElse(is_level, level, upright);
+  }
+  /// Four times the luma on the border, `distance` half pixels along it, less that at the pixel.
+  HWY_INLINE W error(int distance) const {
+    const W first = pair(distance >> 1);
+    return hn::Sub(hn::Add(first, distance & 1 ? pair((distance + 1) >> 1) : first), twice);
+  }
+};
+
+/// One direction of the search.
+struct End {
+  W distance, error;
+  WMask is_done;
+
+  HWY_INLINE void look(const Walk& walk, int sign, int at, int next, WMask& is_tied) {
+    const W found = walk.error(sign * at);
+    const W size = hn::Abs(found);
+    is_tied = hn::Or(is_tied, hn::AndNot(is_done, hn::Eq(size, walk.gradient)));
+    error = hn::IfThenElse(is_done, error, found);
+    is_done = hn::Or(is_done, hn::Not(hn::Lt(size, walk.gradient)));
+    distance = hn::IfThenElse(is_done, distance, hn::Set(dw, static_cast<std::int16_t>(next)));
+  }
+};
+
+HWY_INLINE W bit_where(WMask mask, int bit) {
+  return hn::IfThenElseZero(mask, hn::Set(dw, static_cast<std::int16_t>(bit)));
+}
+
+/// The greater of the line's shift and that of the pixel by itself, for half a vector.
+HWY_INLINE V shift_of(V line, V unlikeness, V range, float subpixel) {
+  const V one = hn::Set(df, 1.0f);
+  const V ratio = hn::Div(unlikeness, hn::Mul(range, hn::Set(df, 12.0f)));
+  const V c = hn::IfThenElse(hn::Lt(ratio, one), ratio, one);
+  const V slope = hn::Sub(hn::Set(df, 3.0f), hn::Mul(hn::Set(df, 2.0f), c));
+  const V smooth = hn::Mul(hn::Mul(slope, c), c);
+  const V own = hn::Mul(hn::Mul(smooth, smooth), hn::Set(df, subpixel));
+  return hn::IfThenElse(hn::Lt(line, own), own, line);
+}
+
+/// Where the line through two ends leaves the pixel, and 0 where `nearer` is 0.
+HWY_INLINE V line_shift(V nearer, V both) {
+  const V share = hn::Sub(hn::Set(df, 0.5f), hn::Div(nearer, both));
+  return hn::IfThenElse(hn::Gt(nearer, hn::Zero(df)), share, hn::Zero(df));
+}
+
+void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& search, WMask wanted,
+               const FxaaEnds& ends, std::size_t x) {
+  const W m = load_luma(p), n = load_luma(p - stride), s = load_luma(p + stride), w = load_luma(p - 1),
+          e = load_luma(p + 1);
+  const W nw = load_luma(p - stride - 1), ne = load_luma(p - stride + 1), sw = load_luma(p + stride - 1),
+          se = load_luma(p + stride + 1);
+  const W middle_h = bend(n, s, m), middle_v = bend(w, e, m);
+  const W h = hn::Add(hn::Add(bend(nw, sw, w), bend(ne, se, e)), hn::Add(middle_h, middle_h));
+  const W v = hn::Add(hn::Add(bend(nw, ne, n), bend(sw, se, s)), hn::Add(middle_v, middle_v));
+  Walk walk{p, stride, hn::Not(hn::Lt(h, v)), {}, false, false, {}, {}};
+  const W first = hn::Abs(hn::Sub(hn::IfThenElse(walk.is_level, n, w), m));
+  const W second_luma = hn::IfThenElse(walk.is_level, s, e), second = hn::Abs(hn::Sub(second_luma, m));
+  walk.is_second = hn::Gt(second, first);
+  walk.gradient = hn::Max(first, second);
+  walk.all_level = hn::AllFalse(dw, hn::AndNot(walk.is_level, wanted));
+  walk.none_level = hn::AllFalse(dw, hn::And(walk.is_level, wanted));
+  const W across = hn::IfThenElse(walk.is_second, second_luma, hn::IfThenElse(walk.is_level, n, w));
+  const W here = hn::Add(m, across);
+  walk.twice = hn::Add(here, here);
+
+  // A pixel that is not wanted is done from the start.
+  const W start = hn::Set(dw, static_cast<std::int16_t>(search.distances[0]));
+  End before{start, hn::Zero(dw), hn::Not(wanted)}, after = before;
+  WMask is_tied = hn::Lt(start, start);
+  for (std::size_t i = 0; i + 1 < search.count; ++i) {
+    before.look(walk, -1, search.distances[i], search.distances[i + 1], is_tied);
+    after.look(walk, 1, search.distances[i], search.distances[i + 1], is_tied);
+    if (hn::AllTrue(dw, hn::And(before.is_done, after.is_done))) break;
+  }
+  const W nearer = hn::IfThenElse(hn::Lt(before.distance, after.distance), before.error, after.error);
+  const WMask bends = hn::Xor(hn::Lt(nearer, hn::Zero(dw)), hn::Lt(m, across));
+  const W least = hn::IfThenElseZero(hn::AndNot(is_tied, bends), hn::Min(before.distance, after.distance));
+  const W both = hn::Add(before.distance, after.distance);
+
+  const W low = hn::Min(m, hn::Min(hn::Min(n, s), hn::Min(w, e))),
+          high = hn::Max(m, hn::Max(hn::Max(n, s), hn::Max(w, e)));
+  const W range = hn::Sub(high, low);
+  const W near = hn::Add(hn::Add(n, s), hn::Add(w, e)), corners = hn::Add(hn::Add(nw, ne), hn::Add(sw, se));
+  const W twelve = hn::Mul(m, hn::Set(dw, std::int16_t{12}));
+  const W unlikeness = hn::Abs(hn::Sub(hn::Add(hn::Add(near, near), corners), twelve));
+  hn::StoreU(shift_of(line_shift(lower(least), lower(both)), lower(unlikeness), lower(range), search.subpixel), df,
+             ends.shift + x);
+  hn::StoreU(shift_of(line_shift(upper(least), upper(both)), upper(unlikeness), upper(range), search.subpixel), df,
+             ends.shift + x + hn::Lanes(df));
+  store_bytes(hn::Or(bit_where(walk.is_level, FxaaEnds::level), bit_where(walk.is_second, FxaaEnds::second_side)),
+              ends.flags + x);
+  hn::StoreMaskBits(dw, is_tied, ends.tied_bits + x / 8);
+}
+
+void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch& search, const std::uint8_t* bits,
+              const FxaaEnds& ends, std::size_t n) {
+  const std::size_t lanes = hn::Lanes(dw);
+  const W powers = hn::Load(dw, lane_bits);
+  for (std::size_t x = 0; x < n; x += lanes) {
+    int wanted = bits[x / 8];
+    ends.tied_bits[x / 8] = 0;
+    if (lanes == 16) wanted |= bits[x / 8 + 1] << 8, ends.tied_bits[x / 8 + 1] = 0;
+    if (wanted == 0) continue;
+    const W set = hn::And(hn::Set(dw, static_cast<std::int16_t>(wanted)), powers);
+    ends_some(luma + x, stride, search, hn::Eq(set, powers), ends, x);
+  }
+}
+
+using Pixels = hn::RebindToSigned<Floats>;
+using P = hn::Vec<Pixels>;
+constexpr Pixels dp;
+
+/// One channel of (1 - t) here + t there, rounded, in its place.
+template <int shift>
+HWY_INLINE P mixed_channel(P here, P there, V t) {
+  const P mask = hn::Set(dp, 255);
+  const V from = hn::ConvertTo(df, hn::And(hn::ShiftRight<shift>(here), mask));
+  const V to = hn::ConvertTo(df, hn::And(hn::ShiftRight<shift>(there), mask));
+  const V out = hn::Add(hn::Add(from, hn::Mul(hn::Sub(to, from), t)), hn::Set(df, 0.5f));
+  return hn::ShiftLeft<shift>(hn::ConvertTo(dp, out));
+}
+
+HWY_INLINE P load_pixels(const std::uint8_t* p) {
+  const hn::Repartition<std::uint8_t, Pixels> bytes;
+  return hn::BitCast(dp, hn::LoadU(bytes, p));
+}
+
+/// A few pixels at the picture's sides, one by one.
+void mix_few(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int bits,
+             const FxaaEnds& ends, std::uint8_t* out, std::size_t begin, std::size_t end, std::size_t n) {
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!(bits >> (i - begin) & 1)) continue;
+    const bool is_level = ends.flags[i] & FxaaEnds::level, is_second = ends.flags[i] & FxaaEnds::second_side;
+    const std::size_t left = i > 0 ? i - 1 : 0, right = i + 1 < n ? i + 1 : i;
+    const std::uint8_t* there = is_level ? (is_second ? below : above) + 4 * i : here + 4 * (is_second ? right : left);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const float from = here[4 * i + c], to = there[c];
+      out[4 * i + c] = static_cast<std::uint8_t>(from + (to - from) * ends.shift[i] + 0.5f);
+    }
+  }
+}
+
+void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::uint8_t* bits,
+             const FxaaEnds& ends, std::uint8_t* out, std::size_t n) {
+  const std::size_t lanes = hn::Lanes(dp);
+  const hn::Rebind<std::uint8_t, Pixels> bytes;
+  const hn::Repartition<std::uint8_t, Pixels> whole;
+  const P powers = hn::LoadU(dp, pixel_bits);
+  for (std::size_t x = 0; x < n; x += 8) {
+    if (bits[x / 8] == 0) continue;
+    if (x == 0 || x + 9 > n) {
+      mix_few(above, here, below, bits[x / 8], ends, out, x, x + 8 < n ? x + 8 : n, n);
+      continue;
+    }
+    for (std::size_t i = x; i < x + 8; i += lanes) {
+      const P set = hn::And(hn::Set(dp, bits[x / 8] >> (i - x)), powers);
+      const P flags = hn::PromoteTo(dp, hn::LoadU(bytes, ends.flags + i));
+      const P level = hn::Set(dp, FxaaEnds::level), second = hn::Set(dp, FxaaEnds::second_side);
+      const auto is_second = hn::Eq(hn::And(flags, second), second), is_level = hn::Eq(hn::And(flags, level), level);
+      const P m = load_pixels(here + 4 * i);
+      const P beside = hn::IfThenElse(is_second, load_pixels(here + 4 * i + 4), load_pixels(here + 4 * i - 4));
+      const P over = hn::IfThenElse(is_second, load_pixels(below + 4 * i), load_pixels(above + 4 * i));
+      const P there = hn::IfThenElse(is_level, over, beside);
+      const V t = hn::LoadU(df, ends.shift + i);
+      const P mixed = hn::Or(hn::Or(mixed_channel<0>(m, there, t), mixed_channel<8>(m, there, t)),
+                             hn::Or(mixed_channel<16>(m, there, t), mixed_channel<24>(m, there, t)));
+      hn::StoreU(hn::BitCast(whole, hn::IfThenElse(hn::Eq(set, powers), mixed, m)), whole, out + 4 * i);
+    }
+  }
+}
+
 }  // namespace
 
 extern const FxaaKernels fxaa_kernels;
-const FxaaKernels fxaa_kernels = {.luma_row = luma_row, .contrast_row = contrast_row};
+const FxaaKernels fxaa_kernels = {
+    .luma_row = luma_row, .contrast_row = contrast_row, .ends_row = ends_row, .mix_row = mix_row};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

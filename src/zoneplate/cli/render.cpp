@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -47,10 +48,19 @@ void check_writable(const std::string& output) {
     throw Error(Trouble::Output, fmt::format("{}: {}: {}", output, folder, std::strerror(errno)));
 }
 
+// What is rendered for a crop: so much more around it as the method looks at, within the picture.
+std::optional<Crop> rendered_crop(const RenderOptions& options, int halo) {
+  if (!options.crop) return std::nullopt;
+  const Crop c = *options.crop;
+  const int left = std::min(halo, c.x), top = std::min(halo, c.y);
+  return Crop{c.x - left, c.y - top, left + c.width + std::min(halo, options.width - c.x - c.width),
+              top + c.height + std::min(halo, options.height - c.y - c.height)};
+}
+
 // The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
-void check_memory(const RenderArgs& args) {
+void check_memory(const RenderArgs& args, int halo) {
   const std::uint64_t bytes_per_pixel = args.aovs.empty() ? 44 : 104;
-  const auto& crop = args.options.crop;
+  const std::optional<Crop> crop = rendered_crop(args.options, halo);
   const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
@@ -76,6 +86,13 @@ Request request_of(Resolver& resolver, const RenderArgs& args) {
   return request;
 }
 
+Rgba8Image part_of(const Rgba8Image& image, const Crop& part) {
+  Rgba8Image out(part.width, part.height);
+  for (int y = 0; y < part.height; ++y)
+    std::ranges::copy_n(image.row(part.y + y).begin() + part.x, part.width, out.row(y).begin());
+  return out;
+}
+
 std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
                                    Progress& progress, Summary& summary) {
   progress.begin("render", 0.2);
@@ -83,6 +100,7 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
   display.background = background_of(args);
   const Request request = request_of(resolver, args);
   RenderOptions options = args.options;
+  options.crop = rendered_crop(args.options, request.halo);
   if (request.is_local) options.shown = &display;
   Frame frame = render(scene, camera, request, options, &summary.counts);
   summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},
@@ -91,9 +109,14 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
 
   Stopwatch display_watch;
   frame.display = display;
-  const Rgba8Image image = request.is_local
-                               ? std::move(frame.shown)
-                               : quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
+  Rgba8Image image = request.is_local
+                         ? std::move(frame.shown)
+                         : quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
+  if (const std::optional<Crop> crop = args.options.crop; crop && request.halo > 0) {
+    image = part_of(image, {crop->x - options.crop->x, crop->y - options.crop->y, crop->width, crop->height});
+    // The data passes have no halo.
+    if (!args.aovs.empty()) frame = render(scene, camera, request, args.options);
+  }
   summary.width = image.width(), summary.height = image.height();
   summary.times.emplace_back("display", display_watch.ms());
 
@@ -162,7 +185,7 @@ void run_render(std::span<const std::string> arguments) {
   RenderArgs args = *parsed;
   const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
   check_writable(args.output);
-  check_memory(args);
+  check_memory(args, resolver->ask(0).halo);
   if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
 
   const Stopwatch total_watch;

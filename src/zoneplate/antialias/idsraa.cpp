@@ -1,0 +1,118 @@
+// Subpixel reconstruction by surface: shade each pixel once, at its centre, and know at more places which triangle is
+// there; every place takes the colour of a shaded pixel nearby that shows its triangle.
+//
+// Subpixel reconstruction antialiasing with the triangles themselves in place of the likeness of normals and depths,
+// which it uses only where a triangle is shaded nowhere around. With one colour a triangle it is multisampling. Weak
+// where surfaces are smaller than a pixel, and as blind as multisampling to what shading does inside one.
+//
+// Source: after Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011.
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/antialias/codes.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// The pixels around, the nearest first; of equally unlike depths the first is taken.
+struct Offset {
+  int x, y;
+};
+constexpr Offset around[] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+
+/// One sample's look for a colour. The first sample of a frame is the shaded one.
+class Reconstruction {
+ public:
+  explicit Reconstruction(const Frame& frame)
+      : frame_(frame), width_(frame.color.width()), height_(frame.color.height()) {}
+
+  Linear pixel(int x, int y) const {
+    const std::uint32_t own = triangle(0, x, y);
+    const std::size_t samples = frame_.sample_triangle.size() - 1;
+    Linear sum{0, 0, 0, 0};
+    std::size_t own_count = 0;
+    for (std::size_t s = 1; s <= samples; ++s) {
+      if (triangle(s, x, y) == own)
+        ++own_count;
+      else
+        sum = sum + sample(s, x, y);
+    }
+    const Linear color = frame_.sample_color[0](x, y);
+    if (own_count == samples) return color;
+    return (sum + color * static_cast<float>(own_count)) * (1 / static_cast<float>(samples));
+  }
+
+ private:
+  std::uint32_t triangle(std::size_t s, int x, int y) const { return frame_.sample_triangle[s](x, y); }
+  float depth(std::size_t s, int x, int y) const { return frame_.sample_depth[s](x, y); }
+  bool is_inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+
+  /// The mean of the pixels around that show the sample's triangle, else the one whose depth is most like its.
+  Linear sample(std::size_t s, int x, int y) const {
+    const std::uint32_t wanted = triangle(s, x, y);
+    const float z = depth(s, x, y);
+    Linear sum{0, 0, 0, 0}, nearest = frame_.sample_color[0](x, y);
+    int count = 0;
+    float least = 2;
+    for (const Offset o : around) {
+      const int i = x + o.x, j = y + o.y;
+      if (!is_inside(i, j)) continue;
+      const Linear& color = frame_.sample_color[0](i, j);
+      if (triangle(0, i, j) == wanted) sum = sum + color, ++count;
+      // Reversed depth goes as one over the distance: relative differences are those of distances.
+      const float other = depth(0, i, j), greater = std::max(z, other);
+      const float unlike = greater > 0 ? std::abs(z - other) / greater : 0;
+      if (unlike < least) least = unlike, nearest = color;
+    }
+    return count > 0 ? sum * (1 / static_cast<float>(count)) : nearest;
+  }
+
+  const Frame& frame_;
+  int width_, height_;
+};
+
+class IdSraa : public Resolver {
+ public:
+  explicit IdSraa(int samples) {
+    pattern_ = {SamplePosition{}};
+    for (const SamplePosition p : standard_pattern(samples)) pattern_.push_back(p);
+  }
+  Request ask(int) override {
+    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}};
+    request.planes.samples = true;
+    request.halo = 1;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    const Reconstruction reconstruction(frame);
+    LinearImage out(frame.color.width(), frame.color.height());
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) out(x, y) = reconstruction.pixel(x, y);
+    });
+    return out;
+  }
+
+ private:
+  SamplePattern pattern_;
+};
+
+constexpr int counts[] = {2, 4, 8, 16};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "places of the standard pattern where surfaces are known", .value = 8, .choices = counts}};
+
+}  // namespace
+
+Method idsraa();
+
+Method idsraa() {
+  return {
+      .name = "idsraa",
+      .summary = "one shaded sample a pixel, given to the places that show its triangle",
+      .source = "after Chajdas 2011",
+      .params = params,
+      .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<IdSraa>(s.integer("n")); },
+      .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias
