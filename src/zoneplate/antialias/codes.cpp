@@ -1,6 +1,7 @@
 #include "zoneplate/antialias/codes.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
@@ -8,23 +9,26 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t grain = 16384;  // pixels
+/// What a transparent picture is laid on to be filtered.
+enum class Backdrop { Black, White };
 
-Display premultiplied(const Display& c, Mixing mixing) {
-  const auto times = [&](float code) {
-    return mixing == Mixing::Codes ? code * c.a : encode_srgb(decode_srgb(code) * c.a);
+Display laid_on(const Display& c, Backdrop backdrop, Mixing mixing) {
+  const float rest = backdrop == Backdrop::White ? 1 - c.a : 0.0f;
+  const auto lay = [&](float code) {
+    return mixing == Mixing::Codes ? code * c.a + rest : encode_srgb(decode_srgb(code) * c.a + rest);
   };
-  return {times(c.r), times(c.g), times(c.b), c.a};
+  return {lay(c.r), lay(c.g), lay(c.b), c.a};
 }
 
-Display straight(Rgba8 c, Mixing mixing) {
+Display lifted_from(Rgba8 c, Backdrop backdrop, Mixing mixing) {
   if (c.a == 0) return {0, 0, 0, 0};
-  const float a = static_cast<float>(c.a) / 255;
-  const auto over = [&](std::uint8_t code) {
-    const float v = mixing == Mixing::Codes ? static_cast<float>(code) / 255 / a : encode_srgb(decode_srgb8(code) / a);
-    return std::min(v, 1.0f);
+  const float a = static_cast<float>(c.a) / 255, rest = backdrop == Backdrop::White ? 1 - a : 0.0f;
+  const auto lift = [&](std::uint8_t code) {
+    const float v = mixing == Mixing::Codes ? (static_cast<float>(code) / 255 - rest) / a
+                                            : encode_srgb((decode_srgb8(code) - rest) / a);
+    return std::clamp(v, 0.0f, 1.0f);
   };
-  return {over(c.r), over(c.g), over(c.b), a};
+  return {lift(c.r), lift(c.g), lift(c.b), a};
 }
 
 Display shown(Rgba8 c) {
@@ -32,25 +36,56 @@ Display shown(Rgba8 c) {
           static_cast<float>(c.a) / 255};
 }
 
+/// Calls `body(i)` for every pixel, blocks of pixels in parallel.
+template <class Body>
+void for_pixels(std::size_t count, const Body& body) {
+  constexpr std::size_t grain = 16384;
+  parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// A picture before and after a filter.
+struct Filtered {
+  Rgba8Image before, after;
+  bool is_changed(std::size_t i) const { return before.values()[i] != after.values()[i]; }
+  /// How far a pixel's alpha moved.
+  int alpha_change(std::size_t i) const { return std::abs(before.values()[i].a - after.values()[i].a); }
+};
+
+Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, const CodeFilter& filter) {
+  DisplayImage laid(image.width(), image.height());
+  for_pixels(image.values().size(),
+             [&](std::size_t i) { laid.values()[i] = laid_on(image.values()[i], backdrop, mixing); });
+  Filtered f{quantize8(laid), {}};
+  f.after = filter(f.before);
+  return f;
+}
+
+/// What is as dark as nothing shows on white, and what is as bright on black: where a silhouette was smoothed more,
+/// that result is taken.
+DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const CodeFilter& filter) {
+  const Filtered black = filter_on(image, Backdrop::Black, mixing, filter);
+  const Filtered white = filter_on(image, Backdrop::White, mixing, filter);
+  for_pixels(image.values().size(), [&](std::size_t i) {
+    if (white.alpha_change(i) > black.alpha_change(i))
+      image.values()[i] = lifted_from(white.after.values()[i], Backdrop::White, mixing);
+    else if (black.is_changed(i))
+      image.values()[i] = lifted_from(black.after.values()[i], Backdrop::Black, mixing);
+  });
+  return image;
+}
+
 }  // namespace
 
 DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& filter) {
   if (image.empty()) return image;
-  const bool is_opaque = std::ranges::all_of(image.values(), [](const Display& c) { return c.a >= 1; });
-  DisplayImage laid;
-  if (!is_opaque) {
-    laid = DisplayImage(image.width(), image.height());
-    parallel_ranges(image.values().size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) laid.values()[i] = premultiplied(image.values()[i], mixing);
-    });
-  }
-  const Rgba8Image before = quantize8(is_opaque ? image : laid);
-  const Rgba8Image after = filter(before);
-  parallel_ranges(image.values().size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Rgba8 c = after.values()[i];
-      if (c != before.values()[i]) image.values()[i] = is_opaque ? shown(c) : straight(c, mixing);
-    }
+  if (std::ranges::any_of(image.values(), [](const Display& c) { return c.a < 1; }))
+    return filter_transparent(std::move(image), mixing, filter);
+  Filtered f{quantize8(image), {}};
+  f.after = filter(f.before);
+  for_pixels(image.values().size(), [&](std::size_t i) {
+    if (f.is_changed(i)) image.values()[i] = shown(f.after.values()[i]);
   });
   return image;
 }

@@ -14,7 +14,8 @@ using CodeFilter = std::function<Rgba8Image(const Rgba8Image&)>;
 
 /// Applies a method that is defined on 8-bit codes to a shown picture.
 ///
-/// Edges     a transparent picture is filtered premultiplied, colour and alpha together.
+/// Edges     a transparent picture is filtered premultiplied, colour and alpha together, on black and on white, so that
+///           silhouettes of every colour are found.
 /// Exact     a pixel whose codes the filter leaves alone keeps its bits; another becomes code / 255.
 DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& filter);
 
