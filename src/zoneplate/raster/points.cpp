@@ -50,13 +50,33 @@ std::size_t PointBatcher::same_material(std::span<const T> list, std::size_t fir
 template std::size_t PointBatcher::same_material(std::span<const PointRow> list, std::size_t first,
                                                  std::size_t most) const;
 
+void PointBatcher::find_draw(std::int32_t id) {
+  if (id >= known_.begin && id < known_.end) return;
+  known_.draw = projected_.draw_of(id);
+  known_.begin = projected_.first_triangle[known_.draw], known_.end = projected_.first_triangle[known_.draw + 1];
+}
+
+/// Asks for the corners of triangles that are about to be known: their vertices lie anywhere in memory.
+void PointBatcher::fetch_ahead(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
+  std::int32_t last = -1;
+  for (const std::uint32_t n : numbers) {
+    const std::int32_t id = points[n].id;
+    if (id == last) continue;
+    last = id;
+    find_draw(id);
+    const Draw& draw = projected_.draws[known_.draw];
+    const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(id - known_.begin)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      __builtin_prefetch(&projected_.screen[known_.draw][v[k]]);
+      if (v[k] < draw.position.size()) __builtin_prefetch(&draw.position[v[k]]);
+    }
+  }
+}
+
 const PointBatcher::Known& PointBatcher::know(std::int32_t id) {
   if (id == known_.id) return known_;
   known_.id = id;
-  if (id < known_.begin || id >= known_.end) {
-    known_.draw = projected_.draw_of(id);
-    known_.begin = projected_.first_triangle[known_.draw], known_.end = projected_.first_triangle[known_.draw + 1];
-  }
+  find_draw(id);
   const Draw& draw = projected_.draws[known_.draw];
   const auto local = static_cast<std::uint32_t>(id - known_.begin);
   const TriangleFacing facing = face_of(projected_, known_.draw, id, target_.viewport);
@@ -85,6 +105,8 @@ void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint
   batch_.count = static_cast<int>(numbers.size());
   batch_.material = static_cast<int>(material_[numbers[0]]);
   std::fill(std::begin(planes_.is_shared), std::end(planes_.is_shared), false);
+  known_.id = -1;
+  fetch_ahead(points, numbers);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
     const Point& point = points[numbers[std::min(i, numbers.size() - 1)]];
     const Known& known = know(point.id);

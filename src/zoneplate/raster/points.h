@@ -65,6 +65,8 @@ class PointBatcher {
   std::size_t same_material(std::span<const T> list, std::size_t first, std::size_t most) const;
   template <class Use>
   void for_batches(std::span<const Point> points, Use use);
+  void find_draw(std::int32_t id);
+  void fetch_ahead(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   const Known& know(std::int32_t id);
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);

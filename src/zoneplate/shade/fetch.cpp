@@ -44,8 +44,13 @@ template <class T>
 void read(Group& group, std::vector<T> Mesh::*attribute, T otherwise) {
   for (int i = 0; i < group.points; ++i) {
     const std::vector<T>& values = group.mesh[i]->*attribute;
-    const bool has_values = !values.empty();
-    for (int k = 0; k < 3; ++k) group.put(i, k, has_values ? values[group.corner[i].vertex[k]] : otherwise);
+    const T* const at = values.data();
+    const std::uint32_t* const v = group.corner[i].vertex;
+    if (values.empty()) {
+      for (int k = 0; k < 3; ++k) group.put(i, k, otherwise);
+    } else {
+      group.put(i, 0, at[v[0]]), group.put(i, 1, at[v[1]]), group.put(i, 2, at[v[2]]);
+    }
   }
   group.out += static_cast<int>(sizeof(T) / sizeof(float)) * 3 * group.points;
 }
