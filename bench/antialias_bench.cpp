@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "zoneplate/antialias/cmaa2.h"
+#include "zoneplate/antialias/ddaa.h"
+#include "zoneplate/antialias/dlaa.h"
 #include "zoneplate/antialias/fxaa.h"
 #include "zoneplate/antialias/mlaa.h"
 #include "zoneplate/antialias/smaa.h"
@@ -115,6 +117,8 @@ void register_all() {
          return apply_mlaa(i, {.kind = MlaaOptions::Kind::Reshetov}, std::move(m));
        }},
       {"cmaa2", [](const Rgba8Image& i, Rgba8Image m) { return apply_cmaa2(i, {}, std::move(m)); }},
+      {"dlaa", [](const Rgba8Image& i, Rgba8Image m) { return apply_dlaa(i, std::move(m)); }},
+      {"ddaa", [](const Rgba8Image& i, Rgba8Image m) { return apply_ddaa(i, {}, std::move(m)); }},
   };
   for (const Row& row : rows)
     for (const char* scene : {"teapot", "city"})

@@ -22,14 +22,6 @@ DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& f
 /// `v` rounded to a code, for v in [0, 255].
 inline std::uint8_t rounded_code(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
 
-/// The pixel (1 - t) a + t b of codes as they are, t in [0, 1].
-inline Rgba8 mixed_codes(Rgba8 a, Rgba8 b, float t) {
-  const auto mix = [t](std::uint8_t from, std::uint8_t to) {
-    return rounded_code(static_cast<float>(from) + static_cast<float>(to - from) * t);
-  };
-  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b), mix(a.a, b.a)};
-}
-
 /// A pixel's linear light and alpha in [0, 1], from its codes and back.
 Linear light_of(Rgba8 codes);
 Rgba8 codes_of(Linear light);

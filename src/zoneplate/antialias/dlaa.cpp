@@ -34,10 +34,13 @@ float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // what i
 float4 mixed(const float4& a, const float4& b, float t) {
   return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
 }
-float4 unlikeness(const float4& a, const float4& b, const float4& c) {
-  const auto off = [](float p, float q, float m) { return std::abs(p + q - 2 * m) / 2; };
-  return {off(a.x, b.x, c.x), off(a.y, b.y, c.y), off(a.z, b.z, c.z), 0};
+/// The sum of |a + b - 2 c| over the colours' codes.
+int bend(Rgba8 a, Rgba8 b, Rgba8 c) {
+  return std::abs(a.r + b.r - 2 * c.r) + std::abs(a.g + b.g - 2 * c.g) + std::abs(a.b + b.b - 2 * c.b);
 }
+/// lambda times the luma of half a bend, less epsilon; not positive up to `unseen_bend`.
+float edge_of(int bend) { return lambda * (static_cast<float>(bend) / (3 * 2 * 255)) - epsilon; }
+constexpr int unseen_bend = 51;
 
 /// The picture with its border, and the first pass: four times the Laplacian's luma, as a code.
 struct Source {
@@ -86,19 +89,24 @@ float4 long_blur(const Source& source, int x, int y, int dx, int dy) {
 }
 
 /// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
-float mask_of(int sum) { return saturated(static_cast<float>(2 * sum) / (255 * 2 * half_blur) - 1); }
+float mask_of(int sum) {
+  constexpr int whole = 255 * 2 * half_blur;
+  return 2 * sum <= whole ? 0 : static_cast<float>(2 * sum) / whole - 1;
+}
 
 Rgba8 filtered(const Source& source, int x, int y, float level_mask, float upright_mask) {
+  const Rgba8* p = source.colors.at(x, y);
+  const std::ptrdiff_t s = source.colors.stride();
+  const int level_bend = bend(p[-1], p[1], *p), upright_bend = bend(*(p - s), p[s], *p);
+  const bool has_long = std::abs(level_mask - upright_mask) > least_unlike;
+  if (level_bend <= unseen_bend && upright_bend <= unseen_bend && !has_long) return *p;
+  const float level = edge_of(level_bend), upright = edge_of(upright_bend);
   const float4 c = source.at(x, y), l = source.at(x - 1, y), r = source.at(x + 1, y), t = source.at(x, y - 1),
                b = source.at(x, y + 1);
-  const float level = lambda * luma(unlikeness(l, r, c)) - epsilon;
-  const float upright = lambda * luma(unlikeness(t, b, c)) - epsilon;
-  const bool has_long = std::abs(level_mask - upright_mask) > least_unlike;
-  if (level <= 0 && upright <= 0 && !has_long) return *source.colors.at(x, y);
 
   // Short edges: six pixels along the direction that changes less.
-  const auto blurred = [&](const float4& two, const float4& p, const float4& q, const float4& two_on) {
-    return (two + p + q + two_on + c * 2) * (1.0f / 6);
+  const auto blurred = [&](const float4& two, const float4& one, const float4& next, const float4& after) {
+    return (two + one + next + after + c * 2) * (1.0f / 6);
   };
   const float4 along = blurred(source.at(x - 2, y), l, r, source.at(x + 2, y));
   const float4 down = blurred(source.at(x, y - 2), t, b, source.at(x, y + 2));
