@@ -64,9 +64,16 @@ class Binner {
       run.index = draw.index.data() + 3 * static_cast<std::size_t>(first - projected_.first_triangle[d]);
       run.first_id = first;
       run.count = std::min(FrontRun::capacity, end - first);
+      run.records = rules_.is_flat_depth ? nullptr : worker_.triangles.room(FrontRun::capacity, worker_.arena);
       kernels.run(run, sink, result);
       worker_.drawn += result.drawn;
-      for (std::int32_t i = 0; i < result.kept_count; ++i) add_kept(d, first + result.kept[i]);
+      if (run.records) {
+        const std::size_t number = worker_.triangles.add(static_cast<std::size_t>(result.kept_count));
+        for (std::int32_t i = 0; i < result.kept_count; ++i)
+          list_in_tiles(draw, run.records[i], number + static_cast<std::size_t>(i));
+      } else {
+        for (std::int32_t i = 0; i < result.kept_count; ++i) add_kept(d, first + result.kept[i]);
+      }
       for (std::int32_t i = 0; i < result.general_count; ++i) add_general(d, first + result.general[i]);
     }
   }
@@ -136,15 +143,20 @@ class Binner {
   }
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
-    const Extent e = extent_of(p, q, r);
-    const int left = std::max(e.low_x >> 8, target_.x), right = std::min(e.high_x >> 8, target_.x + target_.width - 1);
-    const int top = std::max(e.low_y >> 8, target_.y), bottom = std::min(e.high_y >> 8, target_.y + target_.height - 1);
-    if (left > right || top > bottom) return;
-    const auto number = static_cast<std::uint32_t>(worker_.triangles.size());
     // Made in its place: to copy what was just written a piece at a time stalls the processor.
-    const Triangle& t = *::new (worker_.triangles.append(worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
-    const int first_column = left / tile_size, last_column = right / tile_size;
-    const int first_row = top / tile_size, last_row = bottom / tile_size;
+    const Triangle& t = *::new (worker_.triangles.room(1, worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
+    if (t.min_x > target_.x + target_.width - 1 || t.max_x < target_.x || t.min_y > target_.y + target_.height - 1 ||
+        t.max_y < target_.y)
+      return;
+    list_in_tiles(draw, t, worker_.triangles.add(1));
+  }
+
+  void list_in_tiles(const Draw& draw, const Triangle& t, std::size_t place) {
+    const auto number = static_cast<std::uint32_t>(place);
+    const int first_column = std::max(t.min_x, target_.x) / tile_size;
+    const int last_column = std::min(t.max_x, target_.x + target_.width - 1) / tile_size;
+    const int first_row = std::max(t.min_y, target_.y) / tile_size;
+    const int last_row = std::min(t.max_y, target_.y + target_.height - 1) / tile_size;
     if (first_column == last_column && first_row == last_row)
       return tile_list(draw, first_column, first_row).push_back(number, worker_.arena);
     for (int row = first_row; row <= last_row; ++row)

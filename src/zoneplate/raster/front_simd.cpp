@@ -129,8 +129,8 @@ HWY_INLINE MI may_cover_a_sample(const Extent& e, const FrontRun& run) {
   return found;
 }
 
-/// A vector of small triangles ready to be tested at samples.
-struct Small {
+/// A vector of triangles that are set up: what small ones and records share.
+struct SetUp {
   VI dx[3], dy[3];  ///< the edges opposite to the corners, clockwise
   VI bias[3];       ///< -1 where a point on the edge is outside
   VI area;          ///< doubled
@@ -154,7 +154,7 @@ HWY_INLINE VF narrowed(VD lower, VD upper) {
 
 /// The gradients of make_triangle, in its order of operations.
 template <int half>
-HWY_INLINE void set_up_depth(const Corners& c, Small& t) {
+HWY_INLINE void set_up_depth(const Corners& c, SetUp& t) {
   const VD z0 = widened<half>(c.z[0]);
   const VD dz1 = hn::Sub(widened<half>(c.z[1]), z0), dz2 = hn::Sub(widened<half>(c.z[2]), z0);
   // From corner 0 to corner 1 goes the edge opposite to 2; to corner 2, against its direction, the one opposite to 1.
@@ -168,16 +168,16 @@ HWY_INLINE void set_up_depth(const Corners& c, Small& t) {
 
 /// The edge opposite to corner k.
 template <int k>
-HWY_INLINE void set_up_edge(const Corners& c, bool is_top_left, Small& t) {
+HWY_INLINE void set_up_edge(const Corners& c, bool is_top_left, SetUp& t) {
   constexpr int from = (k + 1) % 3, to = (k + 2) % 3;
   t.dx[k] = hn::Sub(c.x[to], c.x[from]);
   t.dy[k] = hn::Sub(c.y[to], c.y[from]);
-  // An edge owns its points if dy < 0, or dy = 0 and dx > 0: the sign of one number, since |dx| < 2^12.
-  const VI order = hn::Sub(hn::ShiftLeft<12>(t.dy[k]), t.dx[k]);
+  // An edge owns its points if dy < 0, or dy = 0 and dx > 0: the sign of one number, since |dx| < 2^15.
+  const VI order = hn::Sub(hn::ShiftLeft<15>(t.dy[k]), t.dx[k]);
   t.bias[k] = is_top_left ? hn::Not(hn::BroadcastSignBit(order)) : hn::Zero(i32);
 }
 
-HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, Small& t) {
+HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, SetUp& t) {
   set_up_edge<0>(c, is_top_left, t);
   set_up_edge<1>(c, is_top_left, t);
   set_up_edge<2>(c, is_top_left, t);
@@ -194,7 +194,7 @@ HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, Smal
 }
 
 template <int half>
-HWY_INLINE VD depth_at_origin(const Small& t, VI dx, VI dy) {
+HWY_INLINE VD depth_at_origin(const SetUp& t, VI dx, VI dy) {
   return hn::Add(hn::Add(t.z0[half], hn::Mul(t.dzdx[half], widened<half>(dx))),
                  hn::Mul(t.dzdy[half], widened<half>(dy)));
 }
@@ -208,12 +208,12 @@ struct Candidates {
 };
 
 template <int k>
-HWY_INLINE VI edge_at(const Corners& c, const Small& t, VI px, VI py) {
+HWY_INLINE VI edge_at(const Corners& c, const SetUp& t, VI px, VI py) {
   constexpr int from = (k + 1) % 3;
   return hn::Sub(hn::Mul(t.dx[k], hn::Sub(py, c.y[from])), hn::Mul(t.dy[k], hn::Sub(px, c.x[from])));
 }
 
-HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const Small& t, std::int32_t sx,
+HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const SetUp& t, std::int32_t sx,
                                     std::int32_t sy) {
   Candidates out;
   out.pixel_x = hn::ShiftRight<8>(hn::Add(e.low_x, set(255 - sx)));
@@ -233,7 +233,7 @@ HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const Sma
 
 /// Calls emit(mask, i, j, depth) if the candidate pixel (i, j) has lanes inside.
 template <class Emit>
-HWY_INLINE void cover_pixel(const Small& t, const Candidates& c, VI outside, VF base, int i, int j, const Emit& emit) {
+HWY_INLINE void cover_pixel(const SetUp& t, const Candidates& c, VI outside, VF base, int i, int j, const Emit& emit) {
   const MI inside = hn::Not(hn::MaskFromVec(hn::BroadcastSignBit(outside)));
   if (hn::AllFalse(i32, inside)) return;
   const VF z = hn::Add(base, hn::Mul(t.step_x, hn::Add(c.x0, hn::Set(f, static_cast<float>(i)))));
@@ -242,7 +242,7 @@ HWY_INLINE void cover_pixel(const Small& t, const Candidates& c, VI outside, VF 
 
 /// The same for all candidates, two columns at a time: what lies beyond the bounds is outside.
 template <class Emit>
-HWY_INLINE void cover(const Small& t, const Candidates& c, VI dead, int columns, int rows, const Emit& emit) {
+HWY_INLINE void cover(const SetUp& t, const Candidates& c, VI dead, int columns, int rows, const Emit& emit) {
   const VI down0 = hn::ShiftLeft<8>(t.dx[0]), down1 = hn::ShiftLeft<8>(t.dx[1]), down2 = hn::ShiftLeft<8>(t.dx[2]);
   const VI left0 = hn::ShiftLeft<8>(t.dy[0]), left1 = hn::ShiftLeft<8>(t.dy[1]), left2 = hn::ShiftLeft<8>(t.dy[2]);
   VI row0 = c.e[0], row1 = c.e[1], row2 = c.e[2];
@@ -311,6 +311,65 @@ struct Scatter {
   }
 };
 
+/// The members of a vector of Triangles, structure of arrays.
+struct RecordLanes {
+  alignas(64) std::int32_t a[3][lanes], b[3][lanes], bias[3][lanes];
+  alignas(64) std::int64_t c[3][lanes];  ///< without the bias; the even lanes, then the odd ones
+  alignas(64) std::int32_t min_x[lanes], min_y[lanes], max_x[lanes], max_y[lanes], x0[lanes], y0[lanes], id[lanes];
+  alignas(64) double z0[lanes], dzdx[lanes], dzdy[lanes];
+  alignas(64) float z_low[lanes], z_high[lanes];
+
+  static HWY_INLINE VI odd(VI v) {
+    const hn::Repartition<std::int64_t, I> i64;
+    return hn::BitCast(i32, hn::ShiftRight<32>(hn::BitCast(i64, v)));
+  }
+
+  template <int k>
+  HWY_INLINE void store_edge(const Corners& corners, const SetUp& t) {
+    constexpr int from = (k + 1) % 3;
+    const hn::Repartition<std::int64_t, I> i64;
+    const VI dx = t.dx[k], dy = t.dy[k], x = corners.x[from], y = corners.y[from];
+    hn::Store(hn::Neg(dy), i32, a[k]);
+    hn::Store(dx, i32, b[k]);
+    hn::Store(t.bias[k], i32, bias[k]);
+    hn::Store(hn::Sub(hn::MulEven(dy, x), hn::MulEven(dx, y)), i64, c[k]);
+    hn::Store(hn::Sub(hn::MulEven(odd(dy), odd(x)), hn::MulEven(odd(dx), odd(y))), i64, c[k] + lanes / 2);
+  }
+
+  HWY_INLINE void store_rest(const Corners& corners, const Extent& e, const SetUp& t) {
+    hn::Store(t.origin_x, i32, min_x);
+    hn::Store(t.origin_y, i32, min_y);
+    hn::Store(hn::ShiftRight<8>(e.high_x), i32, max_x);
+    hn::Store(hn::ShiftRight<8>(e.high_y), i32, max_y);
+    hn::Store(corners.x[0], i32, x0);
+    hn::Store(corners.y[0], i32, y0);
+    hn::Store(corners.id, i32, id);
+    store_halves(t.z0, z0);
+    store_halves(t.dzdx, dzdx);
+    store_halves(t.dzdy, dzdy);
+    hn::Store(t.z_low, f, z_low);
+    hn::Store(t.z_high, f, z_high);
+  }
+
+  static HWY_INLINE void store_halves(const VD* v, double* to) {
+    hn::Store(v[0], f64, to);
+    hn::Store(v[1], f64, to + lanes / 2);
+  }
+
+  HWY_INLINE void copy(int lane, Triangle& t) const {
+    const int place = (lane & 1) * (lanes / 2) + lane / 2;
+    for (int k = 0; k < 3; ++k) {
+      t.a[k] = a[k][lane], t.b[k] = b[k][lane];
+      t.c[k] = c[k][place] + bias[k][lane];
+    }
+    t.min_x = min_x[lane], t.min_y = min_y[lane], t.max_x = max_x[lane], t.max_y = max_y[lane];
+    t.x0 = x0[lane], t.y0 = y0[lane];
+    t.z0 = z0[lane], t.dzdx = dzdx[lane], t.dzdy = dzdy[lane];
+    t.z_low = z_low[lane], t.z_high = z_high[lane];
+    t.id = id[lane];
+  }
+};
+
 class Front {
  public:
   Front(const FrontRun& run, FragmentSink& sink, FrontResult& result) : run_(run), sink_(sink), result_(result) {}
@@ -368,11 +427,6 @@ class Front {
 
     const MI small = hn::AndNot(hn::Gt(size, set(run_.small_extent)), kept);
     const MI larger = hn::AndNot(small, kept);
-    if (!hn::AllFalse(i32, larger)) list(larger, number, result_.kept, result_.kept_count);
-    const auto count = static_cast<std::int32_t>(hn::CountTrue(i32, small));
-    if (count == 0) return;
-    result_.drawn += static_cast<std::uint64_t>(count);
-
     // Corners are taken clockwise.
     if (run_.facing <= 0) {
       swap_where(backward, c.x[1], c.x[2]);
@@ -382,6 +436,16 @@ class Front {
       c.z[1] = z;
     }
     c.id = hn::Add(number, set(run_.first_id));
+    if (!hn::AllFalse(i32, larger)) {
+      if (run_.records)
+        record(c, e, larger);
+      else
+        list(larger, number, result_.kept, result_.kept_count);
+    }
+    const auto count = static_cast<std::int32_t>(hn::CountTrue(i32, small));
+    if (count == 0) return;
+    result_.drawn += static_cast<std::uint64_t>(count);
+
     if (8 * count >= 5 * lanes) {
       draw(c, e, small);
     } else {
@@ -431,8 +495,23 @@ class Front {
     draw(c, extent_of(c), hn::FirstN(i32, static_cast<std::size_t>(count)));
   }
 
+  // What make_triangle does.
+  HWY_NOINLINE void record(const Corners& c, const Extent& e, MI mask) {
+    SetUp t;
+    set_up(c, e, run_.is_top_left, t);
+    RecordLanes r;
+    r.store_edge<0>(c, t);
+    r.store_edge<1>(c, t);
+    r.store_edge<2>(c, t);
+    r.store_rest(c, e, t);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(i32, mask, bits);
+    for (std::uint32_t left = bits[0]; left; left &= left - 1)
+      r.copy(__builtin_ctz(left), run_.records[result_.kept_count++]);
+  }
+
   HWY_NOINLINE void draw(const Corners& c, const Extent& e, MI alive) {
-    Small t;
+    SetUp t;
     set_up(c, e, run_.is_top_left, t);
     const VI dead = hn::VecFromMask(i32, hn::Not(alive));
     // A sample of one kind has at most so many candidates among the pixels.
