@@ -240,25 +240,46 @@ HWY_INLINE void cover_pixel(const SetUp& t, const Candidates& c, VI outside, VF 
   emit(inside, i, j, hn::Min(hn::Max(z, t.z_low), t.z_high));
 }
 
+/// The edges' values at a pixel.
+struct Edges {
+  VI e0, e1, e2;
+  HWY_INLINE Edges right(const SetUp& t) const {
+    return {hn::Sub(e0, hn::ShiftLeft<8>(t.dy[0])), hn::Sub(e1, hn::ShiftLeft<8>(t.dy[1])),
+            hn::Sub(e2, hn::ShiftLeft<8>(t.dy[2]))};
+  }
+  HWY_INLINE Edges down(const SetUp& t) const {
+    return {hn::Add(e0, hn::ShiftLeft<8>(t.dx[0])), hn::Add(e1, hn::ShiftLeft<8>(t.dx[1])),
+            hn::Add(e2, hn::ShiftLeft<8>(t.dx[2]))};
+  }
+  HWY_INLINE VI outside(VI dead) const { return hn::Or(hn::Or(e0, e1), hn::Or(e2, dead)); }
+};
+
+/// The same for the two pixels from (i, j) on; gives the edges at the second.
+template <class Emit>
+HWY_INLINE Edges cover_pair(const SetUp& t, const Candidates& c, Edges e, VI dead, int i, int j, const Emit& emit) {
+  const VF base = hn::Add(c.z, hn::Mul(t.step_y, hn::Add(c.y0, hn::Set(f, static_cast<float>(j)))));
+  const Edges next = e.right(t);
+  cover_pixel(t, c, e.outside(dead), base, i, j, emit);
+  cover_pixel(t, c, next.outside(dead), base, i + 1, j, emit);
+  return next;
+}
+
 /// The same for all candidates, two columns at a time: what lies beyond the bounds is outside.
 template <class Emit>
 HWY_INLINE void cover(const SetUp& t, const Candidates& c, VI dead, int columns, int rows, const Emit& emit) {
-  const VI down0 = hn::ShiftLeft<8>(t.dx[0]), down1 = hn::ShiftLeft<8>(t.dx[1]), down2 = hn::ShiftLeft<8>(t.dx[2]);
-  const VI left0 = hn::ShiftLeft<8>(t.dy[0]), left1 = hn::ShiftLeft<8>(t.dy[1]), left2 = hn::ShiftLeft<8>(t.dy[2]);
-  VI row0 = c.e[0], row1 = c.e[1], row2 = c.e[2];
-  for (int j = 0; j < rows; ++j) {
-    const VF base = hn::Add(c.z, hn::Mul(t.step_y, hn::Add(c.y0, hn::Set(f, static_cast<float>(j)))));
-    VI e0 = row0, e1 = row1, e2 = row2;
-    for (int i = 0;;) {
-      const VI n0 = hn::Sub(e0, left0), n1 = hn::Sub(e1, left1), n2 = hn::Sub(e2, left2);
-      cover_pixel(t, c, hn::Or(hn::Or(e0, e1), hn::Or(e2, dead)), base, i, j, emit);
-      cover_pixel(t, c, hn::Or(hn::Or(n0, n1), hn::Or(n2, dead)), base, i + 1, j, emit);
-      i += 2;
-      if (i >= columns) break;
-      e0 = hn::Sub(n0, left0), e1 = hn::Sub(n1, left1), e2 = hn::Sub(n2, left2);
-    }
-    row0 = hn::Add(row0, down0), row1 = hn::Add(row1, down1), row2 = hn::Add(row2, down2);
+  Edges row{c.e[0], c.e[1], c.e[2]};
+  for (int j = 0; j < rows; ++j, row = row.down(t)) {
+    Edges e = cover_pair(t, c, row, dead, 0, j, emit);
+    for (int i = 2; i < columns; i += 2) e = cover_pair(t, c, e.right(t), dead, i, j, emit);
   }
+}
+
+/// The same where two columns and two rows hold all candidates: most triangles of a dense mesh.
+template <class Emit>
+HWY_INLINE void cover_2x2(const SetUp& t, const Candidates& c, VI dead, const Emit& emit) {
+  const Edges row{c.e[0], c.e[1], c.e[2]};
+  cover_pair(t, c, row, dead, 0, 0, emit);
+  cover_pair(t, c, row.down(t), dead, 0, 1, emit);
 }
 
 /// Puts whole vectors into the list of one tile.
@@ -540,7 +561,11 @@ class Front {
       }
       const VI in_tile = set(63);
       const VI place = hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile));
-      cover(t, n, dead, columns, rows, Append{sink_, tile, hn::Add(place, set(s << 12)), c.id});
+      const Append append{sink_, tile, hn::Add(place, set(s << 12)), c.id};
+      if (columns <= 2 && rows <= 2)
+        cover_2x2(t, n, dead, append);
+      else
+        cover(t, n, dead, columns, rows, append);
     }
   }
 
