@@ -43,16 +43,7 @@ class Binner {
   void add(std::size_t d, std::int32_t begin, std::int32_t end, const SampleArrays& samples,
            const FrontKernels& kernels) {
     const Draw& draw = projected_.draws[d];
-    FrontRun run{.screen = projected_.screen[d].data(), .index = nullptr, .count = 0, .first_id = 0};
-    run.viewport = rules_.viewport;
-    run.left = target_.x, run.right = target_.x + target_.width - 1;
-    run.top = target_.y, run.bottom = target_.y + target_.height - 1;
-    run.sample_x = samples.x.data(), run.sample_y = samples.y.data();
-    run.sample_count = static_cast<std::int32_t>(samples.x.size());
-    run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
-    run.is_top_left = rules_.is_top_left;
-    const bool draws_fragments = draw.surface == Surface::Opaque && !rules_.is_flat_depth;
-    run.small_extent = draws_fragments ? small_extent(run.sample_count) : -1;
+    FrontRun run = run_of(d, samples);
     FragmentSink sink{.first_column = bins_.first_column,
                       .first_row = bins_.first_row,
                       .columns = bins_.columns,
@@ -67,18 +58,33 @@ class Binner {
       run.records = rules_.is_flat_depth ? nullptr : worker_.triangles.room(FrontRun::capacity, worker_.arena);
       kernels.run(run, sink, result);
       worker_.drawn += result.drawn;
-      if (run.records) {
-        const std::size_t number = worker_.triangles.add(static_cast<std::size_t>(result.kept_count));
-        for (std::int32_t i = 0; i < result.kept_count; ++i)
-          list_in_tiles(draw, run.records[i], number + static_cast<std::size_t>(i));
-      } else {
-        for (std::int32_t i = 0; i < result.kept_count; ++i) add_kept(d, first + result.kept[i]);
-      }
+      for (std::int32_t i = 0; i < result.kept_count; ++i)
+        if (run.records)
+          list_in_tiles(draw, run.records[i], worker_.triangles.add(1));
+        else
+          add_kept(d, first + result.kept[i]);
       for (std::int32_t i = 0; i < result.general_count; ++i) add_general(d, first + result.general[i]);
     }
   }
 
  private:
+  /// What the runs of a draw have in common.
+  FrontRun run_of(std::size_t d, const SampleArrays& samples) const {
+    const Draw& draw = projected_.draws[d];
+    const bool draws_fragments = draw.surface == Surface::Opaque && !rules_.is_flat_depth;
+    FrontRun run{};
+    run.screen = projected_.screen[d].data();
+    run.viewport = rules_.viewport;
+    run.left = target_.x, run.right = target_.x + target_.width - 1;
+    run.top = target_.y, run.bottom = target_.y + target_.height - 1;
+    run.sample_x = samples.x.data(), run.sample_y = samples.y.data();
+    run.sample_count = static_cast<std::int32_t>(samples.x.size());
+    run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
+    run.is_top_left = rules_.is_top_left;
+    run.small_extent = draws_fragments ? small_extent(run.sample_count) : -1;
+    return run;
+  }
+
   static bool is_culled(const Draw& draw, bool is_clockwise) {
     return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
   }
