@@ -46,25 +46,36 @@ class Arena {
   std::byte *at_ = nullptr, *end_ = nullptr;
 };
 
-/// Plain data in order, by number; what is in it never moves.
+/// Plain data by number; what is in it never moves.
 template <class T>
 class ArenaArray {
  public:
-  /// Room for one more, uninitialised.
-  T* append(Arena& arena) {
-    if (size_ == chunks_.size() * chunk_size) chunks_.push_back(reinterpret_cast<T*>(arena.take(chunk_bytes)));
-    return chunks_.back() + size_++ % chunk_size;
+  static constexpr std::size_t chunk_size = 1024;
+
+  /// Uninitialised room for `count` more in one piece, which counts for nothing before it is added.
+  /// Requires: count <= chunk_size.
+  T* room(std::size_t count, Arena& arena) {
+    static_assert(chunk_size * sizeof(T) <= Arena::largest);
+    if (count > chunks_.size() * chunk_size - end_) {
+      end_ = chunks_.size() * chunk_size;
+      chunks_.push_back(reinterpret_cast<T*>(arena.take(chunk_size * sizeof(T))));
+    }
+    return chunks_.back() + end_ % chunk_size;
   }
+  /// Adds what was written into the room; gives the number of the first.
+  std::size_t add(std::size_t count) {
+    const std::size_t first = end_;
+    end_ += count, size_ += count;
+    return first;
+  }
+  /// Numbers may have gaps.
   const T& operator[](std::size_t i) const { return chunks_[i / chunk_size][i % chunk_size]; }
   std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  void clear() { chunks_.clear(), size_ = 0; }
+  void clear() { chunks_.clear(), size_ = end_ = 0; }
 
  private:
-  static constexpr std::size_t chunk_size = 256, chunk_bytes = chunk_size * sizeof(T);
-  static_assert(chunk_bytes <= Arena::largest);
   std::vector<T*> chunks_;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, end_ = 0;
 };
 
 /// Plain data that is only added to and read from the start on.

@@ -43,16 +43,7 @@ class Binner {
   void add(std::size_t d, std::int32_t begin, std::int32_t end, const SampleArrays& samples,
            const FrontKernels& kernels) {
     const Draw& draw = projected_.draws[d];
-    FrontRun run{.screen = projected_.screen[d].data(), .index = nullptr, .count = 0, .first_id = 0};
-    run.viewport = rules_.viewport;
-    run.left = target_.x, run.right = target_.x + target_.width - 1;
-    run.top = target_.y, run.bottom = target_.y + target_.height - 1;
-    run.sample_x = samples.x.data(), run.sample_y = samples.y.data();
-    run.sample_count = static_cast<std::int32_t>(samples.x.size());
-    run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
-    run.is_top_left = rules_.is_top_left;
-    const bool draws_fragments = draw.surface == Surface::Opaque && !rules_.is_flat_depth;
-    run.small_extent = draws_fragments ? small_extent(run.sample_count) : -1;
+    FrontRun run = run_of(d, samples);
     FragmentSink sink{.first_column = bins_.first_column,
                       .first_row = bins_.first_row,
                       .columns = bins_.columns,
@@ -64,14 +55,36 @@ class Binner {
       run.index = draw.index.data() + 3 * static_cast<std::size_t>(first - projected_.first_triangle[d]);
       run.first_id = first;
       run.count = std::min(FrontRun::capacity, end - first);
+      run.records = rules_.is_flat_depth ? nullptr : worker_.triangles.room(FrontRun::capacity, worker_.arena);
       kernels.run(run, sink, result);
       worker_.drawn += result.drawn;
-      for (std::int32_t i = 0; i < result.kept_count; ++i) add_kept(d, first + result.kept[i]);
+      for (std::int32_t i = 0; i < result.kept_count; ++i)
+        if (run.records)
+          list_in_tiles(draw, run.records[i], worker_.triangles.add(1));
+        else
+          add_kept(d, first + result.kept[i]);
       for (std::int32_t i = 0; i < result.general_count; ++i) add_general(d, first + result.general[i]);
     }
   }
 
  private:
+  /// What the runs of a draw have in common.
+  FrontRun run_of(std::size_t d, const SampleArrays& samples) const {
+    const Draw& draw = projected_.draws[d];
+    const bool draws_fragments = draw.surface == Surface::Opaque && !rules_.is_flat_depth;
+    FrontRun run{};
+    run.screen = projected_.screen[d].data();
+    run.viewport = rules_.viewport;
+    run.left = target_.x, run.right = target_.x + target_.width - 1;
+    run.top = target_.y, run.bottom = target_.y + target_.height - 1;
+    run.sample_x = samples.x.data(), run.sample_y = samples.y.data();
+    run.sample_count = static_cast<std::int32_t>(samples.x.size());
+    run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
+    run.is_top_left = rules_.is_top_left;
+    run.small_extent = draws_fragments ? small_extent(run.sample_count) : -1;
+    return run;
+  }
+
   static bool is_culled(const Draw& draw, bool is_clockwise) {
     return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
   }
@@ -136,15 +149,20 @@ class Binner {
   }
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
-    const Extent e = extent_of(p, q, r);
-    const int left = std::max(e.low_x >> 8, target_.x), right = std::min(e.high_x >> 8, target_.x + target_.width - 1);
-    const int top = std::max(e.low_y >> 8, target_.y), bottom = std::min(e.high_y >> 8, target_.y + target_.height - 1);
-    if (left > right || top > bottom) return;
-    const auto number = static_cast<std::uint32_t>(worker_.triangles.size());
     // Made in its place: to copy what was just written a piece at a time stalls the processor.
-    const Triangle& t = *::new (worker_.triangles.append(worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
-    const int first_column = left / tile_size, last_column = right / tile_size;
-    const int first_row = top / tile_size, last_row = bottom / tile_size;
+    const Triangle& t = *::new (worker_.triangles.room(1, worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
+    if (t.min_x > target_.x + target_.width - 1 || t.max_x < target_.x || t.min_y > target_.y + target_.height - 1 ||
+        t.max_y < target_.y)
+      return;
+    list_in_tiles(draw, t, worker_.triangles.add(1));
+  }
+
+  void list_in_tiles(const Draw& draw, const Triangle& t, std::size_t place) {
+    const auto number = static_cast<std::uint32_t>(place);
+    const int first_column = std::max(t.min_x, target_.x) / tile_size;
+    const int last_column = std::min(t.max_x, target_.x + target_.width - 1) / tile_size;
+    const int first_row = std::max(t.min_y, target_.y) / tile_size;
+    const int last_row = std::min(t.max_y, target_.y + target_.height - 1) / tile_size;
     if (first_column == last_column && first_row == last_row)
       return tile_list(draw, first_column, first_row).push_back(number, worker_.arena);
     for (int row = first_row; row <= last_row; ++row)

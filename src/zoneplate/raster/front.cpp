@@ -62,6 +62,7 @@ void draw(const Triangle& t, const FrontRun& run, FragmentSink& sink) {
 
 void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) {
   result.general_count = result.kept_count = 0, result.drawn = 0;
+  const SetupRules rules{.viewport = run.viewport, .is_top_left = run.is_top_left};
   for (std::int32_t t = 0; t < run.count; ++t) {
     const ScreenVertex &p = run.screen[run.index[3 * t]], &q = run.screen[run.index[3 * t + 1]],
                        &r = run.screen[run.index[3 * t + 2]];
@@ -75,12 +76,14 @@ void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) {
     if (area == 0 || (run.facing != 0 && (area > 0) != (run.facing > 0))) continue;
     if (!may_cover_a_sample(b, run) || !is_in_rectangle(b, run)) continue;
     if (std::max(width, height) > run.small_extent) {
-      result.kept[result.kept_count++] = t;
+      if (run.records)
+        run.records[result.kept_count++] = make_triangle(p, q, r, run.first_id + t, rules);
+      else
+        result.kept[result.kept_count++] = t;
       continue;
     }
     ++result.drawn;
-    draw(make_triangle(p, q, r, run.first_id + t, {.viewport = run.viewport, .is_top_left = run.is_top_left}), run,
-         sink);
+    draw(make_triangle(p, q, r, run.first_id + t, rules), run, sink);
   }
 }
 

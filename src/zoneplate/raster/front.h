@@ -4,6 +4,7 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/raster/project.h"
+#include "zoneplate/raster/setup.h"
 
 namespace zoneplate {
 
@@ -41,6 +42,8 @@ struct FrontRun {
   bool is_top_left;           ///< as SetupRules
   std::int32_t small_extent;  ///< 1/256 pixel: what is no wider and no higher becomes fragments; at most 2047, -1: none
 
+  Triangle* records;  ///< room for those that are kept and not small; null: they are listed, not set up
+
   static constexpr int capacity = 256;
 };
 
@@ -49,11 +52,12 @@ struct FrontResult {
   std::int32_t general_count = 0, kept_count = 0;
   std::uint64_t drawn = 0;                        ///< small triangles that went on to be fragments
   std::int32_t general[FrontRun::capacity + 16];  ///< need clipping, or are larger than 64 pixels: not yet tested
-  std::int32_t kept[FrontRun::capacity + 16];     ///< face the eye, have a sample in their bounds, are in the rectangle
+  std::int32_t kept[FrontRun::capacity + 16];  ///< face the eye, have a sample in their bounds, are in the rectangle;
+                                               ///< not written where there is room for records
 };
 
 struct FrontKernels {
-  /// Culls a run of triangles, draws the small ones as fragments and lists the rest.
+  /// Culls a run of triangles, draws the small ones as fragments, sets up or lists the rest, in their order.
   ///
   /// The samples of small triangles and their depths are those of make_tile_triangle and depth_at, bit for bit.
   void (*run)(const FrontRun& run, FragmentSink& sink, FrontResult& result);
@@ -72,6 +76,6 @@ inline const FrontKernels& front_kernels(Isa isa) {
   return pick(isa, scalar::front_kernels, N_SSE4::front_kernels, N_AVX2::front_kernels);
 }
 
-inline constexpr std::int32_t large_extent = 16383;  ///< products of two differences stay within 28 bits
+inline constexpr std::int32_t large_extent = 16383;  ///< 1/256 pixel; products of two differences stay within 28 bits
 
 }  // namespace zoneplate
