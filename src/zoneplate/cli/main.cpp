@@ -43,7 +43,7 @@ std::string overview() {
       "\n"
       "Usage: zoneplate [VERB] ARGUMENTS\n"
       "\n";
-  for (const Verb& verb : verbs) text += fmt::format("  {:<8}{}\n", verb.name, verb.summary);
+  for (const Verb& verb : verbs) text += fmt::format("  {:<9}{}\n", verb.name, verb.summary);
   return text +
          "\n"
          "Examples:\n"
