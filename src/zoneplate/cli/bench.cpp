@@ -14,6 +14,7 @@
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/raster/rasterize.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/builtin.h"
@@ -81,6 +82,8 @@ Timing measure(const BenchArgs& args, const std::string& name, int samples) {
       make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples));
   const DisplayOptions display{.background = {0, 0, 0, 1}, .raw = true};
   options.shown = &display;
+  RasterMemory memory;
+  options.memory = &memory;
   Timing timing;
   const auto frame = [&] {
     RenderCounts counts;

@@ -122,7 +122,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
                                    {.is_top_left = options.edge_rule == EdgeRule::TopLeft,
                                     .is_painter = options.visibility == Visibility::Painter,
                                     .isa = options.isa},
-                                   target);
+                                   target, options.memory);
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);

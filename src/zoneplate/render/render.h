@@ -11,6 +11,7 @@
 namespace zoneplate {
 
 class TextureSet;
+struct RasterMemory;
 
 /// A part of the picture, in its pixels.
 struct Crop {
@@ -44,6 +45,7 @@ struct RenderOptions {
   /// whose request is local.
   const DisplayOptions* shown = nullptr;
   const TextureSet* textures = nullptr;  ///< the scene's, made once for many frames; null: made for this one
+  RasterMemory* memory = nullptr;        ///< of earlier frames, to be used again; null: its own
 };
 
 /// Where time went and how much was done.
