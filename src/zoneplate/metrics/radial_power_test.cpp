@@ -23,13 +23,9 @@ Plane<double> wave(int width, int height, double fx, double fy, double amplitude
 
 TEST(RadialPower, OfWhiteNoiseIsItsVarianceEverywhere) {
   Plane<double> noise(192, 160);
-  double sum = 0;
-  for (int y = 0; y < noise.height(); ++y) {
-    for (int x = 0; x < noise.width(); ++x) {
+  for (int y = 0; y < noise.height(); ++y)
+    for (int x = 0; x < noise.width(); ++x)
       noise(x, y) = unit_float(hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
-      sum += noise(x, y);
-    }
-  }
   const RadialPower radial = radial_power_of(windowed_spectrum(noise));
   ASSERT_GE(radial.power.size(), 80u);
   EXPECT_NEAR(radial.frequency[79], 0.5, 0.5 / 80);
