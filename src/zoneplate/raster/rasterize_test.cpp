@@ -152,7 +152,8 @@ struct Crowd {
       draw.index = std::span<const std::uint32_t>(index).subspan(d * 300, 300);
       draw.surface = static_cast<Surface>(d % 3);
       draw.culls_back_faces = d % 2;
-      draw.instance = draw.material = static_cast<int>(d);
+      draw.instance = d;
+      draw.material = static_cast<int>(d);
       draws.push_back(draw);
       colors.push_back({unit_float(hash(d, 1)), unit_float(hash(d, 2)), unit_float(hash(d, 3)),
                         d % 3 == 0 ? 1 : 0.4f + 0.1f * static_cast<float>(d)});
