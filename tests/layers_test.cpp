@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <vector>
 
 namespace {
@@ -23,7 +22,7 @@ TEST(Layers, NoIncludePointsUp) {
   const auto height = [&](const std::string& folder) {
     return std::find(layers.begin(), layers.end(), folder) - layers.begin();
   };
-  const std::regex include(R"(^\s*#\s*include\s*"zoneplate/([^/"]+)/)");
+  const std::string include = "#include \"zoneplate/";
   int includes = 0;
   for (const auto& entry : fs::recursive_directory_iterator(source)) {
     const std::string extension = entry.path().extension();
@@ -31,10 +30,12 @@ TEST(Layers, NoIncludePointsUp) {
     const std::string folder = *fs::relative(entry.path(), source).begin();
     EXPECT_LT(height(folder), std::ssize(layers)) << entry.path() << ": layers.txt does not list its folder";
     for (const std::string& line : lines_of(entry.path())) {
-      std::smatch found;
-      if (!std::regex_search(line, found, include)) continue;
+      if (!line.starts_with(include)) continue;
+      const std::size_t end = line.find('/', include.size());
+      if (end == std::string::npos) continue;  // a header of no folder: version.h
       ++includes;
-      EXPECT_LE(height(found[1]), height(folder)) << entry.path() << ": " << line;
+      EXPECT_LE(height(line.substr(include.size(), end - include.size())), height(folder))
+          << entry.path() << ": " << line;
     }
   }
   EXPECT_GT(includes, 50);
