@@ -161,7 +161,7 @@ Syntax syntax_of(BenchArgs& args) {
     return [&to, low, high](const std::string& text) { to = parse_whole(text, low, high); };
   };
   syntax.options = {
-      {"--scene", "NAME", "Also a scene to time, as an operand is", "Work", false,
+      {"--scene", "NAME", "A scene to time; the result is then a line of JSON, as harnesses want it", "Work", false,
        [&](const std::string& text) { args.scenes.push_back(text); }},
       {"--samples", "N", "Samples a pixel: 1, 2, 4, 8 or 16; default both 1 and 4", "Work", true,
        whole(args.samples, 1, 16)},

@@ -100,7 +100,7 @@ TEST(Bins, SharedMemoryLeavesNoTrace) {
             draws[d].surface = static_cast<Surface>(d);
             draws[d].instance = static_cast<std::uint32_t>(d);
           }
-          LinearImage expected(size, size), found(size, size);
+          LinearImage expected(size, size, Linear{0, 0, 0, 0}), found = expected;
           Target target;
           target.viewport = {size, size};
           target.width = target.height = size;

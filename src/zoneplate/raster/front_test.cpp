@@ -306,7 +306,7 @@ TEST(Front, PicturesOfSoupsAreThoseOfTheDefinition) {
     draw.clip = clip, draw.index = index;
     const SamplePattern pattern = standard_pattern(n);
     const auto samples = static_cast<std::size_t>(n);
-    LinearImage color(size, size);
+    LinearImage color(size, size, Linear{0, 0, 0, 0});
     std::vector<LinearImage> sample_color(samples, color);
     std::vector<Plane<float>> depth(samples, Plane<float>(size, size)), expected_depth(samples, {size, size, 0.0f});
     std::vector<Plane<std::uint32_t>> id(samples, Plane<std::uint32_t>(size, size)),

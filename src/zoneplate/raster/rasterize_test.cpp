@@ -57,7 +57,7 @@ std::vector<Draw> draws_of(const std::vector<std::array<float4, 3>>& triangles, 
 
 LinearImage picture(std::span<const Draw> draws, const PointShader& shader, const SamplePattern& samples,
                     const RasterRules& rules = {}, int size = 96, bool is_per_sample = false) {
-  LinearImage out(size, size);
+  LinearImage out(size, size, Linear{0, 0, 0, 0});
   Target target;
   target.viewport = {size, size};
   target.width = target.height = size;
@@ -232,6 +232,22 @@ TEST(Rasterize, ClosedSurfaceHasAsManyFrontAsBackFacesAtEverySample) {
   EXPECT_GT(std::count_if(front.values().begin(), front.values().end(), [](const Linear& c) { return c.a > 0; }), 5000);
 }
 
+TEST(Rasterize, PiecesOfAClippedTriangleCountOnce) {
+  // A plane through the eye's plane, seen nearly edge on: the pieces that clipping leaves meet along whole rows.
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const auto number = [&](std::uint32_t k) { return 2 * unit_float(hash(i, k, 77)) - 1; };
+    std::array<float4, 3> t;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      t[k] = {number(3 * k) * 40, number(3 * k + 1) * (i % 2 ? 1.0f : 0.05f), 0.05f, number(3 * k + 2) * 2};
+    Draw d;
+    d.clip = t;
+    d.index = one_triangle;
+    d.surface = Surface::Blended;
+    const LinearImage once = picture(std::span(&d, 1), Flat({{1, 1, 1, 0.5f}}), standard_pattern(1));
+    for (const Linear& c : once.values()) ASSERT_TRUE(c.a == 0 || c.a == 0.5f) << c.a << " of triangle " << i;
+  }
+}
+
 TEST(Rasterize, AttributesAndTheirSlopesAreThoseOfTheTiltedPlane) {
   // A plane y = -1 seen by a camera at the origin, cut by the eye's plane in one case, in front of it in the other.
   for (const bool crosses_the_eye : {false, true}) {
@@ -242,7 +258,7 @@ TEST(Rasterize, AttributesAndTheirSlopesAreThoseOfTheTiltedPlane) {
     d.index = one_triangle;
     d.clip_from_object = perspective(1.2f, 1, 0.1f, 100);
     const int size = 128;
-    LinearImage color(size, size);
+    LinearImage color(size, size, Linear{0, 0, 0, 0});
     Plane<float3> dbdx(size, size), dbdy(size, size);
     Plane<float2> b(size, size);
     Plane<float> coverage(size, size);

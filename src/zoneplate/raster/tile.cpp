@@ -208,13 +208,10 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
   }
 }
 
-/// first_point_: by pixel, of those that have points.
+/// first_point_: by pixel; past the last point where a pixel has none.
 void TileRenderer::find_first_points() {
+  std::fill(first_point_.begin(), first_point_.end(), static_cast<std::uint32_t>(points_.size()));
   for (std::size_t p = points_.size(); p-- > 0;) first_point_[points_[p].pixel] = static_cast<std::uint32_t>(p);
-  // A pixel without points finds one of another pixel there.
-  for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
-    if (first_point_[pixel] >= points_.size() || points_[first_point_[pixel]].pixel != pixel)
-      first_point_[pixel] = static_cast<std::uint32_t>(points_.size());
 }
 
 void TileRenderer::resolve_points() {

@@ -84,7 +84,7 @@ class TileRenderer {
   void blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last);
   void add_layers(std::size_t first, std::size_t last, Linear* behind);
   void collect_layers(Surface surface, int top, int bottom, const std::uint8_t* rows);
-  void find_layer_points(std::vector<Point>& points, std::vector<std::uint32_t>& point_of_layer) const;
+  void find_layer_points();
   void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, std::vector<Point>& points) const;
   void accumulate();
   void add_surfaces(std::uint32_t pixel);

@@ -32,17 +32,17 @@ void TileRenderer::collect_layers(Surface surface, int top, int bottom, const st
   });
 }
 
-void TileRenderer::find_layer_points(std::vector<Point>& points, std::vector<std::uint32_t>& point_of_layer) const {
-  points.clear();
-  point_of_layer.resize(layers_.size());
+void TileRenderer::find_layer_points() {
+  layer_points_.clear();
+  point_of_layer_.resize(layers_.size());
   for (std::size_t i = 0; i < layers_.size();) {
     std::size_t end = i;
     std::uint64_t samples = 0;
     for (; end < layers_.size() && layers_[end].pixel == layers_[i].pixel && layers_[end].id == layers_[i].id; ++end) {
       samples |= layers_[end].samples;
-      point_of_layer[end] = static_cast<std::uint32_t>(points.size());
+      point_of_layer_[end] = static_cast<std::uint32_t>(layer_points_.size());
     }
-    add_points(layers_[i].pixel, layers_[i].id, samples, points);
+    add_points(layers_[i].pixel, layers_[i].id, samples, layer_points_);
     i = end;
   }
 }
@@ -52,7 +52,7 @@ void TileRenderer::draw_masked() {
   std::vector<std::uint8_t> is_there;
   visibility_.open_all();
   collect_layers(Surface::Masked, top_, bottom_, nullptr);
-  find_layer_points(layer_points_, point_of_layer_);
+  find_layer_points();
   shader_.test_alpha(layer_points_, is_there);
 
   // What passes enters the same minimum over (depth, id) as the opaque triangles did.
@@ -79,7 +79,7 @@ void TileRenderer::draw_masked() {
 void TileRenderer::blend(int top, int bottom) {
   if (top >= bottom) return;
   collect_layers(Surface::Blended, top, bottom, nullptr);
-  find_layer_points(layer_points_, point_of_layer_);
+  find_layer_points();
   shader_.shade(layer_points_, layer_colors_, nullptr);
   std::size_t first = 0;
   for (std::uint32_t pixel = static_cast<std::uint32_t>(top * tile_size);
@@ -188,12 +188,13 @@ void TileRenderer::collect_row_layers(int top, int bottom) {
   row_layers_.swap(sorted_row_layers_);
 }
 
-/// Farthest first; false if two of the layers may change places within the row.
+/// Farthest first; false if two of the layers may change places within the row, or are pieces of one triangle.
 bool TileRenderer::sort_row(std::size_t first, std::size_t last) {
   const auto at = [&](std::size_t i) { return row_layers_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::sort(at(first), at(last), [](const RowLayer& p, const RowLayer& q) { return p.least < q.least; });
   for (std::size_t i = first + 1; i < last; ++i)
-    if (!(row_layers_[i - 1].greatest < row_layers_[i].least)) return false;
+    if (!(row_layers_[i - 1].greatest < row_layers_[i].least) || row_layers_[i - 1].id == row_layers_[i].id)
+      return false;
   return true;
 }
 
@@ -222,7 +223,7 @@ void TileRenderer::blend_rows() {
 
 void TileRenderer::layer_slow_rows(int top, int bottom) {
   collect_layers(Surface::Blended, top, bottom, is_slow_row_);
-  find_layer_points(layer_points_, point_of_layer_);
+  find_layer_points();
   shader_.shade(layer_points_, layer_colors_, nullptr);
   Linear behind[TileTriangle::max_samples];
   for (std::size_t first = 0; first < layers_.size();) {
@@ -232,7 +233,7 @@ void TileRenderer::layer_slow_rows(int top, int bottom) {
     const std::int32_t owner = row_owner_[pixel / 8];
     const bool has_points = owner == many_triangles || !is_whole_row(static_cast<int>(pixel / 8));
     std::fill_n(behind, pass_samples_, has_points || owner == no_triangle ? Linear{0, 0, 0, 0} : base_[pixel]);
-    for (std::size_t p = first_point_[pixel]; has_points && p < points_.size() && points_[p].pixel == pixel; ++p)
+    for (std::size_t p = first_point_[pixel]; p < points_.size() && points_[p].pixel == pixel; ++p)
       for (std::uint64_t left = points_[p].samples; left; left &= left - 1) behind[std::countr_zero(left)] = colors_[p];
     add_layers(first, last, behind);
     Linear sum{0, 0, 0, 0};
