@@ -78,6 +78,8 @@ Timing measure(const BenchArgs& args, const std::string& name, int samples) {
   RenderOptions options{.width = args.size.x, .height = args.size.y, .raw_colors = true};
   const TextureSet textures(scene, options.raw_colors);
   options.textures = &textures;
+  const VertexRecords records(scene);
+  options.records = &records;
   const std::unique_ptr<Resolver> resolver =
       make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples));
   const DisplayOptions display{.background = {0, 0, 0, 1}, .raw = true};

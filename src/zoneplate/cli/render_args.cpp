@@ -159,6 +159,8 @@ std::vector<Option> scene_options(RenderArgs& a) {
        [&](auto&) { a.options.cull_back_faces = false; }},
       {"--point-size", "PX", "Side of the squares that points are drawn as; default 1", group, false,
        [&](auto& text) { a.options.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
+      {"--anisotropy", "N", "Texture probes along a footprint, 1 to 16; default 1, and what a scene asks for", group,
+       false, [&](auto& text) { a.options.anisotropy = parse_whole(text, 1, 16); }},
       {"--line-width", "PX", "Width of lines; default 1", group, false,
        [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
   };

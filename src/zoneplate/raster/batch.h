@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace zoneplate {
@@ -11,25 +12,33 @@ namespace zoneplate {
 /// the last point, so that loops may run in whole groups of 8.
 ///
 /// Units     x, y: the point in 1/256 pixel from the picture's top-left corner; b: perspective-correct barycentric
-/// weights
-///           that sum to one; dbdx, dbdy: their change per pixel (per sample spacing at rate *sample*).
+///           weights of the second and the third vertex, the first has what is left of one; dbdx, dbdy: their change
+///           per pixel (per sample spacing at rate *sample*), set where the shader needs them.
 struct Batch {
   static constexpr int capacity = 128;
   static constexpr int group = 8;
+  static constexpr int groups = capacity / group;
 
   int count = 0;
-  int material = 0;                               ///< index into Scene::materials
+  int material = 0;  ///< index into Scene::materials
+
+  /// The group's points share their triangle: what is said by triangle then stands at the group's first point only.
+  bool one_triangle[groups] = {};
+
+  // By triangle.
   alignas(64) std::uint32_t triangle[capacity];   ///< triangle id, in draw order over the whole frame
   alignas(64) std::uint32_t instance[capacity];   ///< index into Scene::instances
-  alignas(64) std::uint32_t primitive[capacity];  ///< primitive number within its mesh
   alignas(64) std::uint32_t vertex[3][capacity];  ///< the mesh's vertices to which b belongs (lines: a, b, b)
+  alignas(64) std::int32_t is_front[capacity];    ///< 1 if the front face is seen, else 0
+
+  // By point.
   alignas(64) std::int32_t x[capacity], y[capacity];
-  alignas(64) std::int32_t is_front[capacity];  ///< 1 if the front face is seen, else 0
-  alignas(64) float depth[capacity];            ///< reversed depth of the point
-  alignas(64) float b[3][capacity];
-  alignas(64) float dbdx[3][capacity], dbdy[3][capacity];
+  alignas(64) float b[2][capacity];
+  alignas(64) float dbdx[2][capacity], dbdy[2][capacity];
 
   int padded() const { return (count + group - 1) / group * group; }
+  /// Where point i's triangle is told of.
+  std::size_t told(std::size_t i) const { return one_triangle[i / group] ? i / group * group : i; }
 };
 
 /// What shading gives for a batch. Colour is linear and premultiplied. The rest is filled when asked for.

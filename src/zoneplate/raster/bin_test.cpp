@@ -67,12 +67,14 @@ class Plain : public PointShader {
  public:
   void shade(const Batch& batch, Wanted, Shaded& out) const override {
     for (int i = 0; i < batch.count; ++i) {
-      const float v = unit_float(hash(batch.primitive[i], batch.instance[i]));
+      const std::size_t told = batch.told(static_cast<std::size_t>(i));
+      const float v = unit_float(hash(batch.triangle[told], batch.instance[told]));
       out.r[i] = v, out.g[i] = 0.5f * v, out.b[i] = 0.25f, out.a[i] = 0.5f;
     }
   }
   float alpha(const Batch& batch, float* out) const override {
-    for (int i = 0; i < batch.count; ++i) out[i] = unit_float(batch.primitive[i]);
+    for (int i = 0; i < batch.count; ++i)
+      out[i] = unit_float(hash(batch.triangle[batch.told(static_cast<std::size_t>(i))]));
     return 0.5f;
   }
 };

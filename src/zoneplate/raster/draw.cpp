@@ -62,7 +62,6 @@ TriangleFacing face_of(const ProjectedDraws& projected, std::size_t d, std::int3
     const std::int64_t area = doubled_area(p, q, r);
     out.is_degenerate = area == 0;
     out.is_clockwise = area > 0;
-    out.planes = barycentric_planes(p, q, r);
     return out;
   }
   // The determinant of the homogeneous vertices has the sign of the area of whatever part is in front of the eye.

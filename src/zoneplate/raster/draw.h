@@ -64,7 +64,7 @@ ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa
 
 /// What shading and culling need to know of a triangle as a whole.
 struct TriangleFacing {
-  BarycentricPlanes planes;
+  BarycentricPlanes planes;    ///< if it needs clipping
   bool is_degenerate = false;  ///< no area on the screen
   bool is_clockwise = false;   ///< as seen on the screen
   bool needs_clipping = false;

@@ -1,26 +1,14 @@
 #include "zoneplate/raster/interpolate.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace zoneplate {
-
-BarycentricPlanes barycentric_planes(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
-  const ScreenVertex* v[3] = {&p, &q, &r};
-  BarycentricPlanes out;
-  for (int k = 0; k < 3; ++k) {
-    const ScreenVertex &from = *v[(k + 1) % 3], &to = *v[(k + 2) % 3];
-    const double inv_w = v[k]->inv_w;
-    const double x1 = from.x, y1 = from.y, x2 = to.x, y2 = to.y;
-    out.x[k] = (y1 - y2) * inv_w;
-    out.y[k] = (x2 - x1) * inv_w;
-    out.one[k] = (x1 * y2 - y1 * x2) * inv_w;
-  }
-  return out;
-}
 
 BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport viewport) {
   const float4 v[3] = {p, q, r};
   BarycentricPlanes out;
+  double greatest = 0;
   for (int k = 0; k < 3; ++k) {
     const float4 &from = v[(k + 1) % 3], &to = v[(k + 2) % 3];
     const double sx = viewport.width * 128, sy = viewport.height * -128;
@@ -29,40 +17,83 @@ BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport view
     out.x[k] = y1 * w2 - w1 * y2;
     out.y[k] = w1 * x2 - x1 * w2;
     out.one[k] = x1 * y2 - y1 * x2;
+    greatest = std::max({greatest, std::abs(out.x[k]), std::abs(out.y[k])});
   }
+  if (!(greatest > 0)) return out;
+  for (int k = 0; k < 3; ++k) out.x[k] /= greatest, out.y[k] /= greatest, out.one[k] /= greatest;
   return out;
 }
 
 namespace scalar {
 namespace {
 
-void interpolate(const BatchPlanes& planes, Viewport viewport, float spacing, Batch& batch) {
-  const double step = 256.0 * static_cast<double>(spacing);
+/// A weight in [0, limit]. Adding +0 makes one of -0 the +0 that every instruction set agrees on.
+template <class T>
+T clamped(T b, T limit) {
+  return std::min(std::max(b, T{0}), limit) + T{0};
+}
+
+std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
+  const float step = 256.0f * spacing;
+  std::uint32_t clipped = 0;
   for (int i = 0; i < batch.padded(); ++i) {
-    const double px = batch.x[i] - viewport.width * 128, py = batch.y[i] - viewport.height * 128;
-    const int group = i / Batch::group;
-    BarycentricPlanes p;
-    for (int k = 0; k < 3; ++k) p.x[k] = planes.x[k][i], p.y[k] = planes.y[k][i], p.one[k] = planes.one[k][i];
-    if (planes.is_shared[group]) p = planes.shared[group];
+    const std::size_t told = batch.told(static_cast<std::size_t>(i));
+    std::int32_t dx[3], dy[3];
+    float inv_w[3];
+    for (int k = 0; k < 3; ++k) {
+      const ScreenVertex& v = *corners.vertex[k][told];
+      dx[k] = v.x - (batch.x[i] - viewport.width * 128), dy[k] = v.y - (batch.y[i] - viewport.height * 128);
+      inv_w[k] = v.inv_w;
+      if (v.needs_clipping()) clipped |= 1u << (i / Batch::group);
+    }
+    double edge[3];
+    float q[3], gx[3], gy[3];
+    for (int k = 0; k < 3; ++k) {
+      const int m = (k + 1) % 3, n = (k + 2) % 3;
+      edge[k] = double{1} * dx[m] * dy[n] - double{1} * dy[m] * dx[n];
+      q[k] = static_cast<float>(edge[k]) * inv_w[k];
+      gx[k] = static_cast<float>(dy[m] - dy[n]) * inv_w[k];
+      gy[k] = static_cast<float>(dx[n] - dx[m]) * inv_w[k];
+    }
+    const std::int32_t is_clockwise = (edge[0] + edge[1]) + edge[2] > 0 ? 1 : 0;
+    if (told == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == corners.is_mirrored[i] ? 1 : 0;
+    const float sum = (q[0] + q[1]) + q[2];
+    const float inverse = 1.0f / (sum == 0 ? 1.0f : sum);
+    const float b1 = clamped(q[1] * inverse, 1.0f), b2 = clamped(q[2] * inverse, 1.0f - b1);
+    batch.b[0][i] = b1, batch.b[1][i] = b2;
+    if (spacing == 0) continue;
+    const float sum_x = (gx[0] + gx[1]) + gx[2], sum_y = (gy[0] + gy[1]) + gy[2], by = inverse * step;
+    batch.dbdx[0][i] = (gx[1] - b1 * sum_x) * by, batch.dbdx[1][i] = (gx[2] - b2 * sum_x) * by;
+    batch.dbdy[0][i] = (gy[1] - b1 * sum_y) * by, batch.dbdy[1][i] = (gy[2] - b2 * sum_y) * by;
+  }
+  return clipped;
+}
+
+void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
+  const double step = 256.0 * static_cast<double>(spacing);
+  for (int i = 0; i < Batch::group; ++i) {
+    const double px = g.px[i] - viewport.width * 128, py = g.py[i] - viewport.height * 128;
     double q[3];
-    for (int k = 0; k < 3; ++k) q[k] = (p.x[k] * px + p.y[k] * py) + p.one[k];
+    for (int k = 0; k < 3; ++k) q[k] = (g.x[k][i] * px + g.y[k][i] * py) + g.one[k][i];
     const double sum = (q[0] + q[1]) + q[2];
     const double inverse = 1.0 / (sum == 0 ? 1.0 : sum);
-    const double sum_x = (p.x[0] + p.x[1]) + p.x[2];
-    const double sum_y = (p.y[0] + p.y[1]) + p.y[2];
-    for (int k = 0; k < 3; ++k) {
-      // Adding +0 makes a weight of -0 the +0 that every instruction set agrees on.
-      const double b = std::min(std::max(q[k] * inverse, 0.0), 1.0) + 0.0;
-      batch.b[k][i] = static_cast<float>(b);
-      batch.dbdx[k][i] = static_cast<float>((p.x[k] - b * sum_x) * inverse * step);
-      batch.dbdy[k][i] = static_cast<float>((p.y[k] - b * sum_y) * inverse * step);
+    const double sum_x = (g.x[0][i] + g.x[1][i]) + g.x[2][i];
+    const double sum_y = (g.y[0][i] + g.y[1][i]) + g.y[2][i];
+    double limit = 1;
+    for (int k = 0; k < 2; ++k) {
+      const double b = clamped(q[k + 1] * inverse, limit);
+      limit = limit - b;
+      g.b[k][i] = static_cast<float>(b);
+      if (spacing == 0) continue;
+      g.dbdx[k][i] = static_cast<float>((g.x[k + 1][i] - b * sum_x) * inverse * step);
+      g.dbdy[k][i] = static_cast<float>((g.y[k + 1][i] - b * sum_y) * inverse * step);
     }
   }
 }
 
 }  // namespace
 
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate};
+const InterpolateKernels interpolate_kernels = {.interpolate = interpolate, .interpolate_clipped = interpolate_clipped};
 
 }  // namespace scalar
 }  // namespace zoneplate

@@ -6,34 +6,42 @@
 
 namespace zoneplate {
 
-/// The perspective-correct barycentric weights of a triangle, as functions of the point on the screen:
-/// b_k = q_k / (q_0 + q_1 + q_2) with q_k = x[k] P.x + y[k] P.y + one[k].
+/// The perspective-correct barycentric weights of a triangle that crosses the eye's plane, as functions of the point on
+/// the screen: b_k = q_k / (q_0 + q_1 + q_2) with q_k = x[k] P.x + y[k] P.y + one[k].
 ///
-/// Units     P in 1/256 pixel from the picture's centre.
-/// Source    E_k / w_k of the snapped vertices; for a triangle that crosses the eye's plane the 2D homogeneous form,
-/// which
-///           needs no division: Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997.
+/// Units     P in 1/256 pixel from the picture's centre. The greatest of x and y has the size 1.
+/// Source    the 2D homogeneous form, which needs no division by w: Olano and Greer, Triangle Scan Conversion using 2D
+///           Homogeneous Coordinates, 1997.
 struct BarycentricPlanes {
   double x[3], y[3], one[3];
 };
-
-/// Exact     E_k is exact; its product with inv_w is rounded once.
-BarycentricPlanes barycentric_planes(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r);
-
-/// For a triangle that has a vertex outside the near plane, the far plane or the guard band.
 BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport viewport);
 
-/// The planes of a batch's points, structure of arrays; or, of 8 points of one triangle, once.
-struct BatchPlanes {
-  bool is_shared[Batch::capacity / Batch::group];
-  BarycentricPlanes shared[Batch::capacity / Batch::group];
-  alignas(64) double x[3][Batch::capacity], y[3][Batch::capacity], one[3][Batch::capacity];
+/// The corners of a batch's triangles; where a group shares its triangle, at the group's first point only.
+struct BatchCorners {
+  const ScreenVertex* vertex[3][Batch::capacity];
+  alignas(64) std::int32_t is_mirrored[Batch::capacity];  ///< 1: front faces are clockwise; else 0
 };
 
+/// The planes of 8 points, and the weights and slopes that come out of them.
+struct ClippedGroup {
+  alignas(64) double x[3][Batch::group], y[3][Batch::group], one[3][Batch::group];
+  alignas(64) std::int32_t px[Batch::group], py[Batch::group];  ///< as in Batch
+  alignas(64) float b[2][Batch::group], dbdx[2][Batch::group], dbdy[2][Batch::group];
+};
+
+/// b_k = q_k / (q_0 + q_1 + q_2) with q_k = E_k / w_k, where E_k is the edge function opposite to vertex k; and the
+/// change of b_k per `spacing` pixels, but only if `spacing` is not 0. Weights are clamped: no attribute is
+/// extrapolated.
 struct InterpolateKernels {
-  /// Fills b, dbdx, dbdy of all padded() entries. Weights are clamped to [0, 1]: no attribute is extrapolated.
-  /// dbdx and dbdy are per `spacing` pixels.
-  void (*interpolate)(const BatchPlanes& planes, Viewport viewport, float spacing, Batch& batch);
+  /// Fills b, dbdx, dbdy and is_front of all padded() entries from the snapped vertices. Gives the groups in which a
+  /// triangle needs clipping, a bit each; for its points the result says nothing.
+  ///
+  /// Exact     E_k is an exact integer, and so is the sign of their sum, the side that is seen.
+  std::uint32_t (*interpolate)(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch);
+
+  /// The same for points of triangles that cross the eye's plane.
+  void (*interpolate_clipped)(Viewport viewport, float spacing, ClippedGroup& group);
 };
 
 namespace scalar {

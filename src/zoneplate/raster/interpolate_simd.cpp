@@ -7,38 +7,185 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-void interpolate(const BatchPlanes& planes, Viewport viewport, float spacing, Batch& batch) {
+using FloatTag = hn::CappedTag<float, 8>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using HalfInt = hn::Half<IntTag>;
+using HalfFloat = hn::Half<FloatTag>;
+using DoubleTag = hn::Rebind<double, HalfInt>;
+using F = hn::Vec<FloatTag>;
+using I = hn::Vec<IntTag>;
+using D = hn::Vec<DoubleTag>;
+constexpr int lanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+
+/// One corner of the triangles of several points.
+struct Corner {
+  I x, y;
+  F inv_w;
+};
+
+HWY_INLINE Corner same_corner(const ScreenVertex& v) {
+  return {hn::Set(IntTag(), v.x), hn::Set(IntTag(), v.y), hn::Set(FloatTag(), v.inv_w)};
+}
+
+/// Vertices i and i + 4 side by side, or vertex i where vectors have room for four lanes only.
+template <class D>
+HWY_INLINE hn::Vec<D> two_vertices(D d, const ScreenVertex* const* v, int i) {
+  static_assert(sizeof(ScreenVertex) == 16);
+  const hn::FixedTag<std::int32_t, 4> block;
+  const auto first = hn::LoadU(block, reinterpret_cast<const std::int32_t*>(v[i]));
+  if constexpr (lanes == 8) {
+    return hn::Combine(d, hn::LoadU(block, reinterpret_cast<const std::int32_t*>(v[i + 4])), first);
+  } else {
+    return first;
+  }
+}
+
+HWY_INLINE Corner turned_corners(const ScreenVertex* const* v) {
+  const IntTag d;
+  const I v0 = two_vertices(d, v, 0), v1 = two_vertices(d, v, 1);
+  const I v2 = two_vertices(d, v, 2), v3 = two_vertices(d, v, 3);
+  const I xz01 = hn::InterleaveLower(d, v0, v2), xz23 = hn::InterleaveLower(d, v1, v3);
+  const I zw01 = hn::InterleaveUpper(d, v0, v2), zw23 = hn::InterleaveUpper(d, v1, v3);
+  return {hn::InterleaveLower(d, xz01, xz23), hn::InterleaveUpper(d, xz01, xz23),
+          hn::BitCast(FloatTag(), hn::InterleaveUpper(d, zw01, zw23))};
+}
+
+HWY_INLINE D low(I v) { return hn::PromoteTo(DoubleTag(), hn::LowerHalf(HalfInt(), v)); }
+HWY_INLINE D high(I v) { return hn::PromoteTo(DoubleTag(), hn::UpperHalf(HalfInt(), v)); }
+
+HWY_INLINE F to_floats(D l, D h) {
+  return hn::Combine(FloatTag(), hn::DemoteTo(HalfFloat(), h), hn::DemoteTo(HalfFloat(), l));
+}
+
+struct Edges {
+  F e[3];
+  D sum_low, sum_high;
+};
+
+HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
+  const D xl[3] = {low(dx[0]), low(dx[1]), low(dx[2])}, xh[3] = {high(dx[0]), high(dx[1]), high(dx[2])};
+  const D yl[3] = {low(dy[0]), low(dy[1]), low(dy[2])}, yh[3] = {high(dy[0]), high(dy[1]), high(dy[2])};
+  D l[3], h[3];
+  for (int k = 0; k < 3; ++k) {
+    const int m = (k + 1) % 3, n = (k + 2) % 3;
+    l[k] = hn::Sub(hn::Mul(xl[m], yl[n]), hn::Mul(yl[m], xl[n]));
+    h[k] = hn::Sub(hn::Mul(xh[m], yh[n]), hn::Mul(yh[m], xh[n]));
+  }
+  return {{to_floats(l[0], h[0]), to_floats(l[1], h[1]), to_floats(l[2], h[2])},
+          hn::Add(hn::Add(l[0], l[1]), l[2]),
+          hn::Add(hn::Add(h[0], h[1]), h[2])};
+}
+
+HWY_INLINE F clamped(F b, F limit) {
+  const FloatTag d;
+  return hn::Add(hn::Min(hn::Max(b, hn::Zero(d)), limit), hn::Zero(d));
+}
+
+/// is_front of triangles whose edge functions have these sums.
+HWY_INLINE void store_front(const Edges& e, const std::int32_t* is_mirrored, std::int32_t* out) {
+  // The sign of the sum survives the rounding to float.
+  const FloatTag d;
+  const IntTag di;
+  const auto is_clockwise = hn::Gt(to_floats(e.sum_low, e.sum_high), hn::Zero(d));
+  const I clockwise = hn::IfThenElseZero(hn::RebindMask(di, is_clockwise), hn::Set(di, 1));
+  const auto is_front = hn::Eq(clockwise, hn::Load(di, is_mirrored));
+  hn::Store(hn::IfThenElseZero(is_front, hn::Set(di, 1)), di, out);
+}
+
+struct Screen {
+  I centre_x, centre_y;
+  F step;
+  bool has_slopes;
+};
+
+/// The points from i on; true if a triangle of theirs needs clipping.
+HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const BatchCorners& corners, bool is_shared,
+                               Batch& batch, int i) {
+  const FloatTag d;
+  const IntTag di;
+  const I px = hn::Sub(hn::Load(di, batch.x + i), screen.centre_x);
+  const I py = hn::Sub(hn::Load(di, batch.y + i), screen.centre_y);
+  const I dx[3] = {hn::Sub(c[0].x, px), hn::Sub(c[1].x, px), hn::Sub(c[2].x, px)};
+  const I dy[3] = {hn::Sub(c[0].y, py), hn::Sub(c[1].y, py), hn::Sub(c[2].y, py)};
+  const Edges edges = edges_at(dx, dy);
+  if (!is_shared || i % Batch::group == 0) store_front(edges, corners.is_mirrored + i, batch.is_front + i);
+
+  const F q0 = hn::Mul(edges.e[0], c[0].inv_w), q1 = hn::Mul(edges.e[1], c[1].inv_w);
+  const F q2 = hn::Mul(edges.e[2], c[2].inv_w), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const F sum = hn::Add(hn::Add(q0, q1), q2);
+  const F inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
+  const F b1 = clamped(hn::Mul(q1, inverse), one), b2 = clamped(hn::Mul(q2, inverse), hn::Sub(one, b1));
+  hn::Store(b1, d, batch.b[0] + i);
+  hn::Store(b2, d, batch.b[1] + i);
+  if (screen.has_slopes) {
+    const auto slope = [&](const I(&at)[3], int m, int n, int k)
+                           HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), c[k].inv_w); };
+    const F by = hn::Mul(inverse, screen.step);
+    const auto store = [&](F g0, F g1, F g2, float(&out)[2][Batch::capacity]) HWY_ATTR {
+      const F all = hn::Add(hn::Add(g0, g1), g2);
+      hn::Store(hn::Mul(hn::Sub(g1, hn::Mul(b1, all)), by), d, out[0] + i);
+      hn::Store(hn::Mul(hn::Sub(g2, hn::Mul(b2, all)), by), d, out[1] + i);
+    };
+    store(slope(dy, 1, 2, 0), slope(dy, 2, 0, 1), slope(dy, 0, 1, 2), batch.dbdx);
+    store(slope(dx, 2, 1, 0), slope(dx, 0, 2, 1), slope(dx, 1, 0, 2), batch.dbdy);
+  }
+  const F least = hn::Min(hn::Min(c[0].inv_w, c[1].inv_w), c[2].inv_w);
+  return !hn::AllTrue(d, hn::Gt(least, zero));
+}
+
+std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
+  const Screen screen{hn::Set(IntTag(), viewport.width * 128), hn::Set(IntTag(), viewport.height * 128),
+                      hn::Set(FloatTag(), 256.0f * spacing), spacing != 0};
+  std::uint32_t clipped = 0;
+  const int count = batch.padded();
+  for (int first = 0; first < count; first += Batch::group) {
+    bool is_clipped = false;
+    if (batch.one_triangle[first / Batch::group]) {
+      const Corner c[3] = {same_corner(*corners.vertex[0][first]), same_corner(*corners.vertex[1][first]),
+                           same_corner(*corners.vertex[2][first])};
+      for (int i = first; i < first + Batch::group; i += lanes)
+        is_clipped = interpolate_at(c, screen, corners, true, batch, i) || is_clipped;
+    } else {
+      for (int i = first; i < first + Batch::group; i += lanes) {
+        const Corner c[3] = {turned_corners(corners.vertex[0] + i), turned_corners(corners.vertex[1] + i),
+                             turned_corners(corners.vertex[2] + i)};
+        is_clipped = interpolate_at(c, screen, corners, false, batch, i) || is_clipped;
+      }
+    }
+    if (is_clipped) clipped |= 1u << (first / Batch::group);
+  }
+  return clipped;
+}
+
+void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   const hn::CappedTag<double, 8> d;
   const hn::Rebind<float, decltype(d)> df;
   const hn::Rebind<std::int32_t, decltype(d)> di;
   using V = hn::Vec<decltype(d)>;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0), step = hn::Set(d, 256.0 * static_cast<double>(spacing));
   const auto centre_x = hn::Set(di, viewport.width * 128), centre_y = hn::Set(di, viewport.height * 128);
-  const int count = batch.padded();
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
-    const V px = hn::PromoteTo(d, hn::Sub(hn::Load(di, batch.x + i), centre_x));
-    const V py = hn::PromoteTo(d, hn::Sub(hn::Load(di, batch.y + i), centre_y));
+  for (int i = 0; i < Batch::group; i += static_cast<int>(hn::Lanes(d))) {
+    const V px = hn::PromoteTo(d, hn::Sub(hn::Load(di, g.px + i), centre_x));
+    const V py = hn::PromoteTo(d, hn::Sub(hn::Load(di, g.py + i), centre_y));
     V x[3], y[3], q[3];
-    const int group = i / Batch::group;
-    const bool is_shared = planes.is_shared[group];
-    const BarycentricPlanes& shared = planes.shared[group];
     for (int k = 0; k < 3; ++k) {
-      x[k] = is_shared ? hn::Set(d, shared.x[k]) : hn::Load(d, planes.x[k] + i);
-      y[k] = is_shared ? hn::Set(d, shared.y[k]) : hn::Load(d, planes.y[k] + i);
-      const V unit = is_shared ? hn::Set(d, shared.one[k]) : hn::Load(d, planes.one[k] + i);
-      q[k] = hn::Add(hn::Add(hn::Mul(x[k], px), hn::Mul(y[k], py)), unit);
+      x[k] = hn::Load(d, g.x[k] + i), y[k] = hn::Load(d, g.y[k] + i);
+      q[k] = hn::Add(hn::Add(hn::Mul(x[k], px), hn::Mul(y[k], py)), hn::Load(d, g.one[k] + i));
     }
     const V sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
     const V inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
     const V sum_x = hn::Add(hn::Add(x[0], x[1]), x[2]), sum_y = hn::Add(hn::Add(y[0], y[1]), y[2]);
-    for (int k = 0; k < 3; ++k) {
-      const V b = hn::Add(hn::Min(hn::Max(hn::Mul(q[k], inverse), zero), one), zero);
-      const auto slope = [&](V plane, V total) {
+    V limit = one;
+    for (int k = 0; k < 2; ++k) {
+      const V b = hn::Add(hn::Min(hn::Max(hn::Mul(q[k + 1], inverse), zero), limit), zero);
+      limit = hn::Sub(limit, b);
+      hn::Store(hn::DemoteTo(df, b), df, g.b[k] + i);
+      if (spacing == 0) continue;
+      const auto slope = [&](V plane, V total) HWY_ATTR {
         return hn::DemoteTo(df, hn::Mul(hn::Mul(hn::Sub(plane, hn::Mul(b, total)), inverse), step));
       };
-      hn::Store(hn::DemoteTo(df, b), df, batch.b[k] + i);
-      hn::Store(slope(x[k], sum_x), df, batch.dbdx[k] + i);
-      hn::Store(slope(y[k], sum_y), df, batch.dbdy[k] + i);
+      hn::Store(slope(x[k + 1], sum_x), df, g.dbdx[k] + i);
+      hn::Store(slope(y[k + 1], sum_y), df, g.dbdy[k] + i);
     }
   }
 }
@@ -46,7 +193,7 @@ void interpolate(const BatchPlanes& planes, Viewport viewport, float spacing, Ba
 }  // namespace
 
 extern const InterpolateKernels interpolate_kernels;
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate};
+const InterpolateKernels interpolate_kernels = {.interpolate = interpolate, .interpolate_clipped = interpolate_clipped};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,6 +1,7 @@
 #include "zoneplate/raster/points.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 namespace zoneplate {
@@ -52,70 +53,44 @@ template std::size_t PointBatcher::same_material(std::span<const PointRow> list,
 
 void PointBatcher::find_draw(std::int32_t id) {
   if (id >= known_.begin && id < known_.end) return;
-  known_.draw = projected_.draw_of(id);
-  known_.begin = projected_.first_triangle[known_.draw], known_.end = projected_.first_triangle[known_.draw + 1];
+  known_.number = projected_.draw_of(id);
+  known_.draw = &projected_.draws[known_.number];
+  known_.screen = projected_.screen[known_.number].data();
+  known_.begin = projected_.first_triangle[known_.number], known_.end = projected_.first_triangle[known_.number + 1];
 }
 
-/// Asks for the corners of triangles that are about to be known: their vertices lie anywhere in memory.
-void PointBatcher::fetch_ahead(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
-  std::int32_t last = -1;
-  for (const std::uint32_t n : numbers) {
-    const std::int32_t id = points[n].id;
-    if (id == last) continue;
-    last = id;
-    find_draw(id);
-    const Draw& draw = projected_.draws[known_.draw];
-    const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(id - known_.begin)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      __builtin_prefetch(&projected_.screen[known_.draw][v[k]]);
-      if (v[k] < draw.position.size()) __builtin_prefetch(&draw.position[v[k]]);
-    }
+/// Asks for the indices of a triangle that is about to be known.
+void PointBatcher::fetch_ahead(std::int32_t id) const {
+  if (id < known_.begin || id >= known_.end) return;
+  __builtin_prefetch(&known_.draw->index[3 * static_cast<std::size_t>(id - known_.begin)]);
+}
+
+/// What is said of a triangle, told at point i. Its vertices, which lie anywhere in memory, are only asked for.
+void PointBatcher::put_triangle(std::size_t i, std::int32_t id) {
+  find_draw(id);
+  const Draw& draw = *known_.draw;
+  const auto local = static_cast<std::size_t>(id - known_.begin);
+  const std::uint32_t* v = &draw.index[3 * local];
+  batch_.triangle[i] = static_cast<std::uint32_t>(id);
+  batch_.instance[i] = draw.instance;
+  corners_.is_mirrored[i] = draw.is_mirrored ? 1 : 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners_.vertex[k][i] = &known_.screen[v[k]];
+    __builtin_prefetch(corners_.vertex[k][i]);
+    batch_.vertex[k][i] = draw.ends.empty() ? v[k] : draw.ends[local / 2 * 2 + std::min<std::size_t>(k, 1)];
   }
 }
 
-const PointBatcher::Known& PointBatcher::know(std::int32_t id) {
-  if (id == known_.id) return known_;
-  known_.id = id;
-  find_draw(id);
-  const Draw& draw = projected_.draws[known_.draw];
-  const auto local = static_cast<std::uint32_t>(id - known_.begin);
-  const TriangleFacing facing = face_of(projected_, known_.draw, id, target_.viewport);
-  known_.instance = draw.instance;
-  known_.primitive = draw.primitive_of(local);
-  for (std::size_t k = 0; k < 3; ++k)
-    known_.vertex[k] = draw.ends.empty()
-                           ? draw.index[3 * static_cast<std::size_t>(local) + k]
-                           : draw.ends[2 * static_cast<std::size_t>(known_.primitive) + std::min<std::size_t>(k, 1)];
-  known_.is_front = facing.is_clockwise == draw.is_mirrored ? 1 : 0;
-  known_.planes = facing.planes;
-  return known_;
-}
-
-void PointBatcher::put(std::size_t i, const Known& known, std::int32_t x, std::int32_t y) {
-  batch_.triangle[i] = static_cast<std::uint32_t>(known.id);
-  batch_.instance[i] = known.instance;
-  batch_.primitive[i] = known.primitive;
-  for (std::size_t k = 0; k < 3; ++k) batch_.vertex[k][i] = known.vertex[k];
-  batch_.is_front[i] = known.is_front;
-  batch_.x[i] = x;
-  batch_.y[i] = y;
-}
-
 void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
+  constexpr std::size_t ahead = 16;
   batch_.count = static_cast<int>(numbers.size());
   batch_.material = static_cast<int>(material_[numbers[0]]);
-  std::fill(std::begin(planes_.is_shared), std::end(planes_.is_shared), false);
-  known_.id = -1;
-  fetch_ahead(points, numbers);
+  std::fill(std::begin(batch_.one_triangle), std::end(batch_.one_triangle), false);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
+    if (i + ahead < numbers.size()) fetch_ahead(points[numbers[i + ahead]].id);
     const Point& point = points[numbers[std::min(i, numbers.size() - 1)]];
-    const Known& known = know(point.id);
-    put(i, known, point.x, point.y);
-    for (std::size_t k = 0; k < 3; ++k) {
-      planes_.x[k][i] = known.planes.x[k];
-      planes_.y[k][i] = known.planes.y[k];
-      planes_.one[k][i] = known.planes.one[k];
-    }
+    put_triangle(i, point.id);
+    batch_.x[i] = point.x, batch_.y[i] = point.y;
   }
   interpolate();
 }
@@ -125,31 +100,68 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
   batch_.material = static_cast<int>(material_[numbers[0]]);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const PointRow& row = rows[numbers[i]];
-    const Known& known = know(row.id);
-    planes_.is_shared[i] = true;
-    planes_.shared[i] = known.planes;
-    for (std::size_t k = 0; k < Batch::group; ++k)
-      put(i * Batch::group + k, known, row.x + static_cast<std::int32_t>(k) * 256, row.y);
+    batch_.one_triangle[i] = true;
+    put_triangle(i * Batch::group, row.id);
+    std::int32_t* const x = batch_.x + i * Batch::group;
+    std::int32_t* const y = batch_.y + i * Batch::group;
+    for (int k = 0; k < Batch::group; ++k) x[k] = row.x + k * 256, y[k] = row.y;
   }
   interpolate();
 }
 
 void PointBatcher::interpolate() {
-  interpolate_.interpolate(planes_, target_.viewport, target_.spacing, batch_);
-  if (!has_ends_) return;
+  const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
+  std::uint32_t clipped = interpolate_.interpolate(corners_, target_.viewport, spacing, batch_);
+  for (; clipped; clipped &= clipped - 1) interpolate_clipped(static_cast<std::size_t>(std::countr_zero(clipped)));
+  if (has_ends_) weigh_ends();
+}
 
-  // Of a line the weights of the quad's corners become those of its two ends.
-  for (int i = 0; i < batch_.padded(); ++i) {
-    const Known& known = know(static_cast<std::int32_t>(batch_.triangle[i]));
-    const Draw& d = projected_.draws[known.draw];
+/// Does those of the group's points again whose triangles need clipping.
+void PointBatcher::interpolate_clipped(std::size_t group) {
+  const std::size_t first = group * Batch::group;
+  bool is_clipped[Batch::group];
+  for (std::size_t i = 0; i < Batch::group; ++i) {
+    const std::size_t told = batch_.told(first + i);
+    is_clipped[i] = false;
+    for (const auto& corner : corners_.vertex) is_clipped[i] = is_clipped[i] || corner[told]->needs_clipping();
+    const auto id = static_cast<std::int32_t>(batch_.triangle[told]);
+    if (is_clipped[i] && id != known_clipped_.id) {
+      find_draw(id);
+      known_clipped_ = {id, face_of(projected_, known_.number, id, target_.viewport)};
+    }
+    const TriangleFacing& facing = known_clipped_.facing;
+    for (std::size_t k = 0; k < 3; ++k) {
+      clipped_.x[k][i] = facing.planes.x[k], clipped_.y[k][i] = facing.planes.y[k];
+      clipped_.one[k][i] = facing.planes.one[k];
+    }
+    clipped_.px[i] = batch_.x[first + i], clipped_.py[i] = batch_.y[first + i];
+    if (is_clipped[i]) batch_.is_front[told] = facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
+  }
+  const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
+  interpolate_.interpolate_clipped(target_.viewport, spacing, clipped_);
+  for (std::size_t i = 0; i < Batch::group; ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!is_clipped[i]) continue;
+      batch_.b[k][first + i] = clipped_.b[k][i];
+      batch_.dbdx[k][first + i] = clipped_.dbdx[k][i], batch_.dbdy[k][first + i] = clipped_.dbdy[k][i];
+    }
+}
+
+/// Of a line the weights of the quad's corners become those of its two ends.
+void PointBatcher::weigh_ends() {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
+    const auto id = static_cast<std::int32_t>(batch_.triangle[batch_.told(i)]);
+    find_draw(id);
+    const Draw& d = *known_.draw;
     if (d.ends.empty()) continue;
-    const std::size_t first = 3 * static_cast<std::size_t>(known.id - known.begin);
-    const auto weigh = [&](float(&b)[3][Batch::capacity]) {
-      float far = 0, sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) far += b[k][i] * d.share[d.index[first + k]], sum += b[k][i];
-      b[0][i] = sum - far, b[1][i] = far, b[2][i] = 0;
+    const std::uint32_t* v = &d.index[3 * static_cast<std::size_t>(id - known_.begin)];
+    const float share[3] = {d.share[v[0]], d.share[v[1]], d.share[v[2]]};
+    const auto weigh = [&](float(&b)[2][Batch::capacity], float whole) {
+      const float first = whole - b[0][i] - b[1][i];
+      b[0][i] = (first * share[0] + b[0][i] * share[1]) + b[1][i] * share[2];
+      b[1][i] = 0;
     };
-    weigh(batch_.b), weigh(batch_.dbdx), weigh(batch_.dbdy);
+    weigh(batch_.b, 1), weigh(batch_.dbdx, 0), weigh(batch_.dbdy, 0);
   }
 }
 

@@ -49,14 +49,17 @@ class PointBatcher {
   std::uint64_t shaded() const { return shaded_; }
 
  private:
-  /// What the points of one triangle have in common.
+  /// The draw that the last triangle belongs to.
   struct Known {
+    const Draw* draw = nullptr;
+    const ScreenVertex* screen = nullptr;
+    std::size_t number = 0;
+    std::int32_t begin = 0, end = 0;  ///< its triangles
+  };
+  /// The last triangle that needed clipping.
+  struct KnownClipped {
     std::int32_t id = -1;
-    std::size_t draw = 0;
-    std::int32_t begin = 0, end = 0;  ///< the draw's triangles
-    std::uint32_t instance = 0, primitive = 0, vertex[3] = {};
-    std::int32_t is_front = 0;
-    BarycentricPlanes planes;
+    TriangleFacing facing;
   };
 
   template <class T>
@@ -66,12 +69,13 @@ class PointBatcher {
   template <class Use>
   void for_batches(std::span<const Point> points, Use use);
   void find_draw(std::int32_t id);
-  void fetch_ahead(std::span<const Point> points, std::span<const std::uint32_t> numbers);
-  const Known& know(std::int32_t id);
+  void fetch_ahead(std::int32_t id) const;
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
-  void put(std::size_t i, const Known& known, std::int32_t x, std::int32_t y);
+  void put_triangle(std::size_t i, std::int32_t id);
   void interpolate();
+  void interpolate_clipped(std::size_t group);
+  void weigh_ends();
 
   const ProjectedDraws& projected_;
   const PointShader& shader_;
@@ -82,8 +86,10 @@ class PointBatcher {
 
   std::vector<std::uint32_t> order_, material_;
   Known known_;
+  KnownClipped known_clipped_;
   Batch batch_;
-  BatchPlanes planes_;
+  BatchCorners corners_{};
+  ClippedGroup clipped_;
   Shaded shaded_batch_;
 };
 

@@ -19,6 +19,8 @@ class PointShader {
   virtual void shade(const Batch& batch, Wanted wanted, Shaded& out) const = 0;
   /// Alpha of masked surfaces' points, and the cutoff at and above which such a point is there.
   virtual float alpha(const Batch& batch, float* out) const = 0;
+  /// Whether a material's batches need dbdx and dbdy.
+  virtual bool wants_slopes([[maybe_unused]] int material) const { return true; }
 };
 
 struct RasterRules {

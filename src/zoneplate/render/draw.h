@@ -50,9 +50,11 @@ class ShaderPoints : public PointShader {
     return out;
   }
 
-  static Varyings weighted(const Floats (&v)[3], float b0, float b1, float b2) {
+  /// first + ((v1 - v0) b[0] + (v2 - v0) b[1]).
+  static Varyings weighted(const Floats& first, const Floats (&v)[3], const float (&b)[2][Batch::capacity], int i) {
     Floats sum;
-    for (std::size_t f = 0; f < floats; ++f) sum[f] = (v[0][f] * b0 + v[1][f] * b1) + v[2][f] * b2;
+    for (std::size_t f = 0; f < floats; ++f)
+      sum[f] = first[f] + ((v[1][f] - v[0][f]) * b[0][i] + (v[2][f] - v[0][f]) * b[1][i]);
     Varyings out;
     std::memcpy(static_cast<void*>(&out), sum.data(), sizeof out);
     return out;
@@ -60,14 +62,15 @@ class ShaderPoints : public PointShader {
 
   template <class Use>
   void for_points(const Batch& batch, Use use) const {
-    Floats corner[3] = {};
+    Floats corner[3] = {}, none = {};
+    std::uint32_t known = 0;
     for (int i = 0; i < batch.count; ++i) {
-      if (i == 0 || batch.triangle[i] != batch.triangle[i - 1])
-        for (int k = 0; k < 3; ++k) corner[k] = varyings_of(batch.vertex[k][i]);
-      const Varyings u = weighted(corner, batch.b[0][i], batch.b[1][i], batch.b[2][i]);
-      const Varyings ux = weighted(corner, batch.dbdx[0][i], batch.dbdx[1][i], batch.dbdx[2][i]);
-      const Varyings uy = weighted(corner, batch.dbdy[0][i], batch.dbdy[1][i], batch.dbdy[2][i]);
-      use(i, shader_.fragment(u, ux, uy));
+      const std::size_t told = batch.told(static_cast<std::size_t>(i));
+      if (i == 0 || batch.triangle[told] != known)
+        for (int k = 0; k < 3; ++k) corner[k] = varyings_of(batch.vertex[k][told]);
+      known = batch.triangle[told];
+      const Varyings u = weighted(corner[0], corner, batch.b, i);
+      use(i, shader_.fragment(u, weighted(none, corner, batch.dbdx, i), weighted(none, corner, batch.dbdy, i)));
     }
   }
 

@@ -15,8 +15,8 @@ namespace {
 /// The scene's materials as the rasterizer's shader.
 class ScenePoints : public PointShader {
  public:
-  ScenePoints(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures)
-      : scene_(scene), surfaces_(scene, surroundings, textures) {}
+  ScenePoints(const Scene& scene, const Surroundings& surroundings, const RenderOptions& options)
+      : scene_(scene), surfaces_(scene, surroundings, options.textures, options.records) {}
 
   void shade(const Batch& batch, Wanted wanted, Shaded& out) const override {
     surfaces_.shade(batch, {.normal = wanted.normal, .uv = wanted.uv, .albedo = wanted.albedo}, out);
@@ -25,21 +25,37 @@ class ScenePoints : public PointShader {
     surfaces_.alpha(batch, out);
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
+  bool wants_slopes(int material) const override { return surfaces_.wants_slopes(material); }
 
  private:
   const Scene& scene_;
   SurfaceShader surfaces_;
 };
 
-Surroundings surroundings_of(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+/// Clip space looks x = m00 X + m02 Z, w = -Z: through the pixel's (x, y) goes the direction ((x + m02) / m00, ...,
+/// -1).
+PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const RenderOptions& options) {
+  const float4x4& m = clip_from_camera;
+  const float4x4& world = camera.world_from_camera;
+  const float3 right = xyz(world.column[0]), up = xyz(world.column[1]), back = xyz(world.column[2]);
+  const float tan_x = 1 / m.column[0].x, tan_y = 1 / m.column[1].y;
+  const float3 first = back - right * ((m.column[2].x - 1) * tan_x) - up * ((m.column[2].y + 1) * tan_y);
+  return {first, right * (-2 * tan_x / (256 * static_cast<float>(options.width))),
+          up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
+}
+
+Surroundings surroundings_of(const Scene& scene, const Camera& camera, const float4x4& clip_from_camera,
+                             const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
   Surroundings s;
   s.eye = xyz(world_from_camera.column[3]);
   s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
   s.is_orthographic = camera.is_orthographic;
+  if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
   s.environment = options.environment;
   s.ambient_light = scene.ambient_light;
   s.raw_colors = options.raw_colors;
+  s.anisotropy = options.anisotropy;
   s.isa = options.isa;
   return s;
 }
@@ -102,7 +118,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   const SceneDraws draws = make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options);
-  const ScenePoints points(scene, surroundings_of(scene, camera, options), options.textures);
+  const ScenePoints points(scene, surroundings_of(scene, camera, clip_from_camera, options), options);
 
   Frame frame;
   Target target;

@@ -11,6 +11,7 @@
 namespace zoneplate {
 
 class TextureSet;
+class VertexRecords;
 struct RasterMemory;
 
 /// A part of the picture, in its pixels.
@@ -37,6 +38,7 @@ struct RenderOptions {
   bool cull_back_faces = true;  ///< of single-sided materials
   float3 environment{0, 0, 0};  ///< radiance of a constant environment
   bool raw_colors = false;      ///< images are not decoded from sRGB
+  int anisotropy = 1;           ///< texture probes along a footprint, for all samplers that blend levels; at most 16
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
@@ -44,8 +46,10 @@ struct RenderOptions {
   /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
   /// whose request is local.
   const DisplayOptions* shown = nullptr;
-  const TextureSet* textures = nullptr;  ///< the scene's, made once for many frames; null: made for this one
-  RasterMemory* memory = nullptr;        ///< of earlier frames, to be used again; null: its own
+  // The scene's, made once for many frames; null: made for this one.
+  const TextureSet* textures = nullptr;
+  const VertexRecords* records = nullptr;
+  RasterMemory* memory = nullptr;  ///< of earlier frames, to be used again; null: its own
 };
 
 /// Where time went and how much was done.

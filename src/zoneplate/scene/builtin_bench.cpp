@@ -109,6 +109,7 @@ Scene lit_scene(const char* name, Mesh mesh, const BenchLook& look) {
   if (look.textured) {
     scene.images.push_back(brick_texture());
     material.base_color_texture.image = 0;
+    material.base_color_texture.sampler.anisotropy = look.anisotropy;
   }
   scene.materials.push_back(std::move(material));
   add_object(scene, name, std::move(mesh));

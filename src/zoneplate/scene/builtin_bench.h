@@ -44,6 +44,7 @@ struct BenchLook {
   float3 light{0.40824829f, 0.81649658f, 0.40824829f};  ///< towards the light
   float ambient = 0.15f, specular = 0.35f, exponent = 40;
   bool textured = false, double_sided = false;
+  int anisotropy = 1;
 };
 Scene lit_scene(const char* name, Mesh mesh, const BenchLook& look);
 

@@ -18,6 +18,7 @@ struct Sampler {
   TexelFilter magnify = TexelFilter::Linear;
   TexelFilter minify = TexelFilter::Linear;
   LevelFilter level = LevelFilter::Linear;
+  int anisotropy = 1;  ///< probes along a footprint that is longer than wide, at most 16; for linear filters
   bool operator==(const Sampler&) const = default;
 };
 

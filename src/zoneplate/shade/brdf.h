@@ -1,5 +1,6 @@
 #pragma once
 
+#include "zoneplate/shade/exponent.h"
 #include "zoneplate/shade/vector.h"
 
 /// Reflection models, as templates over the lane types of shade/lanes.h.
@@ -13,19 +14,33 @@ template <class F>
   return max(nl, F(0.0f));
 }
 
+/// x^exponent. Requires  x >= 0.
+template <class F>
+[[gnu::always_inline]] inline F power(F x, Exponent exponent) {
+  if (exponent.whole == 0) return pow(x, F(exponent.value));
+  int left = exponent.whole;
+  for (; left % 2 == 0; left /= 2) x = x * x;
+  F result = x;
+  for (left /= 2; left > 0; left /= 2) {
+    x = x * x;
+    if (left % 2 != 0) result = result * x;
+  }
+  return result;
+}
+
 /// max(n · h, 0)^exponent; not cut where the light is below the horizon.
 /// Source: Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977.
 template <class F>
-[[gnu::always_inline]] inline F blinn_phong(F nh, F exponent) {
-  return pow(max(nh, F(0.0f)), exponent);
+[[gnu::always_inline]] inline F blinn_phong(F nh, Exponent exponent) {
+  return power(max(nh, F(0.0f)), exponent);
 }
 
 /// max(r · v, 0)^exponent with r the mirror image of l in n; not cut where the light is below the horizon.
 /// Source: Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975.
 template <class F>
-[[gnu::always_inline]] inline F phong(Vector<F> n, Vector<F> l, Vector<F> v, F exponent) {
+[[gnu::always_inline]] inline F phong(Vector<F> n, Vector<F> l, Vector<F> v, Exponent exponent) {
   const Vector<F> r = n * (F(2.0f) * dot(n, l)) - l;
-  return pow(max(dot(r, v), F(0.0f)), exponent);
+  return power(max(dot(r, v), F(0.0f)), exponent);
 }
 
 inline constexpr float inverse_pi = 0.318309886f;

@@ -196,13 +196,20 @@ TEST(Brdf, MoreBouncesOnlyAddWhatWasLost) {
     }
 }
 
+TEST(Brdf, WholeExponentsArePowersBySquaring) {
+  for (const float e : {1.0f, 2.0f, 3.0f, 7.0f, 32.0f, 40.0f, 100.0f, 1024.0f, 0.5f, 2.5f, 2000.0f})
+    for (const double x : {0.0, 0.25, 0.9, 0.999, 1.0}) {
+      EXPECT_NEAR(power<F>(x, make_exponent(e)).v, std::pow(x, static_cast<double>(e)), 1e-12) << e << " " << x;
+    }
+}
+
 TEST(Brdf, HighlightsFollowTheirDefinitions) {
   const V l = direction(0.5, 0), v = direction(std::sqrt(0.75), pi);
   const V h = normalize(l + v);
-  EXPECT_NEAR(blinn_phong<F>(dot(up, h), 3.0).v, std::pow(h.z.v, 3), 1e-12);
+  EXPECT_NEAR(blinn_phong<F>(dot(up, h), make_exponent(3)).v, std::pow(h.z.v, 3), 1e-12);
   // The mirror image of l leans the other way by 60°, v by 30°: cos 30° between them.
-  EXPECT_NEAR(phong<F>(up, l, v, 2.0).v, 0.75, 1e-9);
-  EXPECT_EQ(blinn_phong<F>(-0.5, 3.0).v, 0.0);
+  EXPECT_NEAR(phong<F>(up, l, v, make_exponent(2)).v, 0.75, 1e-9);
+  EXPECT_EQ(blinn_phong<F>(-0.5, make_exponent(3)).v, 0.0);
 }
 
 }  // namespace

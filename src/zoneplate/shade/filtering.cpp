@@ -1,5 +1,6 @@
 #include "zoneplate/shade/filtering.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "zoneplate/scene/material.h"
@@ -9,7 +10,8 @@
 
 namespace zoneplate {
 
-Filtering make_filtering(const Sampler& sampler) {
+Filtering make_filtering(const Sampler& sampler, int anisotropy) {
+  const bool blends = sampler.level == LevelFilter::Linear && sampler.minify == TexelFilter::Linear;
   return {.mirror_u = sampler.wrap_u == Wrap::Mirror,
           .clamp_u = sampler.wrap_u == Wrap::Clamp,
           .mirror_v = sampler.wrap_v == Wrap::Mirror,
@@ -17,41 +19,50 @@ Filtering make_filtering(const Sampler& sampler) {
           .nearest_magnify = sampler.magnify == TexelFilter::Nearest,
           .nearest_minify = sampler.minify == TexelFilter::Nearest,
           .has_levels = sampler.level != LevelFilter::None,
-          .blends_levels = sampler.level == LevelFilter::Linear};
+          .blends_levels = sampler.level == LevelFilter::Linear,
+          .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, 16) : 1};
 }
 
 namespace scalar {
 namespace {
 
-float mix(float a, float b, float weight) { return a + (b - a) * weight; }
+/// a + (b - a) × weight / 32768, to the nearest.
+std::int32_t mix(std::int32_t a, std::int32_t b, std::int32_t weight) { return a + (((b - a) * weight + 16384) >> 15); }
 
 template <class Code>
-float mix_level(const Code* codes, const Taps& taps, int level, int point, int channel) {
-  const auto code = [&](int corner) {
-    return static_cast<float>(codes[std::ptrdiff_t{4} * taps.texel[level][corner][point] + channel]);
+std::int32_t mix_level(const Code* codes, int shift, const Taps& taps, int level, int point, int channel) {
+  const auto code = [&](std::int32_t texel) {
+    return static_cast<std::int32_t>(codes[std::ptrdiff_t{4} * texel + channel]) << shift;
   };
-  const float right = taps.right[level][point];
-  return mix(mix(code(0), code(1), right), mix(code(2), code(3), right), taps.down[level][point]);
+  const std::int32_t upper = taps.upper[level][point], lower = taps.lower[level][point];
+  const std::int32_t right = taps.right[level][point];
+  return mix(mix(code(upper), code(upper + 1), right), mix(code(lower), code(lower + 1), right),
+             taps.down[level][point]);
 }
 
 template <class Code>
-void mix_codes(const Code* codes, float unit, const Taps& taps, float* const out[4], int count) {
+void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float* const out[4], int count) {
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < 4; ++c) {
-      float value = mix_level(codes, taps, 0, i, c);
-      if (taps.blend[i] > 0) value = mix(value, mix_level(codes, taps, 1, i, c), taps.blend[i]);
-      out[c][i] = value * unit;
+      std::int32_t value = mix_level(codes, shift, taps, 0, i, c);
+      if (taps.blend[i] > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), taps.blend[i]);
+      out[c][i] = static_cast<float>(value) * unit;
     }
 }
 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
-  if (t.codes8 != nullptr) return mix_codes(t.codes8, 1.0f / 255.0f, taps, out, count);
-  mix_codes(t.codes16, 1.0f / 65535.0f, taps, out, count);
+  if (t.codes8 != nullptr) return mix_codes(t.codes8, 7, 1.0f / 32640.0f, taps, out, count);
+  mix_codes(t.codes15, 0, 1.0f / 32767.0f, taps, out, count);
+}
+
+void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
+  zoneplate::sample_anisotropic<Float>(t, f, at, out, count,
+                                       [&](const Taps& taps, float* const probe[4]) { mix_taps(t, taps, probe, 8); });
 }
 
 }  // namespace
 
-const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps};
+const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps, &sample_anisotropic};
 
 }  // namespace scalar
 }  // namespace zoneplate

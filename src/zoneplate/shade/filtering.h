@@ -13,9 +13,11 @@ struct Filtering {
   bool mirror_v = false, clamp_v = false;
   bool nearest_magnify = false, nearest_minify = false;
   bool has_levels = true, blends_levels = true;
+  std::int32_t anisotropy = 1;  ///< most probes along a footprint; 1: isotropic
   bool operator==(const Filtering&) const = default;
 };
-Filtering make_filtering(const Sampler& sampler);
+/// `anisotropy`: asked for beside the sampler's own; the greater counts. Only samplers that blend levels have any.
+Filtering make_filtering(const Sampler& sampler, int anisotropy = 1);
 
 /// Where points look into a texture: its coordinates and their change per pixel.
 struct Footprint {
@@ -23,16 +25,18 @@ struct Footprint {
   const float *dudx, *dvdx, *dudy, *dvdy;
 };
 
-/// The texels that points need, and how to weigh them: two levels of four texels (upper left, upper right, lower left,
-/// lower right). Where `blend` is 0 the second level is not read.
+/// The texels that points need, and how to weigh them: of two levels the upper left and the lower left texel of four.
+/// The right ones follow them. Where no blend weight is above 0 the second level is not read.
+///
+/// Units     weights in 1/32768.
 struct Taps {
-  static constexpr int capacity = 256;
-  alignas(64) std::int32_t texel[2][4][capacity];
-  alignas(64) float right[2][capacity], down[2][capacity];  ///< weights of the right and lower texels
-  alignas(64) float blend[capacity];                        ///< weight of the second level
+  static constexpr int capacity = 128;
+  alignas(64) std::int32_t upper[2][capacity], lower[2][capacity];
+  alignas(64) std::int16_t right[2][capacity], down[2][capacity];  ///< weights of the right and lower texels
+  alignas(64) std::int16_t blend[capacity];                        ///< weight of the second level
 };
 
-/// Texture look-up in two stages. Counts are at most Taps::capacity; stores may touch up to the next multiple of 8.
+/// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity.
 ///
 /// The level is log2 of the footprint: D = ½ log2 max(|∂(s,t)/∂x|², |∂(s,t)/∂y|²) with (s, t) in texels of level 0,
 /// clamped to the levels there are. D > 0 minifies, else the picture is magnified. The coordinate is wrapped before
@@ -42,13 +46,22 @@ struct Taps {
 ///
 /// Edges     any coordinate and any derivative, infinities and NaN included, give texels inside the texture.
 /// Exact     a point on a texel's centre (of a size that is a power of two) gives that texel; texels of one value give
-///           that value. Values are code × (1 / 255) or code × (1 / 65535) in float; 0 and 1 are exact.
+///           that value; 0 and 1 are exact. Mixing is in fixed point: codes of 8 bits with 7 more below them, codes of
+///           15 bits as they are, weights of 15 bits, each of the mixes rounded to the nearest. A value is off by at
+///           most 2 units of 1/32640 or 1/32767, where graphics interfaces ask for weights of 8 bits.
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
 struct FilteringKernels {
   void (*find_taps)(const TextureView& texture, const Filtering& filtering, const Footprint& footprint, Taps& out,
                     int count);
   void (*mix_taps)(const TextureView& texture, const Taps& taps, float* const out[4], int count);
+
+  /// Both stages for footprints that are longer than wide: the mean of N probes along the longer axis, at the level of
+  /// an N-th of its length: N = ceil(longer / shorter), at most `anisotropy` and ceil(longer) in texels of level 0.
+  /// Probe i of N lies at i / (N + 1) - 1/2 of the axis.
+  /// Source    EXT_texture_filter_anisotropic (but for the last bound, which only spares probes nearer than a texel).
+  void (*sample_anisotropic)(const TextureView& texture, const Filtering& filtering, const Footprint& footprint,
+                             float* const out[4], int count);
 };
 
 namespace scalar {

@@ -7,91 +7,148 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
-// A texel's four channels are the lanes here; four points are turned at the end.
-using Channels = hn::FixedTag<float, 4>;
-using Texel = hn::Vec<Channels>;
+// Two neighbouring texels are the eight 16-bit lanes of a block of 128 bits. Where vectors have two blocks, the second
+// is of the point two further on; so four points, or two, are mixed at once.
+using Fixed = hn::CappedTag<std::int16_t, 16>;
+using V = hn::Vec<Fixed>;
+constexpr int blocks = static_cast<int>(hn::MaxLanes(Fixed())) / 8;
+constexpr int points = 2 * blocks;
 
-template <class Code>
-HWY_INLINE Texel load_texel(const Code* codes, std::int32_t number) {
-  const hn::FixedTag<Code, 4> narrow;
-  const hn::FixedTag<std::int32_t, 4> wide;
-  const auto code = hn::LoadU(narrow, codes + std::ptrdiff_t{4} * number);
-  return hn::ConvertTo(Channels(), hn::PromoteTo(wide, code));
+/// Eight codes at each of two places, widened to fixed point; only the first where vectors have one block.
+template <class D>
+HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint8_t* first, [[maybe_unused]] const std::uint8_t* second) {
+  const hn::FixedTag<std::uint8_t, 8> codes;
+  if constexpr (blocks == 2) {
+    const hn::FixedTag<std::uint8_t, 16> both;
+    return hn::ShiftLeft<7>(hn::PromoteTo(d, hn::Combine(both, hn::LoadU(codes, second), hn::LoadU(codes, first))));
+  } else {
+    return hn::ShiftLeft<7>(hn::PromoteTo(d, hn::LoadU(codes, first)));
+  }
 }
 
-HWY_INLINE Texel mix(Texel a, Texel b, Texel weight) { return hn::Add(a, hn::Mul(hn::Sub(b, a), weight)); }
-
-/// Two texels that lie one after the other, in vectors that have room for both.
-using PairChannels = hn::CappedTag<float, 8>;
-constexpr bool has_pairs = hn::MaxLanes(PairChannels()) == 8;
-
-template <class Code>
-HWY_INLINE hn::Vec<PairChannels> load_pair(const Code* codes, std::int32_t number) {
-  const hn::Rebind<Code, PairChannels> narrow;
-  const hn::Rebind<std::int32_t, PairChannels> wide;
-  const auto code = hn::LoadU(narrow, codes + std::ptrdiff_t{4} * number);
-  return hn::ConvertTo(PairChannels(), hn::PromoteTo(wide, code));
+template <class D>
+HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint16_t* first, [[maybe_unused]] const std::uint16_t* second) {
+  const hn::FixedTag<std::int16_t, 8> block;
+  const auto at = [&](const std::uint16_t* p)
+                      HWY_ATTR { return hn::LoadU(block, reinterpret_cast<const std::int16_t*>(p)); };
+  if constexpr (blocks == 2) {
+    return hn::Combine(d, at(second), at(first));
+  } else {
+    return at(first);
+  }
 }
 
 template <class Code>
-HWY_INLINE Texel mix_level(const Code* codes, const Taps& taps, int level, int i) {
-  const Texel down = hn::Set(Channels(), taps.down[level][i]);
-  if constexpr (has_pairs) {
-    // Away from the texture's edges the left and right texels are neighbours: both rows are mixed at once.
-    const PairChannels d;
-    const std::int32_t upper_left = taps.texel[level][0][i], lower_left = taps.texel[level][2][i];
-    if (taps.texel[level][1][i] == upper_left + 1) {
-      const auto upper = load_pair(codes, upper_left), lower = load_pair(codes, lower_left);
-      const auto left = hn::ConcatLowerLower(d, lower, upper), right = hn::ConcatUpperUpper(d, lower, upper);
-      const auto weight = hn::Set(d, taps.right[level][i]);
-      const auto mixed = hn::Add(left, hn::Mul(hn::Sub(right, left), weight));
-      return mix(hn::LowerHalf(mixed), hn::UpperHalf(Channels(), mixed), down);
+struct TexelCodes {
+  const Code* codes;
+  static constexpr float unit = sizeof(Code) == 1 ? 1.0f / 32640.0f : 1.0f / 32767.0f;
+  HWY_INLINE V pair(std::int32_t first, std::int32_t second) const {
+    return load_pairs(Fixed(), codes + std::ptrdiff_t{4} * first, codes + std::ptrdiff_t{4} * second);
+  }
+};
+
+HWY_INLINE V mix(V a, V b, V weight) { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), weight)); }
+
+/// Which bytes of eight weights go into which lanes, by the first point of `points`: that of each block for eight
+/// lanes (`odd`: of the point after it), or of both points for four each.
+struct Spread {
+  alignas(32) std::uint8_t even[8 / points][32], odd[8 / points][32], both[8 / points][32];
+};
+
+constexpr Spread make_spread() {
+  Spread s{};
+  for (int n = 0; n < 8 / points; ++n)
+    for (int byte = 0; byte < 32; ++byte) {
+      const int first = n * points + byte / 16 * 2, half = byte % 2;
+      s.even[n][byte] = static_cast<std::uint8_t>(2 * first + half);
+      s.odd[n][byte] = static_cast<std::uint8_t>(2 * (first + 1) + half);
+      s.both[n][byte] = static_cast<std::uint8_t>(2 * (first + byte % 16 / 8) + half);
     }
-  }
-  const auto texel = [&](int corner) HWY_ATTR { return load_texel(codes, taps.texel[level][corner][i]); };
-  const Texel right = hn::Set(Channels(), taps.right[level][i]);
-  const Texel upper = mix(texel(0), texel(1), right);
-  const Texel lower = mix(texel(2), texel(3), right);
-  return mix(upper, lower, down);
+  return s;
+}
+constexpr Spread spread = make_spread();
+
+/// The weights of eight points from `weights` on, in every block.
+HWY_INLINE V load_weights(const std::int16_t* weights) { return hn::LoadDup128(Fixed(), weights); }
+
+HWY_INLINE V spread_weights(V weights, const std::uint8_t* bytes) {
+  const hn::Repartition<std::uint8_t, Fixed> d;
+  return hn::BitCast(Fixed(), hn::TableLookupBytes(hn::BitCast(d, weights), hn::Load(d, bytes)));
+}
+
+HWY_INLINE V lower_halves(V a, V b) {
+  const hn::Repartition<std::uint64_t, Fixed> d;
+  return hn::BitCast(Fixed(), hn::InterleaveLower(d, hn::BitCast(d, a), hn::BitCast(d, b)));
+}
+HWY_INLINE V upper_halves(V a, V b) {
+  const hn::Repartition<std::uint64_t, Fixed> d;
+  return hn::BitCast(Fixed(), hn::InterleaveUpper(d, hn::BitCast(d, a), hn::BitCast(d, b)));
+}
+
+/// A level of the points from i + n × `points` on: a point is four lanes.
+template <class Codes>
+HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, V right, V down, int i, int n) {
+  const std::int32_t* const upper = taps.upper[level] + i + n * points;
+  const std::int32_t* const lower = taps.lower[level] + i + n * points;
+  constexpr int other = blocks == 2 ? 2 : 0;
+  // Left and right texels of the upper and the lower row.
+  const auto columns = [&](int p, const std::uint8_t* bytes) HWY_ATTR {
+    const V up = codes.pair(upper[p], upper[p + other]), low = codes.pair(lower[p], lower[p + other]);
+    return mix(lower_halves(up, low), upper_halves(up, low), spread_weights(right, bytes));
+  };
+  const V even = columns(0, spread.even[n]), odd = columns(1, spread.odd[n]);
+  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(down, spread.both[n]));
+}
+
+/// Points of four lanes each in two vectors, to channels.
+HWY_INLINE void store_channels(V first, V second, float unit, float* const out[4], int i) {
+  const hn::Repartition<std::int32_t, Fixed> di;
+  const hn::RebindToFloat<decltype(di)> df;
+  const auto a = hn::BitCast(di, first), b = hn::BitCast(di, second);
+  const auto rg = hn::ConcatEven(di, b, a), ba = hn::ConcatOdd(di, b, a);
+  const auto low = hn::Set(di, 0xffff);
+  const auto scale = hn::Set(df, unit);
+  const auto store = [&](auto codes, float* to)
+                         HWY_ATTR { hn::StoreU(hn::Mul(hn::ConvertTo(df, codes), scale), df, to + i); };
+  store(hn::And(rg, low), out[0]);
+  store(hn::ShiftRight<16>(rg), out[1]);
+  store(hn::And(ba, low), out[2]);
+  store(hn::ShiftRight<16>(ba), out[3]);
 }
 
 template <class Code>
-HWY_INLINE Texel mix_point(const Code* codes, float unit, const Taps& taps, int i) {
-  Texel value = mix_level(codes, taps, 0, i);
-  const float blend = taps.blend[i];
-  if (blend > 0) value = mix(value, mix_level(codes, taps, 1, i), hn::Set(Channels(), blend));
-  return hn::Mul(value, hn::Set(Channels(), unit));
-}
-
-template <class Code>
-void mix_codes(const Code* codes, float unit, const Taps& taps, float* const out[4], int count) {
-  const Channels d;
-  int i = 0;
-  for (; i + 4 <= count; i += 4) {
-    const Texel p0 = mix_point(codes, unit, taps, i), p1 = mix_point(codes, unit, taps, i + 1);
-    const Texel p2 = mix_point(codes, unit, taps, i + 2), p3 = mix_point(codes, unit, taps, i + 3);
-    const Texel rg01 = hn::InterleaveLower(d, p0, p1), rg23 = hn::InterleaveLower(d, p2, p3);
-    const Texel ba01 = hn::InterleaveUpper(d, p0, p1), ba23 = hn::InterleaveUpper(d, p2, p3);
-    hn::StoreU(hn::ConcatLowerLower(d, rg23, rg01), d, out[0] + i);
-    hn::StoreU(hn::ConcatUpperUpper(d, rg23, rg01), d, out[1] + i);
-    hn::StoreU(hn::ConcatLowerLower(d, ba23, ba01), d, out[2] + i);
-    hn::StoreU(hn::ConcatUpperUpper(d, ba23, ba01), d, out[3] + i);
-  }
-  for (; i < count; ++i) {
-    float channel[4];
-    hn::StoreU(mix_point(codes, unit, taps, i), d, channel);
-    for (int c = 0; c < 4; ++c) out[c][i] = channel[c];
+void mix_codes(const Code* of, const Taps& taps, float* const out[4], int count) {
+  const TexelCodes<Code> codes{of};
+  const hn::FixedTag<std::int16_t, 8> eight;
+  for (int i = 0; i < count; i += 8) {
+    const V right = load_weights(taps.right[0] + i), down = load_weights(taps.down[0] + i);
+    V mixed[8 / points];
+    for (int n = 0; n < 8 / points; ++n) mixed[n] = mix_level(codes, taps, 0, right, down, i, n);
+    const auto blends = hn::Load(eight, taps.blend + i);
+    if (!hn::AllTrue(eight, hn::Eq(blends, hn::Zero(eight)))) {
+      const V right1 = load_weights(taps.right[1] + i), down1 = load_weights(taps.down[1] + i);
+      const V blend = load_weights(taps.blend + i);
+      for (int n = 0; n < 8 / points; ++n)
+        mixed[n] = mix(mixed[n], mix_level(codes, taps, 1, right1, down1, i, n), spread_weights(blend, spread.both[n]));
+    }
+    for (int n = 0; n < 8 / points; n += 2)
+      store_channels(mixed[n], mixed[n + 1], TexelCodes<Code>::unit, out, i + n * points);
   }
 }
 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
-  if (t.codes8 != nullptr) return mix_codes(t.codes8, 1.0f / 255.0f, taps, out, count);
-  mix_codes(t.codes16, 1.0f / 65535.0f, taps, out, count);
+  if (t.codes8 != nullptr) return mix_codes(t.codes8, taps, out, count);
+  mix_codes(t.codes15, taps, out, count);
+}
+
+void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
+  zoneplate::sample_anisotropic<Float>(
+      t, f, at, out, count, [&](const Taps& taps, float* const probe[4]) HWY_ATTR { mix_taps(t, taps, probe, 8); });
 }
 
 }  // namespace
 
-const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps};
+const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps, &sample_anisotropic};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

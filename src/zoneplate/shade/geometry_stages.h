@@ -28,29 +28,47 @@ void saturate(float* values, int count) {
   for (int i = 0; i < count; i += F::lanes) min(max(F::load(values + i), F(0.0f)), F(1.0f)).store(values + i);
 }
 
-/// A channel's values at the three corners of each point.
+/// Four floats of the records of the points' corners, as the first one and the way to the two others.
 template <class F>
-[[gnu::always_inline]] inline Vector<F> corner_values(const Corners& corners, int channel, int i) {
+struct CornerQuad {
+  F first[4], second[4], third[4];
+};
+
+template <class F>
+[[gnu::always_inline]] inline CornerQuad<F> corner_quad(const Batch& batch, const Corners& corners, int place, int i) {
+  CornerQuad<F> q;
   const int group = i / Batch::group;
-  const float* block = corners.block[group];
-  if (corners.one_triangle[group] != 0) {
-    const float* a = block + 3 * channel;
-    return {F(a[0]), F(a[1]), F(a[2])};
+  if (batch.one_triangle[group]) {
+    const float* const a = corners.record[0][group * Batch::group] + place;
+    const float* const b = corners.record[1][group * Batch::group] + place;
+    const float* const c = corners.record[2][group * Batch::group] + place;
+    for (int k = 0; k < 4; ++k) q.first[k] = F(a[k]), q.second[k] = F(b[k] - a[k]), q.third[k] = F(c[k] - a[k]);
+    return q;
   }
-  const float* a = block + 3 * Batch::group * channel + i % Batch::group;
-  return {F::load(a), F::load(a + Batch::group), F::load(a + 2 * Batch::group)};
+  F::load_quads(corners.record[0] + i, place, q.first);
+  F::load_quads(corners.record[1] + i, place, q.second);
+  F::load_quads(corners.record[2] + i, place, q.third);
+  for (int k = 0; k < 4; ++k) q.second[k] = q.second[k] - q.first[k], q.third[k] = q.third[k] - q.first[k];
+  return q;
 }
 
 template <class F>
 void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, int count) {
-  for (int i = 0; i < count; i += F::lanes) {
-    const auto b = Vector<F>::load(batch.b, i);
-    for (int c = 0; c < what.channels; ++c) {
-      const auto a = corner_values<F>(corners, c, i);
-      dot(b, a).store(what.value[c] + i);
-      if (what.dx[c] == nullptr) continue;
-      dot(Vector<F>::load(batch.dbdx, i), a).store(what.dx[c] + i);
-      dot(Vector<F>::load(batch.dbdy, i), a).store(what.dy[c] + i);
+  for (int n = 0; n < what.quads; ++n) {
+    const Interpolation::Quad& quad = what.quad[n];
+    for (int i = 0; i < count; i += F::lanes) {
+      const F b1 = F::load(batch.b[0] + i), b2 = F::load(batch.b[1] + i);
+      const CornerQuad<F> a = corner_quad<F>(batch, corners, quad.place, i);
+      for (int c = 0; c < 4; ++c) {
+        if (quad.value[c] == nullptr) continue;
+        (a.first[c] + (a.second[c] * b1 + a.third[c] * b2)).store(quad.value[c] + i);
+        if (quad.dx[c] == nullptr) continue;
+        const auto slope = [&](const float(&db)[2][Batch::capacity]) [[gnu::always_inline]] {
+          return a.second[c] * F::load(db[0] + i) + a.third[c] * F::load(db[1] + i);
+        };
+        slope(batch.dbdx).store(quad.dx[c] + i);
+        slope(batch.dbdy).store(quad.dy[c] + i);
+      }
     }
   }
 }
@@ -76,9 +94,9 @@ template <class F>
 [[gnu::always_inline]] inline F placed(const Batch& batch, const Corners& corners, const float* first, int i) {
   using Int = typename F::Int;
   constexpr std::int32_t stride = sizeof(Placement) / sizeof(float);
-  if (corners.one_instance[i / Batch::group] != 0) {
-    return F(first[std::ptrdiff_t{stride} * static_cast<std::ptrdiff_t>(batch.instance[i])]);
-  }
+  const int group = i / Batch::group;
+  if (corners.one_instance[group])
+    return F(first[std::ptrdiff_t{stride} * static_cast<std::ptrdiff_t>(batch.instance[group * Batch::group])]);
   const auto* instance = reinterpret_cast<const std::int32_t*>(batch.instance);
   return F::gather(first, Int::load(instance + i) * Int(stride));
 }
@@ -119,29 +137,26 @@ void place_tangents(const Batch& batch, const Corners& corners, const Placement*
   }
 }
 
-template <class F>
-void look_back(const Viewpoint& viewpoint, Points& p) {
-  const auto eye = Vector<F>::all(viewpoint.eye), towards = Vector<F>::all(viewpoint.towards);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    if (viewpoint.is_orthographic) {
-      towards.store(p.to_viewer, i);
-    } else {
-      normalize(eye - Vector<F>::load(p.position, i)).store(p.to_viewer, i);
-    }
-  }
-}
-
 /// 1 for front faces, -1 for back faces.
 template <class F>
 [[gnu::always_inline]] inline F facing(const Batch& batch, int i) {
   using Int = typename F::Int;
+  const int group = i / Batch::group;
+  if (batch.one_triangle[group]) return F(batch.is_front[group * Batch::group] > 0 ? 1.0f : -1.0f);
   return select(Int::load(batch.is_front + i) > Int(0), F(1.0f), F(-1.0f));
 }
 
 template <class F>
-void face_normals(const Batch& batch, Points& p) {
-  for (int i = 0; i < p.count; i += F::lanes)
-    (normalize(Vector<F>::load(p.normal, i)) * facing<F>(batch, i)).store(p.normal, i);
+void find_normals(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const int group = i / Batch::group;
+    Vector<F> n = Vector<F>::load(p.normal, i);
+    const bool keeps =
+        corners.one_instance[group] && placements[batch.instance[group * Batch::group]].keeps_normals != 0;
+    if (!keeps) n = turned(batch, corners, placements->normal, n, i);
+    // Adding +0 leaves no trace of which way was taken.
+    (normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i)).store(p.normal, i);
+  }
 }
 
 template <class F>
@@ -161,11 +176,21 @@ void bend_normals(const Batch& batch, const float* const texel[4], float scale, 
   }
 }
 
+/// The direction to the viewer.
 template <class F>
-void default_normals(Points& p) {
+[[gnu::always_inline]] inline Vector<F> towards_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
+  using Int = typename F::Int;
+  if (v.is_orthographic) return Vector<F>::all(v.towards);
+  if (!v.has_rays) return normalize(Vector<F>::all(v.eye) - Vector<F>::load(p.position, i));
+  const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
+  return normalize(Vector<F>::all(v.ray) + Vector<F>::all(v.ray_dx) * x + Vector<F>::all(v.ray_dy) * y);
+}
+
+template <class F>
+void default_normals(const Viewpoint& viewpoint, const Batch& batch, Points& p) {
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i);
-    select(dot(n, n) > F(0.5f), n, Vector<F>::load(p.to_viewer, i)).store(p.normal, i);
+    select(dot(n, n) > F(0.5f), n, towards_viewer<F>(viewpoint, batch, p, i)).store(p.normal, i);
   }
 }
 

@@ -27,6 +27,7 @@ struct Int {
   Int(std::int32_t x) : v(x) {}
   static Int load(const std::int32_t* p) { return *p; }
   void store(std::int32_t* p) const { *p = v; }
+  void store_narrow(std::int16_t* p) const { *p = static_cast<std::int16_t>(v); }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
   bool is_uniform() const { return true; }
@@ -51,6 +52,10 @@ struct Lane {
   static Lane load(const T* p) { return *p; }
   void store(T* p) const { *p = v; }
   static Lane gather(const T* table, Int i) { return table[i.v]; }
+  /// out[c]: the number at `place` + c of each lane's record.
+  static void load_quads(const float* const* record, int place, Lane (&out)[4]) {
+    for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(record[0][place + c]);
+  }
   friend Lane operator+(Lane a, Lane b) { return a.v + b.v; }
   friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }
   friend Lane operator*(Lane a, Lane b) { return a.v * b.v; }

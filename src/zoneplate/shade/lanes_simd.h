@@ -27,6 +27,10 @@ struct Int {
   HWY_INLINE explicit Int(hn::Vec<IntTag> x) : v(x) {}
   static HWY_INLINE Int load(const std::int32_t* p) { return Int(hn::LoadU(IntTag(), p)); }
   HWY_INLINE void store(std::int32_t* p) const { hn::StoreU(v, IntTag(), p); }
+  HWY_INLINE void store_narrow(std::int16_t* p) const {
+    const hn::Rebind<std::int16_t, IntTag> narrow;
+    hn::StoreU(hn::DemoteTo(narrow, v), narrow, p);
+  }
   static HWY_INLINE Int gather(const std::int32_t* table, Int i) { return Int(hn::GatherIndex(IntTag(), table, i.v)); }
   HWY_INLINE std::int32_t first() const { return hn::GetLane(v); }
   HWY_INLINE bool is_uniform() const { return hn::AllTrue(IntTag(), hn::Eq(v, hn::Set(IntTag(), hn::GetLane(v)))); }
@@ -42,6 +46,18 @@ struct Int {
   }
 };
 
+/// Four floats of a record; with eight lanes beside them those of the record four on.
+template <class D>
+HWY_INLINE hn::Vec<D> load_two_quads(D d, const float* const* record, int place) {
+  const hn::FixedTag<float, 4> quad;
+  const auto first = hn::LoadU(quad, record[0] + place);
+  if constexpr (hn::MaxLanes(D()) == 8) {
+    return hn::Combine(d, hn::LoadU(quad, record[4] + place), first);
+  } else {
+    return first;
+  }
+}
+
 struct Float {
   using Bool = HWY_NAMESPACE::Bool;
   using Int = HWY_NAMESPACE::Int;
@@ -53,6 +69,15 @@ struct Float {
   static HWY_INLINE Float load(const float* p) { return Float(hn::LoadU(FloatTag(), p)); }
   HWY_INLINE void store(float* p) const { hn::StoreU(v, FloatTag(), p); }
   static HWY_INLINE Float gather(const float* table, Int i) { return Float(hn::GatherIndex(FloatTag(), table, i.v)); }
+  static HWY_INLINE void load_quads(const float* const* record, int place, Float (&out)[4]) {
+    const FloatTag d;
+    const auto r0 = load_two_quads(d, record, place), r1 = load_two_quads(d, record + 1, place);
+    const auto r2 = load_two_quads(d, record + 2, place), r3 = load_two_quads(d, record + 3, place);
+    const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
+    const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
+    out[0].v = hn::InterleaveLower(d, xy02, xy13), out[1].v = hn::InterleaveUpper(d, xy02, xy13);
+    out[2].v = hn::InterleaveLower(d, zw02, zw13), out[3].v = hn::InterleaveUpper(d, zw02, zw13);
+  }
   friend HWY_INLINE Float operator+(Float a, Float b) { return Float(hn::Add(a.v, b.v)); }
   friend HWY_INLINE Float operator-(Float a, Float b) { return Float(hn::Sub(a.v, b.v)); }
   friend HWY_INLINE Float operator*(Float a, Float b) { return Float(hn::Mul(a.v, b.v)); }

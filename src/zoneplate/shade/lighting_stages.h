@@ -1,133 +1,119 @@
 #pragma once
 
 #include "zoneplate/shade/brdf.h"
+#include "zoneplate/shade/geometry_stages.h"
 #include "zoneplate/shade/surface_kernels.h"
 
 /// The stages of shade/surface_kernels.h from the lights to the colour, over the lane types of shade/lanes.h.
 namespace zoneplate::stages {
 
 template <class F>
-void reach_light(const PreparedLight& light, Points& p) {
-  if (light.is_directional) {
-    for (int i = 0; i < p.count; i += F::lanes) {
-      Vector<F>::all(light.towards).store(p.to_light, i);
-      F(1.0f).store(p.strength + i);
-    }
-    return;
-  }
-  const auto position = Vector<F>::all(light.position), axis = Vector<F>::all(light.axis);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const Vector<F> path = position - Vector<F>::load(p.position, i);
-    const Vector<F> l = normalize(path);
-    l.store(p.to_light, i);
-    F strength = fading(light, dot(path, path));
-    if (light.is_spot) strength = strength * cone(light, -dot(l, axis));
-    strength.store(p.strength + i);
-  }
+[[gnu::always_inline]] inline Vector<F> zeros() {
+  return {F(0.0f), F(0.0f), F(0.0f)};
 }
 
-/// to += light.
-template <class F, class Array>
-[[gnu::always_inline]] inline void add(Array& to, Vector<F> light, int i) {
-  (Vector<F>::load(to, i) + light).store(to, i);
-}
+/// What of a light arrives at points, perpendicular to its direction.
+template <class F>
+struct Arriving {
+  Vector<F> from;  ///< unit direction to the light
+  Vector<F> radiance;
+};
 
 template <class F>
-void add_lambert(const PreparedLight& light, Points& p) {
+[[gnu::always_inline]] inline Arriving<F> arriving(const PreparedLight& light, const Points& p, int i) {
   const auto radiance = Vector<F>::all(light.radiance);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto n = Vector<F>::load(p.normal, i), l = Vector<F>::load(p.to_light, i);
-    add(p.diffuse, radiance * F::load(p.strength + i) * lambert(dot(n, l)), i);
-  }
+  if (light.is_directional) return {Vector<F>::all(light.towards), radiance};
+  const Vector<F> path = Vector<F>::all(light.position) - Vector<F>::load(p.position, i);
+  const Vector<F> l = normalize(path);
+  F strength = fading(light, dot(path, path));
+  if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
+  return {l, radiance * strength};
 }
 
+/// Colour × alpha, colour clamped to [0, 1e9].
 template <class F>
-void add_blinn_phong(const PreparedLight& light, float exponent, Points& p) {
-  const auto radiance = Vector<F>::all(light.radiance);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto n = Vector<F>::load(p.normal, i), l = Vector<F>::load(p.to_light, i);
-    const auto h = normalize(l + Vector<F>::load(p.to_viewer, i));
-    const auto arriving = radiance * F::load(p.strength + i);
-    add(p.diffuse, arriving * lambert(dot(n, l)), i);
-    add(p.specular, arriving * blinn_phong(dot(n, h), F(exponent)), i);
-  }
-}
-
-template <class F>
-void add_phong(const PreparedLight& light, float exponent, Points& p) {
-  const auto radiance = Vector<F>::all(light.radiance);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto n = Vector<F>::load(p.normal, i), l = Vector<F>::load(p.to_light, i);
-    const auto arriving = radiance * F::load(p.strength + i);
-    add(p.diffuse, arriving * lambert(dot(n, l)), i);
-    add(p.specular, arriving * phong(n, l, Vector<F>::load(p.to_viewer, i), F(exponent)), i);
-  }
-}
-
-template <class F>
-[[gnu::always_inline]] inline Metallic<F> metallic_at(const Points& p, int i) {
-  return make_metallic(Vector<F>::load(p.base, i), F::load(p.metallic + i), F::load(p.roughness + i));
-}
-
-template <class F>
-void add_metallic(const PreparedLight& light, Points& p) {
-  const auto radiance = Vector<F>::all(light.radiance);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto n = Vector<F>::load(p.normal, i), l = Vector<F>::load(p.to_light, i);
-    const auto reflected = metallic_light(metallic_at<F>(p, i), n, l, Vector<F>::load(p.to_viewer, i));
-    add(p.sum, radiance * F::load(p.strength + i) * reflected, i);
-  }
-}
-
-template <class F>
-void add_environment(const float radiance[3], Points& p) {
-  const Vector<F> all{F(radiance[0]), F(radiance[1]), F(radiance[2])};
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const F nv = dot(Vector<F>::load(p.normal, i), Vector<F>::load(p.to_viewer, i));
-    const auto reflected = metallic_environment(Vector<F>::load(p.base, i), F::load(p.metallic + i),
-                                                F::load(p.roughness + i), min(max(nv, F(0.0f)), F(1.0f)));
-    add(p.sum, all * F::load(p.occlusion + i) * reflected, i);
-  }
-}
-
-template <class F>
-void combine_diffuse(const float ambient[3], Points& p) {
-  const Vector<F> all{F(ambient[0]), F(ambient[1]), F(ambient[2])};
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto light = all * F::load(p.occlusion + i) + Vector<F>::load(p.diffuse, i);
-    (Vector<F>::load(p.base, i) * light).store(p.sum, i);
-  }
-}
-
-template <class F>
-void add_specular(const float color[3], Points& p) {
-  const Vector<F> all{F(color[0]), F(color[1]), F(color[2])};
-  for (int i = 0; i < p.count; i += F::lanes) add(p.sum, all * Vector<F>::load(p.specular, i), i);
-}
-
-template <class F>
-void add_emissive(Points& p) {
-  for (int i = 0; i < p.count; i += F::lanes) add(p.sum, Vector<F>::load(p.emissive, i), i);
-}
-
-template <class F>
-void keep_unlit(Points& p) {
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto is_lit = F::load(p.is_lit + i) > F(0.5f);
-    select(is_lit, Vector<F>::load(p.sum, i), Vector<F>::load(p.base, i)).store(p.sum, i);
-  }
-}
-
-template <class F>
-void finish(const float* const color[3], const float* alpha, Shaded& out, int count) {
+[[gnu::always_inline]] inline void store_color(Vector<F> color, F alpha, Shaded& out, int i) {
   const F low(0.0f), high(1e9f);
-  for (int i = 0; i < count; i += F::lanes) {
-    const F a = alpha != nullptr ? F::load(alpha + i) : F(1.0f);
-    (min(max(F::load(color[0] + i), low), high) * a).store(out.r + i);
-    (min(max(F::load(color[1] + i), low), high) * a).store(out.g + i);
-    (min(max(F::load(color[2] + i), low), high) * a).store(out.b + i);
-    a.store(out.a + i);
+  (min(max(color.x, low), high) * alpha).store(out.r + i);
+  (min(max(color.y, low), high) * alpha).store(out.g + i);
+  (min(max(color.z, low), high) * alpha).store(out.b + i);
+  alpha.store(out.a + i);
+}
+
+/// What comes after the reflected light: emission, points that are not lit, alpha.
+template <class F>
+[[gnu::always_inline]] inline void finish(const Illumination& s, const Points& p, Vector<F> sum, Vector<F> base,
+                                          Shaded& out, int i) {
+  if (s.has_emissive_texture) {
+    sum = sum + Vector<F>::load(p.emissive, i);
+  } else if (s.has_emissive) {
+    sum = sum + Vector<F>::all(s.emissive);
   }
+  if (s.has_bare_meshes) sum = select(F::load(p.is_lit + i) > F(0.5f), sum, base);
+  store_color(sum, s.is_blended ? F::load(p.base[3] + i) : F(1.0f), out, i);
+}
+
+template <class F>
+[[gnu::always_inline]] inline F occlusion_at(const Illumination& s, const Points& p, int i) {
+  return s.has_occlusion ? F::load(p.occlusion + i) : F(1.0f);
+}
+
+enum class Highlight { None, BlinnPhong, Phong };
+
+template <class F, Highlight highlight>
+void light_phong(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+  const auto ambient = Vector<F>::all(s.ambient);
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
+    Vector<F> v = zeros<F>(), diffuse = zeros<F>(), specular = zeros<F>();
+    if constexpr (highlight != Highlight::None) v = towards_viewer<F>(s.viewpoint, batch, p, i);
+    for (int k = 0; k < s.lights; ++k) {
+      const Arriving<F> light = arriving<F>(s.light[k], p, i);
+      diffuse = diffuse + light.radiance * lambert(dot(n, light.from));
+      if constexpr (highlight == Highlight::BlinnPhong)
+        specular = specular + light.radiance * blinn_phong(dot(n, normalize(light.from + v)), s.exponent);
+      if constexpr (highlight == Highlight::Phong)
+        specular = specular + light.radiance * phong(n, light.from, v, s.exponent);
+    }
+    Vector<F> sum = base * (ambient * occlusion_at<F>(s, p, i) + diffuse);
+    if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * specular;
+    finish(s, p, sum, base, out, i);
+  }
+}
+
+template <class F>
+void light_phong(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+  if (!s.has_specular) return light_phong<F, Highlight::None>(s, batch, p, out);
+  if (s.is_phong) return light_phong<F, Highlight::Phong>(s, batch, p, out);
+  light_phong<F, Highlight::BlinnPhong>(s, batch, p, out);
+}
+
+template <class F>
+void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+  const auto environment = Vector<F>::all(s.environment);
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
+    const auto v = s.needs_viewer ? towards_viewer<F>(s.viewpoint, batch, p, i) : zeros<F>();
+    const F metallic = s.has_material_texture ? F::load(p.metallic + i) : F(s.metallic);
+    const F roughness = s.has_material_texture ? F::load(p.roughness + i) : F(s.roughness);
+    const Metallic<F> m = make_metallic(base, metallic, roughness);
+    Vector<F> sum = zeros<F>();
+    for (int k = 0; k < s.lights; ++k) {
+      const Arriving<F> light = arriving<F>(s.light[k], p, i);
+      sum = sum + light.radiance * metallic_light(m, n, light.from, v);
+    }
+    if (s.has_environment) {
+      const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
+      sum = sum + environment * occlusion_at<F>(s, p, i) * metallic_environment(base, metallic, roughness, nv);
+    }
+    finish(s, p, sum, base, out, i);
+  }
+}
+
+template <class F>
+void unlit(bool is_blended, const Points& p, Shaded& out) {
+  for (int i = 0; i < p.count; i += F::lanes)
+    store_color(Vector<F>::load(p.base, i), is_blended ? F::load(p.base[3] + i) : F(1.0f), out, i);
 }
 
 }  // namespace zoneplate::stages

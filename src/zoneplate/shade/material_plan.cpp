@@ -28,8 +28,9 @@ std::vector<NamedUse> uses_of(const Material& m) {
   return uses;
 }
 
-TextureSlot make_slot(const TextureUse& use, const Texture* texture) {
-  TextureSlot slot{texture, make_filtering(use.sampler), coordinate_map(use), false, use.uv_set == 1 ? 1 : 0};
+TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotropy) {
+  TextureSlot slot{texture, make_filtering(use.sampler, anisotropy), coordinate_map(use), false,
+                   use.uv_set == 1 ? 1 : 0};
   slot.is_mapped = !(slot.map == CoordinateMap{});
   return slot;
 }
@@ -49,12 +50,12 @@ void copy_factors(const Material& m, const Surroundings& s, MaterialPlan& plan) 
   plan.occlusion_strength = std::clamp(m.occlusion_strength, 0.0f, 1.0f);
   copy(m.ambient * s.ambient_light, plan.ambient);
   copy(m.specular, plan.specular);
-  plan.exponent = std::clamp(m.exponent, 0.0f, 1e5f);
+  plan.exponent = make_exponent(std::clamp(m.exponent, 0.0f, 1e5f));
 }
 
-void find_slots(const Material& m, const TextureSet& textures, MaterialPlan& plan) {
+void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
   const auto slot = [&](const TextureUse& use, TexelMeaning meaning) {
-    return make_slot(use, textures.find(use, meaning));
+    return make_slot(use, textures.find(use, meaning), anisotropy);
   };
   plan.base_color = slot(m.base_color_texture, TexelMeaning::Color);
   if (m.model == ShadingModel::Unlit) return;
@@ -81,7 +82,7 @@ void decide(const Scene& scene, const Surroundings& s, const Material& m, Materi
   if (!plan.has_emissive) plan.emissive.texture = nullptr;
 
   Attributes& a = plan.attributes;
-  a.position = (plan.needs_viewer && !s.is_orthographic) || (uses_normal && has_places);
+  a.position = (plan.needs_viewer && !s.is_orthographic && !s.rays) || (uses_normal && has_places);
   a.normal = uses_normal;
   a.tangent = plan.normal.texture != nullptr;
   a.tangent_uv_set = plan.normal.uv_set;
@@ -127,7 +128,7 @@ std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& sur
   std::vector<MaterialPlan> plans(scene.materials.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     copy_factors(scene.materials[i], surroundings, plans[i]);
-    find_slots(scene.materials[i], textures, plans[i]);
+    find_slots(scene.materials[i], textures, surroundings.anisotropy, plans[i]);
     decide(scene, surroundings, scene.materials[i], plans[i]);
   }
 
@@ -136,6 +137,7 @@ std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& sur
     MaterialPlan& plan = plans[static_cast<std::size_t>(mesh.material)];
     if (!mesh.color.empty()) plan.attributes.color = true;
     if (mesh.normal.empty()) plan.has_bare_meshes = true;
+    if (mesh.tangent.empty()) plan.has_meshes_without_tangents = true;
   }
   return plans;
 }

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "zoneplate/scene/scene.h"
-#include "zoneplate/shade/fetch.h"
+#include "zoneplate/shade/exponent.h"
 #include "zoneplate/shade/filtering.h"
 #include "zoneplate/shade/surface.h"
 #include "zoneplate/shade/surface_kernels.h"
 #include "zoneplate/shade/texture.h"
+#include "zoneplate/shade/vertices.h"
 
 namespace zoneplate {
 
@@ -56,14 +57,15 @@ struct MaterialPlan {
   float emissive_factor[3] = {0, 0, 0};
   float normal_scale = 1, occlusion_strength = 1;
   float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
-  float exponent = 1;
+  Exponent exponent;
 
   bool is_lit = false;        ///< lights or an environment change its colour
   bool has_specular = false;  ///< (Blinn-)Phong
   bool has_emissive = false;
   bool has_bare_meshes = false;  ///< some of its meshes have no normals
-  bool needs_viewer = false;     ///< for the colour
-  Attributes attributes;         ///< for the colour
+  bool has_meshes_without_tangents = false;
+  bool needs_viewer = false;  ///< for the colour
+  Attributes attributes;      ///< for the colour
 };
 
 /// The plans of a scene's materials, by material.

@@ -4,18 +4,22 @@
 #include <cstddef>
 #include <vector>
 
-#include "zoneplate/shade/fetch.h"
 #include "zoneplate/shade/filtering.h"
 #include "zoneplate/shade/lighting.h"
 #include "zoneplate/shade/material_plan.h"
 #include "zoneplate/shade/surface_kernels.h"
+#include "zoneplate/shade/vertices.h"
 
 namespace zoneplate {
 namespace {
 
 Viewpoint make_viewpoint(const Surroundings& s) {
   const float3 back = normalize(-s.view_direction, {0, 0, 1});
-  return {{s.eye.x, s.eye.y, s.eye.z}, {back.x, back.y, back.z}, s.is_orthographic};
+  Viewpoint v{{s.eye.x, s.eye.y, s.eye.z}, {back.x, back.y, back.z}, s.is_orthographic, s.rays.has_value()};
+  if (!s.rays) return v;
+  const auto put = [](float3 from, float(&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
+  put(s.rays->first, v.ray), put(s.rays->dx, v.ray_dx), put(s.rays->dy, v.ray_dy);
+  return v;
 }
 
 std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
@@ -27,10 +31,13 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
 }  // namespace
 
 struct SurfaceShader::Data {
-  Data(const Scene& scene_in, const Surroundings& surroundings_in, const TextureSet* textures_in)
+  Data(const Scene& scene_in, const Surroundings& surroundings_in, const TextureSet* textures_in,
+       const VertexRecords* records_in)
       : scene(scene_in),
         surroundings(surroundings_in),
         own_textures(textures_in ? nullptr : std::make_unique<TextureSet>(scene_in, surroundings_in.raw_colors)),
+        own_records(records_in ? nullptr : std::make_unique<VertexRecords>(scene_in)),
+        records(records_in ? *records_in : *own_records),
         plans(make_plans(scene_in, surroundings_in, textures_in ? *textures_in : *own_textures)),
         placements(make_placements(scene_in.instances)),
         lights(prepare_all(scene_in.lights)),
@@ -42,6 +49,8 @@ struct SurfaceShader::Data {
   const Scene& scene;
   const Surroundings surroundings;
   const std::unique_ptr<TextureSet> own_textures;
+  const std::unique_ptr<VertexRecords> own_records;
+  const VertexRecords& records;
   const std::vector<MaterialPlan> plans;
   const std::vector<Placement> placements;
   const std::vector<PreparedLight> lights;
@@ -73,23 +82,24 @@ struct SurfaceShader::Data::Walk {
 
   void interpolate(const Attributes& attributes);
   Footprint footprint(const TextureSlot& slot);
-  void sample(const TextureSlot& slot);
+  void sample(const TextureSlot& slot, float* const out[4]);
   void find_base();
-  void find_normals(bool bends);
+  void find_normals();
   void find_emissive();
   void find_occlusion();
-  void light_phong();
-  void light_metallic();
-  void light();
+  void find_metallic();
+  void light(bool needs_viewer, Shaded& out);
 };
 
-/// Vertices to points in world space.
+/// Vertices to points: positions and tangents in world space, normals as the mesh has them.
 void SurfaceShader::Data::Walk::interpolate(const Attributes& attributes) {
-  fetch_corners(d.scene, batch, attributes, corners);
-  kernels.interpolate(batch, corners, interpolation(attributes, p), p.count);
+  find_corners(d.records, batch, corners);
+  const Interpolation what = interpolation(d.records.layout(batch.material), attributes, p);
+  if (what.quads > 0) kernels.interpolate(batch, corners, what, p.count);
   if (attributes.position) kernels.place_positions(batch, corners, d.placements.data(), p);
-  if (attributes.normal) kernels.place_normals(batch, corners, d.placements.data(), p);
-  if (attributes.tangent) kernels.place_tangents(batch, corners, d.placements.data(), p);
+  if (!attributes.tangent) return;
+  if (plan.has_meshes_without_tangents) make_missing_tangents(d.scene, batch, attributes.tangent_uv_set, p);
+  kernels.place_tangents(batch, corners, d.placements.data(), p);
 }
 
 /// Where a slot's texture is looked up.
@@ -103,106 +113,93 @@ Footprint SurfaceShader::Data::Walk::footprint(const TextureSlot& slot) {
   return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1]};
 }
 
-/// The slot's texture at the points, into `texel`. Slots of one size and one sampler share their taps.
-void SurfaceShader::Data::Walk::sample(const TextureSlot& slot) {
+/// The slot's texture at the points. Slots of one size and one sampler share their taps.
+void SurfaceShader::Data::Walk::sample(const TextureSlot& slot, float* const out[4]) {
+  if (slot.filtering.anisotropy > 1)
+    return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, footprint(slot), out, p.count);
   if (taps_of == nullptr || !share_taps(*taps_of, slot)) {
     d.filtering.find_taps(slot.texture->view(), slot.filtering, footprint(slot), taps, p.count);
     taps_of = &slot;
   }
-  d.filtering.mix_taps(slot.texture->view(), taps, texel, p.count);
+  d.filtering.mix_taps(slot.texture->view(), taps, out, p.count);
 }
 
 /// Factor × texture × vertex colour.
 void SurfaceShader::Data::Walk::find_base() {
   const bool is_textured = plan.base_color.texture != nullptr;
-  if (is_textured) sample(plan.base_color);
+  float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
+  if (is_textured) sample(plan.base_color, base);
   for (int c = 0; c < 4; ++c) {
-    if (is_textured) {
-      kernels.scale(p.base[c], texel[c], plan.factor[c], 0, p.count);
-    } else {
+    if (!is_textured) {
       kernels.fill(p.base[c], plan.factor[c], p.count);
+    } else if (plan.factor[c] != 1) {
+      kernels.scale(p.base[c], p.base[c], plan.factor[c], 0, p.count);
     }
     if (plan.attributes.color) kernels.multiply(p.base[c], p.color[c], p.count);
   }
-  kernels.saturate(p.base[3], p.count);
+  if (plan.alpha_mode != AlphaMode::Opaque) kernels.saturate(p.base[3], p.count);
 }
 
-void SurfaceShader::Data::Walk::find_normals(bool bends) {
-  if (bends) {
-    sample(plan.normal);
-    kernels.bend_normals(batch, texel, plan.normal_scale, p);
-  } else {
-    kernels.face_normals(batch, p);
-  }
+void SurfaceShader::Data::Walk::find_normals() {
+  if (plan.normal.texture == nullptr) return kernels.find_normals(batch, corners, d.placements.data(), p);
+  kernels.place_normals(batch, corners, d.placements.data(), p);
+  sample(plan.normal, texel);
+  kernels.bend_normals(batch, texel, plan.normal_scale, p);
 }
 
 void SurfaceShader::Data::Walk::find_emissive() {
-  if (plan.emissive.texture != nullptr) sample(plan.emissive);
-  for (int c = 0; c < 3; ++c) {
-    if (plan.emissive.texture != nullptr) {
-      kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
-    } else {
-      kernels.fill(p.emissive[c], plan.emissive_factor[c], p.count);
-    }
-  }
+  if (plan.emissive.texture == nullptr) return;
+  sample(plan.emissive, texel);
+  for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
 }
 
 /// 1 + strength (texture - 1).
 void SurfaceShader::Data::Walk::find_occlusion() {
-  if (plan.occlusion.texture == nullptr) return kernels.fill(p.occlusion, 1, p.count);
-  sample(plan.occlusion);
+  if (plan.occlusion.texture == nullptr) return;
+  sample(plan.occlusion, texel);
   kernels.scale(p.occlusion, texel[0], plan.occlusion_strength, 1 - plan.occlusion_strength, p.count);
 }
 
-void SurfaceShader::Data::Walk::light_phong() {
-  for (int c = 0; c < 3; ++c) kernels.fill(p.diffuse[c], 0, p.count), kernels.fill(p.specular[c], 0, p.count);
-  for (const PreparedLight& light : d.lights) {
-    kernels.reach_light(light, p);
-    if (!plan.has_specular) {
-      kernels.add_lambert(light, p);
-    } else if (plan.model == ShadingModel::Phong) {
-      kernels.add_phong(light, plan.exponent, p);
-    } else {
-      kernels.add_blinn_phong(light, plan.exponent, p);
-    }
-  }
-  kernels.combine_diffuse(plan.ambient, p);
-  if (plan.has_specular) kernels.add_specular(plan.specular, p);
+void SurfaceShader::Data::Walk::find_metallic() {
+  if (plan.metallic_roughness.texture == nullptr) return;
+  sample(plan.metallic_roughness, texel);
+  kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
+  kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
 }
 
-void SurfaceShader::Data::Walk::light_metallic() {
-  if (plan.metallic_roughness.texture != nullptr) {
-    sample(plan.metallic_roughness);
-    kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
-    kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
-  } else {
-    kernels.fill(p.roughness, plan.roughness, p.count);
-    kernels.fill(p.metallic, plan.metallic, p.count);
-  }
-  for (int c = 0; c < 3; ++c) kernels.fill(p.sum[c], 0, p.count);
-  for (const PreparedLight& light : d.lights) {
-    kernels.reach_light(light, p);
-    kernels.add_metallic(light, p);
-  }
-  const float3 e = d.surroundings.environment;
-  const float environment[3] = {e.x, e.y, e.z};
-  if (e.x > 0 || e.y > 0 || e.z > 0) kernels.add_environment(environment, p);
-}
-
-/// Base colour and normal to `sum`.
-void SurfaceShader::Data::Walk::light() {
+/// Base colour and normal to the colour that is seen.
+void SurfaceShader::Data::Walk::light(bool needs_viewer, Shaded& out) {
   find_occlusion();
-  if (plan.model == ShadingModel::MetallicRoughness) {
-    light_metallic();
-  } else {
-    light_phong();
+  find_emissive();
+  if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
+  const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
+  if (is_metallic) find_metallic();
+
+  const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
+  const float3 e = d.surroundings.environment;
+  Illumination s;
+  s.light = d.lights.data(), s.lights = static_cast<int>(d.lights.size());
+  s.viewpoint = d.viewpoint, s.needs_viewer = needs_viewer;
+  s.has_occlusion = plan.occlusion.texture != nullptr;
+  s.has_emissive = plan.has_emissive, s.has_emissive_texture = plan.emissive.texture != nullptr;
+  s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
+  copy(plan.emissive_factor, s.emissive);
+  if (is_metallic) {
+    s.has_material_texture = plan.metallic_roughness.texture != nullptr;
+    s.metallic = plan.metallic, s.roughness = plan.roughness;
+    s.has_environment = e.x > 0 || e.y > 0 || e.z > 0;
+    s.environment[0] = e.x, s.environment[1] = e.y, s.environment[2] = e.z;
+    return kernels.light_metallic(s, batch, p, out);
   }
-  if (plan.has_emissive) find_emissive(), kernels.add_emissive(p);
-  if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit), kernels.keep_unlit(p);
+  s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
+  copy(plan.ambient, s.ambient), copy(plan.specular, s.specular);
+  s.exponent = plan.exponent;
+  kernels.light_phong(s, batch, p, out);
 }
 
-SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures)
-    : data_(std::make_unique<Data>(scene, surroundings, textures)) {}
+SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures,
+                             const VertexRecords* records)
+    : data_(std::make_unique<Data>(scene, surroundings, textures, records)) {}
 
 SurfaceShader::~SurfaceShader() = default;
 
@@ -216,22 +213,22 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
   Attributes attributes = plan.attributes;
   const bool needs_viewer = plan.needs_viewer || (wanted.normal && plan.has_bare_meshes);
   if (wanted.normal) attributes.normal = true;
-  if (needs_viewer && !data_->viewpoint.is_orthographic) attributes.position = true;
+  const Viewpoint& viewpoint = data_->viewpoint;
+  if (needs_viewer && !viewpoint.is_orthographic && !viewpoint.has_rays) attributes.position = true;
   if (wanted.uv) attributes.uv[plan.base_color.uv_set] = true;
 
   walk.interpolate(attributes);
   walk.find_base();
-  if (needs_viewer) walk.kernels.look_back(data_->viewpoint, p);
-  if (attributes.normal) walk.find_normals(plan.normal.texture != nullptr);
-  if (plan.is_lit) walk.light();
-
-  const Points::Array* color = plan.is_lit ? p.sum : p.base;
-  const float* const channels[3] = {color[0], color[1], color[2]};
-  walk.kernels.finish(channels, plan.alpha_mode == AlphaMode::Blend ? p.base[3] : nullptr, out, p.count);
+  if (attributes.normal) walk.find_normals();
+  if (plan.is_lit) {
+    walk.light(plan.needs_viewer, out);
+  } else {
+    walk.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
+  }
 
   const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
   if (wanted.normal) {
-    if (plan.has_bare_meshes) walk.kernels.default_normals(p);
+    if (plan.has_bare_meshes) walk.kernels.default_normals(viewpoint, batch, p);
     for (int c = 0; c < 3; ++c) copy(p.normal[c], out.normal[c]);
   }
   if (wanted.albedo)
@@ -240,6 +237,11 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
     const Footprint at = walk.footprint(plan.base_color);
     copy(at.u, out.uv[0]), copy(at.v, out.uv[1]);
   }
+}
+
+bool SurfaceShader::wants_slopes(int material) const {
+  const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
+  return a.uv[0] || a.uv[1];
 }
 
 void SurfaceShader::alpha(const Batch& batch, float* out) const {

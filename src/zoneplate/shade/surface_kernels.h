@@ -1,5 +1,6 @@
 #pragma once
 
+#include "zoneplate/shade/exponent.h"
 #include "zoneplate/shade/lighting.h"
 #include "zoneplate/shade/points.h"
 
@@ -10,6 +11,30 @@ struct Viewpoint {
   float eye[3] = {0, 0, 0};
   float towards[3] = {0, 0, 1};  ///< unit direction to an orthographic camera
   bool is_orthographic = false;
+  bool has_rays = false;  ///< the way to the viewer is known by pixel: ray + x ray_dx + y ray_dy, of any length
+  float ray[3] = {}, ray_dx[3] = {}, ray_dy[3] = {};
+};
+
+/// A material under a scene's lights. What has a texture is read from the points.
+struct Illumination {
+  const PreparedLight* light = nullptr;
+  int lights = 0;
+  Viewpoint viewpoint;
+  bool needs_viewer = false;
+  bool has_occlusion = false;  ///< a texture
+  bool has_emissive = false, has_emissive_texture = false;
+  bool has_bare_meshes = false, is_blended = false;
+  float emissive[3] = {0, 0, 0};
+
+  // (Blinn-)Phong.
+  bool has_specular = false, is_phong = false;
+  float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
+  Exponent exponent;
+
+  // Metallic-roughness.
+  bool has_material_texture = false, has_environment = false;
+  float metallic = 1, roughness = 1;
+  float environment[3] = {0, 0, 0};  ///< radiance from all sides
 };
 
 /// A linear map of texture coordinates: u' = (u m[0] + v m[1]) + m[2], v' = (u m[3] + v m[4]) + m[5].
@@ -33,7 +58,7 @@ struct SurfaceKernels {
   void (*fill)(float* out, float value, int count);
   void (*saturate)(float* values, int count);
 
-  /// value = (b0 a0 + b1 a1) + b2 a2, and the same with dbdx and dbdy.
+  /// value = a0 + ((a1 - a0) b1 + (a2 - a0) b2), and the same without the first term with dbdx and dbdy.
   void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, int count);
   void (*map_coordinates)(const CoordinateMap& map, const Points& points, int set, Coordinates& out);
 
@@ -41,32 +66,21 @@ struct SurfaceKernels {
   void (*place_positions)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
   void (*place_normals)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
   void (*place_tangents)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
-  void (*look_back)(const Viewpoint& viewpoint, Points& points);  ///< to_viewer
 
-  /// Normalises; turns the normals of back faces round.
-  void (*face_normals)(const Batch& batch, Points& points);
-  /// The same after bending them by a normal map: n = T x + B y + N z with (x, y, z) = 2 texel - 1, x and y × scale,
+  /// From interpolated to shading normals: placed, normalised, those of back faces turned round.
+  void (*find_normals)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
+  /// The same for placed ones, bent by a normal map: n = T x + B y + N z with (x, y, z) = 2 texel - 1, x and y × scale,
   /// and B = (N × T) × the sign of tangent.w. Points without a tangent keep their normal. Source: glTF 2.0, 3.9.3.
   void (*bend_normals)(const Batch& batch, const float* const texel[4], float scale, Points& points);
   /// Points without a normal get the direction to the viewer.
-  void (*default_normals)(Points& points);
+  void (*default_normals)(const Viewpoint& viewpoint, const Batch& batch, Points& points);
 
-  void (*reach_light)(const PreparedLight& light, Points& points);  ///< to_light, strength
-  // Add the light at hand: to `diffuse`; to `diffuse` and `specular`; to `sum`.
-  void (*add_lambert)(const PreparedLight& light, Points& points);
-  void (*add_blinn_phong)(const PreparedLight& light, float exponent, Points& points);
-  void (*add_phong)(const PreparedLight& light, float exponent, Points& points);
-  void (*add_metallic)(const PreparedLight& light, Points& points);
-  void (*add_environment)(const float radiance[3], Points& points);  ///< times occlusion, to `sum`
-
-  /// sum = base (ambient × occlusion + diffuse), and + specular colour × specular.
-  void (*combine_diffuse)(const float ambient[3], Points& points);
-  void (*add_specular)(const float color[3], Points& points);
-  void (*add_emissive)(Points& points);  ///< sum += emissive
-  void (*keep_unlit)(Points& points);    ///< sum = base where not is_lit
-
-  /// Colour × alpha, colour clamped to [0, 1e9] and so always finite. `alpha` null: opaque.
-  void (*finish)(const float* const color[3], const float* alpha, Shaded& out, int count);
+  // From the material to the colour: × alpha where it is blended, clamped to [0, 1e9] and so always finite.
+  /// base (ambient × occlusion + diffuse) + specular colour × specular + emissive.
+  void (*light_phong)(const Illumination& what, const Batch& batch, const Points& points, Shaded& out);
+  /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.
+  void (*light_metallic)(const Illumination& what, const Batch& batch, const Points& points, Shaded& out);
+  void (*unlit)(bool is_blended, const Points& points, Shaded& out);
 };
 
 namespace scalar {

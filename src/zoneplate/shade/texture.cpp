@@ -35,6 +35,12 @@ struct Size {
   std::int32_t width, height;
 };
 
+/// A row ends with a copy of its first texel.
+template <class Code>
+void close_row(Code* row, std::int32_t width) {
+  std::copy_n(row, 4, row + std::ptrdiff_t{4} * width);
+}
+
 /// Both sizes even: the mean of four.
 template <class Code>
 void halve_row(const Code* upper, const Code* lower, std::int32_t out_width, Code* out) {
@@ -57,7 +63,7 @@ void shrink_row(const Code* source, Size size, std::int32_t y, std::int32_t out_
       std::uint64_t sum = total / 2;
       for (std::int32_t j = 0; j < rows.count; ++j)
         for (std::int32_t i = 0; i < columns.count; ++i) {
-          const std::ptrdiff_t texel = std::ptrdiff_t{rows.first + j} * size.width + columns.first + i;
+          const std::ptrdiff_t texel = std::ptrdiff_t{rows.first + j} * (size.width + 1) + columns.first + i;
           sum += rows.weight[j] * columns.weight[i] * source[4 * texel + c];
         }
       out[std::ptrdiff_t{4} * x + c] = static_cast<Code>(sum / total);
@@ -75,14 +81,15 @@ void make_levels(Code* codes, const TextureView& view) {
     const bool is_even = size.width % 2 == 0 && size.height % 2 == 0;
     parallel_ranges(static_cast<std::size_t>(out_size.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
       for (std::size_t y = begin; y < end; ++y) {
-        Code* out = target + 4 * y * static_cast<std::size_t>(out_size.width);
-        const std::size_t pitch = 4 * static_cast<std::size_t>(size.width);
+        Code* out = target + 4 * y * static_cast<std::size_t>(out_size.width + 1);
+        const std::size_t pitch = 4 * static_cast<std::size_t>(size.width + 1);
         const Code* upper = source + 2 * y * pitch;
         if (is_even) {
           halve_row(upper, upper + pitch, out_size.width, out);
         } else {
           shrink_row(source, size, static_cast<std::int32_t>(y), out_size.width, out);
         }
+        close_row(out, out_size.width);
       }
     });
   }
@@ -95,19 +102,19 @@ std::size_t lay_out(int width, int height, TextureView& view) {
     view.width[view.levels] = w;
     view.height[view.levels] = h;
     view.offset[view.levels++] = static_cast<std::int32_t>(texels);
-    texels += std::int64_t{w} * h;
+    texels += (std::int64_t{w} + 1) * h;
     if (w == 1 && h == 1) break;
   }
   assert(texels < (std::int64_t{1} << 31));
   return static_cast<std::size_t>(texels);
 }
 
-/// Each 8-bit sRGB code as 16-bit linear light. Neighbouring codes differ by 19 or more, so none is lost.
+/// Each 8-bit sRGB code as 15-bit linear light. Neighbouring codes differ by 9 or more, so none is lost.
 std::array<std::uint16_t, 256> linear_codes() {
   std::array<std::uint16_t, 256> table;
   for (int code = 0; code < 256; ++code)
     table[static_cast<std::size_t>(code)] =
-        static_cast<std::uint16_t>(65535.0f * decode_srgb8(static_cast<std::uint8_t>(code)) + 0.5f);
+        static_cast<std::uint16_t>(32767.0f * decode_srgb8(static_cast<std::uint8_t>(code)) + 0.5f);
   return table;
 }
 
@@ -126,20 +133,21 @@ Texture::Texture(const Rgba8Image& image, TexelMeaning meaning) {
       for (std::size_t y = begin; y < end; ++y) {
         const auto row = source.row(static_cast<int>(y));
         for (std::size_t x = 0; x < width; ++x) {
-          auto* out = target + 4 * (y * width + x);
+          auto* out = target + 4 * (y * (width + 1) + x);
           out[0] = decode(row[x].r), out[1] = decode(row[x].g), out[2] = decode(row[x].b), out[3] = widen(row[x].a);
         }
+        close_row(target + 4 * y * (width + 1), source.width());
       }
     });
   };
   if (meaning == TexelMeaning::Color) {
-    codes16_.resize(codes);
-    view_.codes16 = codes16_.data();
+    codes15_.resize(codes);
+    view_.codes15 = codes15_.data();
     const auto table = linear_codes();
-    const auto widen = [](std::uint8_t code) { return static_cast<std::uint16_t>(code * 257); };
+    const auto widen = [](std::uint8_t code) { return static_cast<std::uint16_t>((code * 32767 + 127) / 255); };
     fill(
-        codes16_.data(), [&](std::uint8_t code) { return table[code]; }, widen);
-    make_levels(codes16_.data(), view_);
+        codes15_.data(), [&](std::uint8_t code) { return table[code]; }, widen);
+    make_levels(codes15_.data(), view_);
   } else {
     codes8_.resize(codes);
     view_.codes8 = codes8_.data();

@@ -34,7 +34,7 @@ class Texture {
 
  private:
   std::vector<std::uint8_t> codes8_;
-  std::vector<std::uint16_t> codes16_;
+  std::vector<std::uint16_t> codes15_;
   TextureView view_;
 };
 

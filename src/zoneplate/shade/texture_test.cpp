@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
@@ -23,11 +24,16 @@ Rgba8Image noise(int width, int height) {
   return image;
 }
 
+/// A level's codes, without the copies at the ends of its rows.
 std::vector<std::uint32_t> codes_of(const TextureView& view, int level) {
-  const std::size_t n = 4 * static_cast<std::size_t>(view.width[level] * view.height[level]);
-  const std::size_t first = 4 * static_cast<std::size_t>(view.offset[level]);
-  if (view.codes8 != nullptr) return {view.codes8 + first, view.codes8 + first + n};
-  return {view.codes16 + first, view.codes16 + first + n};
+  const auto width = static_cast<std::size_t>(view.width[level]), height = static_cast<std::size_t>(view.height[level]);
+  std::vector<std::uint32_t> codes;
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t i = 0; i < 4 * width; ++i) {
+      const std::size_t at = 4 * (static_cast<std::size_t>(view.offset[level]) + y * (width + 1)) + i;
+      codes.push_back(view.codes8 != nullptr ? std::uint32_t{view.codes8[at]} : view.codes15[at]);
+    }
+  return codes;
 }
 
 /// The length that source texel s and target texel t share, along an axis scaled to n × m units.
@@ -53,7 +59,7 @@ TEST(Texture, LevelsHalveDownToOneTexel) {
   const Texture texture(Rgba8Image(13, 4), TexelMeaning::Values);
   const TextureView& view = texture.view();
   ASSERT_EQ(view.levels, 4);
-  const int widths[] = {13, 6, 3, 1}, heights[] = {4, 2, 1, 1}, offsets[] = {0, 52, 64, 67};
+  const int widths[] = {13, 6, 3, 1}, heights[] = {4, 2, 1, 1}, offsets[] = {0, 56, 70, 74};
   for (int l = 0; l < 4; ++l) {
     EXPECT_EQ(view.width[l], widths[l]);
     EXPECT_EQ(view.height[l], heights[l]);
@@ -80,6 +86,16 @@ TEST(Texture, EachLevelIsTheRoundedMeanOfTheOneBefore) {
     }
 }
 
+TEST(Texture, RowsEndWithACopyOfTheirFirstTexel) {
+  const Texture texture(noise(12, 7), TexelMeaning::Values);
+  const TextureView& view = texture.view();
+  for (int l = 0; l < view.levels; ++l)
+    for (int y = 0; y < view.height[l]; ++y) {
+      const std::uint8_t* row = view.codes8 + std::ptrdiff_t{4} * (view.offset[l] + y * (view.width[l] + 1));
+      EXPECT_EQ(std::memcmp(row, row + std::ptrdiff_t{4} * view.width[l], 4), 0);
+    }
+}
+
 TEST(Texture, OneColourStaysThatColour) {
   for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
     const Texture texture(Rgba8Image(37, 21, Rgba8{200, 100, 1, 77}), meaning);
@@ -101,8 +117,8 @@ TEST(Texture, ColoursAreDecodedAndAlphaIsNot) {
   for (int i = 0; i < 256; ++i) {
     const double code = i / 255.0;
     const double linear = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-    EXPECT_NEAR(texture.view().codes16[4 * i], 65535 * linear, 0.51);
-    EXPECT_EQ(texture.view().codes16[4 * i + 3], 257 * i);
+    EXPECT_NEAR(texture.view().codes15[4 * i], 32767 * linear, 0.51);
+    EXPECT_NEAR(texture.view().codes15[4 * i + 3], 32767 * code, 0.51);
   }
 }
 
