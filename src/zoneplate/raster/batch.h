@@ -22,7 +22,8 @@ struct Batch {
   int count = 0;
   int material = 0;  ///< index into Scene::materials
 
-  /// The group's points share their triangle: what is said by triangle then stands at the group's first point only.
+  /// The group's points share their triangle and lie side by side in a row, a pixel apart: what is said by triangle
+  /// then stands at the group's first point only.
   bool one_triangle[groups] = {};
 
   // By triangle.

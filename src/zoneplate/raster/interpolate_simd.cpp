@@ -23,10 +23,6 @@ struct Corner {
   F inv_w;
 };
 
-HWY_INLINE Corner same_corner(const ScreenVertex& v) {
-  return {hn::Set(IntTag(), v.x), hn::Set(IntTag(), v.y), hn::Set(FloatTag(), v.inv_w)};
-}
-
 /// Vertices i and i + 4 side by side, or vertex i where vectors have room for four lanes only.
 template <class D>
 HWY_INLINE hn::Vec<D> two_vertices(D d, const ScreenVertex* const* v, int i) {
@@ -98,9 +94,32 @@ struct Screen {
   bool has_slopes;
 };
 
-/// The points from i on; true if a triangle of theirs needs clipping.
-HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const BatchCorners& corners, bool is_shared,
-                               Batch& batch, int i) {
+/// The weights of points, from their edge functions.
+struct Weights {
+  F b1, b2, inverse;
+};
+
+HWY_INLINE Weights store_weights(const F (&edge)[3], F inv_w0, F inv_w1, F inv_w2, Batch& batch, int i) {
+  const FloatTag d;
+  const F q0 = hn::Mul(edge[0], inv_w0), q1 = hn::Mul(edge[1], inv_w1), q2 = hn::Mul(edge[2], inv_w2);
+  const F sum = hn::Add(hn::Add(q0, q1), q2), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const F inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
+  const F b1 = clamped(hn::Mul(q1, inverse), one), b2 = clamped(hn::Mul(q2, inverse), hn::Sub(one, b1));
+  hn::Store(b1, d, batch.b[0] + i);
+  hn::Store(b2, d, batch.b[1] + i);
+  return {b1, b2, inverse};
+}
+
+/// Slopes: those of q_1, q_2 and of the sum of all three.
+HWY_INLINE void store_slopes(const Weights& w, F by, F g1, F g2, F all, float (&out)[2][Batch::capacity], int i) {
+  const FloatTag d;
+  hn::Store(hn::Mul(hn::Sub(g1, hn::Mul(w.b1, all)), by), d, out[0] + i);
+  hn::Store(hn::Mul(hn::Sub(g2, hn::Mul(w.b2, all)), by), d, out[1] + i);
+}
+
+/// Points of several triangles, from i on; true if one of these needs clipping.
+HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const BatchCorners& corners, Batch& batch,
+                               int i) {
   const FloatTag d;
   const IntTag di;
   const I px = hn::Sub(hn::Load(di, batch.x + i), screen.centre_x);
@@ -108,48 +127,94 @@ HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const
   const I dx[3] = {hn::Sub(c[0].x, px), hn::Sub(c[1].x, px), hn::Sub(c[2].x, px)};
   const I dy[3] = {hn::Sub(c[0].y, py), hn::Sub(c[1].y, py), hn::Sub(c[2].y, py)};
   const Edges edges = edges_at(dx, dy);
-  if (!is_shared || i % Batch::group == 0) store_front(edges, corners.is_mirrored + i, batch.is_front + i);
-
-  const F q0 = hn::Mul(edges.e[0], c[0].inv_w), q1 = hn::Mul(edges.e[1], c[1].inv_w);
-  const F q2 = hn::Mul(edges.e[2], c[2].inv_w), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const F sum = hn::Add(hn::Add(q0, q1), q2);
-  const F inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
-  const F b1 = clamped(hn::Mul(q1, inverse), one), b2 = clamped(hn::Mul(q2, inverse), hn::Sub(one, b1));
-  hn::Store(b1, d, batch.b[0] + i);
-  hn::Store(b2, d, batch.b[1] + i);
+  store_front(edges, corners.is_mirrored + i, batch.is_front + i);
+  const Weights w = store_weights(edges.e, c[0].inv_w, c[1].inv_w, c[2].inv_w, batch, i);
   if (screen.has_slopes) {
     const auto slope = [&](const I(&at)[3], int m, int n, int k)
                            HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), c[k].inv_w); };
-    const F by = hn::Mul(inverse, screen.step);
     const auto store = [&](F g0, F g1, F g2, float(&out)[2][Batch::capacity]) HWY_ATTR {
-      const F all = hn::Add(hn::Add(g0, g1), g2);
-      hn::Store(hn::Mul(hn::Sub(g1, hn::Mul(b1, all)), by), d, out[0] + i);
-      hn::Store(hn::Mul(hn::Sub(g2, hn::Mul(b2, all)), by), d, out[1] + i);
+      store_slopes(w, hn::Mul(w.inverse, screen.step), g1, g2, hn::Add(hn::Add(g0, g1), g2), out, i);
     };
     store(slope(dy, 1, 2, 0), slope(dy, 2, 0, 1), slope(dy, 0, 1, 2), batch.dbdx);
     store(slope(dx, 2, 1, 0), slope(dx, 0, 2, 1), slope(dx, 1, 0, 2), batch.dbdy);
   }
   const F least = hn::Min(hn::Min(c[0].inv_w, c[1].inv_w), c[2].inv_w);
-  return !hn::AllTrue(d, hn::Gt(least, zero));
+  return !hn::AllTrue(d, hn::Gt(least, hn::Zero(d)));
+}
+
+/// What the rows of one triangle have in common: E_k = a_k x + (b_k y + c_k), all of it exact, and the slopes of q_k.
+struct RowTriangle {
+  const ScreenVertex* vertex[3] = {};
+  double a[3] = {}, b[3] = {}, c[3] = {};
+  float inv_w[3] = {}, gx[3] = {}, gy[3] = {}, sum_x = 0, sum_y = 0;
+  std::int32_t is_clockwise = 0;
+  bool needs_clipping = false;
+
+  HWY_INLINE bool is_of(const BatchCorners& corners, int i) const {
+    return vertex[0] == corners.vertex[0][i] && vertex[1] == corners.vertex[1][i] && vertex[2] == corners.vertex[2][i];
+  }
+  HWY_INLINE void make(const BatchCorners& corners, int i) {
+    needs_clipping = false;
+    for (int k = 0; k < 3; ++k) {
+      vertex[k] = corners.vertex[k][i];
+      inv_w[k] = vertex[k]->inv_w;
+      needs_clipping = needs_clipping || inv_w[k] == 0;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const ScreenVertex &m = *vertex[(k + 1) % 3], &n = *vertex[(k + 2) % 3];
+      a[k] = static_cast<double>(m.y - n.y);
+      b[k] = static_cast<double>(n.x - m.x);
+      c[k] = static_cast<double>(m.x) * static_cast<double>(n.y) - static_cast<double>(m.y) * static_cast<double>(n.x);
+      gx[k] = static_cast<float>(m.y - n.y) * inv_w[k];
+      gy[k] = static_cast<float>(n.x - m.x) * inv_w[k];
+    }
+    sum_x = (gx[0] + gx[1]) + gx[2];
+    sum_y = (gy[0] + gy[1]) + gy[2];
+    is_clockwise = (c[0] + c[1]) + c[2] > 0 ? 1 : 0;
+  }
+};
+
+/// The points from i on of a row that begins at `first`.
+HWY_INLINE void interpolate_row(const RowTriangle& t, const Screen& screen, Viewport viewport, Batch& batch, int first,
+                                int i) {
+  const FloatTag d;
+  const DoubleTag dd;
+  const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
+  const double px = static_cast<double>(batch.x[first] - viewport.width * 128 + (i - first) * 256);
+  const D step = hn::Mul(hn::Iota(dd, 0.0), hn::Set(dd, 256.0));
+  const double half = 256.0 * static_cast<double>(lanes / 2);
+  F edge[3];
+  for (int k = 0; k < 3; ++k) {
+    const double at = t.a[k] * px + (t.b[k] * py + t.c[k]);
+    const D way = hn::Mul(hn::Set(dd, t.a[k]), step);
+    edge[k] = to_floats(hn::Add(hn::Set(dd, at), way), hn::Add(hn::Set(dd, at + t.a[k] * half), way));
+  }
+  const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
+  const Weights w = store_weights(edge, same(t.inv_w[0]), same(t.inv_w[1]), same(t.inv_w[2]), batch, i);
+  if (!screen.has_slopes) return;
+  const F by = hn::Mul(w.inverse, screen.step);
+  store_slopes(w, by, same(t.gx[1]), same(t.gx[2]), same(t.sum_x), batch.dbdx, i);
+  store_slopes(w, by, same(t.gy[1]), same(t.gy[2]), same(t.sum_y), batch.dbdy, i);
 }
 
 std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
   const Screen screen{hn::Set(IntTag(), viewport.width * 128), hn::Set(IntTag(), viewport.height * 128),
                       hn::Set(FloatTag(), 256.0f * spacing), spacing != 0};
   std::uint32_t clipped = 0;
+  RowTriangle row;
   const int count = batch.padded();
   for (int first = 0; first < count; first += Batch::group) {
     bool is_clipped = false;
     if (batch.one_triangle[first / Batch::group]) {
-      const Corner c[3] = {same_corner(*corners.vertex[0][first]), same_corner(*corners.vertex[1][first]),
-                           same_corner(*corners.vertex[2][first])};
-      for (int i = first; i < first + Batch::group; i += lanes)
-        is_clipped = interpolate_at(c, screen, corners, true, batch, i) || is_clipped;
+      if (!row.is_of(corners, first)) row.make(corners, first);
+      is_clipped = row.needs_clipping;
+      batch.is_front[first] = row.is_clockwise == corners.is_mirrored[first] ? 1 : 0;
+      for (int i = first; i < first + Batch::group; i += lanes) interpolate_row(row, screen, viewport, batch, first, i);
     } else {
       for (int i = first; i < first + Batch::group; i += lanes) {
         const Corner c[3] = {turned_corners(corners.vertex[0] + i), turned_corners(corners.vertex[1] + i),
                              turned_corners(corners.vertex[2] + i)};
-        is_clipped = interpolate_at(c, screen, corners, false, batch, i) || is_clipped;
+        is_clipped = interpolate_at(c, screen, corners, batch, i) || is_clipped;
       }
     }
     if (is_clipped) clipped |= 1u << (first / Batch::group);

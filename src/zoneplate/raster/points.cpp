@@ -81,6 +81,16 @@ void PointBatcher::put_triangle(std::size_t i, std::int32_t id) {
   }
 }
 
+void PointBatcher::copy_triangle(std::size_t from, std::size_t to) {
+  batch_.triangle[to] = batch_.triangle[from];
+  batch_.instance[to] = batch_.instance[from];
+  corners_.is_mirrored[to] = corners_.is_mirrored[from];
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners_.vertex[k][to] = corners_.vertex[k][from];
+    batch_.vertex[k][to] = batch_.vertex[k][from];
+  }
+}
+
 void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
   constexpr std::size_t ahead = 16;
   batch_.count = static_cast<int>(numbers.size());
@@ -101,7 +111,11 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const PointRow& row = rows[numbers[i]];
     batch_.one_triangle[i] = true;
-    put_triangle(i * Batch::group, row.id);
+    if (i > 0 && row.id == rows[numbers[i - 1]].id) {
+      copy_triangle((i - 1) * Batch::group, i * Batch::group);
+    } else {
+      put_triangle(i * Batch::group, row.id);
+    }
     std::int32_t* const x = batch_.x + i * Batch::group;
     std::int32_t* const y = batch_.y + i * Batch::group;
     for (int k = 0; k < Batch::group; ++k) x[k] = row.x + k * 256, y[k] = row.y;

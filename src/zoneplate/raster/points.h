@@ -73,6 +73,7 @@ class PointBatcher {
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
   void put_triangle(std::size_t i, std::int32_t id);
+  void copy_triangle(std::size_t from, std::size_t to);
   void interpolate();
   void interpolate_clipped(std::size_t group);
   void weigh_ends();

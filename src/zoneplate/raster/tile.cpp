@@ -162,8 +162,8 @@ void TileRenderer::find_rows() {
 
 void TileRenderer::add_row(std::uint32_t pixel, std::int32_t id) {
   if (!target_.is_per_sample) {
-    const Point centre = point_at(pixel, id, all_samples_);
-    rows_.push_back({centre.x, centre.y, id, pixel});
+    const int x = tile_x_ + static_cast<int>(pixel % tile_size), y = tile_y_ + static_cast<int>(pixel / tile_size);
+    rows_.push_back({x * 256 + 128, y * 256 + 128, id, pixel});
     return;
   }
   std::fill_n(sum_.begin() + pixel, Batch::group, Linear{0, 0, 0, 0});
@@ -195,6 +195,11 @@ void TileRenderer::shade_rows() {
 
 /// One point for each triangle that owns samples of the pixel, in the order of their first samples.
 void TileRenderer::add_pixel(std::uint32_t pixel) {
+  if (pass_samples_ == 1) {
+    const std::int32_t id = visibility_.id[pixel];
+    if (id != no_triangle) points_.push_back(point_at(pixel, id, 1));
+    return;
+  }
   std::uint64_t left = all_samples_;
   while (left) {
     const std::int32_t id = visibility_.id[static_cast<std::size_t>(std::countr_zero(left)) * tile_pixels + pixel];
@@ -224,7 +229,7 @@ void TileRenderer::resolve_points() {
         weight += weights_[static_cast<std::size_t>(std::countr_zero(left))];
       sum = sum + colors_[first] * weight;
     }
-    resolve_.divide(&sum, weight_sum_, 1, &color_[pixel]);
+    color_[pixel] = {sum.r / weight_sum_, sum.g / weight_sum_, sum.b / weight_sum_, sum.a / weight_sum_};
   }
 }
 

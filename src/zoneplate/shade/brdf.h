@@ -35,12 +35,17 @@ template <class F>
   return power(max(nh, F(0.0f)), exponent);
 }
 
-/// max(r · v, 0)^exponent with r the mirror image of l in n; not cut where the light is below the horizon.
+/// r · v with r the mirror image of l in n.
+template <class F>
+[[gnu::always_inline]] inline F phong_cosine(Vector<F> n, Vector<F> l, Vector<F> v) {
+  return dot(n * (F(2.0f) * dot(n, l)) - l, v);
+}
+
+/// max(r · v, 0)^exponent; not cut where the light is below the horizon.
 /// Source: Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975.
 template <class F>
 [[gnu::always_inline]] inline F phong(Vector<F> n, Vector<F> l, Vector<F> v, Exponent exponent) {
-  const Vector<F> r = n * (F(2.0f) * dot(n, l)) - l;
-  return power(max(dot(r, v), F(0.0f)), exponent);
+  return power(max(phong_cosine(n, l, v), F(0.0f)), exponent);
 }
 
 inline constexpr float inverse_pi = 0.318309886f;

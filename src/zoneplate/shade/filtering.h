@@ -34,6 +34,7 @@ struct Taps {
   alignas(64) std::int32_t upper[2][capacity], lower[2][capacity];
   alignas(64) std::int16_t right[2][capacity], down[2][capacity];  ///< weights of the right and lower texels
   alignas(64) std::int16_t blend[capacity];                        ///< weight of the second level
+  alignas(64) float detail[capacity];                              ///< log2 of the footprint, on the way there
 };
 
 /// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity.

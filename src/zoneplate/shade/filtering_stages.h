@@ -116,9 +116,10 @@ template <class F, class View, class Filter>
   (left + y.second * pitch).store(out.lower[which] + i);
   x.weight.store_narrow(out.right[which] + i);
   y.weight.store_narrow(out.down[which] + i);
-  fetch_ahead(t, out.upper[which][i]);
-  fetch_ahead(t, out.lower[which][i]);
-  fetch_ahead(t, out.lower[which][i + F::lanes - 1]);
+  for (const int end : {0, F::lanes - 1}) {
+    fetch_ahead(t, out.upper[which][i + end]);
+    fetch_ahead(t, out.lower[which][i + end]);
+  }
 }
 
 /// The levels to look at.
@@ -154,9 +155,10 @@ template <class F, class View, class Filter>
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint& at, Taps& out,
                                                  int count) {
+  // Apart from the addresses, because both are long chains of operations that wait for each other.
+  for (int i = 0; i < count; i += F::lanes) footprint_level<F>(t, at, i).store(out.detail + i);
   for (int i = 0; i < count; i += F::lanes)
-    store_taps<F>(t, f, find_levels<F>(t, f, footprint_level<F>(t, at, i)), F::load(at.u + i), F::load(at.v + i), out,
-                  i);
+    store_taps<F>(t, f, find_levels<F>(t, f, F::load(out.detail + i)), F::load(at.u + i), F::load(at.v + i), out, i);
 }
 
 /// The stage `find_taps` of shade/filtering.h.

@@ -28,28 +28,19 @@ void saturate(float* values, int count) {
   for (int i = 0; i < count; i += F::lanes) min(max(F::load(values + i), F(0.0f)), F(1.0f)).store(values + i);
 }
 
-/// Four floats of the records of the points' corners, as the first one and the way to the two others.
+/// A float of the points: that of the first corners, and the way to the second and third.
 template <class F>
-struct CornerQuad {
-  F first[4], second[4], third[4];
+struct Linear {
+  F first, second, third;
 };
 
 template <class F>
-[[gnu::always_inline]] inline CornerQuad<F> corner_quad(const Batch& batch, const Corners& corners, int place, int i) {
-  CornerQuad<F> q;
-  const int group = i / Batch::group;
-  if (batch.one_triangle[group]) {
-    const float* const a = corners.record[0][group * Batch::group] + place;
-    const float* const b = corners.record[1][group * Batch::group] + place;
-    const float* const c = corners.record[2][group * Batch::group] + place;
-    for (int k = 0; k < 4; ++k) q.first[k] = F(a[k]), q.second[k] = F(b[k] - a[k]), q.third[k] = F(c[k] - a[k]);
-    return q;
-  }
-  F::load_quads(corners.record[0] + i, place, q.first);
-  F::load_quads(corners.record[1] + i, place, q.second);
-  F::load_quads(corners.record[2] + i, place, q.third);
-  for (int k = 0; k < 4; ++k) q.second[k] = q.second[k] - q.first[k], q.third[k] = q.third[k] - q.first[k];
-  return q;
+[[gnu::always_inline]] inline void store_float(const Batch& batch, const Linear<F>& a, const Interpolation::Quad& quad,
+                                               int c, int i) {
+  (a.first + (a.second * F::load(batch.b[0] + i) + a.third * F::load(batch.b[1] + i))).store(quad.value[c] + i);
+  if (quad.dx[c] == nullptr) return;
+  (a.second * F::load(batch.dbdx[0] + i) + a.third * F::load(batch.dbdx[1] + i)).store(quad.dx[c] + i);
+  (a.second * F::load(batch.dbdy[0] + i) + a.third * F::load(batch.dbdy[1] + i)).store(quad.dy[c] + i);
 }
 
 template <class F>
@@ -57,17 +48,21 @@ void interpolate(const Batch& batch, const Corners& corners, const Interpolation
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
     for (int i = 0; i < count; i += F::lanes) {
-      const F b1 = F::load(batch.b[0] + i), b2 = F::load(batch.b[1] + i);
-      const CornerQuad<F> a = corner_quad<F>(batch, corners, quad.place, i);
-      for (int c = 0; c < 4; ++c) {
-        if (quad.value[c] == nullptr) continue;
-        (a.first[c] + (a.second[c] * b1 + a.third[c] * b2)).store(quad.value[c] + i);
-        if (quad.dx[c] == nullptr) continue;
-        const auto slope = [&](const float(&db)[2][Batch::capacity]) [[gnu::always_inline]] {
-          return a.second[c] * F::load(db[0] + i) + a.third[c] * F::load(db[1] + i);
-        };
-        slope(batch.dbdx).store(quad.dx[c] + i);
-        slope(batch.dbdy).store(quad.dy[c] + i);
+      const int told = i / Batch::group * Batch::group;
+      if (batch.one_triangle[i / Batch::group]) {
+        const float* const v0 = corners.record[0][told] + quad.place;
+        const float* const v1 = corners.record[1][told] + quad.place;
+        const float* const v2 = corners.record[2][told] + quad.place;
+        for (int c = 0; c < 4; ++c)
+          if (quad.value[c] != nullptr)
+            store_float(batch, Linear<F>{F(v0[c]), F(v1[c] - v0[c]), F(v2[c] - v0[c])}, quad, c, i);
+      } else {
+        F v0[4], v1[4], v2[4];
+        F::load_quads(corners.record[0] + i, quad.place, v0);
+        F::load_quads(corners.record[1] + i, quad.place, v1);
+        F::load_quads(corners.record[2] + i, quad.place, v2);
+        for (int c = 0; c < 4; ++c)
+          if (quad.value[c] != nullptr) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i);
       }
     }
   }

@@ -60,24 +60,65 @@ template <class F>
 
 enum class Highlight { None, BlinnPhong, Phong };
 
+/// The cosine whose power is the highlight. Source: as in shade/brdf.h.
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline F highlight_cosine(Vector<F> n, Vector<F> l, Vector<F> v) {
+  if constexpr (highlight == Highlight::Phong) return phong_cosine(n, l, v);
+  return dot(n, normalize(l + v));
+}
+
+/// Room for the cosines of a batch's points. They are found apart from the powers, because both are long chains of
+/// operations that wait for each other.
+struct Cosines {
+  alignas(64) float diffuse[Points::capacity], highlight[Points::capacity];
+};
+
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline void find_cosines(const Illumination& s, const PreparedLight& of, const Batch& batch,
+                                                const Points& p, Cosines& out) {
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const auto n = Vector<F>::load(p.normal, i), l = arriving<F>(of, p, i).from;
+    lambert(dot(n, l)).store(out.diffuse + i);
+    if constexpr (highlight == Highlight::None) continue;
+    const auto v = towards_viewer<F>(s.viewpoint, batch, p, i);
+    max(highlight_cosine<F, highlight>(n, l, v), F(0.0f)).store(out.highlight + i);
+  }
+}
+
+/// Adds what a light does to the gathered diffuse and specular light.
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline void add_light(const Illumination& s, const PreparedLight& of, const Points& p,
+                                             const Cosines& cosines, Vector<F>& diffuse, Vector<F>& specular, int i) {
+  const Vector<F> radiance = arriving<F>(of, p, i).radiance;
+  diffuse = diffuse + radiance * F::load(cosines.diffuse + i);
+  if constexpr (highlight != Highlight::None)
+    specular = specular + radiance * power(F::load(cosines.highlight + i), s.exponent);
+}
+
 template <class F, Highlight highlight>
 void light_phong(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+  constexpr int most = 4;  // lights whose cosines are kept at a time
   const auto ambient = Vector<F>::all(s.ambient);
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
-    Vector<F> v = zeros<F>(), diffuse = zeros<F>(), specular = zeros<F>();
-    if constexpr (highlight != Highlight::None) v = towards_viewer<F>(s.viewpoint, batch, p, i);
-    for (int k = 0; k < s.lights; ++k) {
-      const Arriving<F> light = arriving<F>(s.light[k], p, i);
-      diffuse = diffuse + light.radiance * lambert(dot(n, light.from));
-      if constexpr (highlight == Highlight::BlinnPhong)
-        specular = specular + light.radiance * blinn_phong(dot(n, normalize(light.from + v)), s.exponent);
-      if constexpr (highlight == Highlight::Phong)
-        specular = specular + light.radiance * phong(n, light.from, v, s.exponent);
+  Cosines cosines[most];
+  alignas(64) Points::Array gathered[6];
+  for (int first = 0; first == 0 || first < s.lights; first += most) {
+    const int last = first + most < s.lights ? first + most : s.lights;
+    for (int k = first; k < last; ++k) find_cosines<F, highlight>(s, s.light[k], batch, p, cosines[k - first]);
+    for (int i = 0; i < p.count; i += F::lanes) {
+      Vector<F> diffuse = zeros<F>(), specular = zeros<F>();
+      if (first > 0) diffuse = Vector<F>::load(gathered, i), specular = Vector<F>::load(gathered + 3, i);
+      for (int k = first; k < last; ++k)
+        add_light<F, highlight>(s, s.light[k], p, cosines[k - first], diffuse, specular, i);
+      if (last < s.lights) {
+        auto* const rest = gathered + 3;
+        diffuse.store(gathered, i), specular.store(rest, i);
+        continue;
+      }
+      const auto base = Vector<F>::load(p.base, i);
+      Vector<F> sum = base * (ambient * occlusion_at<F>(s, p, i) + diffuse);
+      if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * specular;
+      finish(s, p, sum, base, out, i);
     }
-    Vector<F> sum = base * (ambient * occlusion_at<F>(s, p, i) + diffuse);
-    if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * specular;
-    finish(s, p, sum, base, out, i);
   }
 }
 

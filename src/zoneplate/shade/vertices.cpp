@@ -50,8 +50,8 @@ void write_record(const Mesh& mesh, const RecordLayout& layout, std::size_t v, f
   const float3 p = mesh.position[v];
   const float3 n = mesh.normal.empty() ? float3{} : mesh.normal[v];
   const float2 uv = mesh.uv0.empty() ? float2{} : mesh.uv0[v];
-  to[0] = n.x, to[1] = n.y, to[2] = n.z, to[3] = uv.x;
-  to[4] = uv.y, to[5] = p.x, to[6] = p.y, to[7] = p.z;
+  to[0] = n.x, to[1] = n.y, to[2] = n.z, to[3] = p.x;
+  to[4] = p.y, to[5] = p.z, to[6] = uv.x, to[7] = uv.y;
   const auto put = [&](int place, float4 value) {
     float* const at = to + place;
     if (place >= 0) at[0] = value.x, at[1] = value.y, at[2] = value.z, at[3] = value.w;
@@ -112,15 +112,15 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
   const auto wants = [&](Interpolation::Quad& q, int c, float* value, float* dx = nullptr, float* dy = nullptr) {
     q.value[c] = value, q.dx[c] = dx, q.dy[c] = dy;
   };
-  if (auto* q = quad(attributes.normal || attributes.uv[0], 0)) {
+  if (auto* q = quad(attributes.normal || attributes.position, 0)) {
     if (attributes.normal)
       for (int c = 0; c < 3; ++c) wants(*q, c, p.normal[c]);
-    if (attributes.uv[0]) wants(*q, 3, p.uv[0][0], p.uv_dx[0][0], p.uv_dy[0][0]);
+    if (attributes.position) wants(*q, 3, p.position[0]);
   }
   if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
-    if (attributes.uv[0]) wants(*q, 0, p.uv[0][1], p.uv_dx[0][1], p.uv_dy[0][1]);
-    if (attributes.position)
-      for (int c = 0; c < 3; ++c) wants(*q, c + 1, p.position[c]);
+    if (attributes.position) wants(*q, 0, p.position[1]), wants(*q, 1, p.position[2]);
+    if (attributes.uv[0])
+      for (int c = 0; c < 2; ++c) wants(*q, 2 + c, p.uv[0][c], p.uv_dx[0][c], p.uv_dy[0][c]);
   }
   if (auto* q = quad(attributes.tangent, layout.tangent))
     for (int c = 0; c < 4; ++c) wants(*q, c, p.tangent[c]);

@@ -16,7 +16,8 @@ struct Attributes {
 
 /// Where the attributes stand in a vertex's record. What no mesh of a material has, its records have no room for.
 ///
-/// Shape     floats: normal x y z, u | v, position x y z | tangent x y z w | colour r g b a | second u v, 0, 0.
+/// Shape     floats: normal x y z, position x | position y z, u v | tangent x y z w | colour r g b a | second u v, 0,
+/// 0.
 struct RecordLayout {
   int floats = 8;                          ///< from one vertex to the next; a multiple of four
   int tangent = -1, color = -1, uv1 = -1;  ///< first float; -1: absent
