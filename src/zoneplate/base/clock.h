@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <utility>
 
 namespace zoneplate {
 
@@ -9,6 +10,11 @@ class Stopwatch {
  public:
   double ms() const {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+  /// The same, and starts again from 0.
+  double lap_ms() {
+    const auto before = std::exchange(start_, std::chrono::steady_clock::now());
+    return std::chrono::duration<double, std::milli>(start_ - before).count();
   }
 
  private:

@@ -1,42 +1,190 @@
 #include "zoneplate/base/parallel.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace zoneplate {
+namespace {
+
+/// One loop: its items are taken one after the other by whoever is free.
+struct Loop {
+  const std::function<void(std::size_t)>& body;
+  const std::size_t count;
+  std::exception_ptr error;      ///< the first one; guarded by the team's mutex
+  std::atomic<int> helpers = 0;  ///< threads at work on it, besides the one that began it
+  alignas(64) std::atomic<std::size_t> next = 0;
+};
+
+/// Calls `is_so` for some 50 µs until it says yes: to wake a sleeping thread takes as long.
+template <class Condition>
+bool becomes_true(Condition is_so) {
+  constexpr std::chrono::microseconds patience(50);
+  const auto start = std::chrono::steady_clock::now();
+  do {
+    if (is_so()) return true;
+    std::this_thread::yield();
+  } while (std::chrono::steady_clock::now() - start < patience);
+  return is_so();
+}
+
+/// The threads of one `with_threads`. They are started when a loop first has work for them, help with whatever loop is
+/// open, nested ones too, sleep in between, and end with their team.
+class Team {
+ public:
+  explicit Team(int limit) : limit_(limit) {}
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  void run(std::size_t count, const std::function<void(std::size_t)>& body);
+  int limit() const { return limit_; }
+
+ private:
+  void start(std::size_t helpers);
+  void help(int index);
+  void work(Loop& loop);
+  Loop* join_a_loop();
+  void leave(Loop& loop);
+
+  const int limit_;
+  std::mutex mutex_;
+  std::vector<std::thread> threads_;
+  std::vector<Loop*> open_;  ///< the newest last
+  bool is_ending_ = false;
+  std::atomic<std::uint32_t> news_ = 0;  ///< counts loops that were opened, and the end
+  std::atomic<std::uint32_t> left_ = 0;  ///< counts helpers that have left a loop
+};
+
+/// Where the calling thread stands.
+struct Place {
+  Team* team = nullptr;
+  int index = 0;
+};
+thread_local Place place;
+
+Team::~Team() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  ++news_;
+  news_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Team::start(std::size_t helpers) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t wanted = std::min(helpers, static_cast<std::size_t>(limit_ - 1));
+  try {
+    while (threads_.size() < wanted) {
+      const int index = static_cast<int>(threads_.size()) + 1;
+      threads_.emplace_back([this, index] { help(index); });
+    }
+  } catch (const std::system_error&) {
+    // The system gives no more: those that are there do the work.
+  }
+}
+
+void Team::help(int index) {
+  place = {this, index};
+  for (;;) {
+    const std::uint32_t news = news_;
+    if (Loop* loop = join_a_loop()) {
+      work(*loop);
+      leave(*loop);
+      continue;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (is_ending_) return;
+    }
+    if (!becomes_true([&] { return news_ != news; })) news_.wait(news);
+  }
+}
+
+Loop* Team::join_a_loop() {
+  const std::lock_guard lock(mutex_);
+  for (auto loop = open_.rbegin(); loop != open_.rend(); ++loop) {
+    if ((*loop)->next >= (*loop)->count) continue;
+    ++(*loop)->helpers;
+    return *loop;
+  }
+  return nullptr;
+}
+
+void Team::work(Loop& loop) {
+  try {
+    for (std::size_t i = loop.next++; i < loop.count; i = loop.next++) loop.body(i);
+  } catch (...) {
+    loop.next = loop.count;
+    const std::lock_guard lock(mutex_);
+    if (!loop.error) loop.error = std::current_exception();
+  }
+}
+
+/// Whoever began the loop may end its life with the last helper's leaving, so that nothing of it is touched after that.
+void Team::leave(Loop& loop) {
+  --loop.helpers;
+  ++left_;
+  left_.notify_all();
+}
+
+void Team::run(std::size_t count, const std::function<void(std::size_t)>& body) {
+  start(count - 1);
+  Loop loop{.body = body, .count = count};
+  {
+    const std::lock_guard lock(mutex_);
+    open_.push_back(&loop);
+  }
+  ++news_;
+  news_.notify_all();
+  work(loop);
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase(open_, &loop);
+  }
+  for (;;) {
+    const std::uint32_t left = left_;
+    if (becomes_true([&] { return loop.helpers == 0; })) break;
+    left_.wait(left);
+  }
+  if (loop.error) std::rethrow_exception(loop.error);
+}
+
+}  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  parallel_ranges(count, 1, [&](std::size_t begin, std::size_t) { body(begin); });
+  if (count > 1 && !place.team) return with_threads(0, [&] { parallel_for(count, body); });
+  if (count > 1 && place.team->limit() > 1) return place.team->run(count, body);
+  for (std::size_t i = 0; i < count; ++i) body(i);
 }
 
 void parallel_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
-  // The ranges are numbered, so that their bounds do not depend on how the scheduler splits them.
-  const std::size_t ranges = (count + grain - 1) / grain;
-  const auto run = [&](std::size_t r) { body(r * grain, std::min(count, (r + 1) * grain)); };
-  if (ranges <= 1 || thread_limit() == 1) {
-    for (std::size_t r = 0; r < ranges; ++r) run(r);
-    return;
-  }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ranges, 1), [&](const tbb::blocked_range<std::size_t>& part) {
-    for (std::size_t r = part.begin(); r != part.end(); ++r) run(r);
-  });
+  parallel_for((count + grain - 1) / grain, [&](std::size_t r) { body(r * grain, std::min(count, (r + 1) * grain)); });
 }
 
 void with_threads(int threads, const std::function<void()>& body) {
-  const int count = threads > 0 ? threads : tbb::info::default_concurrency();
   // More threads than cores are given where they are asked for.
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
-  tbb::task_arena arena(count);
-  arena.execute(body);
+  Team team(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  struct Return {
+    Place outer;
+    ~Return() { place = outer; }
+  } const back{place};
+  place = {&team, 0};
+  body();
 }
 
-int thread_index() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
+int thread_index() { return place.index; }
 
-int thread_limit() { return tbb::this_task_arena::max_concurrency(); }
+int thread_limit() {
+  return place.team ? place.team->limit() : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 }  // namespace zoneplate

@@ -18,6 +18,9 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 void parallel_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
 /// Runs `body` with `threads` threads at most (0: as many as the machine has cores it may use).
+///
+/// Cost      the threads are started by the first loop that has work for them and end with `body`; a loop outside of
+///           every `with_threads` has threads of its own.
 void with_threads(int threads, const std::function<void()>& body);
 
 /// The index of the calling thread within the innermost `with_threads`, in [0, thread_limit()).

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/png_parts.h"
 
 namespace zoneplate {
 namespace {
@@ -315,6 +316,8 @@ std::vector<std::uint8_t> encode_indexed(const Rgba8Image& image, const std::vec
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Rgba8Image& image, const PngOptions& options) {
+  const bool is_plain = !options.is_small && !options.may_be_indexed && options.text.empty();
+  if (is_plain && image.width() > 0 && image.height() > 0) return encode_png_parts(image, options);
   if (options.may_be_indexed && !options.has_alpha)
     if (const std::vector<std::uint32_t> colors = colors_of(image); !colors.empty())
       return encode_indexed(image, colors, options);

@@ -127,23 +127,49 @@ float fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int 
   return hn::GetLane(hn::MinOfLanes(d, least_z));
 }
 
+HWY_INLINE hn::Mask<F> inside(VI e0, VI e1, VI e2) {
+  return hn::Not(hn::MaskFromVec(hn::BitCast(F(), hn::BroadcastSignBit(hn::Or(hn::Or(e0, e1), e2)))));
+}
+
 /// Draws rows [top, bottom] of a block. Gives true if the triangle won every sample.
-bool draw_block(const TileTriangle& t, const Step& step, const TileVisibility& tile, int bx, int top, int bottom) {
+///
+/// What Step::wins computes, with everything taken out of the loop over samples that is the same for all of them.
+bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, const TileVisibility& tile, int bx,
+                int top, int bottom) {
   const F d;
   const I di;
-  const int lanes = static_cast<int>(hn::Lanes(d));
   bool all = true;
-  for (int s = 0; s < tile.sample_count; ++s)
-    for (int y = top; y <= bottom; ++y)
-      for (int x = bx; x < bx + 8; x += lanes) {
-        VF z;
-        const auto mask = step.wins(t, tile, s, x, y, z);
+  for (int x = bx; x < bx + 8; x += static_cast<int>(hn::Lanes(d))) {
+    const VF across = hn::Mul(step.dzdx, hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), step.lane));
+    VI e0 = hn::Add(step.ramp[0], hn::Set(di, t.a[0] * x + t.b[0] * top));
+    VI e1 = hn::Add(step.ramp[1], hn::Set(di, t.a[1] * x + t.b[1] * top));
+    VI e2 = hn::Add(step.ramp[2], hn::Set(di, t.a[2] * x + t.b[2] * top));
+    for (int y = top; y <= bottom; ++y) {
+      const auto some =
+          inside(hn::Add(e0, hn::Set(di, spread.c_greatest[0])), hn::Add(e1, hn::Set(di, spread.c_greatest[1])),
+                 hn::Add(e2, hn::Set(di, spread.c_greatest[2])));
+      const int samples = hn::AllFalse(d, some) ? 0 : tile.sample_count;
+      all = all && samples > 0;
+      const float down = t.dzdy * static_cast<float>(y - t.origin_y);
+      float* depth = tile.depth + y * tile_size + x;
+      std::int32_t* id = tile.id + y * tile_size + x;
+      for (int s = 0; s < samples; ++s, depth += tile_pixels, id += tile_pixels) {
+        const auto covered = inside(hn::Add(e0, hn::Set(di, t.c[0][s])), hn::Add(e1, hn::Set(di, t.c[1][s])),
+                                    hn::Add(e2, hn::Set(di, t.c[2][s])));
+        const VF z = hn::Min(hn::Max(hn::Add(hn::Set(d, t.z[s] + down), across), step.z_low), step.z_high);
+        const VF held = hn::Load(d, depth);
+        const VI owner = hn::Load(di, id);
+        const auto lower_id = hn::RebindMask(d, hn::Lt(step.id, owner));
+        const auto mask = hn::And(covered, hn::Or(hn::Gt(z, held), hn::And(hn::Eq(z, held), lower_id)));
         all = all && hn::AllTrue(d, mask);
-        if (hn::AllFalse(d, mask)) continue;
-        const int at = s * tile_pixels + y * tile_size + x;
-        hn::BlendedStore(z, mask, d, tile.depth + at);
-        hn::BlendedStore(step.id, hn::RebindMask(di, mask), di, tile.id + at);
+        hn::Store(hn::IfThenElse(mask, z, held), d, depth);
+        hn::Store(hn::IfThenElse(hn::RebindMask(di, mask), step.id, owner), di, id);
       }
+      e0 = hn::Add(e0, hn::Set(di, t.b[0]));
+      e1 = hn::Add(e1, hn::Set(di, t.b[1]));
+      e2 = hn::Add(e2, hn::Set(di, t.b[2]));
+    }
+  }
   return all;
 }
 
@@ -164,7 +190,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       }
       tile.open_block(block);
       const int top = greatest(by, t.first_y), bottom = least(by + 7, t.last_y);
-      const bool all = draw_block(t, step, tile, bx, top, bottom);
+      const bool all = draw_block(t, spread, step, tile, bx, top, bottom);
       if (place != Block::Inside) continue;
       tile.block_far[block] = farthest(tile, bx, by);
       if (all) tile.block_owner[block] = t.id;

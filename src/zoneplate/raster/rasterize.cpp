@@ -15,16 +15,20 @@ RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, c
                        const Target& target, RasterMemory* memory) {
   RasterCounts counts;
   const Stopwatch geometry;
+  Stopwatch stage;
   RasterMemory own;
   RasterMemory& kept = memory ? *memory : own;
   kept.projected = project_draws(draws, target.viewport, rules.isa, std::move(kept.projected));
+  counts.stages.vertices = stage.lap_ms();
   kept.bins =
       bin_triangles(kept.projected, target,
                     {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter},
                     rules.isa, std::move(kept.bins));
   const ProjectedDraws& projected = kept.projected;
   const Bins& bins = kept.bins;
+  counts.stages.triangles = stage.ms();
   counts.geometry_ms = geometry.ms();
+  for (const Draw& draw : draws) counts.vertices += draw.vertices();
   counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
   counts.set_up = bins.set_up;
 
@@ -37,7 +41,7 @@ RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, c
     mine->render(tile);
   });
   for (const auto& renderer : renderers)
-    if (renderer) counts.shaded += renderer->shaded();
+    if (renderer) counts.shaded += renderer->shaded(), counts.stages += renderer->times();
   counts.tiles_ms = tiles.ms();
   return counts;
 }

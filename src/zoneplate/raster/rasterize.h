@@ -5,6 +5,7 @@
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/draw.h"
 #include "zoneplate/raster/setup.h"
+#include "zoneplate/raster/stage_times.h"
 #include "zoneplate/raster/target.h"
 
 namespace zoneplate {
@@ -33,11 +34,13 @@ struct RasterRules {
 struct RasterMemory {
   ProjectedDraws projected;
   Bins bins;
+  Rgba8Image shown;  ///< an earlier picture that is done with, where there is one
 };
 
 struct RasterCounts {
   double geometry_ms = 0, tiles_ms = 0;
-  std::uint64_t triangles = 0, set_up = 0, shaded = 0;
+  StageTimes stages;
+  std::uint64_t vertices = 0, triangles = 0, set_up = 0, shaded = 0;
 };
 
 /// Draws triangles into a target: project, clip, set up, sort into tiles; then for each tile what is visible, shading

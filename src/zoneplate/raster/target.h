@@ -12,7 +12,7 @@
 namespace zoneplate {
 
 /// Where rasterizing puts its results. Every plane that is not null has the size of the rectangle, and holds what is
-/// to stay where no triangle is: `color` and `coverage` 0, `shown` the background.
+/// to stay where no triangle is: `color` and `coverage` 0. `shown` is written whole, the background too.
 struct Target {
   Viewport viewport;                        ///< the whole picture
   int x = 0, y = 0, width = 0, height = 0;  ///< the rectangle that is drawn, in the picture's pixels

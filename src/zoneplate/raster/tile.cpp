@@ -50,6 +50,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
 }
 
 void TileRenderer::render(std::size_t tile) {
+  watch_.lap_ms();
   gather(tile);
   if (is_plain()) return render_plain();
   std::fill(sum_.begin(), sum_.end(), Linear{0, 0, 0, 0});
@@ -59,6 +60,7 @@ void TileRenderer::render(std::size_t tile) {
   const int step = target_.is_per_sample ? samples_per_pass : total;
   for (int first = 0; first < total; first += step) render_pass(first, std::min(step, total - first));
   finish();
+  times_.output += watch_.lap_ms();
 }
 
 void TileRenderer::gather(std::size_t tile) {
@@ -112,21 +114,26 @@ void TileRenderer::begin_pass(int first_sample, int sample_count) {
 }
 
 void TileRenderer::render_plain() {
-  if (sources_[0].empty() && sources_[1].empty() && !has_layers() && !has_fragments()) return;
+  if (sources_[0].empty() && sources_[1].empty() && !has_layers() && !has_fragments()) return write_background();
   begin_pass(0, static_cast<int>(target_.samples.size()));
   draw_opaque();
   draw_masked();
+  times_.visibility += watch_.lap_ms();
   find_rows();
   begin_colors();
   shade_rows();
   shader_.shade(points_, colors_, nullptr);
+  times_.shading += watch_.lap_ms();
   resolve_points();
   if (has_layers()) {
+    times_.output += watch_.lap_ms();
     visibility_.open_all();
     find_first_points();
     for (int y = 0; y < tile_size; y += 8) layer_strip(std::max(y, top_), std::min(y + 8, bottom_));
+    times_.blending += watch_.lap_ms();
   }
   write_colors();
+  times_.output += watch_.lap_ms();
 }
 
 /// Where nothing may be seen the colours begin as nothing.
@@ -237,10 +244,13 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
   begin_pass(first_sample, sample_count);
   draw_opaque();
   draw_masked();
+  times_.visibility += watch_.lap_ms();
   visibility_.open_all();
   find_points();
   shader_.shade(points_, colors_, &data_);
+  times_.shading += watch_.lap_ms();
   accumulate();
+  times_.blending += watch_.lap_ms();
   note_nearest();
 }
 

@@ -4,11 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "zoneplate/base/clock.h"
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/points.h"
 #include "zoneplate/raster/rasterize.h"
 #include "zoneplate/raster/resolve.h"
+#include "zoneplate/raster/stage_times.h"
 
 namespace zoneplate {
 
@@ -25,6 +27,7 @@ class TileRenderer {
   void render(std::size_t tile);
 
   std::uint64_t shaded() const { return shader_.shaded(); }
+  const StageTimes& times() const { return times_; }
 
  private:
   /// A blended or masked triangle over one pixel: the samples where it is in front, with its depth at each.
@@ -78,6 +81,7 @@ class TileRenderer {
   void layer_slow_rows(int top, int bottom);
   void begin_colors();
   void write_colors();
+  void write_background();
 
   void find_points();
   void blend(int top, int bottom);
@@ -105,6 +109,8 @@ class TileRenderer {
   const Target& target_;
   PointBatcher shader_;
 
+  StageTimes times_;
+  Stopwatch watch_;
   std::size_t tile_ = 0;                             ///< its number in the bins
   int tile_x_ = 0, tile_y_ = 0;                      ///< first pixel of the tile in the picture
   int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  ///< the part to be drawn, in the tile

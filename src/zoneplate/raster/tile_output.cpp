@@ -58,6 +58,13 @@ void TileRenderer::write_colors() {
   }
 }
 
+void TileRenderer::write_background() {
+  if (!target_.shown) return;
+  for (int y = top_; y < bottom_; ++y)
+    std::fill_n(&(*target_.shown)(tile_x_ + left_ - target_.x, tile_y_ + y - target_.y), right_ - left_,
+                target_.presenter->background());
+}
+
 void TileRenderer::finish() {
   resolve_.divide(sum_.data(), weight_sum_, tile_pixels, color_.data());
   write_colors();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
@@ -60,6 +61,12 @@ Surroundings surroundings_of(const Scene& scene, const Camera& camera, const flo
   return s;
 }
 
+/// The tiles write all of the picture that is shown: memory of an earlier one does as well.
+Rgba8Image make_shown(int w, int h, RasterMemory* memory) {
+  const bool fits = memory && memory->shown.width() == w && memory->shown.height() == h;
+  return fits ? std::move(memory->shown) : Rgba8Image(w, h);
+}
+
 void make_planes(const Planes& planes, const SamplePattern& samples, int w, int h, Frame& frame, Target& target) {
   const auto make = [&](bool wanted, auto& plane, auto*& pointer, auto empty) {
     if (!wanted) return;
@@ -67,7 +74,6 @@ void make_planes(const Planes& planes, const SamplePattern& samples, int w, int 
     pointer = &plane;
   };
   make(!target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
-  if (target.presenter) make(true, frame.shown, target.shown, target.presenter->background());
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
   make(planes.albedo, frame.albedo, target.albedo, float3{});
@@ -132,6 +138,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   std::optional<Presenter> presenter;
   if (options.shown) target.presenter = &presenter.emplace(*options.shown);
   make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
+  if (target.presenter) target.shown = &(frame.shown = make_shown(crop.width, crop.height, options.memory));
   const double prepare_ms = prepare.ms();
 
   const RasterCounts c = rasterize(draws.draws, points,
@@ -146,6 +153,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
     *counts = {.prepare_ms = prepare_ms,
                .geometry_ms = c.geometry_ms,
                .tiles_ms = c.tiles_ms,
+               .stages = c.stages,
+               .vertices = c.vertices,
                .triangles = c.triangles,
                .triangles_set_up = c.set_up,
                .shaded = c.shaded};

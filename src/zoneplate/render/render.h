@@ -4,6 +4,7 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/raster/stage_times.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
 #include "zoneplate/scene/scene.h"
@@ -55,6 +56,8 @@ struct RenderOptions {
 /// Where time went and how much was done.
 struct RenderCounts {
   double prepare_ms = 0, geometry_ms = 0, tiles_ms = 0;
+  StageTimes stages;                   ///< of geometry and tiles
+  std::uint64_t vertices = 0;          ///< of all draws
   std::uint64_t triangles = 0;         ///< given
   std::uint64_t triangles_set_up = 0;  ///< after culling and clipping
   std::uint64_t shaded = 0;            ///< points shaded

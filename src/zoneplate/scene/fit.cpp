@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/angle.h"
@@ -36,15 +37,26 @@ std::vector<float3> view_directions(const Camera& camera, float picture_aspect, 
   return directions;
 }
 
+// The vertices that primitives use, each once (a mesh has some six indices a vertex), in the order of their first use,
+// which decides between points that lie equally far.
+std::vector<std::uint32_t> used_vertices(const Mesh& mesh) {
+  std::vector<std::uint8_t> is_known(mesh.position.size());
+  std::vector<std::uint32_t> used;
+  used.reserve(mesh.position.size());
+  for (const std::uint32_t v : mesh.index)
+    if (!std::exchange(is_known[v], std::uint8_t{1})) used.push_back(v);
+  return used;
+}
+
 // Blocks of vertices are searched apart and compared in their order, so that ties do not depend on threads.
-void add_instance(const Mesh& mesh, const float4x4& world_from_object, std::span<const float3> directions,
-                  Farthest& all) {
+void add_instance(const Mesh& mesh, std::span<const std::uint32_t> vertices, const float4x4& world_from_object,
+                  std::span<const float3> directions, Farthest& all) {
   constexpr std::size_t block = 16384;
-  std::vector<Farthest> found((mesh.index.size() + block - 1) / block, Farthest(directions.size()));
-  parallel_ranges(mesh.index.size(), block, [&](std::size_t begin, std::size_t end) {
+  std::vector<Farthest> found((vertices.size() + block - 1) / block, Farthest(directions.size()));
+  parallel_ranges(vertices.size(), block, [&](std::size_t begin, std::size_t end) {
     Farthest& mine = found[begin / block];
     for (std::size_t i = begin; i < end; ++i) {
-      const float3 p = transform_point(world_from_object, mesh.position[mesh.index[i]]);
+      const float3 p = transform_point(world_from_object, mesh.position[vertices[i]]);
       for (std::size_t d = 0; d < directions.size(); ++d) mine.add(d, dot(directions[d], p), p);
     }
   });
@@ -58,8 +70,13 @@ Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) 
   const Camera rough = fit_camera(scene.bounds(), picture_aspect, fit);
   const std::vector<float3> directions = view_directions(rough, picture_aspect, fit.margin);
   Farthest all(directions.size());
-  for (const Instance& instance : scene.instances)
-    add_instance(scene.meshes[static_cast<std::size_t>(instance.mesh)], instance.world_from_object, directions, all);
+  std::vector<std::vector<std::uint32_t>> vertices(scene.meshes.size());
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    std::vector<std::uint32_t>& used = vertices[static_cast<std::size_t>(instance.mesh)];
+    if (used.empty()) used = used_vertices(mesh);
+    add_instance(mesh, used, instance.world_from_object, directions, all);
+  }
   if (!(all.reach[0] > -std::numeric_limits<float>::infinity())) return rough;
   return fit_camera(std::span<const float3>(all.point), picture_aspect, fit);
 }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "zoneplate/base/isa.h"
+
+namespace zoneplate::cli {
+
+/// What the machine can do at best with the threads of the innermost `with_threads`; the measure of what stages take.
+struct MachineLimits {
+  double read_gb_s = 0, write_gb_s = 0;  ///< memory, not caches: 10^9 bytes a second, all threads together
+  double clear_ms = 0;                   ///< 1920 × 1080 pixels of colour and depth, 8 bytes each, written once more
+  double first_touch_ms = 0;             ///< the same bytes in memory that the system has not given before
+  double gather_l1_ns = 0, gather_l2_ns = 0, gather_l3_ns = 0;  ///< eight words from 8 KiB, 256 KiB, 4 MiB; one thread
+};
+
+/// The best of several turns each; some tenths of a second.
+MachineLimits measure_limits();
+
+struct LimitKernels {
+  /// The sum of n words. Requires: n a multiple of 32.
+  std::uint32_t (*sum)(const std::uint32_t* words, std::size_t n);
+  /// The sum of table[index[i]] for n indices. Requires: n a multiple of 32.
+  std::uint32_t (*gather)(const std::uint32_t* table, const std::int32_t* index, std::size_t n);
+};
+
+}  // namespace zoneplate::cli
+
+namespace zoneplate::scalar {
+extern const cli::LimitKernels limit_kernels;
+}
+namespace zoneplate::N_SSE4 {
+extern const cli::LimitKernels limit_kernels;
+}
+namespace zoneplate::N_AVX2 {
+extern const cli::LimitKernels limit_kernels;
+}
+
+namespace zoneplate::cli {
+inline const LimitKernels& limit_kernels(Isa isa) {
+  return pick(isa, scalar::limit_kernels, N_SSE4::limit_kernels, N_AVX2::limit_kernels);
+}
+}  // namespace zoneplate::cli

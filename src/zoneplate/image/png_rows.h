@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "zoneplate/base/isa.h"
+
+namespace zoneplate {
+
+/// What is done to every byte of a picture before it is compressed.
+struct PngRowKernels {
+  /// PNG's filter Up: row - above for n bytes, modulo 256.
+  void (*up)(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, std::uint8_t* out);
+  /// The same for n pixels of four bytes, of which the fourth is left out.
+  void (*up_rgb)(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, std::uint8_t* out);
+  /// Adler-32 of the n bytes: (sum of all prefix sums) << 16 | sum, both modulo 65521 and begun with 1.
+  ///
+  /// Source    RFC 1950.
+  std::uint32_t (*adler)(const std::uint8_t* p, std::size_t n);
+};
+
+namespace scalar {
+extern const PngRowKernels png_row_kernels;
+}
+namespace N_SSE4 {
+extern const PngRowKernels png_row_kernels;
+}
+namespace N_AVX2 {
+extern const PngRowKernels png_row_kernels;
+}
+inline const PngRowKernels& png_row_kernels(Isa isa) {
+  return pick(isa, scalar::png_row_kernels, N_SSE4::png_row_kernels, N_AVX2::png_row_kernels);
+}
+
+}  // namespace zoneplate
