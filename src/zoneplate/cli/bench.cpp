@@ -1,6 +1,5 @@
 // zoneplate bench: frames of the benchmark scenes, timed stage by stage.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/image/tonemap.h"
@@ -36,13 +36,6 @@ struct BenchArgs {
 };
 
 constexpr std::string_view bench_scenes[] = {"tri1m", "fill", "fillblend", "city", "city-trilinear", "micro"};
-
-double processor_ms() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto ms = [](timeval t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
-  return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
 
 // Busy time of all processors, from /proc/stat in hundredths of a second; 0 where there is none.
 double machine_busy_ms() {

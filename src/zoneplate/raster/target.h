@@ -17,6 +17,8 @@ struct Target {
   Viewport viewport;                        ///< the whole picture
   int x = 0, y = 0, width = 0, height = 0;  ///< the rectangle that is drawn, in the picture's pixels
 
+  const Plane<std::uint8_t>* where = nullptr;  ///< pixels that are not 0 here are drawn; null: all
+
   SamplePattern samples;
   std::vector<float> weights;  ///< one a sample; empty: all equal
   bool is_per_sample = false;  ///< shade every sample by itself

@@ -101,7 +101,8 @@ bool TileRenderer::is_plain() const {
   const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.sample_color && !has_passes && !(target_.is_per_sample && has_layers());
+  return !has_planes && !target_.where && !target_.sample_color && !has_passes &&
+         !(target_.is_per_sample && has_layers());
 }
 
 void TileRenderer::begin_pass(int first_sample, int sample_count) {
@@ -272,7 +273,7 @@ void TileRenderer::find_points() {
   points_.clear();
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) {
     first_point_[pixel] = static_cast<std::uint32_t>(points_.size());
-    if (!is_in_rectangle(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;
+    if (!is_wanted(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;
     add_pixel(pixel);
   }
   first_point_[tile_pixels] = static_cast<std::uint32_t>(points_.size());

@@ -92,7 +92,10 @@ class TileRenderer {
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void finish();
 
-  bool is_in_rectangle(int x, int y) const { return x >= left_ && x < right_ && y >= top_ && y < bottom_; }
+  bool is_wanted(int x, int y) const {
+    return x >= left_ && x < right_ && y >= top_ && y < bottom_ &&
+           (!target_.where || (*target_.where)(tile_x_ + x - target_.x, tile_y_ + y - target_.y));
+  }
   /// True if all eight pixels are to be drawn; rows as in `row_owner_`, or as columns of blocks.
   bool is_whole_row(int row) const { return row % 8 * 8 >= left_ && row % 8 * 8 + 8 <= right_; }
   bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }

@@ -19,7 +19,7 @@ void TileRenderer::collect_layers(Surface surface, int top, int bottom, const st
     for (int i = 0; i < count; ++i) {
       const Fragment& f = fragments_[static_cast<std::size_t>(i)];
       const int x = static_cast<int>(f.pixel % tile_size), y = static_cast<int>(f.pixel / tile_size);
-      if (!is_in_rectangle(x, y) || (rows && !rows[f.pixel / 8])) continue;
+      if (!is_wanted(x, y) || (rows && !rows[f.pixel / 8])) continue;
       layers_.push_back({f.samples, f.pixel, t->id, static_cast<std::uint32_t>(layer_depths_.size())});
       for (std::uint64_t left = f.samples; left; left &= left - 1)
         layer_depths_.push_back(depth_at(tile_triangle_, std::countr_zero(left), x, y));
@@ -86,7 +86,7 @@ void TileRenderer::blend(int top, int bottom) {
        pixel < static_cast<std::uint32_t>(bottom * tile_size); ++pixel) {
     std::size_t last = first;
     while (last < layers_.size() && layers_[last].pixel == pixel) ++last;
-    if (is_in_rectangle(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size)))
+    if (is_wanted(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size)))
       blend_pixel(pixel, first, last);
     first = last;
   }

@@ -40,7 +40,7 @@ struct Frame {
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
   Plane<float> coverage;
 
-  DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::finish`
+  DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::resolve`
 
   std::vector<LinearImage> sample_color;              ///< by sample
   std::vector<Plane<float>> sample_depth;             ///< reversed

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,7 +29,9 @@ struct Request {
   Rate rate = Rate::Surface;
   std::vector<float> weights;  ///< one a sample; empty: all equal
   Planes planes;
-  bool is_local = false;  ///< the mean is the method's last word: `resolve` and `finish` change nothing
+  Plane<std::uint8_t> where;  ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
+  float footprint = 0;        ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  bool is_local = false;      ///< the mean is the method's last word: `resolve` and `finish` change nothing
   int halo = 0;  ///< pixels beyond a picture's sides that `finish` would read, so that a crop has the whole's bits
 };
 
@@ -37,6 +40,9 @@ class Resolver {
  public:
   virtual ~Resolver() = default;
   virtual Request ask(int /*frame*/) { return {}; }
+  /// What to render more after a look at this frame, from which the method takes what it keeps; nothing when it has
+  /// seen enough. `resolve` gets the last frame.
+  virtual std::optional<Request> ask_again(Frame& /*frame*/) { return std::nullopt; }
   virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }               ///< before tone mapping
   virtual DisplayImage finish(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
 };
@@ -74,6 +80,8 @@ struct Method {
   std::string_view name, summary, source;
   std::span<const Param> params = {};
   std::function<std::unique_ptr<Resolver>(const Settings&)> make;
+  std::span<const std::string_view> variants = {};  ///< parameters worth comparing beside the defaults: "n=8"
+  bool is_reference = false;                        ///< what others are measured against: not one of `compare --aa all`
   bool is_specification_only = false;  ///< held to its text alone: there was no other implementation to compare with
 };
 

@@ -112,7 +112,9 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   target.weights = request.weights;
   target.is_per_sample = request.rate == Rate::Sample;
   if (target.is_per_sample && options.sample_footprint)
-    target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
+    target.spacing =
+        request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  if (!request.where.empty()) target.where = &request.where;
   std::optional<Presenter> presenter;
   if (options.shown) target.presenter = &presenter.emplace(*options.shown);
   make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
