@@ -67,7 +67,8 @@ std::string scenes_text() {
   std::string text = "Built-in scenes (in place of a file; NAME:PARAMETER=VALUE):\n";
   for (const BuiltinScene& scene : builtin_scenes()) {
     const std::string params = scene.params.empty() ? "" : fmt::format(" [{}]", scene.params);
-    text += fmt::format("  {:<16}{}{}\n", scene.name, scene.summary, params);
+    const std::string failure = scene.failure.empty() ? "" : fmt::format(" ({})", scene.failure);
+    text += fmt::format("  {:<16}{}{}{}\n", scene.name, scene.summary, failure, params);
   }
   return text;
 }
@@ -75,7 +76,11 @@ std::string scenes_text() {
 Json scenes_json() {
   Json::Array rows;
   for (const BuiltinScene& scene : builtin_scenes())
-    rows.emplace_back(Json::Object{{"name", scene.name}, {"summary", scene.summary}, {"parameters", scene.params}});
+    rows.emplace_back(Json::Object{{"name", scene.name},
+                                   {"summary", scene.summary},
+                                   {"parameters", scene.params},
+                                   {"class", scene.failure},
+                                   {"complaint", scene.complaint}});
   return rows;
 }
 
