@@ -58,9 +58,11 @@ std::optional<Crop> rendered_crop(const RenderOptions& options, int halo) {
 }
 
 // The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
-void check_memory(const RenderArgs& args, int halo) {
-  const std::uint64_t bytes_per_pixel = args.aovs.empty() ? 44 : 104;
-  const std::optional<Crop> crop = rendered_crop(args.options, halo);
+void check_memory(const RenderArgs& args, const Request& request) {
+  constexpr std::uint64_t bytes_per_sample = 24;  // where every sample is stored: colour, depth, triangle
+  const std::uint64_t bytes_per_pixel =
+      (args.aovs.empty() ? 44 : 104) + (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
+  const std::optional<Crop> crop = rendered_crop(args.options, request.halo);
   const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
@@ -176,7 +178,7 @@ void run_render(std::span<const std::string> arguments) {
   RenderArgs args = *parsed;
   const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
   check_writable(args.output);
-  check_memory(args, resolver->ask(0).halo);
+  check_memory(args, resolver->ask(0));
   if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
 
   const Stopwatch total_watch;

@@ -11,6 +11,14 @@
 
 namespace zoneplate {
 
+/// Where a masked surface is there, at the samples that a triangle covers.
+enum class AlphaTest {
+  Pixel,     ///< at all or none of them: alpha at the point that is shaded
+  Samples,   ///< alpha at each sample by itself
+  Coverage,  ///< at as many as alpha says
+  Sharp,     ///< the same of alpha made steep about the cutoff: its edge is a pixel wide
+};
+
 /// Where rasterizing puts its results. Every plane that is not null has the size of the rectangle, and holds what is
 /// to stay where no triangle is: `color` and `coverage` 0, `shown` the background.
 struct Target {
@@ -20,9 +28,10 @@ struct Target {
   const Plane<std::uint8_t>* where = nullptr;  ///< pixels that are not 0 here are drawn; null: all
 
   SamplePattern samples;
-  std::vector<float> weights;  ///< one a sample; empty: all equal
-  bool is_per_sample = false;  ///< shade every sample by itself
-  float spacing = 1;           ///< the footprint of a shaded point, in pixels
+  std::vector<float> weights;          ///< one a sample; empty: all equal
+  bool is_per_sample = false;          ///< shade every sample by itself
+  AlphaTest alpha = AlphaTest::Pixel;  ///< where not every sample is shaded
+  float spacing = 1;                   ///< the footprint of a shaded point, in pixels
 
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
   Rgba8Image* shown = nullptr;   ///< the same as `presenter` shows it; both or neither

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "zoneplate/raster/alpha_coverage.h"
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/points.h"
@@ -61,6 +62,8 @@ class TileRenderer {
   void draw_fragments();
   bool has_fragments() const;
   void draw_masked();
+  void test_alpha();
+  std::uint64_t rotated_samples(std::uint32_t pixel, int count) const;
 
   /// True if the picture's colour is all that is wanted, and all of it can be had from the owners of the samples.
   bool is_plain() const;
@@ -84,8 +87,9 @@ class TileRenderer {
   void blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last);
   void add_layers(std::size_t first, std::size_t last, Linear* behind);
   void collect_layers(Surface surface, int top, int bottom, const std::uint8_t* rows);
-  void find_layer_points();
-  void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, std::vector<Point>& points) const;
+  void find_layer_points(bool is_each_sample);
+  void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
+                  std::vector<Point>& points) const;
   void accumulate();
   void add_surfaces(std::uint32_t pixel);
   void note_nearest();
@@ -107,6 +111,8 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const Target& target_;
   PointBatcher shader_;
+  AlphaDigits digits_;
+  PointBatcher digit_batcher_;
 
   std::size_t tile_ = 0;                             ///< its number in the bins
   int tile_x_ = 0, tile_y_ = 0;                      ///< first pixel of the tile in the picture
@@ -136,6 +142,8 @@ class TileRenderer {
   std::vector<float> layer_depths_;
   std::vector<Point> layer_points_;
   std::vector<std::uint32_t> point_of_layer_;
+  std::vector<std::uint8_t> is_there_;
+  std::vector<std::uint64_t> alpha_samples_;  ///< by point: the samples where alpha lets it be
   std::vector<Linear> layer_colors_;
   std::vector<Over> overs_;
 

@@ -105,11 +105,13 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   const ScenePoints points(scene, surroundings_of(scene, camera, options), options.textures);
 
   Frame frame;
+  frame.x = crop.x, frame.y = crop.y;
   Target target;
   target.viewport = {options.width, options.height};
   target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
   target.samples = request.samples;
   target.weights = request.weights;
+  target.alpha = request.alpha;
   target.is_per_sample = request.rate == Rate::Sample;
   if (target.is_per_sample && options.sample_footprint)
     target.spacing =
