@@ -257,8 +257,7 @@ void compare_all(const CompareArgs& args, const TrialOptions& options) {
     progress.begin(name + ", pictures", done++ / steps);
     add_files(scene, files);
     // What is written already need not be kept.
-    for (Trial& t : scene.trials)
-      for (metrics::Result& r : t.results) r.score.map = {};
+    for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
     scenes.push_back(std::move(scene));
   }
   const std::string text = report_text(scenes);

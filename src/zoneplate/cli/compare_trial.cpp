@@ -54,6 +54,7 @@ Trial rendered(const Stage& stage, const std::string& method, int turns) {
     trial.memory = memory_watch.rise();
     trial.counts = counts;
     trial.picture = opaque(std::move(picture));
+    trial.pixels = trial.picture.values().size();
   }
   return trial;
 }
@@ -93,9 +94,7 @@ double Trial::least_ms() const { return *std::ranges::min_element(frame_ms); }
 
 double Trial::least_processor_ms() const { return *std::ranges::min_element(processor_ms); }
 
-double Trial::shaded_per_pixel() const {
-  return static_cast<double>(counts.shaded) / static_cast<double>(picture.values().size());
-}
+double Trial::shaded_per_pixel() const { return static_cast<double>(counts.shaded) / static_cast<double>(pixels); }
 
 std::optional<double> Trial::value(std::string_view name) const {
   const std::size_t dot = name.find('.');

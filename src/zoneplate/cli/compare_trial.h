@@ -22,6 +22,7 @@ struct Place {
 struct Trial {
   std::string method;
   Rgba8Image picture;
+  std::uint64_t pixels = 0;             ///< of the picture
   std::vector<double> frame_ms;         ///< of each turn, from the scene in memory to the codes
   std::vector<double> processor_ms;     ///< the same on all processors together, which other programs disturb less
   RenderCounts counts;                  ///< of the first turn
