@@ -34,13 +34,12 @@ struct Gathering {
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
-inline constexpr Param resolve_param = {.name = "resolve",
-                                        .meaning =
-                                            "what is averaged: light, light with less weight the brighter it "
-                                            "is, light mapped and mapped back, or what is shown",
-                                        .names = resolve_names};
+inline constexpr Param resolve_param = {
+    .name = "resolve",
+    .meaning = "averages light, light that weighs less the brighter, or what is shown",
+    .names = resolve_names};
 inline constexpr Param filter_param = {
-    .name = "filter", .meaning = "over samples of the pixels around too; pixel: its own alone", .names = filter_names};
+    .name = "filter", .meaning = "over samples of pixels around too, or the pixel's own", .names = filter_names};
 inline constexpr Param radius_param = {.name = "radius",
                                        .meaning = "of the filter, in pixels; 0: its own",
                                        .value = 0,

@@ -245,6 +245,8 @@ std::vector<std::string> scenes_of(const std::vector<std::string>& operands) {
 }
 
 void compare_all(const CompareArgs& args, const TrialOptions& options) {
+  static_cast<void>(
+      plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));  // fails at once where plots cannot be drawn, not after the work
   Progress progress(args.render.progress ? *args.render.progress : parse_progress("auto"));
   std::vector<SceneTrials> scenes;
   std::vector<OutputFile> files;
