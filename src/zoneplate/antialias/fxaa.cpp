@@ -301,6 +301,8 @@ class Fxaa : public Resolver {
   FxaaOptions options_;
 };
 
+constexpr std::string_view variants[] = {"preset=39", "preset=console"};
+
 }  // namespace
 
 Method fxaa();
@@ -310,7 +312,8 @@ Method fxaa() {
           .summary = "one fetch across each edge, as far as its ends are near",
           .source = "Lottes 2011, FXAA 3.11",
           .params = params,
-          .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<Fxaa>(options_of(s)); }};
+          .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<Fxaa>(options_of(s)); },
+          .variants = variants};
 }
 
 }  // namespace antialias

@@ -101,6 +101,8 @@ constexpr int counts[] = {2, 4, 8, 16};
 constexpr Param params[] = {
     {.name = "n", .meaning = "places of the standard pattern where surfaces are known", .value = 8, .choices = counts}};
 
+constexpr std::string_view variants[] = {"n=4"};
+
 }  // namespace
 
 Method idsraa();
@@ -112,6 +114,7 @@ Method idsraa() {
       .source = "after Chajdas 2011",
       .params = params,
       .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<IdSraa>(s.integer("n")); },
+      .variants = variants,
       .is_specification_only = true};
 }
 

@@ -197,6 +197,8 @@ std::unique_ptr<Resolver> make(const Settings& s) {
                                             .mixes_light = s.chosen("mix") == "light"});
 }
 
+constexpr std::string_view variants[] = {"kind=reshetov"};
+
 }  // namespace
 
 Method mlaa();
@@ -207,6 +209,7 @@ Method mlaa() {
           .source = "Reshetov 2009, Jimenez 2011",
           .params = params,
           .make = make,
+          .variants = variants,
           .is_specification_only = true};
 }
 

@@ -1,41 +1,79 @@
 // Multisampling: coverage and depth at every sample, shading once per surface and pixel.
 //
 // Smooths the edges of geometry at little more than the cost of one sample; does nothing for what shading itself
-// makes of a pixel: textures, highlights, alpha tests. Because visibility is kept per sample and shading is deferred, a
-// pixel where two surfaces meet mixes their two colours and never the background's (the black edge of one depth a
-// pixel).
+// makes of a pixel: textures, highlights. Because visibility is kept per sample and shading is deferred, a pixel where
+// two surfaces meet mixes their two colours and never the background's (the black edge of one depth a pixel). Alpha
+// tests are edges that coverage does not see, unless alpha is made into coverage.
 //
 // Source: Akeley, RealityEngine Graphics, SIGGRAPH 1993; patterns of Direct3D 11.1 and Vulkan. A surface that owns
-// every sample is shaded at the pixel's centre, another at its first sample (centroid sampling).
+// every sample is shaded at the pixel's centre, another at its first sample (centroid sampling). Sharpened alpha:
+// Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
+#include "zoneplate/antialias/sample_gather.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
 namespace {
 
 class Msaa : public Resolver {
  public:
-  explicit Msaa(SamplePattern pattern) : pattern_(std::move(pattern)) {}
+  Msaa(SamplePattern pattern, Gathering gathering, AlphaTest alpha)
+      : pattern_(std::move(pattern)), gathering_(std::move(gathering)), gather_(gathering_), alpha_(alpha) {}
   Request ask(int) override {
-    return {.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .is_local = true};
+    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
+    request.alpha = alpha_;
+    request.is_local = gathering_.is_plain();
+    request.planes.samples = !gathering_.is_plain();
+    request.halo = gathering_.reach();
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (gathering_.is_plain()) return std::move(frame.color);
+    gather_ = SampleGather(gathering_);
+    gather_.add(frame, pattern_);
+    return gather_.light();
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
   }
 
  private:
   SamplePattern pattern_;
+  Gathering gathering_;
+  SampleGather gather_;
+  AlphaTest alpha_;
 };
 
 constexpr int counts[] = {2, 4, 8, 16};
+constexpr std::string_view alphas[] = {"test", "samples", "coverage", "sharp"};
 constexpr Param params[] = {
     {.name = "n", .meaning = "samples of the standard pattern", .value = 4, .choices = counts},
     {.name = "grid", .meaning = "a regular grid of grid × grid samples, instead of n", .value = 4, .low = 1, .high = 8},
+    resolve_param,
+    filter_param,
+    radius_param,
+    {.name = "alpha",
+     .meaning = "of masked surfaces: tested once a pixel or at every sample, or made into coverage, sharpened or not",
+     .names = alphas},
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   if (s.is_given("n") && s.is_given("grid"))
     throw Error(Trouble::Usage, "msaa: n and grid exclude each other: n is a standard pattern, grid a regular one");
-  return std::make_unique<Msaa>(s.is_given("grid") ? grid_pattern(s.integer("grid"))
-                                                   : standard_pattern(s.integer("n")));
+  return std::make_unique<Msaa>(s.is_given("grid") ? grid_pattern(s.integer("grid")) : standard_pattern(s.integer("n")),
+                                gathering_of("msaa", s), static_cast<AlphaTest>(s.integer("alpha")));
 }
+
+constexpr std::string_view variants[] = {"n=2",
+                                         "n=8",
+                                         "n=16",
+                                         "grid=4",
+                                         "n=8,resolve=karis",
+                                         "n=8,resolve=max3",
+                                         "n=8,resolve=display",
+                                         "n=8,filter=b-spline,radius=1",
+                                         "n=8,alpha=samples",
+                                         "n=8,alpha=coverage",
+                                         "n=8,alpha=sharp"};
 
 }  // namespace
 
@@ -46,7 +84,8 @@ Method msaa() {
           .summary = "coverage per sample, shading once per surface and pixel",
           .source = "Akeley 1993",
           .params = params,
-          .make = make};
+          .make = make,
+          .variants = variants};
 }
 
 }  // namespace zoneplate::antialias

@@ -156,6 +156,8 @@ std::unique_ptr<Resolver> make(const Settings& s) {
   return std::make_unique<Smaa>(options_of(s));
 }
 
+constexpr std::string_view variants[] = {"edges=color", "mode=s2x"};
+
 }  // namespace
 
 Method smaa();
@@ -165,7 +167,8 @@ Method smaa() {
           .summary = "edges followed to their ends, pixels mixed by the areas of the lines through them",
           .source = "Jimenez 2012, SMAA 2.8",
           .params = params,
-          .make = make};
+          .make = make,
+          .variants = variants};
 }
 
 }  // namespace zoneplate::antialias

@@ -32,6 +32,8 @@ struct Demo {
 };
 
 Demo demo_jaggies();
+Demo demo_antialiasing();
+Demo demo_black_edge();
 Demo demo_moire();
 Demo demo_wagon_wheel();
 Demo demo_prefilter();

@@ -12,6 +12,7 @@
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/magma.h"
+#include "zoneplate/render/picture.h"
 #include "zoneplate/report/typeface.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/signal/border.h"
@@ -45,7 +46,7 @@ LinearImage shoot(const Scene& scene, const std::string& method, int width, int 
   RenderOptions options{.width = width, .height = height};
   options.environment = apply_look(lit, camera, {});
   const auto resolver = make_resolver(antialias::methods(), method);
-  Frame frame = render(lit, camera, resolver->ask(0), options, counts);
+  Frame frame = render_rounds(lit, camera, *resolver, resolver->ask(0), options, {}, counts);
   LinearImage light = resolver->resolve(frame);
   const float background = decode_srgb(background_code);
   for (Linear& c : light.values()) {

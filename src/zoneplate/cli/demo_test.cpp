@@ -49,8 +49,9 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   const std::string said = testing::internal::GetCapturedStdout();
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  EXPECT_EQ(names, (std::set<std::string>{"jaggies.png", "moire.png", "prefilter.png", "convolution-theorem.png",
-                                          "sampling.png", "aliases.png", "wagon-wheel.png", "wagon-wheel.webp"}));
+  EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png", "black-edge.png", "jaggies.png", "moire.png",
+                                          "prefilter.png", "convolution-theorem.png", "sampling.png", "aliases.png",
+                                          "wagon-wheel.png", "wagon-wheel.webp"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {
@@ -58,13 +59,15 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
     }
   }
   // The text holds what the picture says: titles, captions, and tables.
-  for (const char* words : {"Jaggies: a pixel", "--aa msaa:n=8: ", "Moiré: ", "Filter before you sample", "border",
-                            "Sampling copies", "blackman-harris", "+0.90", "shutter always open: "})
+  for (const char* words : {"Jaggies: a pixel", "One place under every method", "The black edge: four",
+                            "have the light that is theirs", "--aa msaa:n=8: ", "Moiré: ", "Filter before you sample",
+                            "border", "Sampling copies", "blackman-harris", "+0.90", "shutter always open: "})
     EXPECT_NE(said.find(words), std::string::npos) << words;
 }
 
 TEST(Demo, DrawsTheSameForAnyNumberOfThreads) {
-  for (const auto& demo_of : {demo_jaggies, demo_moire, demo_prefilter, demo_convolution_theorem}) {
+  for (const auto& demo_of :
+       {demo_jaggies, demo_antialiasing, demo_black_edge, demo_moire, demo_prefilter, demo_convolution_theorem}) {
     const Demo demo = demo_of();
     Rgba8Image one, three;
     with_threads(1, [&] { one = drawn(demo); });

@@ -20,7 +20,8 @@ std::string range_of(const Param& param) {
     return fmt::format("{}={} ({})", param.name, fmt::join(param.names, "|"),
                        param.names[static_cast<std::size_t>(param.value)]);
   if (!param.choices.empty()) return fmt::format("{}={} ({})", param.name, fmt::join(param.choices, "|"), param.value);
-  return fmt::format("{}={}..{} ({})", param.name, param.low, param.high, param.value);
+  return fmt::format("{}={}..{} ({})", param.name, shown_value(param, param.low), shown_value(param, param.high),
+                     shown_value(param, param.value));
 }
 
 std::string methods_text() {
@@ -44,10 +45,13 @@ Json methods_json() {
         row.emplace_back("default", param.names[static_cast<std::size_t>(param.value)]);
         row.emplace_back("values", Json::Array(param.names.begin(), param.names.end()));
       } else {
-        row.emplace_back("default", param.value);
+        const auto value = [&](int v) {
+          return param.decimals == 0 ? Json(v) : Json(std::stod(shown_value(param, v)));
+        };
+        row.emplace_back("default", value(param.value));
         if (param.choices.empty()) {
-          row.emplace_back("low", param.low);
-          row.emplace_back("high", param.high);
+          row.emplace_back("low", value(param.low));
+          row.emplace_back("high", value(param.high));
         } else {
           row.emplace_back("values", Json::Array(param.choices.begin(), param.choices.end()));
         }
@@ -67,7 +71,8 @@ std::string scenes_text() {
   std::string text = "Built-in scenes (in place of a file; NAME:PARAMETER=VALUE):\n";
   for (const BuiltinScene& scene : builtin_scenes()) {
     const std::string params = scene.params.empty() ? "" : fmt::format(" [{}]", scene.params);
-    text += fmt::format("  {:<16}{}{}\n", scene.name, scene.summary, params);
+    const std::string failure = scene.failure.empty() ? "" : fmt::format(" ({})", scene.failure);
+    text += fmt::format("  {:<16}{}{}{}\n", scene.name, scene.summary, failure, params);
   }
   return text;
 }
@@ -75,7 +80,11 @@ std::string scenes_text() {
 Json scenes_json() {
   Json::Array rows;
   for (const BuiltinScene& scene : builtin_scenes())
-    rows.emplace_back(Json::Object{{"name", scene.name}, {"summary", scene.summary}, {"parameters", scene.params}});
+    rows.emplace_back(Json::Object{{"name", scene.name},
+                                   {"summary", scene.summary},
+                                   {"parameters", scene.params},
+                                   {"class", scene.failure},
+                                   {"complaint", scene.complaint}});
   return rows;
 }
 

@@ -38,27 +38,10 @@ struct MetricsArgs {
   bool wants_json = false;
 };
 
-/// "psnr,flip:ppd=30,x=1": items at commas; `name=value` without a colon belongs to the item before it.
-std::vector<std::string> split_metrics(const std::string& text) {
-  std::vector<std::string> items;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.size(), text.find(',', start));
-    const std::string item = text.substr(start, end - start);
-    const bool is_parameter = item.find('=') != std::string::npos && item.find(':') == std::string::npos;
-    if (is_parameter && !items.empty()) {
-      items.back() += ',' + item;
-    } else {
-      items.push_back(item);
-    }
-    start = end + 1;
-  }
-  return items;
-}
-
 std::vector<Choice> choose(const std::string& names) {
   if (names.empty()) return metrics::default_choices(metrics::metrics());
   std::vector<Choice> choices;
-  for (const std::string& name : split_metrics(names)) {
+  for (const std::string& name : split_specs(names)) {
     choices.push_back(metrics::choose_metric(metrics::metrics(), name));
   }
   return choices;

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,9 +12,10 @@
 #include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render_args.h"
+#include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/image/png.h"
-#include "zoneplate/image/transfer.h"
+#include "zoneplate/render/picture.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/load.h"
 
@@ -58,9 +58,11 @@ std::optional<Crop> rendered_crop(const RenderOptions& options, int halo) {
 }
 
 // The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
-void check_memory(const RenderArgs& args, int halo) {
-  const std::uint64_t bytes_per_pixel = args.aovs.empty() ? 44 : 104;
-  const std::optional<Crop> crop = rendered_crop(args.options, halo);
+void check_memory(const RenderArgs& args, const Request& request) {
+  constexpr std::uint64_t bytes_per_sample = 24;  // where every sample is stored: colour, depth, triangle
+  const std::uint64_t bytes_per_pixel =
+      (args.aovs.empty() ? 44 : 104) + (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
+  const std::optional<Crop> crop = rendered_crop(args.options, request.halo);
   const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
@@ -102,21 +104,18 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
   RenderOptions options = args.options;
   options.crop = rendered_crop(args.options, request.halo);
   if (request.is_local) options.shown = &display;
-  Frame frame = render(scene, camera, request, options, &summary.counts);
+  Frame frame = render_rounds(scene, camera, resolver, request, options, display, &summary.counts);
   summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},
                                              {"geometry", summary.counts.geometry_ms},
                                              {"tiles", summary.counts.tiles_ms}});
 
   Stopwatch display_watch;
-  frame.display = display;
-  Rgba8Image image = request.is_local
-                         ? std::move(frame.shown)
-                         : quantize8(resolver.finish(make_display(resolver.resolve(frame), display), frame));
-  if (const std::optional<Crop> crop = args.options.crop; crop && request.halo > 0) {
+  Rgba8Image image = show(resolver, frame);
+  if (const std::optional<Crop> crop = args.options.crop; crop && request.halo > 0)
     image = part_of(image, {crop->x - options.crop->x, crop->y - options.crop->y, crop->width, crop->height});
-    // The data passes have no halo.
-    if (!args.aovs.empty()) frame = render(scene, camera, request, args.options);
-  }
+  // The data passes have no halo, and a later round of a method that asks again has none of them.
+  if (!args.aovs.empty() && ((args.options.crop && request.halo > 0) || frame.depth.empty()))
+    frame = render(scene, camera, request, args.options);
   summary.width = image.width(), summary.height = image.height();
   summary.times.emplace_back("display", display_watch.ms());
 
@@ -133,12 +132,6 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
 std::string emptiness(const RenderArgs& args, const RenderCounts& counts) {
   return args.input + (counts.triangles == 0 ? ": there is nothing in it to draw"
                                              : ": nothing of it is in view; see the camera options");
-}
-
-std::uint64_t peak_memory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 Json summary_json(const RenderArgs& args, const Summary& summary) {
@@ -185,7 +178,7 @@ void run_render(std::span<const std::string> arguments) {
   RenderArgs args = *parsed;
   const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
   check_writable(args.output);
-  check_memory(args, resolver->ask(0).halo);
+  check_memory(args, resolver->ask(0));
   if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
 
   const Stopwatch total_watch;

@@ -136,6 +136,22 @@ std::uint64_t parse_bytes(const std::string& text) {
   return *value << shift;
 }
 
+std::vector<std::string> split_specs(const std::string& text) {
+  std::vector<std::string> items;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.size(), text.find(',', start));
+    const std::string item = text.substr(start, end - start);
+    const bool is_parameter = item.find('=') != std::string::npos && item.find(':') == std::string::npos;
+    if (is_parameter && !items.empty()) {
+      items.back() += ',' + item;
+    } else {
+      items.push_back(item);
+    }
+    start = end + 1;
+  }
+  return items;
+}
+
 std::size_t parse_choice(const std::string& text, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());

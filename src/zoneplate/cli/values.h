@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "zoneplate/math/vec.h"
 
@@ -28,6 +29,9 @@ float4 parse_color(const std::string& text);
 
 /// A number of bytes with an optional K, M or G (powers of 1024), at least 1.
 std::uint64_t parse_bytes(const std::string& text);
+
+/// "psnr,flip:ppd=30,x=1": items at commas; `name=value` without a colon belongs to the item before it.
+std::vector<std::string> split_specs(const std::string& text);
 
 /// The place of `text` in `names`.
 std::size_t parse_choice(const std::string& text, std::span<const std::string_view> names);

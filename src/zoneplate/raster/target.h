@@ -11,16 +11,27 @@
 
 namespace zoneplate {
 
+/// Where a masked surface is there, at the samples that a triangle covers.
+enum class AlphaTest {
+  Pixel,     ///< at all or none of them: alpha at the point that is shaded
+  Samples,   ///< alpha at each sample by itself
+  Coverage,  ///< at as many as alpha says
+  Sharp,     ///< the same of alpha made steep about the cutoff: its edge is a pixel wide
+};
+
 /// Where rasterizing puts its results. Every plane that is not null has the size of the rectangle, and holds what is
 /// to stay where no triangle is: `color` and `coverage` 0. `shown` is written whole, the background too.
 struct Target {
   Viewport viewport;                        ///< the whole picture
   int x = 0, y = 0, width = 0, height = 0;  ///< the rectangle that is drawn, in the picture's pixels
 
+  const Plane<std::uint8_t>* where = nullptr;  ///< pixels that are not 0 here are drawn; null: all
+
   SamplePattern samples;
-  std::vector<float> weights;  ///< one a sample; empty: all equal
-  bool is_per_sample = false;  ///< shade every sample by itself
-  float spacing = 1;           ///< the footprint of a shaded point, in pixels
+  std::vector<float> weights;          ///< one a sample; empty: all equal
+  bool is_per_sample = false;          ///< shade every sample by itself
+  AlphaTest alpha = AlphaTest::Pixel;  ///< where not every sample is shaded
+  float spacing = 1;                   ///< the footprint of a shaded point, in pixels
 
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
   Rgba8Image* shown = nullptr;   ///< the same as `presenter` shows it; both or neither

@@ -26,6 +26,8 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       resolve_(resolve_kernels(isa)),
       target_(target),
       shader_(projected, shader, isa, target),
+      digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
+      digit_batcher_(projected, digits_, isa, target),
       weights_(target.weights) {
   if (weights_.empty()) weights_.assign(target.samples.size(), 1.0f);
   assert(weights_.size() == target.samples.size());
@@ -103,7 +105,8 @@ bool TileRenderer::is_plain() const {
   const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.sample_color && !has_passes && !(target_.is_per_sample && has_layers());
+  return !has_planes && !target_.where && !target_.sample_color && !has_passes &&
+         !(target_.is_per_sample && has_layers());
 }
 
 void TileRenderer::begin_pass(int first_sample, int sample_count) {
@@ -216,7 +219,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
       if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
     }
     left &= ~owned;
-    if (id != no_triangle) add_points(pixel, id, owned, points_);
+    if (id != no_triangle) add_points(pixel, id, owned, target_.is_per_sample, points_);
   }
 }
 
@@ -277,9 +280,9 @@ Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t
   return {x + s.x, y + s.y, id, pixel, samples};
 }
 
-void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples,
+void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
                               std::vector<Point>& points) const {
-  if (!target_.is_per_sample) return points.push_back(point_at(pixel, id, samples));
+  if (!is_each_sample) return points.push_back(point_at(pixel, id, samples));
   for (std::uint64_t left = samples; left; left &= left - 1) points.push_back(point_at(pixel, id, left & (~left + 1)));
 }
 
@@ -287,7 +290,7 @@ void TileRenderer::find_points() {
   points_.clear();
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) {
     first_point_[pixel] = static_cast<std::uint32_t>(points_.size());
-    if (!is_in_rectangle(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;
+    if (!is_wanted(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;
     add_pixel(pixel);
   }
   first_point_[tile_pixels] = static_cast<std::uint32_t>(points_.size());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zoneplate/base/clock.h"
+#include "zoneplate/raster/alpha_coverage.h"
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/points.h"
@@ -64,6 +65,8 @@ class TileRenderer {
   void draw_fragments();
   bool has_fragments() const;
   void draw_masked();
+  void test_alpha();
+  std::uint64_t rotated_samples(std::uint32_t pixel, int count) const;
 
   /// True if the picture's colour is all that is wanted, and all of it can be had from the owners of the samples.
   bool is_plain() const;
@@ -88,15 +91,19 @@ class TileRenderer {
   void blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last);
   void add_layers(std::size_t first, std::size_t last, Linear* behind);
   void collect_layers(Surface surface, int top, int bottom, const std::uint8_t* rows);
-  void find_layer_points();
-  void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, std::vector<Point>& points) const;
+  void find_layer_points(bool is_each_sample);
+  void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
+                  std::vector<Point>& points) const;
   void accumulate();
   void add_surfaces(std::uint32_t pixel);
   void note_nearest();
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void finish();
 
-  bool is_in_rectangle(int x, int y) const { return x >= left_ && x < right_ && y >= top_ && y < bottom_; }
+  bool is_wanted(int x, int y) const {
+    return x >= left_ && x < right_ && y >= top_ && y < bottom_ &&
+           (!target_.where || (*target_.where)(tile_x_ + x - target_.x, tile_y_ + y - target_.y));
+  }
   /// True if all eight pixels are to be drawn; rows as in `row_owner_`, or as columns of blocks.
   bool is_whole_row(int row) const { return row % 8 * 8 >= left_ && row % 8 * 8 + 8 <= right_; }
   bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }
@@ -108,6 +115,8 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const Target& target_;
   PointBatcher shader_;
+  AlphaDigits digits_;
+  PointBatcher digit_batcher_;
 
   StageTimes times_;
   Stopwatch watch_;
@@ -139,6 +148,8 @@ class TileRenderer {
   std::vector<float> layer_depths_;
   std::vector<Point> layer_points_;
   std::vector<std::uint32_t> point_of_layer_;
+  std::vector<std::uint8_t> is_there_;
+  std::vector<std::uint64_t> alpha_samples_;  ///< by point: the samples where alpha lets it be
   std::vector<Linear> layer_colors_;
   std::vector<Over> overs_;
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "zoneplate/math/random.h"
 #include "zoneplate/raster/tile.h"
 
 namespace zoneplate {
@@ -19,7 +20,7 @@ void TileRenderer::collect_layers(Surface surface, int top, int bottom, const st
     for (int i = 0; i < count; ++i) {
       const Fragment& f = fragments_[static_cast<std::size_t>(i)];
       const int x = static_cast<int>(f.pixel % tile_size), y = static_cast<int>(f.pixel / tile_size);
-      if (!is_in_rectangle(x, y) || (rows && !rows[f.pixel / 8])) continue;
+      if (!is_wanted(x, y) || (rows && !rows[f.pixel / 8])) continue;
       layers_.push_back({f.samples, f.pixel, t->id, static_cast<std::uint32_t>(layer_depths_.size())});
       for (std::uint64_t left = f.samples; left; left &= left - 1)
         layer_depths_.push_back(depth_at(tile_triangle_, std::countr_zero(left), x, y));
@@ -32,7 +33,8 @@ void TileRenderer::collect_layers(Surface surface, int top, int bottom, const st
   });
 }
 
-void TileRenderer::find_layer_points() {
+/// One point a pixel and triangle, or one a sample and triangle.
+void TileRenderer::find_layer_points(bool is_each_sample) {
   layer_points_.clear();
   point_of_layer_.resize(layers_.size());
   for (std::size_t i = 0; i < layers_.size();) {
@@ -42,18 +44,46 @@ void TileRenderer::find_layer_points() {
       samples |= layers_[end].samples;
       point_of_layer_[end] = static_cast<std::uint32_t>(layer_points_.size());
     }
-    add_points(layers_[i].pixel, layers_[i].id, samples, layer_points_);
+    add_points(layers_[i].pixel, layers_[i].id, samples, is_each_sample, layer_points_);
     i = end;
   }
 }
 
+/// The first `count` samples of the pattern, begun at one that is the pixel's own, so that no sample is always first.
+std::uint64_t TileRenderer::rotated_samples(std::uint32_t pixel, int count) const {
+  const auto x = static_cast<std::uint32_t>(tile_x_) + pixel % tile_size;
+  const auto y = static_cast<std::uint32_t>(tile_y_) + pixel / tile_size;
+  const int first = static_cast<int>(hash(x, y) % static_cast<std::uint32_t>(pass_samples_));
+  std::uint64_t samples = 0;
+  for (int i = 0; i < count; ++i) samples |= std::uint64_t{1} << (first + i) % pass_samples_;
+  return samples;
+}
+
+/// alpha_samples_: of layer_points_.
+void TileRenderer::test_alpha() {
+  alpha_samples_.assign(layer_points_.size(), 0);
+  if (target_.is_per_sample || target_.alpha == AlphaTest::Pixel || target_.alpha == AlphaTest::Samples) {
+    shader_.test_alpha(layer_points_, is_there_);
+    for (std::size_t i = 0; i < layer_points_.size(); ++i) alpha_samples_[i] = is_there_[i] ? all_samples_ : 0;
+    return;
+  }
+  for (int digit = 0; digit < digits_.digits(); ++digit) {
+    digits_.choose(digit);
+    digit_batcher_.test_alpha(layer_points_, is_there_);
+    for (std::size_t i = 0; i < layer_points_.size(); ++i)
+      alpha_samples_[i] += static_cast<std::uint64_t>(is_there_[i]) << digit;
+  }
+  for (std::size_t i = 0; i < layer_points_.size(); ++i)
+    alpha_samples_[i] = rotated_samples(layer_points_[i].pixel, static_cast<int>(alpha_samples_[i]));
+}
+
 void TileRenderer::draw_masked() {
   if (sources_[static_cast<std::size_t>(Surface::Masked)].empty()) return;
-  std::vector<std::uint8_t> is_there;
+  const bool is_each_sample = target_.is_per_sample || target_.alpha == AlphaTest::Samples;
   visibility_.open_all();
   collect_layers(Surface::Masked, top_, bottom_, nullptr);
-  find_layer_points();
-  shader_.test_alpha(layer_points_, is_there);
+  find_layer_points(is_each_sample);
+  test_alpha();
 
   // What passes enters the same minimum over (depth, id) as the opaque triangles did.
   for (std::size_t i = 0; i < layers_.size(); ++i) {
@@ -62,11 +92,11 @@ void TileRenderer::draw_masked() {
     for (std::uint64_t left = layer.samples; left; left &= left - 1, ++d) {
       const int s = std::countr_zero(left);
       std::size_t point = point_of_layer_[i];
-      if (target_.is_per_sample)
+      if (is_each_sample)
         while (!(layer_points_[point].samples >> s & 1)) ++point;
       const std::size_t at = static_cast<std::size_t>(s) * tile_pixels + layer.pixel;
       const float z = layer_depths_[d];
-      if (!is_there[point]) continue;
+      if (!(alpha_samples_[point] >> s & 1)) continue;
       if (z > visibility_.depth[at] || (z == visibility_.depth[at] && layer.id < visibility_.id[at])) {
         visibility_.open_block(static_cast<int>(layer.pixel / (8 * tile_size) * 8 + layer.pixel % tile_size / 8));
         visibility_.depth[at] = z;
@@ -79,14 +109,14 @@ void TileRenderer::draw_masked() {
 void TileRenderer::blend(int top, int bottom) {
   if (top >= bottom) return;
   collect_layers(Surface::Blended, top, bottom, nullptr);
-  find_layer_points();
+  find_layer_points(target_.is_per_sample);
   shader_.shade(layer_points_, layer_colors_, nullptr);
   std::size_t first = 0;
   for (std::uint32_t pixel = static_cast<std::uint32_t>(top * tile_size);
        pixel < static_cast<std::uint32_t>(bottom * tile_size); ++pixel) {
     std::size_t last = first;
     while (last < layers_.size() && layers_[last].pixel == pixel) ++last;
-    if (is_in_rectangle(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size)))
+    if (is_wanted(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size)))
       blend_pixel(pixel, first, last);
     first = last;
   }
@@ -223,7 +253,7 @@ void TileRenderer::blend_rows() {
 
 void TileRenderer::layer_slow_rows(int top, int bottom) {
   collect_layers(Surface::Blended, top, bottom, is_slow_row_);
-  find_layer_points();
+  find_layer_points(target_.is_per_sample);
   shader_.shade(layer_points_, layer_colors_, nullptr);
   Linear behind[TileTriangle::max_samples];
   for (std::size_t first = 0; first < layers_.size();) {

@@ -30,6 +30,7 @@ struct Planes {
 struct Frame {
   static constexpr std::uint32_t no_id = 0xffffffffu;
 
+  int x = 0, y = 0;             ///< of its first pixel in the whole picture; not 0 where it is cropped
   LinearImage color;            ///< resolved inside the tiles with the method's weights
   Rgba8Image shown;             ///< the same as shown, in place of `color`, where that was asked for
   Plane<float> depth;           ///< distance along the view axis, world units; +infinity where nothing is
@@ -40,7 +41,7 @@ struct Frame {
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
   Plane<float> coverage;
 
-  DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::finish`
+  DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::resolve`
 
   std::vector<LinearImage> sample_color;              ///< by sample
   std::vector<Plane<float>> sample_depth;             ///< reversed

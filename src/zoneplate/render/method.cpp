@@ -33,6 +33,25 @@ std::string listed(std::span<const std::string_view> words) {
   throw Error(Trouble::Usage, std::string(method) + ": " + what);
 }
 
+int power_of_ten(int exponent) {
+  int power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+/// The text as a number of at most so many decimals, as a whole number of the last of them; nothing if it is none.
+std::optional<int> parse_decimals(std::string_view text, int decimals) {
+  const std::size_t point = decimals > 0 ? text.find('.') : std::string_view::npos;
+  std::string digits(text.substr(0, point));
+  const std::string_view fraction = point == std::string_view::npos ? std::string_view{} : text.substr(point + 1);
+  if (fraction.size() > static_cast<std::size_t>(decimals) || text == ".") return std::nullopt;
+  digits.append(fraction).append(static_cast<std::size_t>(decimals) - fraction.size(), '0');
+  int number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (text.empty() || error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return number;
+}
+
 int parse_value(std::string_view method, const Param& param, std::string_view text) {
   const std::string name(param.name);
   if (!param.names.empty()) {
@@ -41,23 +60,24 @@ int parse_value(std::string_view method, const Param& param, std::string_view te
       reject(method, name + " is one of " + listed(param.names) + ", not '" + std::string(text) + "'");
     return static_cast<int>(it - param.names.begin());
   }
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size())
-    reject(method, name + " is a whole number, not '" + std::string(text) + "'");
+  const std::optional<int> parsed = parse_decimals(text, param.decimals);
+  if (!parsed)
+    reject(method, name + (param.decimals == 0 ? " is a whole number, not '" : " is a number, not '") +
+                       std::string(text) + "'");
+  const int number = *parsed;
   if (!param.choices.empty() && std::find(param.choices.begin(), param.choices.end(), number) == param.choices.end()) {
     std::string choices;
     for (const int c : param.choices) choices += (choices.empty() ? "" : ", ") + std::to_string(c);
     reject(method, name + " is one of " + choices + ", not " + std::to_string(number));
   }
   if (param.choices.empty() && (number < param.low || number > param.high))
-    reject(method, name + " is from " + std::to_string(param.low) + " to " + std::to_string(param.high) + ", not " +
-                       std::to_string(number));
+    reject(method, name + " is from " + shown_value(param, param.low) + " to " + shown_value(param, param.high) +
+                       ", not " + shown_value(param, number));
   return number;
 }
 
 std::string example_of(const Param& param) {
-  const std::string value = param.names.empty() ? std::to_string(param.value)
+  const std::string value = param.names.empty() ? shown_value(param, param.value)
                                                 : std::string(param.names[static_cast<std::size_t>(param.value)]);
   return std::string(param.name) + "=" + value;
 }
@@ -83,7 +103,20 @@ Settings::Settings(std::string_view method, std::span<const Param> params, std::
   }
 }
 
+std::string shown_value(const Param& param, int value) {
+  std::string text = std::to_string(value / power_of_ten(param.decimals));
+  std::string fraction = std::to_string(value % power_of_ten(param.decimals));
+  fraction.insert(0, static_cast<std::size_t>(std::max(0, param.decimals - static_cast<int>(fraction.size()))), '0');
+  fraction.erase(fraction.find_last_not_of('0') + 1);
+  return fraction.empty() || param.decimals == 0 ? text : text + '.' + fraction;
+}
+
 int Settings::integer(std::string_view name) const { return values_.at(name).number; }
+
+double Settings::number(std::string_view name) const {
+  const auto param = std::find_if(params_.begin(), params_.end(), [&](const Param& p) { return p.name == name; });
+  return static_cast<double>(integer(name)) / power_of_ten(param->decimals);
+}
 
 std::string_view Settings::chosen(std::string_view name) const {
   const auto param = std::find_if(params_.begin(), params_.end(), [&](const Param& p) { return p.name == name; });

@@ -3,11 +3,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/raster/target.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/signal/samples.h"
 
@@ -26,9 +28,12 @@ enum class Rate {
 struct Request {
   SamplePattern samples = {SamplePosition{}};
   Rate rate = Rate::Surface;
-  std::vector<float> weights;  ///< one a sample; empty: all equal
+  std::vector<float> weights;          ///< one a sample; empty: all equal
+  AlphaTest alpha = AlphaTest::Pixel;  ///< of masked surfaces at rate *surface*
   Planes planes;
-  bool is_local = false;  ///< the mean is the method's last word: `resolve` and `finish` change nothing
+  Plane<std::uint8_t> where;  ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
+  float footprint = 0;        ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  bool is_local = false;      ///< the mean is the method's last word: `resolve` and `finish` change nothing
   int halo = 0;  ///< pixels beyond a picture's sides that `finish` would read, so that a crop has the whole's bits
 };
 
@@ -37,17 +42,21 @@ class Resolver {
  public:
   virtual ~Resolver() = default;
   virtual Request ask(int /*frame*/) { return {}; }
+  /// What to render more after a look at this frame, from which the method takes what it keeps; nothing when it has
+  /// seen enough. `resolve` gets the last frame.
+  virtual std::optional<Request> ask_again(Frame& /*frame*/) { return std::nullopt; }
   virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }               ///< before tone mapping
   virtual DisplayImage finish(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
 };
 
-/// One parameter of a method: a whole number in [low, high] (or one of `choices` where there are any), or a name
-/// out of `names`.
+/// One parameter of a method: a whole number in [low, high] (or one of `choices` where there are any), a number with
+/// `decimals` and then held as a whole number of the last of them (1.5 with two is 150), or a name out of `names`.
 struct Param {
   std::string_view name, meaning;
   int value = 0, low = 0, high = 0;
   std::span<const int> choices = {};
   std::span<const std::string_view> names = {};  ///< where not empty, the value is a name; the default is names[value]
+  int decimals = 0;
 };
 
 /// The values that a user gave to a method's parameters, the others at their defaults.
@@ -57,6 +66,7 @@ class Settings {
   Settings(std::string_view method, std::span<const Param> params, std::string_view text);
 
   int integer(std::string_view name) const;
+  double number(std::string_view name) const;
   std::string_view chosen(std::string_view name) const;
   bool is_given(std::string_view name) const;
 
@@ -74,8 +84,13 @@ struct Method {
   std::string_view name, summary, source;
   std::span<const Param> params = {};
   std::function<std::unique_ptr<Resolver>(const Settings&)> make;
+  std::span<const std::string_view> variants = {};  ///< parameters worth comparing beside the defaults: "n=8"
+  bool is_reference = false;                        ///< what others are measured against: not one of `compare --aa all`
   bool is_specification_only = false;  ///< held to its text alone: there was no other implementation to compare with
 };
+
+/// A parameter's value as it is written: 150 of two decimals is "1.5".
+std::string shown_value(const Param& param, int value);
 
 /// The name nearest to `word` by edit distance, or empty if none is near; for "did you mean".
 std::string_view closest(std::string_view word, std::span<const std::string_view> names);

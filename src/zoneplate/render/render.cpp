@@ -127,14 +127,18 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   const ScenePoints points(scene, surroundings_of(scene, camera, clip_from_camera, options), options);
 
   Frame frame;
+  frame.x = crop.x, frame.y = crop.y;
   Target target;
   target.viewport = {options.width, options.height};
   target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
   target.samples = request.samples;
   target.weights = request.weights;
+  target.alpha = request.alpha;
   target.is_per_sample = request.rate == Rate::Sample;
   if (target.is_per_sample && options.sample_footprint)
-    target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
+    target.spacing =
+        request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  if (!request.where.empty()) target.where = &request.where;
   std::optional<Presenter> presenter;
   if (options.shown) target.presenter = &presenter.emplace(*options.shown);
   make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);

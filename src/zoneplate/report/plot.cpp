@@ -14,7 +14,7 @@ namespace zoneplate {
 namespace {
 
 // Sizes in pixels for a plot of the default size; half of each is still read without effort.
-constexpr int text_px = 17, title_px = 20;
+constexpr int text_px = 17, title_px = 20, label_px = 12;
 constexpr int margin_px = 10, heading_px = 30, key_row_px = 22, sample_px = 46, axes_px = 100;
 constexpr double letter_em = 0.58;  // of DejaVu Sans, in the mean
 constexpr double line_px = 2.4, dash_px = 1.6, point_size = 1.1;
@@ -45,13 +45,23 @@ std::string quoted(const std::string& text) {
   return out + '\'';
 }
 
+// A word of a data block in which nothing is special: between double quotes, of which it must hold none.
+std::string label_of(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const bool is_plain = static_cast<unsigned char>(c) >= 32 && c != 127 && c != '"' && c != '\\';
+    out += is_plain ? c : ' ';
+  }
+  return out + '"';
+}
+
 Rgba8 color_of(const Curve& curve, std::size_t place) {
   if (curve.color == Curve::grey) return grey;
   return palette[(curve.color < 0 ? place : static_cast<std::size_t>(curve.color)) % std::size(palette)];
 }
 
 // The part of a plot command that draws one curve from the data block of this name.
-std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
+std::string marks_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
   using Mark = Curve::Mark;
   const std::string color = hex(color_of(curve, place));
   const std::string title = curve.name.empty() ? "notitle" : "title " + quoted(curve.name);
@@ -82,6 +92,15 @@ std::string drawing_of(const Curve& curve, const std::string& block, std::size_t
          ", " + with("lines " + line(dash_px), "notitle");
 }
 
+std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
+  std::string text = marks_of(curve, block, place, terminal);
+  if (!curve.labels.empty())
+    text += fmt::format(
+        ", {} using 1:2:3 with labels left offset 0.8,0.35 font 'DejaVu Sans,{}' textcolor rgb '{}' notitle", block,
+        label_px * terminal.font, hex(color_of(curve, place)));
+  return text;
+}
+
 std::string axis_of(char name, const Axis& axis) {
   std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
   text += axis.is_logarithmic ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name)
@@ -94,8 +113,14 @@ std::string axis_of(char name, const Axis& axis) {
 // Data are sent with 10 digits, far finer than a picture shows and the same whatever computed the last bits.
 std::string data_of(const Curve& curve, const std::string& block) {
   std::string text = block + " << EOD\n";
-  for (const auto& [x, y] : curve.points)
-    text += std::isfinite(x) && std::isfinite(y) ? fmt::format("{:.10g} {:.10g}\n", x, y) : "\n";
+  assert(curve.labels.empty() || curve.labels.size() == curve.points.size());
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const auto& [x, y] = curve.points[i];
+    const bool is_there = std::isfinite(x) && std::isfinite(y);
+    text += is_there ? fmt::format("{:.10g} {:.10g}", x, y) : "";
+    if (is_there && !curve.labels.empty()) text += ' ' + label_of(curve.labels[i]);
+    text += '\n';
+  }
   return text + "EOD\n";
 }
 

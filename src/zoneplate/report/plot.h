@@ -29,7 +29,8 @@ struct Curve {
   Mark mark = Mark::Line;
   /// Which colour of the palette; -1: the place among the curves; `grey`: for what should step back.
   int color = -1;
-  double opacity = 0.25;  ///< of an Area
+  double opacity = 0.25;                 ///< of an Area
+  std::vector<std::string> labels = {};  ///< beside the points, as many as those, or none
   static constexpr int grey = -2;
 };
 

@@ -86,6 +86,16 @@ TEST(Plot, EveryMarkLeavesItsColour) {
   }
 }
 
+TEST(Plot, PointsMayHaveNames) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  Plot plot = line_plot();
+  plot.curves[0].mark = Curve::Mark::Points;
+  plot.curves[0].labels = {"msaa:n=4", "a \"quoted\\name"};
+  const std::string svg = plot_svg(plot);
+  EXPECT_TRUE(contains(svg, "msaa:n=4"));
+  EXPECT_TRUE(contains(svg, "a  quoted name"));
+}
+
 TEST(Plot, PointsThatAreNotFiniteInterruptTheLine) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const auto pixels = [](double middle) {

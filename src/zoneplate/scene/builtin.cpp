@@ -14,10 +14,12 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::array makers = {builtin_teapot,   builtin_checkerboard, builtin_triangles, builtin_cyclic,
-                               builtin_sphere,   builtin_wheel,        builtin_city,      builtin_city_trilinear,
-                               builtin_tri10k,   builtin_tri1m,        builtin_micro,     builtin_fill,
-                               builtin_fillblend};
+constexpr std::array makers = {builtin_teapot,    builtin_checkerboard, builtin_triangles, builtin_cyclic,
+                               builtin_sphere,    builtin_wheel,        builtin_city,      builtin_city_trilinear,
+                               builtin_tri10k,    builtin_tri1m,        builtin_micro,     builtin_fill,
+                               builtin_fillblend, builtin_near_axis,    builtin_wires,     builtin_stars,
+                               builtin_sun_roof,  builtin_foliage,      builtin_tiles,     builtin_metal,
+                               builtin_text_ui,   builtin_thin_diagonal};
 
 /// A parameter's value as it is written: 500 of three decimals is "0.5".
 std::string shown(std::int64_t value, int decimals) {
@@ -80,11 +82,17 @@ std::span<const BuiltinScene> builtin_scenes() {
       std::string params;
       for (const BuiltinParam& p : maker.params)
         params += fmt::format("{}{}={}", params.empty() ? "" : ",", p.name, shown(p.otherwise, p.decimals));
-      list.push_back({maker.name, maker.summary, params});
+      list.push_back({maker.name, maker.summary, params, maker.failure, maker.complaint});
     }
     return list;
   }();
   return scenes;
+}
+
+const BuiltinScene* find_builtin_scene(std::string_view text) {
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (scene.name == text.substr(0, text.find(':'))) return &scene;
+  return nullptr;
 }
 
 std::optional<Scene> make_builtin_scene(const std::string& text) {

@@ -22,6 +22,8 @@ struct BuiltinMaker {
   const char* summary;
   std::span<const BuiltinParam> params;
   Scene (*make)(std::span<const std::int64_t> values);
+  const char* failure = "";    ///< the class of failure that the scene is there to show
+  const char* complaint = "";  ///< where users complained of it, and of what
 };
 
 // One function for each family of scenes, each in a file of its own.
@@ -38,6 +40,15 @@ BuiltinMaker builtin_fill();
 BuiltinMaker builtin_fillblend();
 BuiltinMaker builtin_micro();
 BuiltinMaker builtin_wheel();
+BuiltinMaker builtin_near_axis();
+BuiltinMaker builtin_wires();
+BuiltinMaker builtin_stars();
+BuiltinMaker builtin_sun_roof();
+BuiltinMaker builtin_foliage();
+BuiltinMaker builtin_tiles();
+BuiltinMaker builtin_metal();
+BuiltinMaker builtin_text_ui();
+BuiltinMaker builtin_thin_diagonal();
 
 /// A camera at `eye` that looks at `target`, upright.
 Camera camera_at(float3 eye, float3 target, float vertical_fov, float near, float far);

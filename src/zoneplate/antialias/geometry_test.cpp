@@ -1,0 +1,93 @@
+// What methods that know geometry at more places than they shade must keep, on rendered scenes.
+#include <gtest/gtest.h>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/render/picture.h"
+#include "zoneplate/scene/builtin.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+LinearImage shot(const Scene& scene, const char* method, RenderOptions options = {.width = 160, .height = 120}) {
+  const std::unique_ptr<Resolver> resolver = make_resolver(methods(), method);
+  Frame frame = render_rounds(scene, scene.cameras.at(0), *resolver, resolver->ask(0), options, DisplayOptions{});
+  return resolver->resolve(frame);
+}
+
+double mean_error(const LinearImage& a, const LinearImage& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i)
+    sum += std::abs(double{a.values()[i].g} - double{b.values()[i].g});
+  return sum / static_cast<double>(a.values().size());
+}
+
+/// A white half-plane below the line y = 60 + slope (x - 80) of a picture of 160 × 120.
+Scene half_plane(float slope) {
+  Scene scene;
+  Material material;
+  material.model = ShadingModel::Unlit;
+  material.double_sided = true;
+  scene.materials.push_back(material);
+  Mesh mesh;
+  const float run = 400, rise = slope * run;
+  mesh.position = {{-run, rise, 0}, {-run, -900, 0}, {run, -900, 0}, {run, -rise, 0}};
+  mesh.normal.assign(4, {0, 0, 1});
+  mesh.index = {0, 1, 2, 0, 2, 3};
+  scene.objects.emplace_back("half");
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back({});
+  Camera camera;
+  camera.world_from_camera.column[3] = {0, 0, 5, 1};
+  camera.is_orthographic = true;
+  camera.half_height = 60;
+  scene.cameras.push_back(camera);
+  return scene;
+}
+
+TEST(Gbaa, AHalfPlaneIsItsOneDimensionalCoverage) {
+  for (const float slope : {0.0f, 0.05f, 0.3f, 0.8f}) {
+    const LinearImage own = shot(half_plane(slope), "gbaa");
+    int partial = 0;
+    for (int y = 5; y < 115; ++y)
+      for (int x = 5; x < 155; ++x) {
+        // The share of the pixel's middle column that lies below the line; 1/64 is half a place.
+        const float line = 60 + slope * (static_cast<float>(x) + 0.5f - 80);
+        const float share = std::clamp(static_cast<float>(y) + 1 - line, 0.0f, 1.0f);
+        ASSERT_NEAR(own(x, y).a, share, 1 / 64.0f + 1e-4f) << slope << " at " << x << "," << y;
+        partial += share > 0 && share < 1;
+      }
+    if (slope > 0) {
+      EXPECT_GT(partial, 100);
+    }
+  }
+}
+
+TEST(Sraa, WithOneShadedPlaceAPixelItComesNearToMultisampling) {
+  const Scene scene = *make_builtin_scene("cyclic");
+  const LinearImage none = shot(scene, "none"), truth = shot(scene, "ssaa:n=16");
+  for (const char* method : {"sraa:n=8", "gbaa"})
+    EXPECT_LT(mean_error(shot(scene, method), truth), 0.5 * mean_error(none, truth)) << method;
+}
+
+TEST(Geometry, CropsThreadsAndInstructionSetsLeaveNoTrace) {
+  const Scene scene = *make_builtin_scene("cyclic");
+  for (const char* method : {"sraa", "gbaa"}) {
+    LinearImage whole;
+    with_threads(1, [&] { whole = shot(scene, method); });
+    RenderOptions options{.width = 160, .height = 120};
+    options.crop = Crop{50, 39, 32, 23};  // with a halo of 1
+    LinearImage part;
+    with_threads(3, [&] { part = shot(scene, method, options); });
+    for (int y = 1; y < 22; ++y)
+      for (int x = 1; x < 31; ++x) ASSERT_EQ(part(x, y), whole(50 + x, 39 + y)) << method;
+    options.crop.reset();
+    for (const Isa isa : supported_isas()) {
+      options.isa = isa;
+      EXPECT_EQ(shot(scene, method, options), whole) << method << " " << name_of(isa);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate::antialias

@@ -1,0 +1,45 @@
+#include "zoneplate/render/picture.h"
+
+#include "zoneplate/image/transfer.h"
+
+namespace zoneplate {
+namespace {
+
+void add(RenderCounts& sum, const RenderCounts& c) {
+  sum.prepare_ms += c.prepare_ms, sum.geometry_ms += c.geometry_ms, sum.tiles_ms += c.tiles_ms;
+  sum.triangles = c.triangles, sum.triangles_set_up = c.triangles_set_up;
+  sum.shaded += c.shaded;
+}
+
+}  // namespace
+
+Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver, const Request& request,
+                    const RenderOptions& options, const DisplayOptions& display, RenderCounts* counts) {
+  RenderCounts sum;
+  const auto round = [&](const Request& wanted) {
+    RenderCounts own;
+    Frame frame = render(scene, camera, wanted, options, &own);
+    frame.display = display;
+    add(sum, own);
+    return frame;
+  };
+  Frame frame = round(request);
+  while (const std::optional<Request> more = resolver.ask_again(frame)) frame = round(*more);
+  if (counts) *counts = sum;
+  return frame;
+}
+
+Rgba8Image show(Resolver& resolver, Frame& frame) {
+  if (!frame.shown.empty()) return std::move(frame.shown);
+  return quantize8(resolver.finish(make_display(resolver.resolve(frame), frame.display), frame));
+}
+
+Rgba8Image render_picture(const Scene& scene, const Camera& camera, Resolver& resolver, RenderOptions options,
+                          const DisplayOptions& display, RenderCounts* counts) {
+  const Request request = resolver.ask(0);
+  if (request.is_local) options.shown = &display;
+  Frame frame = render_rounds(scene, camera, resolver, request, options, display, counts);
+  return show(resolver, frame);
+}
+
+}  // namespace zoneplate
