@@ -44,6 +44,8 @@ struct RenderOptions {
   /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
   /// whose request is local.
   const DisplayOptions* shown = nullptr;
+  /// How the picture will be shown, for methods that average what is shown; null: as DisplayOptions{}.
+  const DisplayOptions* display = nullptr;
   const TextureSet* textures = nullptr;  ///< the scene's, made once for many frames; null: made for this one
   RasterMemory* memory = nullptr;        ///< of earlier frames, to be used again; null: its own
 };
