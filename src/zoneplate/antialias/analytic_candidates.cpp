@@ -91,6 +91,7 @@ PixelTriangle at_pixel(const ScreenTriangle& triangle, bool covers_pixel, int x,
   const Triangle& t = triangle.shape;
   PixelTriangle out;
   out.covers_pixel = covers_pixel;
+  out.is_piece = triangle.is_piece;
   out.id = t.id;
   out.surface = triangle.surface;
   out.zx = t.dzdx * unit, out.zy = t.dzdy * unit;

@@ -13,12 +13,10 @@ Line nearer(const PixelTriangle& a, const PixelTriangle& b) { return {a.zx - b.z
 
 enum class Order { InFront, Behind, Crossing };
 
-/// How triangle a stands to b over a polygon; `line` is where they cross, its inside where a is in front.
-Order order_over(const ConvexPolygon& polygon, const PixelTriangle& a, const PixelTriangle& b, Line& line) {
-  line = nearer(a, b);
-  const double slope = std::sqrt(line.a * line.a + line.b * line.b);
-  if (slope > 0) line = {line.a / slope, line.b / slope, line.c / slope};
-  const double least = slope > 0 ? on_line : 0;
+/// How triangle a stands to b over a polygon.
+Order order_over(const ConvexPolygon& polygon, const PixelTriangle& a, const PixelTriangle& b) {
+  const Line line = nearer(a, b);
+  const double least = on_line * (std::abs(line.a) + std::abs(line.b));  // that far from the line at least
   double sum = 0;
   bool in_front = false, behind = false;
   for (int i = 0; i < polygon.count; ++i) {
@@ -32,6 +30,13 @@ Order order_over(const ConvexPolygon& polygon, const PixelTriangle& a, const Pix
   // A polygon so near to the line belongs to one side of it; only where depths are equal all over do numbers decide.
   if (sum != 0) return sum > 0 ? Order::InFront : Order::Behind;
   return a.id < b.id ? Order::InFront : Order::Behind;
+}
+
+/// Where a and b cross, scaled to distances in pixels; inside is where a is nearer.
+Line crossing(const PixelTriangle& a, const PixelTriangle& b) {
+  const Line line = nearer(a, b);
+  const double slope = std::sqrt(line.a * line.a + line.b * line.b);
+  return {line.a / slope, line.b / slope, line.c / slope};
 }
 
 }  // namespace
@@ -55,23 +60,28 @@ void PixelCells::insert(const PixelTriangle& triangle) {
 bool PixelCells::is_hidden(const ConvexPolygon& polygon, const Cell& cell, const PixelTriangle& triangle) const {
   if (cell.layers == 0) return false;
   const PixelTriangle& last = triangles_[layers_[cell.first_layer + cell.layers - 1]];
-  Line line;
-  return last.surface == Surface::Opaque && order_over(polygon, triangle, last, line) == Order::Behind;
+  return last.surface == Surface::Opaque && order_over(polygon, triangle, last) == Order::Behind;
 }
 
 void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
   // Most cells are outside of the triangle or hide it; nothing is cut before that is known.
   const PixelTriangle& triangle = triangles_[number];
-  const Cell cell = cells_[at];
-  ConvexPolygon overlap = cell.polygon;
-  if (!triangle.covers_pixel)
+  if (triangle.covers_pixel) {
+    if (is_hidden(cells_[at].polygon, cells_[at], triangle)) return;
+  } else {
+    for (const Line& edge : triangle.edge)
+      if (is_outside(cells_[at].polygon, edge)) return;
+    ConvexPolygon overlap = cells_[at].polygon;
     for (const Line& edge : triangle.edge) {
       overlap = clipped(overlap, edge);
       if (overlap.empty()) return;
     }
-  if (is_hidden(overlap, cell, triangle)) return;
-  for (const std::uint32_t layer : layers_of(cell))
-    if (triangles_[layer].id == triangle.id) return;
+    if (is_hidden(overlap, cells_[at], triangle)) return;
+  }
+  const Cell cell = cells_[at];
+  if (triangle.is_piece)
+    for (const std::uint32_t layer : layers_of(cell))
+      if (triangles_[layer].id == triangle.id) return;
 
   // What of the cell is outside of the triangle stays as it is, in up to three parts; the rest is sorted in.
   free_ = at;
@@ -104,11 +114,16 @@ void PixelCells::sort_in(const Cell& cell, std::uint32_t number) {
 
 /// Finds the piece's first layer behind the triangle; cuts it where they pass through each other.
 void PixelCells::place(const Piece& piece, const Cell& cell, std::uint32_t number) {
+  // Triangles come nearest first as a rule: what is behind the last layer is behind all of them.
   const PixelTriangle& triangle = triangles_[number];
+  if (cell.layers > 1) {
+    const PixelTriangle& last = triangles_[layers_[cell.first_layer + cell.layers - 1]];
+    if (last.surface != Surface::Opaque && order_over(piece.polygon, triangle, last) == Order::Behind)
+      return store_with(piece.polygon, cell, cell.layers, number);
+  }
   for (std::uint32_t at = piece.next_layer; at < cell.layers; ++at) {
     const PixelTriangle& layer = triangles_[layers_[cell.first_layer + at]];
-    Line front;
-    const Order order = order_over(piece.polygon, triangle, layer, front);
+    const Order order = order_over(piece.polygon, triangle, layer);
     if (order == Order::InFront) return store_with(piece.polygon, cell, at, number);
     const bool is_last = layer.surface == Surface::Opaque;
     if (order == Order::Behind) {
@@ -116,7 +131,7 @@ void PixelCells::place(const Piece& piece, const Cell& cell, std::uint32_t numbe
       continue;
     }
     ConvexPolygon inside, outside;
-    cut(piece.polygon, front, inside, outside);
+    cut(piece.polygon, crossing(triangle, layer), inside, outside);
     if (is_last)
       store(outside, cell.first_layer, cell.layers);
     else
@@ -138,6 +153,10 @@ void PixelCells::store(const ConvexPolygon& polygon, std::uint32_t first_layer, 
 
 /// The cell's layers with the triangle before layer `at`; nothing is behind an opaque one.
 void PixelCells::store_with(const ConvexPolygon& polygon, const Cell& cell, std::uint32_t at, std::uint32_t number) {
+  if (at == cell.layers && cell.first_layer + at == layers_.size()) {
+    layers_.push_back(number);  // the list is the last one: others that begin like it keep their length
+    return store(polygon, cell.first_layer, at + 1);
+  }
   const auto first = static_cast<std::uint32_t>(layers_.size());
   const std::uint32_t behind = triangles_[number].surface == Surface::Opaque ? 0 : cell.layers - at;
   for (std::uint32_t i = 0; i < at; ++i) layers_.push_back(layers_[cell.first_layer + i]);

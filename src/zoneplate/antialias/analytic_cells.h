@@ -13,6 +13,7 @@ namespace zoneplate::antialias {
 struct PixelTriangle {
   Line edge[3];                  ///< inside where all are positive
   bool covers_pixel = false;     ///< all of it; the edges are not looked at
+  bool is_piece = false;         ///< of a clipped triangle: others may have its id
   double z = 0, zx = 0, zy = 0;  ///< reversed depth at the pixel's top-left corner, and its change per pixel
   std::int32_t id = 0;
   Surface surface = Surface::Opaque;

@@ -151,7 +151,9 @@ TEST(PixelCells, OfEqualDepthsTheLowerNumberIsSeen) {
     EXPECT_EQ(cells.triangle(cells.layers_of(cells.cells()[0])[0]).id, 3);
   }
   // Pieces of one triangle count once.
-  const PixelCells pieces = cells_of({make(c, 1, Surface::Blended), make(c, 1, Surface::Blended)});
+  PixelTriangle piece = make(c, 1, Surface::Blended);
+  piece.is_piece = true;
+  const PixelCells pieces = cells_of({piece, piece});
   EXPECT_EQ(pieces.layers_of(pieces.cells()[0]).size(), 1u);
 }
 

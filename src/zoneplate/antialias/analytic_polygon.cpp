@@ -62,6 +62,12 @@ void cut(const ConvexPolygon& polygon, const Line& line, ConvexPolygon& inside, 
   }
 }
 
+bool is_outside(const ConvexPolygon& polygon, const Line& line) {
+  for (int i = 0; i < polygon.count; ++i)
+    if (line.distance(polygon[i]) > on_line) return false;
+  return true;
+}
+
 ConvexPolygon clipped(const ConvexPolygon& polygon, const Line& line) {
   assert(polygon.count < ConvexPolygon::capacity);
   const Sides sides = sides_of(polygon, line);

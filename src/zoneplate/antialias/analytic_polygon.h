@@ -24,6 +24,15 @@ struct ConvexPolygon {
   int count = 0;
   std::array<Place, capacity> corner;
 
+  ConvexPolygon() {}
+  /// Most have four or five corners: only those are copied.
+  ConvexPolygon(const ConvexPolygon& other) { *this = other; }
+  ConvexPolygon& operator=(const ConvexPolygon& other) {
+    count = other.count;
+    for (int i = 0; i < count; ++i) corner[static_cast<std::size_t>(i)] = other[i];
+    return *this;
+  }
+
   bool empty() const { return count == 0; }
   void add(Place p) { corner[static_cast<std::size_t>(count++)] = p; }
   const Place& operator[](int i) const { return corner[static_cast<std::size_t>(i)]; }
@@ -40,6 +49,9 @@ inline constexpr double on_line = 0x1p-36;
 /// Exact     both parts get the same new corners, so the areas of the parts sum to that of the whole within 1e-15.
 /// Requires  less than capacity corners.
 void cut(const ConvexPolygon& polygon, const Line& line, ConvexPolygon& inside, ConvexPolygon& outside);
+
+/// True if nothing of a polygon is inside of the line.
+bool is_outside(const ConvexPolygon& polygon, const Line& line);
 
 /// The part of `cut` that is inside.
 ConvexPolygon clipped(const ConvexPolygon& polygon, const Line& line);

@@ -32,7 +32,7 @@ class PartMaker {
         continue;
       }
       const std::int64_t area = doubled_area(p, q, r);
-      if (area != 0 && !is_culled(draw, area > 0)) emit(draw, p, q, r, id);
+      if (area != 0 && !is_culled(draw, area > 0)) emit(draw, p, q, r, id, false);
     }
   }
 
@@ -53,16 +53,17 @@ class PartMaker {
       const ScreenVertex& q = polygon.vertex[static_cast<std::size_t>(i - 1)];
       const ScreenVertex& r = polygon.vertex[static_cast<std::size_t>(i)];
       const std::int64_t area = doubled_area(p, q, r);
-      if (area != 0 && (area > 0) == facing.is_clockwise) emit(draw, p, q, r, id);
+      if (area != 0 && (area > 0) == facing.is_clockwise) emit(draw, p, q, r, id, true);
     }
   }
 
-  void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
+  void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id,
+            bool is_piece) {
     const Triangle t = make_triangle(p, q, r, id, rules_);
     if (t.min_x >= target_.x + target_.width + reach_ || t.max_x < target_.x - reach_ ||
         t.min_y >= target_.y + target_.height + reach_ || t.max_y < target_.y - reach_)
       return;
-    part_.out.push_back({t, draw.surface});
+    part_.out.push_back({t, draw.surface, is_piece});
   }
 
   const ProjectedDraws& projected_;

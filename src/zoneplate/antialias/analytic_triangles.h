@@ -14,6 +14,7 @@ namespace zoneplate::antialias {
 struct ScreenTriangle {
   Triangle shape;  ///< every triangle owns its edges: E is the exact doubled area
   Surface surface = Surface::Opaque;
+  bool is_piece = false;  ///< of a clipped triangle
 };
 
 /// The triangles of a frame, culled and clipped as for drawing, by the tiles whose pixels they may touch.

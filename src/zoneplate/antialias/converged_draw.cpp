@@ -131,9 +131,11 @@ class Strips {
     parallel_for(static_cast<std::size_t>(height_), [&](std::size_t row) {
       const int y = static_cast<int>(row);
       for (int ky = -filter_.reach; ky <= filter_.reach; ++ky)
-        for (int kx = -filter_.reach; kx <= filter_.reach; ++kx)
-          for (std::size_t s = 0; s < count; ++s)
-            add_row(sums.row(y), color_[s], top_ + y + ky, kx, (*across_)(kx, first + s) * (*down_)(ky, first + s));
+        for (int kx = -filter_.reach; kx <= filter_.reach; ++kx) {
+          std::array<double, pass_samples> weight{};
+          for (std::size_t s = 0; s < count; ++s) weight[s] = (*across_)(kx, first + s) * (*down_)(ky, first + s);
+          add_row(sums.row(y), top_ + y + ky, kx, std::span(weight).first(count));
+        }
       for (std::size_t s = 0; s < count; ++s)
         for (int x = 0; x < covered_.width(); ++x)
           covered_(x, y) += triangle_[s](drawing_.target.x + x - strip_.x, top_ + y - strip_.y) != Target::no_id;
@@ -141,15 +143,20 @@ class Strips {
   }
 
   /// Adds the samples of line y of the picture, kx pixels to the right of each sum's own.
-  void add_row(std::span<Sum> sums, const LinearImage& color, int y, int kx, double weight) const {
-    if (weight == 0 || y < 0 || y >= strip_.viewport.height) return;
-    const std::span<const Linear> from = color.row(y - strip_.y);
+  void add_row(std::span<Sum> sums, int y, int kx, std::span<const double> weight) const {
+    if (y < 0 || y >= strip_.viewport.height) return;
     const int left = drawing_.target.x + kx;
     const int begin = std::max(0, -left), end = std::min(drawing_.target.width, strip_.viewport.width - left);
+    std::array<const Linear*, pass_samples> from{};
+    for (std::size_t s = 0; s < weight.size(); ++s) from[s] = color_[s].row(y - strip_.y).data();
     for (int x = begin; x < end; ++x) {
-      const Linear& c = from[static_cast<std::size_t>(left + x - strip_.x)];
-      Sum& s = sums[static_cast<std::size_t>(x)];
-      s = {s.r + weight * c.r, s.g + weight * c.g, s.b + weight * c.b, s.a + weight * c.a, s.weight + weight};
+      Sum sum = sums[static_cast<std::size_t>(x)];
+      for (std::size_t s = 0; s < weight.size(); ++s) {
+        const Linear& c = from[s][left + x - strip_.x];
+        const double w = weight[s];
+        sum = {sum.r + w * c.r, sum.g + w * c.g, sum.b + w * c.b, sum.a + w * c.a, sum.weight + w};
+      }
+      sums[static_cast<std::size_t>(x)] = sum;
     }
   }
 

@@ -50,7 +50,8 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{"jaggies.png", "moire.png", "prefilter.png", "convolution-theorem.png",
-                                          "sampling.png", "aliases.png", "wagon-wheel.png", "wagon-wheel.webp"}));
+                                          "sampling.png", "aliases.png", "exact-coverage.png", "wagon-wheel.png",
+                                          "wagon-wheel.webp"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {
