@@ -90,7 +90,7 @@ void PixelCandidates::sort_by_pixel(std::size_t pixels) {
 PixelTriangle at_pixel(const ScreenTriangle& triangle, bool covers_pixel, int x, int y) {
   const Triangle& t = triangle.shape;
   PixelTriangle out;
-  out.covers_pixel = covers_pixel;
+  out.covers_all = covers_pixel;
   out.is_piece = triangle.is_piece;
   out.id = t.id;
   out.surface = triangle.surface;

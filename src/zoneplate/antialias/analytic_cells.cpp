@@ -6,7 +6,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int many_corners = 12;  // three edges and a grid may add seven more before a polygon is full
+constexpr int many_corners = 12;  // a cell has no more; three edges, or a grid, may add four before it is asked again
 
 /// Where a is nearer than b.
 Line nearer(const PixelTriangle& a, const PixelTriangle& b) { return {a.zx - b.zx, a.zy - b.zy, a.z - b.z}; }
@@ -41,11 +41,11 @@ Line crossing(const PixelTriangle& a, const PixelTriangle& b) {
 
 }  // namespace
 
-void PixelCells::clear() {
+void PixelCells::clear(const ConvexPolygon& region) {
   triangles_.clear();
   layers_.clear();
   cells_.clear();
-  cells_.push_back({unit_square(), 0, 0});
+  cells_.push_back({region, 0, 0});
   free_ = 1;
 }
 
@@ -66,7 +66,7 @@ bool PixelCells::is_hidden(const ConvexPolygon& polygon, const Cell& cell, const
 void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
   // Most cells are outside of the triangle or hide it; nothing is cut before that is known.
   const PixelTriangle& triangle = triangles_[number];
-  if (triangle.covers_pixel) {
+  if (triangle.covers_all) {
     if (is_hidden(cells_[at].polygon, cells_[at], triangle)) return;
   } else {
     for (const Line& edge : triangle.edge)
@@ -86,7 +86,7 @@ void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
   // What of the cell is outside of the triangle stays as it is, in up to three parts; the rest is sorted in.
   free_ = at;
   ConvexPolygon rest = cell.polygon, inside, outside;
-  if (!triangle.covers_pixel)
+  if (!triangle.covers_all)
     for (const Line& edge : triangle.edge) {
       cut(rest, edge, inside, outside);
       if (!outside.empty()) store(outside, cell.first_layer, cell.layers);
@@ -100,9 +100,8 @@ void PixelCells::sort_in(const Cell& cell, std::uint32_t number) {
   while (!pieces_.empty()) {
     const Piece piece = pieces_.back();
     pieces_.pop_back();
-    if (piece.polygon.empty()) continue;
     if (piece.polygon.count <= many_corners) {
-      place(piece, cell, number);
+      if (!piece.polygon.empty()) place(piece, cell, number);
       continue;
     }
     ConvexPolygon first, second;
@@ -142,6 +141,12 @@ void PixelCells::place(const Piece& piece, const Cell& cell, std::uint32_t numbe
 }
 
 void PixelCells::store(const ConvexPolygon& polygon, std::uint32_t first_layer, std::uint32_t layers) {
+  if (polygon.count > many_corners) {
+    ConvexPolygon first, second;
+    halve(polygon, first, second);
+    store(first, first_layer, layers);
+    return store(second, first_layer, layers);
+  }
   if (free_ < cells_.size()) {
     cells_[free_] = {polygon, first_layer, layers};
     free_ = cells_.size();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
+#include "zoneplate/antialias/analytic_regions.h"
 #include "zoneplate/antialias/flat_triangles_for_test.h"
 
 namespace zoneplate::antialias {
@@ -59,7 +61,7 @@ std::vector<PixelTriangle> soup(std::uint32_t seed, int count, bool has_layers) 
 
 PixelCells cells_of(const std::vector<PixelTriangle>& triangles) {
   PixelCells cells;
-  cells.clear();
+  cells.clear(unit_square());
   for (const PixelTriangle& t : triangles) cells.insert(t);
   return cells;
 }
@@ -155,6 +157,32 @@ TEST(PixelCells, OfEqualDepthsTheLowerNumberIsSeen) {
   piece.is_piece = true;
   const PixelCells pieces = cells_of({piece, piece});
   EXPECT_EQ(pieces.layers_of(pieces.cells()[0]).size(), 1u);
+}
+
+/// By the nearest layer's number (-1: nothing), the area where it is seen.
+using SeenAreas = std::map<std::int32_t, double>;
+void add_areas(const PixelCells& cells, SeenAreas& out) {
+  for (const PixelCells::Cell& c : cells.cells())
+    out[c.layers > 0 ? cells.triangle(cells.layers_of(c)[0]).id : -1] += area_moments(c.polygon).area;
+}
+
+TEST(PixelRegions, CrowdedPixelsShowTheSameAsOneRegionWould) {
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    std::vector<PixelTriangle> triangles = soup(500 + seed, 40 + 20 * static_cast<int>(seed), seed % 3 == 1);
+    SeenAreas expected, found;
+    add_areas(cells_of(triangles), expected);
+    PixelRegions regions;
+    int regions_used = 0;
+    regions.find(triangles, [&](const PixelCells& cells) { add_areas(cells, found), ++regions_used; });
+    EXPECT_GT(regions_used, 4) << seed;
+    for (const auto& [id, area] : expected) {
+      if (id < 0) continue;
+      EXPECT_NEAR(found[id], area, 1e-9) << seed << ": " << id;
+    }
+    double sum = 0;
+    for (const auto& [id, area] : found) sum += area;
+    EXPECT_LT(sum, 1 + 1e-9);  // regions without triangles are not given
+  }
 }
 
 }  // namespace

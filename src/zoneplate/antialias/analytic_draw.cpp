@@ -8,6 +8,7 @@
 
 #include "zoneplate/antialias/analytic_candidates.h"
 #include "zoneplate/antialias/analytic_fragments.h"
+#include "zoneplate/antialias/analytic_regions.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/coverage.h"
@@ -80,10 +81,11 @@ class TileIntegrator {
     if (candidates.size() == 1 && candidates[0].covers_pixel && nearest.surface == Surface::Opaque) {
       list_.add_whole(nearest.shape.id, x, y);
     } else {
-      cells_.clear();
+      here_.clear();
       for (const PixelCandidates::Candidate& c : candidates)
-        cells_.insert(at_pixel(whole_.triangles.triangles[c.triangle], c.covers_pixel, x, y));
-      list_.add(cells_, x, y);
+        here_.push_back(at_pixel(whole_.triangles.triangles[c.triangle], c.covers_pixel, x, y));
+      list_.begin_pixel(x, y);
+      regions_.find(here_, [&](const PixelCells& cells) { list_.add(cells); });
     }
     if (list_.fragments().size() >= enough_fragments) add_fragments();
   }
@@ -184,7 +186,8 @@ class TileIntegrator {
   PointBatcher shader_;
   FragmentList list_;
   PixelCandidates candidates_;
-  PixelCells cells_;
+  std::vector<PixelTriangle> here_;  ///< of the pixel at work
+  PixelRegions regions_;
 
   PixelRect drawn_;
   std::vector<Sum> sum_;

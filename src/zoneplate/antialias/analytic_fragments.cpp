@@ -5,6 +5,8 @@
 namespace zoneplate::antialias {
 namespace {
 
+constexpr std::uint32_t hashes = 256;  // of a pixel's fragments
+
 /// Calls use(part, polygon) for what of the polygon lies in each cell of a grid × grid over the pixel, row by row.
 template <class Use>
 void for_parts(const ConvexPolygon& polygon, int grid, Use use) {
@@ -54,8 +56,12 @@ void FragmentList::add_whole(std::int32_t id, int x, int y) {
   weights_.insert(weights_.end(), whole_weights_.begin(), whole_weights_.end());
 }
 
-void FragmentList::add(const PixelCells& cells, int x, int y) {
-  pixel_begin_ = fragments_.size();
+void FragmentList::begin_pixel(int x, int y) {
+  x_ = x, y_ = y;
+  head_.assign(hashes, -1);
+}
+
+void FragmentList::add(const PixelCells& cells) {
   for (const PixelCells::Cell& cell : cells.cells()) {
     if (cell.layers == 0) continue;
     now_.clear();
@@ -65,26 +71,35 @@ void FragmentList::add(const PixelCells& cells, int x, int y) {
       now_.push_back({t.id, t.surface});
       is_masked = is_masked || t.surface == Surface::Masked;
     }
-    add_parts(cell.polygon, is_masked ? mask_ : shading_, x, y);
+    add_parts(cell.polygon, is_masked ? mask_ : shading_);
   }
 }
 
-void FragmentList::add_parts(const ConvexPolygon& polygon, int grid, int x, int y) {
-  if (grid == 1) return add_part(polygon, 0, x, y);
-  for_parts(polygon, grid, [&](std::uint32_t part, const ConvexPolygon& p) { add_part(p, part, x, y); });
+void FragmentList::add_parts(const ConvexPolygon& polygon, int grid) {
+  if (grid == 1) return add_part(polygon, 0);
+  for_parts(polygon, grid, [&](std::uint32_t part, const ConvexPolygon& p) { add_part(p, part); });
 }
 
-void FragmentList::add_part(const ConvexPolygon& polygon, std::uint32_t part, int x, int y) {
-  // One fragment for what of a part of the pixel shows the same, in however many polygons.
-  std::size_t i = pixel_begin_;
-  for (; i < fragments_.size(); ++i)
-    if (fragments_[i].part == part && std::ranges::equal(layers_of(fragments_[i]), now_)) break;
-  if (i == fragments_.size()) {
-    Fragment f{x, y, part, static_cast<std::uint32_t>(layers_.size()), static_cast<std::uint32_t>(now_.size()), {}};
-    layers_.insert(layers_.end(), now_.begin(), now_.end());
-    fragments_.push_back(f);
-    weights_.resize(weights_.size() + filter_.weight_count());
+/// One fragment for what of a part of the pixel shows the same, in however many polygons.
+std::size_t FragmentList::fragment_of(std::uint32_t part) {
+  std::int32_t& head = head_[(static_cast<std::uint32_t>(now_[0].id) + part * 31u) % hashes];
+  for (std::int32_t i = head; i >= 0; i = next_[static_cast<std::size_t>(i)]) {
+    const Fragment& f = fragments_[static_cast<std::size_t>(i)];
+    if (f.part == part && std::ranges::equal(layers_of(f), now_)) return static_cast<std::size_t>(i);
   }
+  const std::size_t added = fragments_.size();
+  const auto first = static_cast<std::uint32_t>(layers_.size()), count = static_cast<std::uint32_t>(now_.size());
+  layers_.insert(layers_.end(), now_.begin(), now_.end());
+  fragments_.push_back({x_, y_, part, first, count, {}});
+  weights_.resize(weights_.size() + filter_.weight_count());
+  next_.resize(fragments_.size(), -1);
+  next_[added] = head;
+  head = static_cast<std::int32_t>(added);
+  return added;
+}
+
+void FragmentList::add_part(const ConvexPolygon& polygon, std::uint32_t part) {
+  const std::size_t i = fragment_of(part);
   const AreaMoments m = area_moments(polygon);
   AreaMoments& sum = fragments_[i].moments;
   sum = {sum.area + m.area, sum.x + m.x, sum.y + m.y};

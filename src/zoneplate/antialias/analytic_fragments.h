@@ -33,7 +33,9 @@ class FragmentList {
   FragmentList(const PolynomialFilter& filter, int shading, int mask);
 
   void clear();
-  void add(const PixelCells& cells, int x, int y);
+  /// What is added from now on is of the pixel (x, y).
+  void begin_pixel(int x, int y);
+  void add(const PixelCells& cells);
   /// A pixel that one opaque triangle covers.
   void add_whole(std::int32_t id, int x, int y);
 
@@ -47,15 +49,18 @@ class FragmentList {
   }
 
  private:
-  void add_parts(const ConvexPolygon& polygon, int grid, int x, int y);
-  void add_part(const ConvexPolygon& polygon, std::uint32_t part, int x, int y);
+  void add_parts(const ConvexPolygon& polygon, int grid);
+  void add_part(const ConvexPolygon& polygon, std::uint32_t part);
+  std::size_t fragment_of(std::uint32_t part);
 
   const PolynomialFilter& filter_;
   const int shading_, mask_;
   std::vector<Fragment> fragments_;
   std::vector<double> weights_;
   std::vector<Layer> layers_;
-  std::size_t pixel_begin_ = 0;     ///< the first fragment of the pixel at work
+  int x_ = 0, y_ = 0;               ///< the pixel at work
+  std::vector<std::int32_t> head_;  ///< its fragments by a hash: the last one, or -1
+  std::vector<std::int32_t> next_;  ///< by fragment: an earlier one of the same hash, or -1
   std::vector<Layer> now_;          ///< of the cell at work
   std::vector<AreaMoments> whole_;  ///< of the grid's parts of a whole pixel
   std::vector<double> whole_weights_;
