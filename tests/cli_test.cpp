@@ -214,6 +214,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2, {"triangles", "teapot", "-o", "a.png"}, "one input at a time: triangles and teapot were given"},
       {2, {"triangles", "-o", "a.xyz"}, "--output: a.xyz is not a format that can be written (.png)"},
       {2, {"triangles", "-o", "-", "--aov", "depth"}, "--aov writes files beside OUT, which cannot be -"},
+      {2, {"triangles", "-o", "a.png", "--aov", "error"}, "--aov error: msaa:n=8 has no estimate of its error; converged has"},
       {2,
        {"triangles", "-o", "a.png", "--size", "99999x1"},
        "--resolution: 99999x1 is too large: a side has at most 16384 pixels"},

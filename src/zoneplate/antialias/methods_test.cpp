@@ -30,6 +30,17 @@ TEST(Method, TextsMakeRequests) {
   EXPECT_EQ(ask("ssaa:pattern=halton,samples=64").samples, named_pattern("halton", 64));
 }
 
+TEST(Method, ReferencesDrawForThemselves) {
+  const auto ask = [](std::string_view text) { return make_resolver(antialias::methods(), text)->ask(0); };
+  for (const char* text : {"analytic", "analytic:filter=mitchell,shading=4,order=display", "converged",
+                           "converged:samples=64,filter=gaussian,order=display"}) {
+    EXPECT_TRUE(ask(text).draw) << text;
+    EXPECT_FALSE(ask(text).is_local) << text;
+    EXPECT_EQ(ask(text).estimates_error, text[0] == 'c') << text;
+  }
+  EXPECT_FALSE(ask("ssaa").draw);
+}
+
 TEST(Method, WrongTextsAreNamed) {
   EXPECT_NE(refusal("mssa").find("did you mean 'msaa'"), std::string::npos);
   EXPECT_NE(refusal("raytracing").find("none, ssaa, msaa"), std::string::npos);
@@ -39,6 +50,8 @@ TEST(Method, WrongTextsAreNamed) {
   EXPECT_NE(refusal("ssaa:n=17").find("1 to 16"), std::string::npos);
   EXPECT_NE(refusal("ssaa:n=x").find("whole number"), std::string::npos);
   EXPECT_NE(refusal("ssaa:n").find("unknown parameter"), std::string::npos);
+  EXPECT_NE(refusal("analytic:filter=gaussian").find("box, tent, quadratic"), std::string::npos);
+  EXPECT_NE(refusal("converged:samples=1000").find("512, 1024"), std::string::npos);
   EXPECT_NE(refusal("none:n=1").find("it has none"), std::string::npos);
 }
 

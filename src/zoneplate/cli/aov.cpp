@@ -83,6 +83,19 @@ std::vector<std::uint8_t> coverage_picture(const Frame& frame) {
   return encode_png(image, {.has_alpha = false, .is_srgb = false});
 }
 
+std::vector<std::uint8_t> error_picture(const Frame& frame) {
+  float greatest = 0;
+  double squares = 0;
+  for (const float e : frame.error.values()) greatest = std::max(greatest, e), squares += static_cast<double>(e) * e;
+  const double rms = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, frame.error.values().size())));
+  Plane<std::uint16_t> image(frame.error.width(), frame.error.height());
+  for (std::size_t i = 0; i < image.values().size() && greatest > 0; ++i)
+    image.values()[i] = static_cast<std::uint16_t>(code(frame.error.values()[i] / greatest, 65535));
+  return encode_png(image, {.has_alpha = false,
+                            .is_srgb = false,
+                            .text = {{"greatest", fmt::format("{}", greatest)}, {"rms", fmt::format("{}", rms)}}});
+}
+
 constexpr Aov all[] = {
     {"depth", "distance along the view axis, near black, far white", &Planes::depth, depth_picture},
     {"normal", "world-space normal as colour", &Planes::normal, normal_picture},
@@ -92,7 +105,8 @@ constexpr Aov all[] = {
     {"material-id", "a false colour for each material", &Planes::material_id, id_picture<&Frame::material_id>},
     {"primitive-id", "a false colour for each triangle of a mesh", &Planes::primitive_id,
      id_picture<&Frame::primitive_id>},
-    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, coverage_picture}};
+    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, coverage_picture},
+    {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, error_picture}};
 
 }  // namespace
 

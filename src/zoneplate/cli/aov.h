@@ -25,6 +25,8 @@ struct Aov {
 /// uv           8-bit: red and green are the fractional parts of u and v.
 /// *-id         a false colour for each number, the same in every picture.
 /// coverage     16-bit grey: share of the pixel's samples that a surface owns.
+/// error        16-bit grey: estimated standard error of the colour, white being the greatest of the picture; that and
+///              the root mean square, in light, are in the tEXt chunks "greatest" and "rms".
 std::span<const Aov> aovs();
 
 }  // namespace zoneplate::cli

@@ -25,6 +25,7 @@ Frame frame() {
   f.uv = plane(float2{0.5f, 1.25f}, float2{-0.25f, 0}, float2{});
   f.object_id = f.material_id = f.primitive_id = plane(0u, 1u, Frame::no_id);
   f.coverage = plane(1.0f, 0.5f, 0.0f);
+  f.error = plane(0.003f, 0.0015f, 0.0f);
   return f;
 }
 
@@ -85,6 +86,15 @@ TEST(Aov, CoverageIsAShare) {
   EXPECT_EQ(png.pixels16(0, 0).r, 65535);
   EXPECT_EQ(png.pixels16(1, 0).r, 32768);
   EXPECT_EQ(png.pixels16(2, 0).r, 0);
+}
+
+TEST(Aov, ErrorIsShownAgainstTheGreatestAndTellsIt) {
+  const PngImage png = picture("error");
+  EXPECT_EQ(png.pixels16(0, 0).r, 65535);
+  EXPECT_EQ(png.pixels16(1, 0).r, 32768);
+  EXPECT_EQ(png.pixels16(2, 0).r, 0);
+  const std::vector<std::uint8_t> bytes = aovs().back().encode(frame());
+  EXPECT_NE(std::string(bytes.begin(), bytes.end()).find(std::string("tEXtgreatest\0000.003", 18)), std::string::npos);
 }
 
 }  // namespace

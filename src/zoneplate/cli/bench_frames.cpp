@@ -1,7 +1,6 @@
 #include "zoneplate/cli/bench_frames.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/usage.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/raster/rasterize.h"
 #include "zoneplate/scene/builtin.h"
@@ -20,13 +20,6 @@
 
 namespace zoneplate::cli {
 namespace {
-
-double processor_ms() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto ms = [](timeval t) { return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3; };
-  return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
 
 // Busy time of all processors, from /proc/stat in hundredths of a second; 0 where there is none.
 double machine_busy_ms() {

@@ -25,9 +25,9 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr std::array demos = {demo_jaggies,  demo_antialiasing, demo_black_edge,
-                              demo_moire,    demo_prefilter,    demo_convolution_theorem,
-                              demo_sampling, demo_aliases,      demo_wagon_wheel};
+constexpr std::array demos = {demo_jaggies,        demo_antialiasing,        demo_black_edge, demo_moire,
+                              demo_prefilter,      demo_convolution_theorem, demo_sampling,   demo_aliases,
+                              demo_exact_coverage, demo_wagon_wheel};
 
 struct DemoArgs {
   std::string output;

@@ -40,6 +40,7 @@ Demo demo_prefilter();
 Demo demo_convolution_theorem();
 Demo demo_sampling();
 Demo demo_aliases();
+Demo demo_exact_coverage();
 
 /// What the figure says, as text: title, captions, text, wrapped for a terminal, and the tables.
 std::string text_of(const Lesson& lesson);

@@ -85,6 +85,8 @@ std::string aov_path(const std::string& output, std::string_view name) {
 Request request_of(Resolver& resolver, const RenderArgs& args) {
   Request request = resolver.ask(0);
   for (const Aov* aov : args.aovs) request.planes.*(aov->plane) = request.planes.depth = true;
+  if (request.planes.error && !request.estimates_error)
+    throw Error(Trouble::Usage, "--aov error: " + args.method + " has no estimate of its error; converged has");
   return request;
 }
 
@@ -103,6 +105,7 @@ std::vector<OutputFile> make_files(const RenderArgs& args, const Scene& scene, c
   const Request request = request_of(resolver, args);
   RenderOptions options = args.options;
   options.crop = rendered_crop(args.options, request.halo);
+  options.display = &display;
   if (request.is_local) options.shown = &display;
   Frame frame = render_rounds(scene, camera, resolver, request, options, display, &summary.counts);
   summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},

@@ -109,8 +109,8 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--crop", "X,Y,W,H", "Write only this part, with the same bits as in the whole picture", group, false,
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
-       "Data passes to write too: depth, normal, albedo, uv, object-id, material-id, primitive-id, coverage", group,
-       false, [&](auto& text) { a.aovs = parse_aovs(text); }},
+       "Data passes to write too: depth, normal, albedo, uv, object-id, material-id, primitive-id, coverage, error",
+       group, false, [&](auto& text) { a.aovs = parse_aovs(text); }},
       {"--color-management", "MODE",
        "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
        [&](auto& text) {

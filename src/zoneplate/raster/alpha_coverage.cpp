@@ -10,9 +10,9 @@ namespace {
 constexpr float least_slope = 1e-4f;
 
 /// The batch's points moved by a pixel (or sample) along one direction.
-Batch moved(const Batch& batch, const float (&change)[3][Batch::capacity]) {
+Batch moved(const Batch& batch, const float (&change)[2][Batch::capacity]) {
   Batch out = batch;
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 2; ++k)
     for (int i = 0; i < batch.padded(); ++i) out.b[k][i] += change[k][i];
   return out;
 }

@@ -13,6 +13,7 @@ namespace zoneplate {
 struct Planes {
   bool depth = false, normal = false, albedo = false, uv = false;
   bool object_id = false, material_id = false, primitive_id = false, coverage = false;
+  bool error = false;    ///< of methods that estimate it
   bool samples = false;  ///< colour, depth and triangle id of every sample
 
   bool any_pixel_plane() const {
@@ -40,6 +41,7 @@ struct Frame {
   Plane<float2> uv;
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
   Plane<float> coverage;
+  Plane<float> error;  ///< estimated standard error of the colour, the greatest of its channels
 
   DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::resolve`
 

@@ -15,6 +15,8 @@
 
 namespace zoneplate {
 
+struct Drawing;  // render/drawing.h
+
 /// How often a surface is shaded.
 enum class Rate {
   Surface,  ///< once per pixel and triangle (multisampling)
@@ -35,6 +37,11 @@ struct Request {
   float footprint = 0;        ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
   bool is_local = false;      ///< the mean is the method's last word: `resolve` and `finish` change nothing
   int halo = 0;  ///< pixels beyond a picture's sides that `finish` would read, so that a crop has the whole's bits
+
+  /// Draws the colour in the method's own way, in place of the tiles' mean; `samples` then serve the data passes alone.
+  /// It holds what it needs: the method itself may be gone when it is called.
+  std::function<void(const Drawing&)> draw;
+  bool estimates_error = false;  ///< `draw` fills Frame::error
 };
 
 /// An antialiasing method at work on one sequence of frames. Override what the method changes.

@@ -7,6 +7,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/raster/rasterize.h"
+#include "zoneplate/render/drawing.h"
 #include "zoneplate/render/surfaces.h"
 #include "zoneplate/shade/surface.h"
 
@@ -112,6 +113,22 @@ void check(const RenderOptions& o, const Request& request) {
     reject("the crop must lie within the picture of " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
+  if (request.draw && (o.shown || request.planes.samples))
+    reject("a method that draws for itself gives a linear picture and has no samples");
+}
+
+/// The colour by the request's own hand, the data passes by the tiles.
+RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const PointShader& shader,
+                     const RasterRules& rules, const Target& target, const RenderOptions& options,
+                     Plane<float>* error) {
+  RasterCounts counts;
+  if (request.planes.any_pixel_plane()) {
+    Target planes = target;
+    planes.color = nullptr;
+    rasterize(draws, shader, rules, planes, options.memory);
+  }
+  request.draw({draws, shader, rules, target, options, error, counts});
+  return counts;
 }
 
 }  // namespace
@@ -145,11 +162,13 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   if (target.presenter) target.shown = &(frame.shown = make_shown(crop.width, crop.height, options.memory));
   const double prepare_ms = prepare.ms();
 
-  const RasterCounts c = rasterize(draws.draws, points,
-                                   {.is_top_left = options.edge_rule == EdgeRule::TopLeft,
-                                    .is_painter = options.visibility == Visibility::Painter,
-                                    .isa = options.isa},
-                                   target, options.memory);
+  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
+                          .is_painter = options.visibility == Visibility::Painter,
+                          .isa = options.isa};
+  if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
+  const RasterCounts c = request.draw ? draw_by(request, draws.draws, points, rules, target, options,
+                                                frame.error.empty() ? nullptr : &frame.error)
+                                      : rasterize(draws.draws, points, rules, target, options.memory);
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);

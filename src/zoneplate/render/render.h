@@ -47,6 +47,8 @@ struct RenderOptions {
   /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
   /// whose request is local.
   const DisplayOptions* shown = nullptr;
+  /// How the picture will be shown, for methods that average what is shown; null: as DisplayOptions{}.
+  const DisplayOptions* display = nullptr;
   // The scene's, made once for many frames; null: made for this one.
   const TextureSet* textures = nullptr;
   const VertexRecords* records = nullptr;

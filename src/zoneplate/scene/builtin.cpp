@@ -14,12 +14,12 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::array makers = {builtin_teapot,    builtin_checkerboard, builtin_triangles, builtin_cyclic,
-                               builtin_sphere,    builtin_wheel,        builtin_city,      builtin_city_trilinear,
-                               builtin_tri10k,    builtin_tri1m,        builtin_micro,     builtin_fill,
-                               builtin_fillblend, builtin_near_axis,    builtin_wires,     builtin_stars,
-                               builtin_sun_roof,  builtin_foliage,      builtin_tiles,     builtin_metal,
-                               builtin_text_ui,   builtin_thin_diagonal};
+constexpr std::array makers = {builtin_teapot,         builtin_checkerboard, builtin_triangles,    builtin_cyclic,
+                               builtin_crossing,       builtin_sphere,       builtin_wheel,        builtin_city,
+                               builtin_city_trilinear, builtin_tri10k,       builtin_tri1m,        builtin_micro,
+                               builtin_fill,           builtin_fillblend,    builtin_near_axis,    builtin_wires,
+                               builtin_stars,          builtin_sun_roof,     builtin_foliage,      builtin_tiles,
+                               builtin_metal,          builtin_text_ui,      builtin_thin_diagonal};
 
 /// A parameter's value as it is written: 500 of three decimals is "0.5".
 std::string shown(std::int64_t value, int decimals) {

@@ -31,6 +31,7 @@ BuiltinMaker builtin_teapot();
 BuiltinMaker builtin_checkerboard();
 BuiltinMaker builtin_triangles();
 BuiltinMaker builtin_cyclic();
+BuiltinMaker builtin_crossing();
 BuiltinMaker builtin_sphere();
 BuiltinMaker builtin_tri10k();
 BuiltinMaker builtin_tri1m();

@@ -58,6 +58,28 @@ Scene make_cyclic(std::span<const std::int64_t>) {
   return scene;
 }
 
+/// Squares in the three coordinate planes: each pair passes through each other along an axis.
+Scene make_crossing(std::span<const std::int64_t>) {
+  Scene scene;
+  constexpr Rgba8 codes[] = {{235, 120, 80}, {120, 190, 110}, {90, 130, 225}};
+  constexpr const char* names[] = {"yz", "zx", "xy"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto corner = [&](float u, float v) {
+      const float p[3] = {0, u, v};
+      return float3{p[(3 - i) % 3], p[(4 - i) % 3], p[(5 - i) % 3]};
+    };
+    Mesh mesh;
+    mesh.position = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+    mesh.normal.assign(4, normalize(cross(mesh.position[1] - mesh.position[0], mesh.position[2] - mesh.position[0])));
+    mesh.index = {0, 1, 2, 0, 2, 3};
+    mesh.material = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(plain(names[i], codes[i]));
+    add_object(scene, names[i], std::move(mesh));
+  }
+  scene.cameras.push_back(camera_at({2.6f, 1.9f, 3.3f}, {0, 0, 0}, quarter_pi, 0.1f, 50));
+  return scene;
+}
+
 }  // namespace
 
 BuiltinMaker builtin_triangles() {
@@ -66,6 +88,10 @@ BuiltinMaker builtin_triangles() {
 
 BuiltinMaker builtin_cyclic() {
   return {"cyclic", "three long triangles, each before the next in a circle", {}, make_cyclic};
+}
+
+BuiltinMaker builtin_crossing() {
+  return {"crossing", "three squares that pass through each other", {}, make_crossing};
 }
 
 }  // namespace zoneplate

@@ -1,0 +1,232 @@
+// The exact picture, a tile at a time: candidates of each pixel, its visible polygons, their colours, their sum.
+#include "zoneplate/antialias/analytic_draw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "zoneplate/antialias/analytic_candidates.h"
+#include "zoneplate/antialias/analytic_fragments.h"
+#include "zoneplate/antialias/analytic_regions.h"
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/coverage.h"
+#include "zoneplate/raster/points.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr std::size_t enough_fragments = 2048;  // that are shaded together
+
+/// What all tiles look at.
+struct Whole {
+  const Drawing& drawing;
+  const ProjectedDraws& projected;
+  const ScreenTriangles& triangles;
+  const Target& target;  ///< as the shader's footprint wants it
+  const PolynomialFilter& filter;
+  const AnalyticOptions& options;
+  std::optional<ShownLight> shown;
+};
+
+/// The part of a tile that is drawn, and the pixels around that count for it.
+PixelRect drawn_rect(const Whole& whole, std::size_t tile) {
+  const ScreenTriangles& t = whole.triangles;
+  const Target& target = whole.target;
+  const int x = (t.first_column + static_cast<int>(tile) % t.columns) * tile_size;
+  const int y = (t.first_row + static_cast<int>(tile) / t.columns) * tile_size;
+  return {std::max(x, target.x), std::max(y, target.y), std::min(x + tile_size, target.x + target.width),
+          std::min(y + tile_size, target.y + target.height)};
+}
+
+PixelRect rect_around(const PixelRect& r, int reach, Viewport viewport) {
+  return {std::max(r.left - reach, 0), std::max(r.top - reach, 0), std::min(r.right + reach, viewport.width),
+          std::min(r.bottom + reach, viewport.height)};
+}
+
+class TileIntegrator {
+ public:
+  explicit TileIntegrator(const Whole& whole)
+      : whole_(whole),
+        shader_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target),
+        list_(whole.filter, whole.options.shading, whole.options.mask) {}
+
+  void draw(std::size_t tile) {
+    if (whole_.triangles.of_tile(tile).empty()) return;
+    drawn_ = drawn_rect(whole_, tile);
+    const PixelRect around = rect_around(drawn_, whole_.filter.reach(), whole_.target.viewport);
+    const auto pixels = static_cast<std::size_t>(drawn_.width()) * static_cast<std::size_t>(drawn_.height());
+    sum_.assign(pixels, {});
+    covered_.assign(pixels, 0);
+    candidates_.find(whole_.triangles, tile, around);
+    std::uint32_t pixel = 0;
+    for (int y = around.top; y < around.bottom; ++y)
+      for (int x = around.left; x < around.right; ++x) add_pixel(pixel++, x, y);
+    add_fragments();
+    write();
+  }
+
+  std::uint64_t shaded() const { return shader_.shaded(); }
+
+ private:
+  struct Sum {
+    double r = 0, g = 0, b = 0, a = 0;
+  };
+
+  void add_pixel(std::uint32_t pixel, int x, int y) {
+    const auto candidates = candidates_.of_pixel(pixel);
+    if (candidates.empty()) return;
+    const ScreenTriangle& nearest = whole_.triangles.triangles[candidates[0].triangle];
+    if (candidates.size() == 1 && candidates[0].covers_pixel && nearest.surface == Surface::Opaque) {
+      list_.add_whole(nearest.shape.id, x, y);
+    } else {
+      here_.clear();
+      for (const PixelCandidates::Candidate& c : candidates)
+        here_.push_back(at_pixel(whole_.triangles.triangles[c.triangle], c.covers_pixel, x, y));
+      list_.begin_pixel(x, y);
+      regions_.find(here_, [&](const PixelCells& cells) { list_.add(cells); });
+    }
+    if (list_.fragments().size() >= enough_fragments) add_fragments();
+  }
+
+  /// Shades the fragments and adds them to the pixels around.
+  void add_fragments() {
+    test_masks();
+    find_points();
+    shader_.shade(points_, colors_, nullptr);
+    std::size_t point = 0;
+    for (std::size_t i = 0; i < list_.fragments().size(); ++i) {
+      Linear color{0, 0, 0, 0};
+      for (; point < points_.size() && fragment_of_[point] == i; ++point) {
+        const Linear& c = colors_[point];
+        color = is_surface_[point] ? c : c + color * (1 - c.a);
+      }
+      add(i, whole_.shown ? (*whole_.shown)(color) : color);
+    }
+    list_.clear();
+  }
+
+  static Point point_of(const Fragment& f, std::int32_t id) {
+    // A sliver too thin for its own area has its centroid anywhere in the pixel.
+    const AreaMoments& m = f.moments;
+    const auto within = [&](double moment) {
+      const double at = m.area > 0 ? moment / m.area : 0.5;
+      return static_cast<std::int32_t>(std::floor((at > 0 ? at < 1 ? at : 1.0 : 0.0) * 256 + 0.5));
+    };
+    return {f.x * 256 + within(m.x), f.y * 256 + within(m.y), id, 0, 0};
+  }
+
+  /// is_there_: of every masked layer of every fragment, in their order.
+  void test_masks() {
+    points_.clear();
+    for (const Fragment& f : list_.fragments())
+      for (const Layer& layer : list_.layers_of(f))
+        if (layer.surface == Surface::Masked) points_.push_back(point_of(f, layer.id));
+    is_there_.clear();
+    if (!points_.empty()) shader_.test_alpha(points_, is_there_);
+  }
+
+  /// points_: the layers of each fragment that are seen, far to near; the first may be a surface that hides the rest.
+  void find_points() {
+    points_.clear();
+    fragment_of_.clear();
+    is_surface_.clear();
+    std::size_t mask = 0;
+    for (std::size_t i = 0; i < list_.fragments().size(); ++i) {
+      const Fragment& f = list_.fragments()[i];
+      const std::size_t first = points_.size();
+      bool is_closed = false;
+      for (const Layer& layer : list_.layers_of(f)) {
+        const bool is_there = layer.surface != Surface::Masked || is_there_[mask++];
+        if (is_closed || !is_there) continue;
+        is_closed = layer.surface != Surface::Blended;
+        points_.push_back(point_of(f, layer.id));
+        fragment_of_.push_back(i);
+        is_surface_.push_back(is_closed);
+      }
+      std::reverse(points_.begin() + static_cast<std::ptrdiff_t>(first), points_.end());
+      std::reverse(is_surface_.begin() + static_cast<std::ptrdiff_t>(first), is_surface_.end());
+      if (is_closed && drawn_.contains(f.x, f.y)) covered_[place_of(f.x, f.y)] += f.moments.area;
+    }
+  }
+
+  void add(std::size_t i, Linear color) {
+    const Fragment& f = list_.fragments()[i];
+    const int reach = whole_.filter.reach();
+    const double* weight = list_.weights_of(i).data();
+    for (int y = f.y - reach; y <= f.y + reach; ++y)
+      for (int x = f.x - reach; x <= f.x + reach; ++x, ++weight) {
+        if (!drawn_.contains(x, y)) continue;
+        Sum& s = sum_[place_of(x, y)];
+        s = {s.r + *weight * color.r, s.g + *weight * color.g, s.b + *weight * color.b, s.a + *weight * color.a};
+      }
+  }
+
+  std::size_t place_of(int x, int y) const {
+    return static_cast<std::size_t>(y - drawn_.top) * static_cast<std::size_t>(drawn_.width()) +
+           static_cast<std::size_t>(x - drawn_.left);
+  }
+
+  void write() const {
+    const Target& target = whole_.target;
+    for (int y = drawn_.top; y < drawn_.bottom; ++y)
+      for (int x = drawn_.left; x < drawn_.right; ++x) {
+        const Sum& s = sum_[place_of(x, y)];
+        const double share = whole_.filter.share_inside(x, target.viewport.width) *
+                             whole_.filter.share_inside(y, target.viewport.height);
+        const auto mean = [&](double v) { return static_cast<float>(v / share); };
+        (*target.color)(x - target.x, y - target.y) = {mean(s.r), mean(s.g), mean(s.b), mean(s.a)};
+        if (target.coverage)
+          (*target.coverage)(x - target.x, y - target.y) = static_cast<float>(covered_[place_of(x, y)]);
+      }
+  }
+
+  const Whole& whole_;
+  PointBatcher shader_;
+  FragmentList list_;
+  PixelCandidates candidates_;
+  std::vector<PixelTriangle> here_;  ///< of the pixel at work
+  PixelRegions regions_;
+
+  PixelRect drawn_;
+  std::vector<Sum> sum_;
+  std::vector<double> covered_;  ///< the area that surfaces own
+
+  std::vector<Point> points_;
+  std::vector<std::size_t> fragment_of_;  ///< by point
+  std::vector<std::uint8_t> is_surface_;  ///< by point: hides what is behind it
+  std::vector<std::uint8_t> is_there_;
+  std::vector<Linear> colors_;
+};
+
+}  // namespace
+
+void draw_analytic(const Drawing& drawing, const AnalyticOptions& options) {
+  const Stopwatch geometry;
+  const PolynomialFilter filter(options.filter);
+  Target target = drawing.target;
+  target.spacing = drawing.options.sample_footprint ? 1 / static_cast<float>(options.shading) : 1;
+  const ProjectedDraws projected = project_draws(drawing.draws, target.viewport, drawing.rules.isa);
+  const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};
+  const ScreenTriangles triangles = make_screen_triangles(projected, target, rules, filter.reach());
+  drawing.counts.geometry_ms = geometry.ms();
+  drawing.counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
+  drawing.counts.set_up = triangles.triangles.size();
+
+  const Stopwatch tiles;
+  Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
+  if (options.order == FilterOrder::Display)
+    whole.shown.emplace(drawing.options.display ? *drawing.options.display : DisplayOptions{});
+  std::vector<std::unique_ptr<TileIntegrator>> integrators(static_cast<std::size_t>(thread_limit()));
+  parallel_for(triangles.tiles(), [&](std::size_t tile) {
+    std::unique_ptr<TileIntegrator>& mine = integrators[static_cast<std::size_t>(thread_index())];
+    if (!mine) mine = std::make_unique<TileIntegrator>(whole);
+    mine->draw(tile);
+  });
+  for (const auto& integrator : integrators)
+    if (integrator) drawing.counts.shaded += integrator->shaded();
+  drawing.counts.tiles_ms = tiles.ms();
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace zoneplate::antialias {
+
+/// A place in or near a pixel.
+///
+/// Units     pixels from the pixel's top-left corner, x right, y down.
+struct Place {
+  double x = 0, y = 0;
+};
+
+/// A straight line; `distance` is positive on its inner side, in pixels where a² + b² = 1.
+struct Line {
+  double a = 0, b = 0, c = 0;
+  double distance(Place p) const { return (a * p.x + b * p.y) + c; }
+};
+
+/// A convex part of a pixel, its corners clockwise on the screen. A polygon without corners is nothing.
+struct ConvexPolygon {
+  static constexpr int capacity = 20;
+  int count = 0;
+  std::array<Place, capacity> corner;
+
+  ConvexPolygon() {}
+  /// Most have four or five corners: only those are copied.
+  ConvexPolygon(const ConvexPolygon& other) { *this = other; }
+  ConvexPolygon& operator=(const ConvexPolygon& other) {
+    count = other.count;
+    for (int i = 0; i < count; ++i) corner[static_cast<std::size_t>(i)] = other[i];
+    return *this;
+  }
+
+  bool empty() const { return count == 0; }
+  void add(Place p) { corner[static_cast<std::size_t>(count++)] = p; }
+  const Place& operator[](int i) const { return corner[static_cast<std::size_t>(i)]; }
+};
+
+/// The pixel itself: the unit square.
+ConvexPolygon unit_square();
+
+/// A corner nearer to a line than this many pixels lies on it: far above rounding, far below anything seen.
+inline constexpr double on_line = 0x1p-36;
+
+/// Cuts a polygon in two along a line. What lies within `on_line` of the line goes with the rest of its side.
+///
+/// Exact     both parts get the same new corners, so the areas of the parts sum to that of the whole within 1e-15.
+/// Requires  less than capacity corners.
+void cut(const ConvexPolygon& polygon, const Line& line, ConvexPolygon& inside, ConvexPolygon& outside);
+
+/// True if nothing of a polygon is inside of the line.
+bool is_outside(const ConvexPolygon& polygon, const Line& line);
+
+/// The part of `cut` that is inside.
+ConvexPolygon clipped(const ConvexPolygon& polygon, const Line& line);
+
+/// Cuts a polygon in two from its first corner to its middle one.
+///
+/// Requires  four corners at least.
+void halve(const ConvexPolygon& polygon, ConvexPolygon& first, ConvexPolygon& second);
+
+/// Area and first moments: ∫ dA, ∫ x dA and ∫ y dA.
+struct AreaMoments {
+  double area = 0, x = 0, y = 0;
+};
+AreaMoments area_moments(const ConvexPolygon& polygon);
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,85 @@
+#include "zoneplate/antialias/analytic_regions.h"
+
+#include <algorithm>
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr std::size_t crowd = 16;       // triangles, beyond which a region is quartered
+constexpr std::size_t most_levels = 6;  // of quartering: regions of 1/64 pixel
+
+ConvexPolygon square_at(double x, double y, double side) {
+  ConvexPolygon out;
+  for (const Place p : {Place{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}) out.add(p);
+  return out;
+}
+
+bool covers(const PixelTriangle& triangle, const ConvexPolygon& square) {
+  if (triangle.covers_all) return true;
+  for (const Line& edge : triangle.edge)
+    for (int i = 0; i < square.count; ++i)
+      if (edge.distance(square[i]) < -on_line) return false;
+  return true;
+}
+
+bool misses(const PixelTriangle& triangle, const ConvexPolygon& square) {
+  if (triangle.covers_all) return false;
+  return std::any_of(std::begin(triangle.edge), std::end(triangle.edge),
+                     [&](const Line& edge) { return is_outside(square, edge); });
+}
+
+}  // namespace
+
+void PixelRegions::find(std::span<const PixelTriangle> triangles, const Use& use) {
+  triangles_ = triangles;
+  members_.resize(most_levels + 2);
+  members_[0].clear();
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) members_[0].push_back({i, triangles[i].covers_all, 0});
+  if (triangles.size() > crowd) return find_in(unit_square(), 1, use);
+  cells_.clear(unit_square());
+  for (const PixelTriangle& t : triangles) cells_.insert(t);
+  use(cells_);
+}
+
+/// members_[level]: those of the level above that are in the square and not hidden all over it.
+void PixelRegions::gather(const ConvexPolygon& square, std::size_t level) {
+  std::vector<Member>& found = members_[level];
+  found.clear();
+  double hidden_below = -1;
+  for (const Member& m : members_[level - 1]) {
+    const PixelTriangle& t = triangles_[m.number];
+    if (misses(t, square)) continue;
+    double least = 0, greatest = 0;
+    for (int i = 0; i < square.count; ++i) {
+      const double z = (t.z + t.zx * square[i].x) + t.zy * square[i].y;
+      least = i == 0 ? z : std::min(least, z);
+      greatest = i == 0 ? z : std::max(greatest, z);
+    }
+    const bool is_cover = covers(t, square);
+    if (is_cover && t.surface == Surface::Opaque) hidden_below = std::max(hidden_below, least);
+    found.push_back({m.number, is_cover, greatest});
+  }
+  std::erase_if(found, [&](const Member& m) { return m.greatest_depth < hidden_below; });
+}
+
+void PixelRegions::find_in(const ConvexPolygon& square, std::size_t level, const Use& use) {
+  gather(square, level);
+  if (members_[level].empty()) return;
+  if (members_[level].size() > crowd && level < most_levels + 1) {
+    const Place corner = square[0];
+    const double half = (square[1].x - corner.x) / 2;
+    for (const Place p :
+         {corner, {corner.x + half, corner.y}, {corner.x, corner.y + half}, {corner.x + half, corner.y + half}})
+      find_in(square_at(p.x, p.y, half), level + 1, use);
+    return;
+  }
+  cells_.clear(square);
+  for (const Member& m : members_[level]) {
+    PixelTriangle t = triangles_[m.number];
+    t.covers_all = m.covers;
+    cells_.insert(t);
+  }
+  use(cells_);
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,278 @@
+#include <gtest/gtest.h>
+
+#include "zoneplate/antialias/flat_triangles_for_test.h"
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/render/render.h"
+#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/fit.h"
+#include "zoneplate/signal/kernel.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr Linear white{1, 1, 1, 1}, red{0.8f, 0.1f, 0.1f, 1}, blue{0.1f, 0.2f, 0.9f, 1};
+
+/// The pixel's area on the side of a line where dot(normal, p) < distance from its centre: a sum of two uniforms.
+double half_plane(double nx, double ny, double distance) {
+  const double m = std::max(std::abs(nx), std::abs(ny)), n = std::min(std::abs(nx), std::abs(ny));
+  const double d = std::abs(distance);
+  double far = 0;
+  if (d <= (m - n) / 2)
+    far = 0.5 - d / m;
+  else if (d < (m + n) / 2)
+    far = ((m + n) / 2 - d) * ((m + n) / 2 - d) / (2 * m * n);
+  return distance > 0 ? 1 - far : far;
+}
+
+double snapped(double v) { return std::floor(v * 256 + 0.5) / 256; }
+
+/// A half-plane over a picture, its edge through snapped places.
+struct HalfPlane {
+  double nx, ny, offset;  ///< nx x + ny y < offset, in pixels
+  FlatTriangles scene;
+
+  HalfPlane(int side, double angle, double shift, bool is_level_at_all = false) : scene(side, side) {
+    const double dx = is_level_at_all ? 1 : std::cos(angle), dy = is_level_at_all ? 0 : std::sin(angle);
+    const double cx = side / 2.0 - dy * shift, cy = side / 2.0 + dx * shift;
+    const FlatCorner p{snapped(cx - 900 * dx), snapped(cy - 900 * dy)};
+    const FlatCorner q{snapped(cx + 900 * dx), snapped(cy + 900 * dy)};
+    scene.add(p, q, {snapped(cx + 3000 * dy), snapped(cy - 3000 * dx)}, white);
+    const double ex = q.x - p.x, ey = q.y - p.y, length = std::sqrt(ex * ex + ey * ey);
+    nx = -ey / length, ny = ex / length, offset = nx * p.x + ny * p.y;
+  }
+  double area(int x, int y) const { return half_plane(nx, ny, offset - nx * (x + 0.5) - ny * (y + 0.5)); }
+};
+
+/// Triangles of all sizes that overlap and pass through each other, as sharp as snapping allows.
+FlatTriangles soup(std::uint32_t seed, int count, int side) {
+  Numbers random(seed);
+  FlatTriangles scene(side, side);
+  for (int i = 0; i < count; ++i) {
+    const double size = random(0, 1) < 0.5 ? 3 : side;
+    const double x = random(0, side), y = random(0, side);
+    FlatCorner c[3];
+    for (FlatCorner& p : c)
+      p = {snapped(x + random(-size, size)), snapped(y + random(-size, size)), static_cast<float>(random(0.1, 0.9))};
+    if (i % 5 == 0) c[2] = {c[1].x + 1.0 / 256, c[1].y + 1.0 / 256, c[1].z};
+    const auto channel = [&] { return static_cast<float>(random(0, 1)); };
+    scene.add(c[0], c[1], c[2], {channel(), channel(), channel(), 1});
+  }
+  return scene;
+}
+
+TEST(Analytic, HalfPlanesHaveTheirAreaInClosedForm) {
+  double worst = 0;
+  for (int k = 0; k < 60; ++k) {
+    const HalfPlane edge(16, 2 * pi * k / 60 + 0.003, 5.0 * (k % 7) / 7 - 2);
+    const LinearImage image = edge.scene.analytic();
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) {
+        worst = std::max(worst, std::abs(image(x, y).a - edge.area(x, y)));
+        EXPECT_EQ(image(x, y).r, image(x, y).a);
+      }
+  }
+  EXPECT_LT(worst, 1e-7);
+}
+
+TEST(Analytic, CoverageIsTheAreaItself) {
+  Plane<float> coverage;
+  const HalfPlane edge(16, 0.3, 0.4);
+  const LinearImage image = edge.scene.analytic({.filter = "mitchell"}, {}, &coverage);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) EXPECT_NEAR(coverage(x, y), edge.area(x, y), 1e-7);
+}
+
+TEST(Analytic, OfGridsTheErrorFallsAsTheirNumberToThreeHalves) {
+  // Root mean squares over all half-planes that cross a pixel: 0.0887, 0.0315, 0.0112 of grids of 2, 4, 8.
+  constexpr int side = 32, lines = 60;
+  for (const auto& [n, expected] : {std::pair{2, 0.0887}, {4, 0.0315}, {8, 0.0112}}) {
+    double squares = 0;
+    int count = 0;
+    for (int k = 0; k < lines; ++k) {
+      const HalfPlane edge(side, 2 * pi * (k + 0.37) / lines, 3.0 * ((k * 17) % 60) / 60);
+      const LinearImage exact = edge.scene.analytic(), sampled = edge.scene.sampled(grid_pattern(n));
+      for (std::size_t i = 0; i < exact.values().size(); ++i) {
+        const double a = exact.values()[i].a, off = sampled.values()[i].a - a;
+        if (a > 0 && a < 1) squares += off * off, ++count;
+      }
+    }
+    EXPECT_NEAR(std::sqrt(squares / count), expected, 0.05 * expected) << n;
+  }
+}
+
+TEST(Analytic, GridsOf64x64ComeToIt) {
+  // A single edge: within a row of the grid and its ends.
+  for (int k = 0; k < 12; ++k) {
+    const HalfPlane edge(16, 2 * pi * (k + 0.21) / 12, 0.7 * k);
+    const LinearImage exact = edge.scene.analytic(), grid = edge.scene.sampled(grid_pattern(64));
+    for (std::size_t i = 0; i < exact.values().size(); ++i)
+      EXPECT_NEAR(exact.values()[i].a, grid.values()[i].a, 1.0 / 128);
+  }
+  // Scenes of many triangles that hide and cross one another.
+  double squares = 0;
+  int count = 0;
+  for (std::uint32_t seed = 0; seed < 4; ++seed) {
+    const FlatTriangles scene = soup(seed, 20, 16);
+    const LinearImage exact = scene.analytic(), grid = scene.sampled(grid_pattern(64));
+    for (std::size_t i = 0; i < exact.values().size(); ++i) {
+      const Linear p = exact.values()[i], q = grid.values()[i];
+      for (const float off : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a})
+        squares += static_cast<double>(off) * off, ++count;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 6e-4);
+  EXPECT_GT(std::sqrt(squares / count), 1e-5);  // there are edges in it
+}
+
+TEST(Analytic, NeitherOrderNorThreadsNorCropsLeaveATrace) {
+  const FlatTriangles scene = soup(3, 60, 128);
+  for (const char* filter : {"box", "mitchell"}) {
+    const AnalyticOptions options{.filter = filter, .shading = filter[0] == 'b' ? 1 : 2};
+    const LinearImage image = scene.analytic(options);
+    EXPECT_TRUE(same_bits(scene.reversed().analytic(options), image)) << filter;
+    for (const int threads : {1, 2, 3, 7})
+      with_threads(threads, [&] { EXPECT_TRUE(same_bits(scene.analytic(options), image)) << filter << threads; });
+    const Crop crop{50, 60, 30, 21};
+    const LinearImage part = scene.analytic(options, crop);
+    for (int y = 0; y < crop.height; ++y)
+      for (int x = 0; x < crop.width; ++x) ASSERT_EQ(part(x, y), image(crop.x + x, crop.y + y)) << filter;
+  }
+}
+
+TEST(Analytic, WhatIsSeenOfAPixelSumsToAllOfIt) {
+  // Before a backdrop the pixels of any soup are full, to the last bit that a float has: nothing leaks, nothing counts
+  // twice. Doubles and neighbours are in it, and a crowd of slivers in one pixel.
+  for (std::uint32_t seed = 20; seed < 24; ++seed) {
+    FlatTriangles scene = soup(seed, 80, 16);
+    Numbers random(seed);
+    for (int i = 0; i < 150; ++i) {
+      const double x = snapped(7 + random(-1, 1)), y = snapped(7 + random(-1, 1));
+      const auto z = [&] { return static_cast<float>(random(0.1, 0.9)); };
+      scene.add({x, y, z()}, {x + 2.5, y + 1 / 256.0, z()}, {x + 2.0, y + 2 / 256.0, z()}, red);
+      scene.add({x, y, 0.5f}, {x + 0.5, y, 0.5f}, {x, y + 0.5, 0.5f}, blue);
+      scene.add({x, y, 0.5f}, {x + 0.5, y, 0.5f}, {x, y + 0.5, 0.5f}, red);
+    }
+    scene.add_quad({-8, -8, 0.05f}, {24, -8, 0.05f}, {24, 24, 0.05f}, {-8, 24, 0.05f}, white);
+    Plane<float> coverage;
+    const LinearImage image = scene.analytic({}, {}, &coverage);
+    for (std::size_t i = 0; i < image.values().size(); ++i) {
+      EXPECT_EQ(image.values()[i].a, 1.0f) << seed;
+      EXPECT_EQ(coverage.values()[i], 1.0f) << seed;
+    }
+  }
+}
+
+TEST(Analytic, NeighboursLeaveNoSeamHoweverSmall) {
+  // A fan of a thousand slivers over the whole picture, in one colour.
+  FlatTriangles scene(32, 32);
+  const FlatCorner centre{snapped(15.3), snapped(17.7)};
+  const auto rim = [](int i) {
+    const double angle = 2 * pi * (i % 1000) / 1000;
+    return FlatCorner{snapped(16 + 60 * std::cos(angle)), snapped(16 + 60 * std::sin(angle))};
+  };
+  for (int i = 0; i < 1000; ++i) scene.add(centre, rim(i), rim(i + 1), white);
+  for (const char* filter : {"box", "tent", "quadratic", "b-spline", "mitchell", "catmull-rom"}) {
+    const LinearImage image = scene.analytic({.filter = filter});
+    for (const Linear& c : image.values()) {
+      EXPECT_NEAR(c.a, 1, 1e-6) << filter;
+      EXPECT_NEAR(c.r, 1, 1e-6) << filter;
+    }
+  }
+}
+
+TEST(Analytic, WideFiltersAreTheirIntegralsOverAnEdge) {
+  // An upright edge at x = 7.3 and a level one at 5.7: the product of two integrals of the kernel.
+  constexpr int side = 16;
+  const double ex = snapped(7.3), ey = snapped(5.7);
+  FlatTriangles scene(side, side);
+  scene.add_quad({-20, -20}, {ex, -20}, {ex, ey}, {-20, ey}, white);
+  for (const char* name : {"tent", "b-spline", "mitchell", "catmull-rom"}) {
+    const Kernel kernel = make_kernel(name);
+    const LinearImage image = scene.analytic({.filter = name});
+    for (int y = 2; y < side - 2; ++y)
+      for (int x = 2; x < side - 2; ++x)
+        EXPECT_NEAR(image(x, y).a, kernel.integral(ex - x - 0.5) * kernel.integral(ey - y - 0.5), 1e-6) << name;
+  }
+}
+
+TEST(Analytic, BlendedSurfacesAreLaidOverInTheirOrderWhereTheyAre) {
+  // Half of a pixel: glass before paint; the glass passes through a second one at x = 4.5, so that both orders show.
+  FlatTriangles scene(8, 8);
+  const Linear glass{0.5f, 0, 0, 0.5f}, smoke{0, 0.25f, 0, 0.25f};
+  scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 4.5, 0.2f}, {0, 4.5, 0.2f}, blue);
+  scene.add_quad({0, 0, 0.1f}, {8, 0, 0.9f}, {8, 8, 0.9f}, {0, 8, 0.1f}, glass, Surface::Blended);
+  scene.add_quad({0, 0, 0.55f}, {8, 0, 0.55f}, {8, 8, 0.55f}, {0, 8, 0.55f}, smoke, Surface::Blended);
+  const LinearImage image = scene.analytic();
+  const auto over = [](Linear front, Linear behind) { return front + behind * (1 - front.a); };
+  const auto expect_near = [](Linear a, Linear b) {
+    EXPECT_NEAR(a.r, b.r, 1e-6);
+    EXPECT_NEAR(a.g, b.g, 1e-6);
+    EXPECT_NEAR(a.b, b.b, 1e-6);
+    EXPECT_NEAR(a.a, b.a, 1e-6);
+  };
+  const Linear nothing{0, 0, 0, 0};
+  expect_near(image(0, 1), over(smoke, blue));  // the glass is behind the paint up to x = 1
+  expect_near(image(2, 1), over(smoke, over(glass, blue)));
+  expect_near(image(6, 1), over(glass, over(smoke, blue)));
+  expect_near(image(4, 1), (over(smoke, over(glass, blue)) + over(glass, over(smoke, blue))) * 0.5f);
+  expect_near(image(6, 4), (over(glass, over(smoke, blue)) + over(glass, over(smoke, nothing))) * 0.5f);
+  expect_near(image(6, 6), over(glass, over(smoke, nothing)));
+}
+
+TEST(Analytic, MasksAreAskedAtTheCentresOfTheirParts) {
+  // There where x < 3 + 3/8: of the pixel's eight columns of parts three are in it, whole.
+  FlatTriangles scene(8, 8);
+  scene.alpha_at = [](std::int32_t x, std::int32_t) { return x < 3 * 256 + 96 ? 1.0f : 0.0f; };
+  scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 8, 0.2f}, {0, 8, 0.2f}, blue);
+  scene.add_quad({0, 0, 0.6f}, {8, 0, 0.6f}, {8, 4.5, 0.6f}, {0, 4.5, 0.6f}, red, Surface::Masked);
+  const LinearImage image = scene.analytic();
+  EXPECT_EQ(image(2, 2), red);
+  EXPECT_EQ(image(4, 2), blue);
+  EXPECT_NEAR(image(3, 2).r, red.r * 0.375 + blue.r * 0.625, 1e-6);
+  EXPECT_NEAR(image(2, 4).r, red.r * 0.5 + blue.r * 0.5, 1e-6);  // its own edge is exact
+  EXPECT_NEAR(image(3, 4).b, blue.b + (red.b - blue.b) * 0.375 * 0.5, 1e-6);
+}
+
+TEST(Analytic, BothTruthsOfBrightEdges) {
+  // Half of a pixel at 10 times white: the mean is 5.5, shown as white; half of what is shown is a mean of shown light.
+  FlatTriangles scene(8, 8);
+  scene.add_quad({0, 0}, {8, 0}, {8, 8}, {0, 8}, {0.2f, 0.2f, 0.2f, 1});
+  scene.add_quad({0, 0, 0.6f}, {3.5, 0, 0.6f}, {3.5, 8, 0.6f}, {0, 8, 0.6f}, {10, 10, 10, 1});
+  EXPECT_NEAR(scene.analytic()(3, 3).r, 5.1, 1e-6);
+  EXPECT_NEAR(scene.analytic({.order = FilterOrder::Display})(3, 3).r, 0.6, 1e-6);
+  const DisplayOptions display{.mapping = ToneMapping::Aces, .exposure = 0.5f};
+  scene.render_options.display = &display;
+  const float expected =
+      (tone_map({5, 5, 5}, ToneMapping::Aces).x + tone_map({0.1f, 0.1f, 0.1f}, ToneMapping::Aces).x) / 2;
+  EXPECT_NEAR(scene.analytic({.order = FilterOrder::Display})(3, 3).r, expected, 1e-6);
+}
+
+TEST(Analytic, ScenesAgreeWithManySamples) {
+  // Clipping, light, textures, layers: all that flat triangles do not have. What is left is the samples' own error, and
+  // where a texture's level is chosen for their finer footprint.
+  for (const auto& [name, bound] :
+       {std::pair{"teapot:divisions=6", 2.5e-3}, {"crossing", 2e-3}, {"fillblend", 1e-2}, {"city-trilinear", 3e-2}}) {
+    const Scene scene = *make_builtin_scene(name);
+    RenderOptions options;
+    options.width = 64, options.height = 48;
+    options.environment = {0.5f, 0.5f, 0.5f};
+    const Camera camera = scene.cameras.empty() ? fit_camera(scene.bounds(), 4.0f / 3, {}) : scene.cameras[0];
+    const auto shot = [&](const char* method) {
+      const auto resolver = make_resolver(methods(), method);
+      Frame frame = render(scene, camera, resolver->ask(0), options);
+      return resolver->resolve(frame);
+    };
+    const LinearImage exact = shot("analytic:shading=2"), sampled = shot("ssaa:n=8");
+    double squares = 0;
+    for (std::size_t i = 0; i < exact.values().size(); ++i) {
+      const Linear p = exact.values()[i], q = sampled.values()[i];
+      for (const float off : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a}) squares += static_cast<double>(off) * off;
+    }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(4 * exact.values().size())), bound) << name;
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate::antialias

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/render/render.h"
+
+namespace zoneplate {
+
+/// What a method gets that draws the colour of a frame itself: all that the tiles would get (Request::draw).
+///
+/// It fills `target.color`, and of the other planes only `target.coverage` and `error`, each where it is not null. The
+/// target's samples are those of the data passes and say nothing here.
+struct Drawing {
+  std::span<const Draw> draws;
+  const PointShader& shader;
+  const RasterRules& rules;
+  const Target& target;
+  const RenderOptions& options;
+  Plane<float>* error = nullptr;
+  RasterCounts& counts;
+};
+
+}  // namespace zoneplate
