@@ -126,35 +126,56 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
 void PointBatcher::interpolate() {
   const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
   std::uint32_t clipped = interpolate_.interpolate(corners_, target_.viewport, spacing, batch_);
-  for (; clipped; clipped &= clipped - 1) interpolate_clipped(static_cast<std::size_t>(std::countr_zero(clipped)));
+  for (; clipped; clipped &= clipped - 1)
+    interpolate_clipped(static_cast<std::size_t>(std::countr_zero(clipped)), spacing);
   if (has_ends_) weigh_ends();
 }
 
-/// Does those of the group's points again whose triangles need clipping.
-void PointBatcher::interpolate_clipped(std::size_t group) {
-  const std::size_t first = group * Batch::group;
-  bool is_clipped[Batch::group];
-  for (std::size_t i = 0; i < Batch::group; ++i) {
-    const std::size_t told = batch_.told(first + i);
-    is_clipped[i] = false;
-    for (const auto& corner : corners_.vertex) is_clipped[i] = is_clipped[i] || corner[told]->needs_clipping();
-    const auto id = static_cast<std::int32_t>(batch_.triangle[told]);
-    if (is_clipped[i] && id != known_clipped_.id) {
-      find_draw(id);
-      known_clipped_ = {id, face_of(projected_, known_.number, id, target_.viewport)};
-    }
-    const TriangleFacing& facing = known_clipped_.facing;
-    for (std::size_t k = 0; k < 3; ++k) {
-      clipped_.x[k][i] = facing.planes.x[k], clipped_.y[k][i] = facing.planes.y[k];
-      clipped_.one[k][i] = facing.planes.one[k];
-    }
-    clipped_.px[i] = batch_.x[first + i], clipped_.py[i] = batch_.y[first + i];
-    if (is_clipped[i]) batch_.is_front[told] = facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
+/// Finds the planes of a triangle that needs clipping.
+const TriangleFacing& PointBatcher::know_clipped(std::int32_t id) {
+  if (id != known_clipped_.id) {
+    find_draw(id);
+    known_clipped_ = {id, face_of(projected_, known_.number, id, target_.viewport)};
   }
-  const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
+  return known_clipped_.facing;
+}
+
+void PointBatcher::put_planes(std::size_t i, const BarycentricPlanes& planes) {
+  for (std::size_t k = 0; k < 3; ++k)
+    clipped_.x[k][i] = planes.x[k], clipped_.y[k][i] = planes.y[k], clipped_.one[k][i] = planes.one[k];
+}
+
+/// Does those of the group's points again whose triangles need clipping.
+void PointBatcher::interpolate_clipped(std::size_t group, float spacing) {
+  const std::size_t first = group * Batch::group;
+  bool is_clipped[Batch::group] = {};
+  const auto is_front = [&](std::size_t told, const TriangleFacing& facing) {
+    return facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
+  };
+  if (batch_.one_triangle[group]) {
+    // Rows of one triangle mostly follow each other; then its planes are there already.
+    const auto id = static_cast<std::int32_t>(batch_.triangle[first]);
+    const TriangleFacing& facing = know_clipped(id);
+    if (clipped_row_ != id)
+      for (std::size_t i = 0; i < Batch::group; ++i) put_planes(i, facing.planes);
+    clipped_row_ = id;
+    batch_.is_front[first] = is_front(first, facing);
+    std::fill(std::begin(is_clipped), std::end(is_clipped), true);
+  } else {
+    clipped_row_ = -1;
+    for (std::size_t i = 0; i < Batch::group; ++i) {
+      for (const auto& corner : corners_.vertex) is_clipped[i] = is_clipped[i] || corner[first + i]->needs_clipping();
+      if (!is_clipped[i]) continue;
+      const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[first + i]));
+      put_planes(i, facing.planes);
+      batch_.is_front[first + i] = is_front(first + i, facing);
+    }
+  }
+  std::copy_n(batch_.x + first, Batch::group, clipped_.px);
+  std::copy_n(batch_.y + first, Batch::group, clipped_.py);
   interpolate_.interpolate_clipped(target_.viewport, spacing, clipped_);
-  for (std::size_t i = 0; i < Batch::group; ++i)
-    for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < Batch::group; ++i) {
       if (!is_clipped[i]) continue;
       batch_.b[k][first + i] = clipped_.b[k][i];
       batch_.dbdx[k][first + i] = clipped_.dbdx[k][i], batch_.dbdy[k][first + i] = clipped_.dbdy[k][i];

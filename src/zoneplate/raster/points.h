@@ -75,7 +75,9 @@ class PointBatcher {
   void put_triangle(std::size_t i, std::int32_t id);
   void copy_triangle(std::size_t from, std::size_t to);
   void interpolate();
-  void interpolate_clipped(std::size_t group);
+  const TriangleFacing& know_clipped(std::int32_t id);
+  void put_planes(std::size_t i, const BarycentricPlanes& planes);
+  void interpolate_clipped(std::size_t group, float spacing);
   void weigh_ends();
 
   const ProjectedDraws& projected_;
@@ -90,7 +92,8 @@ class PointBatcher {
   KnownClipped known_clipped_;
   Batch batch_;
   BatchCorners corners_{};
-  ClippedGroup clipped_;
+  ClippedGroup clipped_{};
+  std::int32_t clipped_row_ = -1;  ///< the triangle whose planes all of clipped_ holds
   Shaded shaded_batch_;
 };
 
