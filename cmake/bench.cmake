@@ -6,3 +6,10 @@ foreach(bench IN LISTS benches)
   add_executable(${name} ${bench})
   target_link_libraries(${name} PRIVATE zoneplate zoneplate_flags benchmark::benchmark)
 endforeach()
+
+# The comparison with Mesa's software OpenGL, which bench/peers/run starts; its library is looked for when it runs.
+find_path(opengl_headers GL/glcorearb.h)
+if(opengl_headers)
+  add_executable(peers bench/peers/compare.cpp bench/peers/mesa.cpp)
+  target_link_libraries(peers PRIVATE zoneplate zoneplate_flags fmt::fmt ${CMAKE_DL_LIBS})
+endif()
