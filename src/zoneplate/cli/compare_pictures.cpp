@@ -62,12 +62,19 @@ Plot plot_of(const std::string& title, std::vector<Dot> dots) {
     curve.points.emplace_back(d.ms, 1000 * d.error);
     curve.labels.push_back(d.method);
   }
+  // The names of many would cover one another; those on the front are what matters.
+  constexpr std::size_t few = 16;
+  if (dots.size() > few) others.labels.clear();
   const bool is_logarithmic = std::ranges::all_of(dots, [](const Dot& d) { return d.error > 0; });
   Plot plot{.title = title,
             .x = {.label = "processor time of a frame (ms)", .is_logarithmic = true},
             .y = {.label = "mean FLIP × 1000", .is_logarithmic = is_logarithmic}};
   // Room for the names on the right.
   if (!dots.empty()) plot.x.low = dots.front().ms / 1.3, plot.x.high = dots.back().ms * 2.5;
+  if (is_logarithmic && !dots.empty()) {
+    const auto [least, most] = std::ranges::minmax(dots, {}, &Dot::error);
+    plot.y.low = 1000 * least.error / 1.5, plot.y.high = 1000 * most.error * 1.5;
+  }
   plot.curves = {std::move(others), std::move(front)};
   return plot;
 }
