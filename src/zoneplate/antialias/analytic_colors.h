@@ -34,6 +34,7 @@ class FragmentColors {
   /// Points of one footprint, with the places of their colours among all.
   struct Group {
     Group(const ProjectedDraws& projected, const PointShader& point_shader, Isa isa, Target of, float spacing);
+    Group(const Group&) = delete;  // the shader looks at this target
     Target target;
     PointBatcher shader;
     std::vector<Point> points;
