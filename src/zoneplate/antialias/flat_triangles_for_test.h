@@ -43,7 +43,8 @@ class FlatTriangles : public PointShader {
       }
     return out;
   }
-  std::function<float(std::int32_t x, std::int32_t y)> alpha_at;  ///< of masked ones, by place in 1/256 pixel
+  /// Of masked ones, by place in 1/256 pixel and the change of the first weight over the point's footprint.
+  std::function<float(std::int32_t x, std::int32_t y, float dbdx)> alpha_at;
 
   LinearImage analytic(const AnalyticOptions& options = {}, std::optional<Crop> crop = {},
                        Plane<float>* coverage = nullptr) const {
@@ -74,7 +75,8 @@ class FlatTriangles : public PointShader {
     }
   }
   float alpha(const Batch& batch, float* out) const override {
-    for (int i = 0; i < batch.padded(); ++i) out[i] = alpha_at ? alpha_at(batch.x[i], batch.y[i]) : 1.0f;
+    for (int i = 0; i < batch.padded(); ++i)
+      out[i] = alpha_at ? alpha_at(batch.x[i], batch.y[i], batch.dbdx[0][i]) : 1.0f;
     return 0.5f;
   }
 
