@@ -92,7 +92,8 @@ void compare(const Case& c, int samples, double budget_ms, const std::string& pi
   const TextureSet textures(scene, true);
   RasterMemory memory;
   RenderOptions options{.width = work.width, .height = work.height, .raw_colors = true};
-  options.shown = &display, options.textures = &textures, options.memory = &memory;
+  const VertexRecords records(scene);
+  options.shown = &display, options.textures = &textures, options.records = &records, options.memory = &memory;
   Frame frame;
   const Times ours =
       time_frames(budget_ms, [&] { frame = render(scene, scene.cameras.front(), method->ask(0), options); });

@@ -69,7 +69,8 @@ Method analytic() {
           .summary = "exact coverage by what is visible of each pixel, the reference for edges",
           .source = "Catmull 1978",
           .params = params,
-          .make = make};
+          .make = make,
+          .is_reference = true};
 }
 
 }  // namespace zoneplate::antialias

@@ -64,7 +64,8 @@ Method converged() {
           .summary = "very many stratified samples and an estimate of their error, the reference for shading",
           .source = "Owen 1995",
           .params = params,
-          .make = make};
+          .make = make,
+          .is_reference = true};
 }
 
 }  // namespace zoneplate::antialias

@@ -14,7 +14,8 @@ void add(RenderCounts& sum, const RenderCounts& c) {
 }  // namespace
 
 Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver, const Request& request,
-                    const RenderOptions& options, const DisplayOptions& display, RenderCounts* counts) {
+                    RenderOptions options, const DisplayOptions& display, RenderCounts* counts) {
+  options.display = &display;
   RenderCounts sum;
   const auto round = [&](const Request& wanted) {
     RenderCounts own;

@@ -9,7 +9,7 @@ namespace zoneplate {
 ///
 /// `counts` are of all rounds together. `frame.display` is what `display` says.
 Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver, const Request& request,
-                    const RenderOptions& options, const DisplayOptions& display, RenderCounts* counts = nullptr);
+                    RenderOptions options, const DisplayOptions& display, RenderCounts* counts = nullptr);
 
 /// The picture as it is shown: what the method makes of the frame, tone mapped in between, as 8-bit codes.
 ///
