@@ -213,8 +213,9 @@ std::string folder_name(const std::string& scene, const std::vector<SceneTrials>
 
 SceneTrials compare_scene(const CompareArgs& args, const std::string& name, const TrialOptions& options,
                           const std::function<void(const std::string&)>& tell) {
-  Scene scene = load_scene(name, args.render.limits);
+  Scene scene = load_scene(name, args.render.load);
   View view = args.render.view;
+  view.up = args.render.up.value_or(scene.up);
   if (is_builtin_scene(name) && !scene.cameras.empty() && !view.index && !view.position) view.index = 0;
   RenderOptions render = args.render.options;
   const Camera camera =

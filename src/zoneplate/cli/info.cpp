@@ -110,6 +110,11 @@ Json info_json(const std::string& input, const Scene& scene) {
                                              {"kind", c.is_orthographic ? "orthographic" : "perspective"},
                                              {"position", triple(xyz(c.world_from_camera.column[3]))}};
                        })},
+      {"animations", rows(scene.animations,
+                          [](const AnimationSpan& a) {
+                            return Json::Object{{"name", a.name}, {"begin", a.begin}, {"end", a.end}};
+                          })},
+      {"variants", Json::Array(scene.variants.begin(), scene.variants.end())},
       {"warnings", Json::Array(scene.warnings.begin(), scene.warnings.end())}};
 }
 
@@ -141,6 +146,10 @@ std::string info_text(const std::string& input, const Scene& scene) {
   for (const Camera& camera : scene.cameras)
     text += fmt::format("    {} ({})\n", camera.name.empty() ? "unnamed" : camera.name,
                         camera.is_orthographic ? "orthographic" : "perspective");
+  if (!scene.animations.empty()) text += fmt::format("  animations  {}\n", scene.animations.size());
+  for (const AnimationSpan& a : scene.animations)
+    text += fmt::format("    {} ({:.6g} to {:.6g} s)\n", a.name.empty() ? "unnamed" : a.name, a.begin, a.end);
+  if (!scene.variants.empty()) text += fmt::format("  variants    {}\n", fmt::join(scene.variants, ", "));
   return text;
 }
 
@@ -148,22 +157,24 @@ std::string info_text(const std::string& input, const Scene& scene) {
 
 void run_info(std::span<const std::string> arguments) {
   bool wants_json = false;
-  LoadLimits limits;
+  LoadOptions options;
   Syntax syntax{.verb = "info",
                 .summary = "Tell what is in a model: meshes, materials, textures, lights, cameras, bounds",
                 .operands = "IN",
                 .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
   syntax.options = {{"--json", "", "As one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
                     {"--max-memory", "BYTES", "Refuse scenes that need more, as 512M; 4G", "Options", false,
-                     [&](auto& text) { limits.memory = parse_bytes(text); }},
+                     [&](auto& text) { options.limits.memory = parse_bytes(text); }},
+                    {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
+                     [&](auto& text) { options.format = text; }},
                     {"--allow-path", "", "Let a model use files outside its own folder", "Options", false,
-                     [&](auto&) { limits.allow_path = true; }}};
+                     [&](auto&) { options.limits.allow_path = true; }}};
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 1)
     throw Error(Trouble::Usage, "info takes one input: a model or a built-in scene");
 
   const std::string& input = syntax.found_operands.front();
-  const Scene scene = load_scene(input, limits);
+  const Scene scene = load_scene(input, options);
   print(wants_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
   if (!wants_json)
     for (const std::string& warning : scene.warnings) say_warning(warning);

@@ -88,8 +88,15 @@ Json scenes_json() {
   return rows;
 }
 
-// The formats of pictures come from the one writer there is.
-constexpr SceneFormat picture_formats[] = {{".png", "8 bits a channel, sRGB; - writes it to stdout"}};
+// The writers are chosen by these endings in render_picture.cpp and film.cpp.
+constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits a channel, sRGB; - writes it to stdout"},
+                                           {".jpg", "quality 92, full colour resolution"},
+                                           {".webp", "lossless; of several frames, a film"},
+                                           {".pfm", "floats in linear light, before tone mapping"},
+                                           {".apng", "a film, lossless"},
+                                           {".gif", "a film, by the program ffmpeg"},
+                                           {".mp4", "likewise, H.264"},
+                                           {".webm", "likewise, VP9 with alpha"}};
 
 std::string formats_text() {
   std::string text = "Models that can be read:\n";

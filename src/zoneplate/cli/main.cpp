@@ -24,6 +24,7 @@ struct Verb {
   void (*run)(std::span<const std::string> arguments);
 };
 constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (the verb may be left out)", run_render},
+                          {"contact-sheet", "many models in one picture, each with its name", run_contact_sheet},
                           {"list", "antialiasing methods, built-in scenes, file formats", run_list},
                           {"info", "what is in a model", run_info},
                           {"metrics", "how far pictures are from a reference", run_metrics},
@@ -44,7 +45,7 @@ std::string overview() {
       "\n"
       "Usage: zoneplate [VERB] ARGUMENTS\n"
       "\n";
-  for (const Verb& verb : verbs) text += fmt::format("  {:<9}{}\n", verb.name, verb.summary);
+  for (const Verb& verb : verbs) text += fmt::format("  {:<15}{}\n", verb.name, verb.summary);
   return text +
          "\n"
          "Examples:\n"
@@ -135,6 +136,9 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     cli::say_error(error.what());
     return cli::exit_code(error.trouble());
+  } catch (const cli::PartialFailure& failure) {
+    cli::say_error(failure.what());
+    return 5;
   } catch (const std::bad_alloc&) {
     cli::say_error("out of memory");
     return 1;

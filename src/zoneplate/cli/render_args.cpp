@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/frame_name.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
@@ -21,15 +22,24 @@ constexpr const char* examples =
     "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
 
 constexpr const char* notes =
-    "IN is a .gltf, .glb or .obj file, or a built-in scene (zoneplate list scenes). OUT ends in .png; - is "
-    "stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: without any camera option the "
+    "IN is a .gltf, .glb, .obj, .ply or .stl file, - for stdin, or a built-in scene (zoneplate list scenes). OUT "
+    "ends\nin "
+    ".png, .jpg or .webp; - is stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: "
+    "without any camera "
+    "option the "
     "whole scene is shown three-quarter from above (azimuth 30, elevation\n20 degrees, view angle 30); built-in scenes "
     "that have a camera use it. Cameras of a file are used with\n--camera-index only. Azimuth and elevation choose the "
     "direction of the whole-scene view, 0 and 0 being the\nfront; with a position or an index they turn that camera "
     "about its focal point.\n\nLight: a scene without lights gets a key, a fill and a back light that follow the "
     "camera, and a dim constant\nenvironment that metals mirror; any light in the file or an --environment switches "
-    "them off.\n\nColours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n\nExit codes: 0 done, 1 failed while "
-    "rendering, 2 wrong usage, 3 input missing, corrupt or unsupported,\n4 output cannot be written, 128+n ended by "
+    "them off.\n\nSequences: frame F shows the animation at F / rate seconds. OUT has a place for the number, "
+    "as\nchair.####.png, "
+    "chair%04d.png or chair_{frame:04}.png, or is a film. GIF, MP4 and WebM are made by the program ffmpeg.\n\nMany at "
+    "once: "
+    "several IN want {model} in OUT; each item gives a line of JSON on stdout.\n\nColours are sRGB: red, #f80, "
+    "#ff8800, #ff880080 or 1,0.5,0.\n\nExit codes: 0 done, 1 failed while "
+    "rendering, 2 wrong usage, 3 input missing, corrupt or unsupported,\n4 output cannot be written, 5 some of many "
+    "items failed, 128+n ended by "
     "signal n. No partial file is ever left.\n";
 
 float radians(const std::string& text, double low, double high) {
@@ -82,11 +92,67 @@ Isa parse_isa(const std::string& text) {
   return isa;
 }
 
+std::vector<Option> input_options(RenderArgs& a) {
+  const std::string group = "Input";
+  return {
+      {"--format", "NAME", "Read IN as this format, as stl or glb; needed where IN is -", group, false,
+       [&](auto& text) { a.load.format = text; }},
+      {"--scene", "N", "The scene number N of a glTF file, from 0; default the one that it names", group, false,
+       [&](auto& text) { a.load.choice.scene = parse_whole(text, 0, 1 << 20); }},
+      {"--variant", "NAME", "A glTF file's materials in this variant (KHR_materials_variants)", group, false,
+       [&](auto& text) { a.load.choice.variant = text; }},
+      {"--animation-index", "N", "The animation number N of a glTF file, from 0; or all, which is the default", group,
+       false,
+       [&](auto& text) {
+         a.load.choice.animation = text == "all" ? SceneChoice::all_animations : parse_whole(text, 0, 1 << 20);
+       }},
+      {"--animation-time", "S", "The moment of the animation, in seconds; of a sequence, that of frame 0", group, false,
+       [&](auto& text) {
+         a.load.choice.time = parse_number(text, 0, 1e6);
+         a.has_animation_time = true;
+       }},
+  };
+}
+
+std::vector<Option> sequence_options(RenderArgs& a) {
+  const std::string group = "Sequences";
+  return {
+      {"--turntable", "N", "N frames, in which the camera goes once round the scene", group, false,
+       [&](auto& text) { a.sequence.turntable = parse_whole(text, 1, 100'000); }},
+      {"--frames", "N", "So many frames; default to the end of the animation, or of the turn", group, false,
+       [&](auto& text) { a.sequence.count = parse_whole(text, 1, 100'000); }},
+      {"--frame-start,-s", "F", "The first frame; default 0", group, false,
+       [&](auto& text) { a.sequence.first = parse_whole(text, -1'000'000, 1'000'000); }},
+      {"--frame-end,-e", "F", "The last frame", group, false,
+       [&](auto& text) { a.sequence.last = parse_whole(text, -1'000'000, 1'000'000); }},
+      {"--frame-jump,-j", "N", "From one frame to the next; default 1", group, false,
+       [&](auto& text) { a.sequence.jump = parse_whole(text, 1, 1'000'000); }},
+      {"--frame-rate", "FPS", "Frames a second; default 24", group, false,
+       [&](auto& text) { a.sequence.rate = parse_number(text, 0.001, 65535); }},
+      {"--shutter", "DEG", "Mean of what moves while the shutter is open: 360 is a frame's whole time", group, false,
+       [&](auto& text) { a.sequence.shutter = parse_number(text, 0.001, 360); }},
+      {"--shutter-samples", "N", "Moments that the mean is made of; default 16", group, false,
+       [&](auto& text) { a.sequence.shutter_samples = parse_whole(text, 1, 1024); }},
+  };
+}
+
+std::vector<Option> batch_options(RenderArgs& a) {
+  const std::string group = "Many at once";
+  return {
+      {"--manifest", "FILE", "Jobs, a JSON object a line: input, output, and options by their names", group, false,
+       [&](auto& text) { a.manifest = text; }},
+      {"--shard", "I/N", "Only every Nth job from number I (0 to N-1) on; auto for Slurm's and Kubernetes' variables",
+       group, false, [&](auto& text) { a.shard = parse_shard(text); }},
+      {"--skip-existing", "", "Leave out what is there already", group, false, [&](auto&) { a.skip_existing = true; }},
+  };
+}
+
 std::vector<Option> picture_options(RenderArgs& a) {
   const std::string group = "Picture";
   return {
-      {"--output,-o", "OUT", "The picture to write: a .png file, or - for stdout", group, true,
-       [&](auto& text) { a.output = text; }},
+      {"--output,-o", "OUT",
+       "The picture to write: .png, .jpg, .webp or .pfm, or - for stdout; a film: .apng, .webp, .gif, .mp4, .webm",
+       group, true, [&](auto& text) { a.output = text; }},
       {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600; default 800,600", group, true,
        [&](auto& text) {
          const int2 size = parse_size(text, max_side);
@@ -106,6 +172,12 @@ std::vector<Option> picture_options(RenderArgs& a) {
        }},
       {"--exposure", "STOPS", "Brighter by a factor 2 for each stop, darker where negative; default 0", group, false,
        [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
+      {"--bit-depth", "BITS", "8 or 16 bits a channel, of a PNG; default 8", group, false,
+       [&](auto& text) {
+         a.bit_depth = parse_choice(text, {"8", "16"}) == 1 ? 16 : 8;
+       }},
+      {"--dither", "", "Noise in place of the steps between 8-bit codes", group, false,
+       [&](auto&) { a.dithers = true; }},
       {"--crop", "X,Y,W,H", "Write only this part, with the same bits as in the whole picture", group, false,
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
@@ -137,8 +209,8 @@ std::vector<Option> camera_options(RenderArgs& a) {
       {"--camera-orthographic", "", "Parallel projection", group, false, [&](auto&) { a.view.is_orthographic = true; }},
       {"--camera-index", "N", "The camera number N of the scene, from 0", group, false,
        [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
-      {"--up", "AXIS", "The scene's upward axis: +Y, +Z, ...; default +Y", group, false,
-       [&](auto& text) { a.view.up = parse_up(text); }},
+      {"--up", "AXIS", "The scene's upward axis: +Y, +Z, ...; default +Z for STL, +Y for all else", group, false,
+       [&](auto& text) { a.up = parse_up(text); }},
   };
 }
 
@@ -197,27 +269,52 @@ std::vector<Option> run_options(RenderArgs& a) {
       {"--verbose,-v", "", "Say what was done, and how long it took", group, false,
        [&](auto&) { a.verbosity = Verbosity::Verbose; }},
       {"--max-memory", "BYTES", "Refuse scenes and pictures that need more, as 512M; default 4G", group, false,
-       [&](auto& text) { a.limits.memory = parse_bytes(text); }},
+       [&](auto& text) { a.load.limits.memory = parse_bytes(text); }},
       {"--max-pixels", "N", "Refuse textures of more pixels, as 16M; default 256M", group, false,
-       [&](auto& text) { a.limits.pixels = parse_bytes(text); }},
+       [&](auto& text) { a.load.limits.pixels = parse_bytes(text); }},
       {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
-       [&](auto& text) { a.limits.seconds = parse_number(text, 0.001, 1e6); }},
+       [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
       {"--allow-path", "", "Let a model use files outside its own folder", group, false,
-       [&](auto&) { a.limits.allow_path = true; }},
+       [&](auto&) { a.load.limits.allow_path = true; }},
   };
 }
 
-void check_output(const RenderArgs& args) {
+bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void check_output(RenderArgs& args) {
   if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png, or -o - for stdout");
+  const bool is_film = is_one_of(extension_of(args.output), {".apng", ".gif", ".mp4", ".webm"});
+  args.sequence.is_film = is_film || has_frame_number(args.output);
   if (args.output == "-") {
     if (!args.aovs.empty()) throw Error(Trouble::Usage, "--aov writes files beside OUT, which cannot be -");
+    if (args.sequence.is_wanted()) throw Error(Trouble::Usage, "several frames cannot be written to -");
     return;
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(args.output, ignored))
     throw Error(Trouble::Output, args.output + ": is a directory");
-  if (!args.output.ends_with(".png") && !args.output.ends_with(".PNG"))
-    throw Error(Trouble::Usage, fmt::format("--output: {} is not a format that can be written (.png)", args.output));
+  if (!is_film) check_picture_ending(args.output);
+}
+
+void check_args(RenderArgs& args) {
+  check_output(args);
+  const std::string ending = extension_of(args.output);
+  if (args.bit_depth == 16 && ending != ".png" && args.output != "-")
+    throw Error(Trouble::Usage, "--bit-depth: only .png has 16 bits");
+  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm"))
+    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
+  if (args.sequence.shutter && !args.sequence.is_wanted())
+    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
+  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
+    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
+  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
+    args.load.choice.animation = SceneChoice::all_animations;
+  if (const auto& crop = args.options.crop)
+    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
+      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+                                              args.options.width, args.options.height));
 }
 
 }  // namespace
@@ -228,25 +325,55 @@ Syntax render_syntax(RenderArgs& args) {
                 .operands = "IN -o OUT",
                 .examples = examples,
                 .notes = notes};
-  for (const auto table : {picture_options, camera_options, scene_options, teaching_options, run_options})
+  for (const auto table : {picture_options, input_options, sequence_options, batch_options, camera_options,
+                           scene_options, teaching_options, run_options})
     for (Option& option : table(args)) syntax.options.push_back(std::move(option));
   return syntax;
+}
+
+std::string extension_of(const std::string& name) {
+  std::string out = std::filesystem::path(name).extension().string();
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+void check_picture_ending(const std::string& output) {
+  if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm"}))
+    throw Error(Trouble::Usage,
+                fmt::format("--output: {} is not a format that can be written (.png, .jpg, .webp, .pfm)", output));
+}
+
+bool exists(const std::string& path) {
+  std::error_code ignored;
+  return path != "-" && std::filesystem::exists(path, ignored);
+}
+
+RenderArgs parse_job_args(std::span<const std::string> arguments) {
+  RenderArgs args;
+  Syntax syntax = render_syntax(args);
+  if (!parse(syntax, arguments) || syntax.found_operands.size() != 1)
+    throw Error(Trouble::Usage, "a job of a manifest has one input");
+  args.inputs = syntax.found_operands;
+  args.input = args.inputs.front();
+  check_args(args);
+  return args;
 }
 
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
   RenderArgs args;
   Syntax syntax = render_syntax(args);
   if (!parse(syntax, arguments)) return std::nullopt;
-  if (syntax.found_operands.empty()) throw Error(Trouble::Usage, "no input: give a model or a built-in scene");
-  if (syntax.found_operands.size() > 1)
-    throw Error(Trouble::Usage, fmt::format("one input at a time: {} and {} were given", syntax.found_operands[0],
-                                            syntax.found_operands[1]));
-  args.input = syntax.found_operands.front();
-  check_output(args);
-  if (const auto& crop = args.options.crop)
-    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
-                                              args.options.width, args.options.height));
+  args.inputs = syntax.found_operands;
+  if (!args.manifest.empty()) {
+    if (!args.inputs.empty())
+      throw Error(Trouble::Usage, "--manifest names the inputs: " + args.inputs.front() + " is one more");
+    return args;
+  }
+  if (args.inputs.empty()) throw Error(Trouble::Usage, "no input: give a model or a built-in scene");
+  if (args.inputs.size() > 1 && args.output.find("{model}") == std::string::npos)
+    throw Error(Trouble::Usage, "several inputs want {model} in the output's name, as pictures/{model}.png");
+  args.input = args.inputs.front();
+  check_args(args);
   return args;
 }
 

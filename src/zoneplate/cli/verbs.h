@@ -1,14 +1,22 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
 #include <string>
 
 namespace zoneplate::cli {
+
+/// Some of many items failed, each of which was told already: exit code 5.
+class PartialFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // The verbs of the command. Each takes the arguments after its name, writes its result to stdout or files, and throws
 // zoneplate::Error where it cannot.
 
 void run_render(std::span<const std::string> arguments);
+void run_contact_sheet(std::span<const std::string> arguments);
 void run_list(std::span<const std::string> arguments);
 void run_info(std::span<const std::string> arguments);
 void run_metrics(std::span<const std::string> arguments);

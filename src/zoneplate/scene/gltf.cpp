@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/scene/gltf_accessor.h"
+#include "zoneplate/scene/gltf_animation.h"
 #include "zoneplate/scene/gltf_file.h"
 #include "zoneplate/scene/gltf_material.h"
 #include "zoneplate/scene/gltf_mesh.h"
@@ -17,16 +19,28 @@ namespace zoneplate {
 namespace {
 
 constexpr const char* supported_extensions[] = {
-    "KHR_texture_transform",           "KHR_materials_unlit",    "KHR_lights_punctual", "KHR_mesh_quantization",
-    "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing"};
+    "KHR_texture_transform",           "KHR_materials_unlit",       "KHR_lights_punctual",    "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",   "KHR_materials_variants", "EXT_texture_webp",
+    "EXT_meshopt_compression",         "KHR_draco_mesh_compression"};
+
+/// Extensions that only refine a look which the core material has too: a file that requires one is drawn without it.
+constexpr const char* refining_extensions[] = {
+    "KHR_materials_clearcoat",   "KHR_materials_sheen",      "KHR_materials_transmission",
+    "KHR_materials_volume",      "KHR_materials_ior",        "KHR_materials_specular",
+    "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion"};
 
 void check_extensions(GltfFile& file) {
   const auto is_supported = [](const std::string& name) {
     return std::any_of(std::begin(supported_extensions), std::end(supported_extensions),
                        [&](const char* s) { return name == s; });
   };
+  const auto is_refining = [](const std::string& name) {
+    return std::any_of(std::begin(refining_extensions), std::end(refining_extensions),
+                       [&](const char* r) { return name == r; });
+  };
   for (const std::string& name : file.root().texts("extensionsRequired"))
-    if (!is_supported(name)) file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
+    if (!is_supported(name) && !is_refining(name))
+      file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
   for (const std::string& name : file.root().texts("extensionsUsed"))
     if (!is_supported(name))
       file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, passed over");
@@ -95,10 +109,31 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   return light;
 }
 
+std::vector<std::string> list_variants(const GltfFile& file) {
+  std::vector<std::string> names;
+  const auto all = file.root().extension("KHR_materials_variants");
+  for (std::size_t i = 0; all && i < all->count("variants"); ++i)
+    names.push_back(all->element("variants", i, "variant").text("name"));
+  return names;
+}
+
+std::optional<std::size_t> find_variant(const GltfFile& file, const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  std::string known;
+  const std::vector<std::string> names = list_variants(file);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return i;
+    known += (known.empty() ? "" : ", ") + names[i];
+  }
+  throw Error(Trouble::Usage, "--variant: the file has no variant " + quoted(name) +
+                                  (known.empty() ? ", nor any other" : ", but " + known));
+}
+
 class SceneReader {
  public:
-  explicit SceneReader(GltfFile& file) : file_(file), nodes_(file) {}
-  Scene read();
+  SceneReader(GltfFile& file, const SceneChoice& choice)
+      : file_(file), nodes_(file, choice), variant_(find_variant(file, choice.variant)) {}
+  Scene read(const GltfMaterials& look, GltfModel::Images images);
 
  private:
   void add_node(const GltfNode& node);
@@ -109,6 +144,7 @@ class SceneReader {
 
   GltfFile& file_;
   GltfNodes nodes_;
+  std::optional<std::size_t> variant_;
   Scene scene_;
   std::map<std::size_t, std::pair<std::size_t, std::size_t>> ready_;  ///< file's mesh: its meshes in the scene
   std::vector<Box> boxes_;                                            ///< of each mesh in the scene
@@ -140,7 +176,7 @@ std::vector<float4x4> SceneReader::read_placements(const GltfNode& node) {
 
 /// The scene's meshes for a mesh of the file, [first, end); read at their first use, or for a pose of their own.
 std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh, bool is_skinned) {
-  GltfPose pose{.weights = node.json.numbers("weights", 0), .joints = {}};
+  GltfPose pose{.weights = nodes_.weights(node), .joints = {}, .variant = variant_};
   if (is_skinned) pose.joints = nodes_.joints(node);
   const bool is_plain = pose.weights.empty() && pose.joints.empty();
   if (const auto found = ready_.find(mesh); is_plain && found != ready_.end()) return found->second;
@@ -197,11 +233,9 @@ void SceneReader::add_node(const GltfNode& node) {
   if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
 }
 
-Scene SceneReader::read() {
-  check_extensions(file_);
-  GltfMaterials look = load_materials(file_);
-  scene_.materials = std::move(look.materials);
-  scene_.images = std::move(look.images);
+Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
+  scene_.materials = look.materials;
+  if (images == GltfModel::Images::With) scene_.images = look.images;
   for (const GltfNode& node : nodes_.in_scene()) add_node(node);
 
   // The default material comes last, where something needs it.
@@ -210,17 +244,36 @@ Scene SceneReader::read() {
       std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [&](const Mesh& m) { return m.material == last; });
   if (needs_default) scene_.materials.emplace_back().name = "default";
   if (scene_.instances.empty()) file_.warn(file_.root().place() + " nothing in the scene can be drawn");
-  if (file_.count("animations") != 0)
-    file_.warn(file_.root().place() + " animations are not played, the default pose is drawn");
-  scene_.warnings = file_.take_warnings();
+  scene_.animations = list_animations(file_);
+  scene_.variants = list_variants(file_);
+  scene_.warnings = file_.warnings();
   return std::move(scene_);
 }
 
 }  // namespace
 
-Scene load_gltf(const std::string& path, const LoadLimits& limits) {
-  GltfFile file(path, limits);
-  return SceneReader(file).read();
+/// What is open, and what was left of the budget when it had been opened.
+struct GltfModel::Open {
+  Open(const std::string& path, const LoadLimits& limits) : file(path, limits) {
+    check_extensions(file);
+    look = load_materials(file);
+    left = file.budget().memory_left();
+  }
+  GltfFile file;
+  GltfMaterials look;
+  std::uint64_t left = 0;
+};
+
+GltfModel::GltfModel(const std::string& path, const LoadLimits& limits) : open_(std::make_unique<Open>(path, limits)) {}
+GltfModel::~GltfModel() = default;
+
+Scene GltfModel::scene(const SceneChoice& choice, Images images) {
+  open_->file.budget().restart(open_->left);
+  return SceneReader(open_->file, choice).read(open_->look, images);
+}
+
+Scene load_gltf(const std::string& path, const LoadLimits& limits, const SceneChoice& choice) {
+  return GltfModel(path, limits).scene(choice);
 }
 
 }  // namespace zoneplate

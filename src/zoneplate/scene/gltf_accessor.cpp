@@ -80,7 +80,14 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
   a.layout.components = read_components(a.json);
   a.layout.type = read_component_type(a.json);
   a.layout.is_normalized = a.json.flag("normalized", false);
-  if (a.json.has("bufferView")) place_in_view(file, a.json, "it", a.layout);
+  if (file.has_decoded(number)) {
+    a.layout.bytes = file.decoded(number);
+    a.layout.stride = a.layout.element_size();
+    if (a.layout.bytes.size() < a.layout.count * a.layout.stride)
+      a.json.fail("has another shape than what was decoded");
+  } else if (a.json.has("bufferView")) {
+    place_in_view(file, a.json, "it", a.layout);
+  }
   return a;
 }
 
@@ -202,6 +209,15 @@ Accessor find_vectors(GltfFile& file, const JsonView& owner, const char* key, co
 
 std::uint64_t count_elements(const GltfFile& file, const JsonView& owner, const char* key) {
   return file.root().element("accessors", owner.index(key, file.count("accessors")), "accessor").whole("count");
+}
+
+ElementShape read_shape(const GltfFile& file, const JsonView& owner, const char* key) {
+  const JsonView json = file.root().element("accessors", owner.index(key, file.count("accessors")), "accessor");
+  return {json.whole("count"), read_components(json), read_component_type(json)};
+}
+
+std::vector<float> read_float(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {
+  return read_vectors<float>(file, find_vectors(file, owner, key, "SCALAR", "SCALAR"), range, {});
 }
 
 std::vector<float2> read_float2(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {

@@ -17,11 +17,20 @@ struct ElementRange {
 /// The number of elements of the accessor whose index stands under `key` of `owner`.
 std::uint64_t count_elements(const GltfFile& file, const JsonView& owner, const char* key);
 
+/// What the accessor says of its elements: how many, of how many components, of what type (5120 to 5126).
+struct ElementShape {
+  std::uint64_t count = 0, components = 1;
+  int type = 5126;
+};
+ElementShape read_shape(const GltfFile& file, const JsonView& owner, const char* key);
+
 /// The elements of the accessor whose index stands under `key` of `owner`.
 ///
 /// Normalised integers become [0, 1] or [-1, 1]; other integers keep their value. Sparse elements are in their place.
 /// Errors    Trouble::Input naming owner and key: no such accessor, another type than asked for, an element outside
 ///           its buffer view, sparse indices that are out of range or do not grow, more memory than the budget.
+/// Single numbers.
+std::vector<float> read_float(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float2> read_float2(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float3> read_float3(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float4> read_float4(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});

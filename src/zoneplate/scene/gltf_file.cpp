@@ -3,6 +3,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "zoneplate/scene/gltf_meshopt.h"
 #include "zoneplate/scene/gltf_uri.h"
 
 namespace zoneplate {
@@ -97,13 +98,20 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
   return (buffers_[i] = std::move(data)).bytes;
 }
 
-std::span<const std::uint8_t> GltfFile::view(std::size_t i) {
-  const JsonView json = root_->element("bufferViews", i, "bufferView");
+std::span<const std::uint8_t> GltfFile::part_of_buffer(const JsonView& json) {
   const std::span<const std::uint8_t> all = buffer(json.index("buffer", count("buffers")));
   const std::uint64_t offset = json.whole("byteOffset", 0), size = json.whole("byteLength");
   if (offset > all.size() || size > all.size() - offset)
     json.fail("ends at byte " + std::to_string(offset + size) + " of a buffer of " + bytes_text(all.size()));
   return all.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
+}
+
+std::span<const std::uint8_t> GltfFile::view(std::size_t i) {
+  const JsonView json = root_->element("bufferViews", i, "bufferView");
+  const auto packed = json.extension("EXT_meshopt_compression");
+  if (!packed) return part_of_buffer(json);
+  if (const auto found = unpacked_.find(i); found != unpacked_.end()) return found->second;
+  return unpacked_[i] = decode_meshopt(*packed, part_of_buffer(*packed), budget_);
 }
 
 std::uint64_t GltfFile::view_stride(std::size_t i) const {

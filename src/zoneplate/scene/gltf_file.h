@@ -29,11 +29,11 @@ class GltfFile {
   GltfFile(const std::string& path, const LoadLimits& limits);
 
   const JsonView& root() const { return *root_; }
-  GltfBudget& budget() { return budget_; }
+  ImportBudget& budget() { return budget_; }
 
   std::size_t count(const char* list) const { return root_->count(list); }
 
-  /// The bytes of a buffer view.
+  /// The bytes of a buffer view; unpacked, where EXT_meshopt_compression packs them.
   std::span<const std::uint8_t> view(std::size_t i);
   /// The byte stride that a buffer view states, 0 where it states none.
   std::uint64_t view_stride(std::size_t i) const;
@@ -44,23 +44,31 @@ class GltfFile {
   ///           unreadable.
   GltfBytes load_uri(const JsonView& owner, const std::string& uri);
 
+  /// Values of an accessor that stand nowhere in the file as they are, tightly packed, and of its shape.
+  void set_decoded(std::size_t accessor, std::vector<std::uint8_t> bytes) { decoded_[accessor] = std::move(bytes); }
+  bool has_decoded(std::size_t accessor) const { return decoded_.contains(accessor); }
+  std::span<const std::uint8_t> decoded(std::size_t accessor) const { return decoded_.at(accessor); }
+
   /// Notes what was passed over, each text once.
   void warn(const std::string& text);
-  std::vector<std::string> take_warnings() { return std::move(warnings_); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void read_chunks(std::span<const std::uint8_t> bytes);
   void check_asset() const;
   std::span<const std::uint8_t> buffer(std::size_t i);
+  std::span<const std::uint8_t> part_of_buffer(const JsonView& json);
 
   std::string path_;
-  GltfBudget budget_;
+  ImportBudget budget_;
   FileBytes file_;
   std::span<const std::uint8_t> json_bytes_, binary_;
   bool has_binary_ = false;
   JsonValue json_;
   std::optional<JsonView> root_;
   std::map<std::size_t, GltfBytes> buffers_;
+  std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< of compressed buffer views
+  std::map<std::size_t, std::vector<std::uint8_t>> decoded_;   ///< of accessors
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
 };

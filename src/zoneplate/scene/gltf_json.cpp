@@ -13,7 +13,7 @@ constexpr std::size_t greatest_depth = 64;  // glTF itself nests 8 deep, extensi
 /// Builds the tree from the JSON library's events, and stops where a limit is passed.
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
-  explicit TreeBuilder(GltfBudget& budget) : budget_(budget) {}
+  explicit TreeBuilder(ImportBudget& budget) : budget_(budget) {}
 
   JsonValue take_root() { return std::move(root_); }
 
@@ -70,7 +70,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  GltfBudget& budget_;
+  ImportBudget& budget_;
   JsonValue root_;
   JsonValue* last_ = nullptr;
   std::vector<JsonValue*> open_;
@@ -110,7 +110,7 @@ std::string quoted(const std::string& text) {
   return out + (text.size() > 120 ? "...'" : "'");
 }
 
-JsonValue parse_json(std::span<const std::uint8_t> bytes, GltfBudget& budget) {
+JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget) {
   while (!bytes.empty() && bytes.back() == 0) bytes = bytes.first(bytes.size() - 1);
   TreeBuilder builder(budget);
   const char* text = reinterpret_cast<const char*>(bytes.data());

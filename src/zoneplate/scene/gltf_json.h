@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/scene/gltf_budget.h"
+#include "zoneplate/scene/import_budget.h"
 
 namespace zoneplate {
 
@@ -27,7 +27,7 @@ struct JsonValue {
 ///
 /// Errors    Trouble::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, or larger
 ///           in memory than the budget.
-JsonValue parse_json(std::span<const std::uint8_t> bytes, GltfBudget& budget);
+JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget);
 
 /// A text of a file as it stands in a message: in quotes, on one line, not too long.
 std::string quoted(const std::string& text);

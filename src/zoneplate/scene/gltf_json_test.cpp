@@ -6,7 +6,7 @@ namespace zoneplate {
 namespace {
 
 JsonValue parse(const std::string& text, const LoadLimits& limits = {}) {
-  GltfBudget budget("f.gltf", limits);
+  ImportBudget budget("f.gltf", limits);
   return parse_json({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, budget);
 }
 

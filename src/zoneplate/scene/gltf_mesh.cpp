@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "zoneplate/scene/finite.h"
 #include "zoneplate/scene/gltf_accessor.h"
+#include "zoneplate/scene/gltf_draco.h"
 #include "zoneplate/scene/gltf_topology.h"
 #include "zoneplate/scene/tangent.h"
 
@@ -130,48 +132,6 @@ void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& me
     p.file.budget().give_back(list->size() * sizeof(float4));
 }
 
-bool is_finite_vertex(const Mesh& m, std::size_t i) {
-  float sum = 0;  // x - x is 0 for finite x, else not a number
-  const auto add = [&](float x) { sum += x - x; };
-  add(m.position[i].x), add(m.position[i].y), add(m.position[i].z);
-  if (!m.normal.empty()) add(m.normal[i].x), add(m.normal[i].y), add(m.normal[i].z);
-  if (!m.tangent.empty()) add(m.tangent[i].x), add(m.tangent[i].y), add(m.tangent[i].z), add(m.tangent[i].w);
-  if (!m.uv0.empty()) add(m.uv0[i].x), add(m.uv0[i].y);
-  if (!m.uv1.empty()) add(m.uv1[i].x), add(m.uv1[i].y);
-  if (!m.color.empty()) add(m.color[i].x), add(m.color[i].y), add(m.color[i].z), add(m.color[i].w);
-  return sum == 0;
-}
-
-/// Makes the vertices that are not finite zero, and drops the primitives that use one.
-void drop_non_finite(const Primitive& p, Mesh& m) {
-  std::vector<bool> is_bad(m.position.size());
-  bool has_bad = false;
-  for (std::size_t i = 0; i < m.position.size(); ++i) {
-    if (is_finite_vertex(m, i)) continue;
-    is_bad[i] = has_bad = true;
-    m.position[i] = {};
-    if (!m.normal.empty()) m.normal[i] = {};
-    if (!m.tangent.empty()) m.tangent[i] = {};
-    if (!m.uv0.empty()) m.uv0[i] = {};
-    if (!m.uv1.empty()) m.uv1[i] = {};
-    if (!m.color.empty()) m.color[i] = {};
-  }
-  if (!has_bad) return;
-  const auto corners = static_cast<std::size_t>(m.vertices_per_primitive());
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k + corners <= m.index.size(); k += corners) {
-    bool is_good = true;
-    for (std::size_t c = 0; c < corners; ++c) is_good = is_good && !is_bad[m.index[k + c]];
-    if (!is_good) continue;
-    for (std::size_t c = 0; c < corners; ++c) m.index[kept + c] = m.index[k + c];
-    kept += corners;
-  }
-  if (kept != m.index.size())
-    p.file.warn(p.json.place() + ": vertices that are not finite, " +
-                std::to_string((m.index.size() - kept) / corners) + " primitives dropped");
-  m.index.resize(kept);
-}
-
 /// The direction of v; zero where its square is too small or too large for a float to hold it well.
 float3 direction(float3 v) {
   const float square = dot(v, v);
@@ -213,7 +173,7 @@ std::uint64_t vertex_size(const Mesh& m) {
 
 /// Makes what the specification asks to be made where the file does not have it.
 void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
-  GltfBudget& budget = p.file.budget();
+  ImportBudget& budget = p.file.budget();
   if (m.topology != Topology::Triangles) m.tangent.clear();
   if (m.topology == Topology::Triangles && m.normal.empty()) {
     budget.take(m.index.size() * (vertex_size(m) + sizeof(float3)));
@@ -238,12 +198,24 @@ void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   budget.give_back(working + most + before - m.position.size() * vertex_size(m));
 }
 
+/// The number of the primitive's material, in the variant that is asked for.
+std::optional<std::size_t> find_material(const JsonView& json, const GltfPose& pose, std::size_t count) {
+  const auto variants = json.extension("KHR_materials_variants");
+  for (std::size_t i = 0; variants && pose.variant && i < variants->count("mappings"); ++i) {
+    const JsonView mapping = variants->element("mappings", i, "mapping");
+    for (const std::size_t v : mapping.indices("variants", std::numeric_limits<std::uint32_t>::max()))
+      if (v == *pose.variant) return mapping.index("material", count);
+  }
+  return json.find_index("material", count);
+}
+
 Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, std::span<const float> weights,
                     std::span<const Material> materials) {
   Primitive p{file, json, json.object("attributes").renamed(json.place()), {}};
   const std::uint64_t mode = json.whole("mode", 4, 255);
   if (mode > 6) json.fail("mode is " + std::to_string(mode) + ", wants 0 to 6");
-  const auto material = json.find_index("material", materials.size());
+  const auto material = find_material(json, pose, materials.size());
+  decode_draco_primitive(file, json);
   Mesh m;
   m.material = static_cast<int>(material.value_or(materials.size()));
   m.topology = gltf_topology(static_cast<int>(mode));
@@ -267,7 +239,8 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   m.color = read_attribute(p, "COLOR_0", read_color);
   apply_targets(p, weights, m);
   if (!pose.joints.empty()) apply_joints(p, pose.joints, m);
-  drop_non_finite(p, m);
+  if (const std::uint64_t dropped = drop_not_finite(m))
+    p.file.warn(p.json.place() + ": vertices that are not finite, " + std::to_string(dropped) + " primitives dropped");
   complete(p, normal_texture, m);
   return m;
 }

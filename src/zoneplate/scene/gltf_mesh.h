@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace zoneplate {
 
 /// The pose in which a mesh is read: what its node and skin add to the file's vertices.
 struct GltfPose {
-  std::vector<float> weights;    ///< of the morph targets; empty: the mesh's own
-  std::vector<float4x4> joints;  ///< world from mesh, for each joint; empty: not skinned
+  std::vector<float> weights;          ///< of the morph targets; empty: the mesh's own
+  std::vector<float4x4> joints;        ///< world from mesh, for each joint; empty: not skinned
+  std::optional<std::size_t> variant;  ///< of KHR_materials_variants
 };
 
 /// Reads one mesh of the file as it is drawn: a Mesh for each primitive that draws something.

@@ -6,6 +6,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/jpeg.h"
 #include "zoneplate/image/png.h"
+#include "zoneplate/image/webp_still.h"
 
 namespace zoneplate {
 namespace {
@@ -19,9 +20,10 @@ bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_v
 bool is_png(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "\x89PNG\r\n\x1a\n"); }
 bool is_jpeg(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "\xff\xd8\xff"); }
 
+bool is_webp(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP"); }
+
 /// The name of a format that is not read.
 std::string_view known_format(std::span<const std::uint8_t> bytes) {
-  if (has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP")) return "a WebP";
   if (has_text(bytes, 1, "KTX ")) return "a KTX";
   if (has_text(bytes, 0, "DDS ")) return "a DDS";
   if (has_text(bytes, 0, "GIF8")) return "a GIF";
@@ -68,14 +70,16 @@ Rgba8Image narrow(const Rgba16Image& wide) {
 
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_jpeg(bytes)) return find_jpeg_size(bytes);
+  if (is_webp(bytes)) return find_webp_size(bytes);
   if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
   return std::nullopt;
 }
 
 Rgba8Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, max_pixels);
+  if (is_webp(bytes)) return decode_webp(bytes, name, max_pixels);
   if (!is_png(bytes))
-    throw Error(Trouble::Input, name + ": is " + std::string(known_format(bytes)) + " image, wants PNG or JPEG");
+    throw Error(Trouble::Input, name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG or WebP");
   PngImage png = decode_png(bytes, name, max_pixels);
   return png.pixels16.empty() ? std::move(png.pixels) : narrow(png.pixels16);
 }

@@ -8,22 +8,44 @@
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/gltf.h"
 #include "zoneplate/scene/obj.h"
+#include "zoneplate/scene/ply.h"
+#include "zoneplate/scene/stl.h"
 
 namespace zoneplate {
 namespace {
 
 constexpr SceneFormat formats[] = {{".gltf", "glTF 2.0, with its buffers and images"},
                                    {".glb", "glTF 2.0 in one binary file"},
-                                   {".obj", "Wavefront OBJ, with its MTL materials"}};
+                                   {".obj", "Wavefront OBJ, with its MTL materials"},
+                                   {".ply", "PLY, ASCII or binary, meshes and points"},
+                                   {".stl", "STL, ASCII or binary"}};
 
-using Loader = Scene (*)(const std::string&, const LoadLimits&);
-constexpr Loader loaders[] = {load_gltf, load_gltf, load_obj};
+Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
+
+/// Refuses a choice where there is none.
+const LoadLimits& limits_of(const LoadOptions& o) {
+  const SceneChoice& c = o.choice;
+  if (c.scene || c.animation || !c.variant.empty())
+    throw Error(Trouble::Usage, "only glTF files have scenes, variants and animations to choose from");
+  return o.limits;
+}
+Scene read_obj(const std::string& path, const LoadOptions& o) { return load_obj(path, limits_of(o)); }
+Scene read_ply(const std::string& path, const LoadOptions& o) { return load_ply(path, limits_of(o)); }
+Scene read_stl(const std::string& path, const LoadOptions& o) { return load_stl(path, limits_of(o)); }
+using Loader = Scene (*)(const std::string&, const LoadOptions&);
+constexpr Loader loaders[] = {read_gltf, read_gltf, read_obj, read_ply, read_stl};
 static_assert(std::size(loaders) == std::size(formats));
 
 std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+/// The extension that says how the file is read.
+std::string extension_of(const std::string& name, const std::string& format) {
+  if (format.empty()) return lower_case(std::filesystem::path(name).extension().string());
+  return lower_case((format.starts_with('.') ? "" : ".") + format);
 }
 
 }  // namespace
@@ -36,19 +58,45 @@ bool is_builtin_scene(std::string_view name) {
   return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) { return scene.name == stem; });
 }
 
-Scene load_scene(const std::string& name, const LoadLimits& limits) {
-  if (std::optional<Scene> scene = make_builtin_scene(name)) return std::move(*scene);
+Scene load_scene(const std::string& name, const LoadOptions& options) {
+  if (options.format.empty() && name != "-")
+    if (std::optional<Scene> scene = make_builtin_scene(name)) {
+      static_cast<void>(limits_of(options));
+      return std::move(*scene);
+    }
 
-  const std::string extension = lower_case(std::filesystem::path(name).extension().string());
-  for (std::size_t i = 0; i < std::size(formats); ++i)
-    if (extension == formats[i].extension) return loaders[i](name, limits);
-
-  std::error_code ignored;
-  const bool exists = std::filesystem::exists(name, ignored);
   std::string wanted;
   for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
+  if (name == "-" && options.format.empty())
+    throw Error(Trouble::Usage, "standard input wants --format (" + wanted + ")");
+  const std::string extension = extension_of(name, options.format);
+  for (std::size_t i = 0; i < std::size(formats); ++i)
+    if (extension == formats[i].extension) return loaders[i](name, options);
+
+  if (!options.format.empty())
+    throw Error(Trouble::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(name, ignored);
   throw Error(Trouble::Input, exists ? name + ": not a format that can be read (" + wanted + ")"
                                      : name + ": no such file, and no built-in scene of that name");
+}
+
+SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
+  const std::string extension = extension_of(name_, options_.format);
+  const bool is_gltf = extension == ".gltf" || extension == ".glb";
+  if (is_gltf && (name_ != "-" || !options_.format.empty()))
+    gltf_ = std::make_unique<GltfModel>(name_, options_.limits);
+}
+SceneSource::~SceneSource() = default;
+
+Scene SceneSource::load(const SceneChoice& choice) {
+  if (gltf_) return gltf_->scene(choice);
+  options_.choice = choice;
+  return load_scene(name_, options_);
+}
+
+Scene SceneSource::load_shape(const SceneChoice& choice) {
+  return gltf_ ? gltf_->scene(choice, GltfModel::Images::Without) : load(choice);
 }
 
 }  // namespace zoneplate

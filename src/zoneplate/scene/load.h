@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -7,6 +8,8 @@
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
+
+class GltfModel;
 
 struct SceneFormat {
   std::string_view extension;  ///< lower case, with its dot
@@ -19,11 +22,37 @@ std::span<const SceneFormat> scene_formats();
 /// True for the name of a built-in scene, with or without parameters.
 bool is_builtin_scene(std::string_view name);
 
+/// How a scene is loaded.
+struct LoadOptions {
+  LoadLimits limits;
+  std::string format;  ///< an extension without its dot, "stl"; empty: that of the name
+  SceneChoice choice;
+};
+
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".
 ///
-/// A built-in scene goes before a file of the same name, which is reached as "./teapot".
+/// A built-in scene goes before a file of the same name, which is reached as "./teapot". "-" is standard input, and
+/// wants a format; what it refers to is looked for in the working directory.
 /// Errors    Trouble::Input naming a file that is missing, of an unknown format or wrong inside; Trouble::Usage for
-///           parameters of a built-in scene.
-Scene load_scene(const std::string& name, const LoadLimits& limits = {});
+///           parameters of a built-in scene, a format that is not read, and standard input without one.
+Scene load_scene(const std::string& name, const LoadOptions& options = {});
+
+/// A model that stays open, to be loaded at several moments of its animation.
+///
+/// Errors    as load_scene, in the constructor or later.
+class SceneSource {
+ public:
+  SceneSource(std::string name, LoadOptions options);
+  ~SceneSource();
+
+  Scene load(const SceneChoice& choice);
+  /// The same without images.
+  Scene load_shape(const SceneChoice& choice);
+
+ private:
+  std::string name_;
+  LoadOptions options_;
+  std::unique_ptr<GltfModel> gltf_;
+};
 
 }  // namespace zoneplate

@@ -16,7 +16,7 @@ namespace zoneplate {
 class ObjFolder {
  public:
   /// `folder` is that of the model; nothing outside it is opened unless the limits allow it.
-  ObjFolder(std::string folder, ObjBudget& budget, Scene& scene)
+  ObjFolder(std::string folder, ImportBudget& budget, Scene& scene)
       : folder_(std::move(folder)), budget_(budget), scene_(scene) {}
 
   /// The file of that name as a material library writes it, seen from the folder `within` the model's ("" or "sub/").
@@ -28,14 +28,14 @@ class ObjFolder {
   /// The number of the image in Scene::images, which is loaded at its first use; -1, with a warning, if there is none.
   int image(const std::string& within, const std::string& name);
 
-  ObjBudget& budget() { return budget_; }
+  ImportBudget& budget() { return budget_; }
   Scene& scene() { return scene_; }
 
  private:
   int load(const std::string& name, const std::optional<std::string>& path);
 
   std::string folder_;
-  ObjBudget& budget_;
+  ImportBudget& budget_;
   Scene& scene_;
   std::map<std::string, int> images_;  ///< by path, or by name where there is no file
 };

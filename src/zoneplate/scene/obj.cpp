@@ -127,7 +127,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   const bool is_stream = path == "-";
   const std::string name = is_stream ? "standard input" : path;
   const FileBytes bytes(path, limits.memory);
-  ObjBudget budget(name, limits);
+  ImportBudget budget(name, limits);
   Scene scene;
   ObjFile file = parse_obj(text_of(bytes), budget);
   report_notes(file, name, scene.warnings);

@@ -11,6 +11,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/scene/large_array.h"
 #include "zoneplate/scene/triangulate.h"
 
 namespace zoneplate {
@@ -133,22 +134,28 @@ class Builder {
                                                   : Topology::Points;
     mesh.material = plan_.material;
     mesh.index = std::move(index_);
-    mesh.position.reserve(keys.size());
-    if (has_normals) mesh.normal.reserve(keys.size());
-    if (has_uvs) mesh.uv0.reserve(keys.size());
-    if (!file_.colors.empty()) mesh.color.reserve(keys.size());
-    for (const Key& key : keys) {
-      const auto p = static_cast<std::size_t>(key.corner.position);
-      mesh.position.push_back(file_.positions[p]);
-      if (has_normals)
-        mesh.normal.push_back(key.corner.normal >= 0 ? file_.normals[static_cast<std::size_t>(key.corner.normal)]
-                                                     : key.made);
-      if (has_uvs) {
-        const float2 uv = key.corner.uv >= 0 ? file_.uvs[static_cast<std::size_t>(key.corner.uv)] : float2{0, 1};
-        mesh.uv0.push_back({uv.x, 1 - uv.y});
+    const bool has_colors = !file_.colors.empty();
+    parallel_for(4, [&](std::size_t i) {
+      if (i == 0) make_large(mesh.position, keys.size());
+      if (i == 1 && has_normals) make_large(mesh.normal, keys.size());
+      if (i == 2 && has_uvs) make_large(mesh.uv0, keys.size());
+      if (i == 3 && has_colors) make_large(mesh.color, keys.size());
+    });
+    parallel_ranges(keys.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Key& key = keys[i];
+        const auto p = static_cast<std::size_t>(key.corner.position);
+        mesh.position[i] = file_.positions[p];
+        if (has_normals)
+          mesh.normal[i] =
+              key.corner.normal >= 0 ? file_.normals[static_cast<std::size_t>(key.corner.normal)] : key.made;
+        if (has_uvs) {
+          const float2 uv = key.corner.uv >= 0 ? file_.uvs[static_cast<std::size_t>(key.corner.uv)] : float2{0, 1};
+          mesh.uv0[i] = {uv.x, 1 - uv.y};
+        }
+        if (has_colors) mesh.color[i] = color_of(p);
       }
-      if (!file_.colors.empty()) mesh.color.push_back(color_of(p));
-    }
+    });
     return mesh;
   }
 
@@ -208,7 +215,7 @@ class Builder {
 }  // namespace
 
 ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::vector<std::vector<float3>>& normals,
-                      ObjBudget& budget) {
+                      ImportBudget& budget) {
   struct Made {
     Mesh mesh;
     std::uint64_t not_finite = 0, too_concave = 0, bytes = 0;

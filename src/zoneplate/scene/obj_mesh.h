@@ -27,6 +27,6 @@ struct ObjMeshes {
 ///
 /// Errors    Trouble::Input when memory or time of the budget run out.
 ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::vector<std::vector<float3>>& normals,
-                      ObjBudget& budget);
+                      ImportBudget& budget);
 
 }  // namespace zoneplate

@@ -93,7 +93,7 @@ void for_each_face(const ObjFile& file, const std::vector<ObjRun>& runs, const B
 }
 
 /// Finds where every share goes: counted by place, then in the order of the file.
-Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, ObjBudget& budget) {
+Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, ImportBudget& budget) {
   Neighbours n;
   const bool are_needed = std::any_of(runs.begin(), runs.end(), [&](const ObjRun& run) {
     const auto& elements = file.chunks[run.chunk].elements;
@@ -175,7 +175,7 @@ float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t place, st
 }  // namespace
 
 std::vector<std::vector<float3>> missing_normals(const ObjFile& file, const std::vector<ObjRun>& runs,
-                                                 ObjBudget& budget) {
+                                                 ImportBudget& budget) {
   std::vector<std::vector<float3>> normals(file.chunks.size());
   Neighbours n = place_shares(file, runs, budget);
   if (n.shares.empty()) return normals;

@@ -28,7 +28,7 @@ inline constexpr std::uint32_t smooth_by_angle = 0xffffffffu;
 ///           smoothing by angle takes all of them.
 /// Exact     the same bits for any number of threads: sums are in the order of the file.
 std::vector<std::vector<float3>> missing_normals(const ObjFile& file, const std::vector<ObjRun>& runs,
-                                                 ObjBudget& budget);
+                                                 ImportBudget& budget);
 
 /// Whether the file gives this corner a normal that has a direction.
 inline bool has_normal(const ObjFile& file, const ObjCorner& corner) {

@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/base/clock.h"
 #include "zoneplate/math/vec.h"
-#include "zoneplate/scene/scene.h"
+#include "zoneplate/scene/import_budget.h"
 
 namespace zoneplate {
 
@@ -57,31 +56,11 @@ struct ObjFile {
   std::vector<ObjChunk> chunks;
 };
 
-/// What an import may still consume, and the name of its file for messages.
-class ObjBudget {
- public:
-  ObjBudget(const std::string& file, const LoadLimits& limits) : file_(file), limits_(limits) {}
-  const std::string& file() const { return file_; }
-  const LoadLimits& limits() const { return limits_; }
-
-  /// Errors    Trouble::Input when more than the limit has been taken.
-  void take(std::uint64_t bytes);
-  bool has_time() const { return clock_.ms() <= limits_.seconds * 1000; }
-  /// Errors    Trouble::Input when the time is up.
-  void check_time() const;
-
- private:
-  std::string file_;
-  LoadLimits limits_;
-  std::uint64_t taken_ = 0;
-  Stopwatch clock_;
-};
-
 /// Reads the statements of an OBJ file, in parallel.
 ///
 /// Edges     a corner that names a texture coordinate or normal that is not there has none, with a note.
 /// Errors    Trouble::Input naming file, line and cause: a number that is none, too few numbers, a vertex that is not
 ///           there.
-ObjFile parse_obj(std::string_view text, ObjBudget& budget);
+ObjFile parse_obj(std::string_view text, ImportBudget& budget);
 
 }  // namespace zoneplate

@@ -1,5 +1,6 @@
 #include "zoneplate/scene/obj_text.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -106,30 +107,42 @@ std::string_view LineWords::rest() {
   return {at_, static_cast<std::size_t>(last - at_)};
 }
 
-std::optional<float> find_number(std::string_view word) {
-  const char* at = word.data();
-  const char* const end = at + word.size();
+const char* scan_number(const char* at, const char* end, float& value) {
   bool is_negative = false;
   if (at != end && (*at == '-' || *at == '+')) is_negative = *at++ == '-';
   std::uint64_t digits = 0;
-  int count = 0, power = 0;
-  for (; at != end && is_digit(*at); ++at, ++count) digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
-  if (at != end && *at == '.')
-    for (++at; at != end && is_digit(*at); ++at, ++count, --power)
-      digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
-  if (count == 0 || count > 18) return find_any_number(word);
+  int power = 0;
+  const char* const first = at;
+  for (; at != end && is_digit(*at); ++at) digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+  std::ptrdiff_t count = at - first;
+  if (at != end && *at == '.') {
+    const char* const point = ++at;
+    for (; at != end && is_digit(*at); ++at) digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+    power = static_cast<int>(std::max<std::ptrdiff_t>(point - at, -1000));
+    count += at - point;
+  }
+  if (count == 0 || count > 18) return nullptr;
   if (at != end && (*at == 'e' || *at == 'E')) {
     int exponent = 0;
     ++at;
     if (at != end && *at == '+' && at + 1 != end) ++at;
     const auto [stop, trouble] = std::from_chars(at, end, exponent);
-    if (trouble != std::errc{} || std::abs(exponent) > 1000) return find_any_number(word);
+    if (trouble != std::errc{} || std::abs(exponent) > 1000) return nullptr;
     at = stop;
     power += exponent;
   }
-  const std::optional<float> value = at == end ? find_product(digits, power) : std::nullopt;
-  if (!value) return find_any_number(word);
-  return is_negative ? -*value : *value;
+  if (at != end && !is_space(*at)) return nullptr;
+  const std::optional<float> found = find_product(digits, power);
+  if (!found) return nullptr;
+  value = is_negative ? -*found : *found;
+  return at;
+}
+
+std::optional<float> find_number(std::string_view word) {
+  float value = 0;
+  const char* const end = word.data() + word.size();
+  if (scan_number(word.data(), end, value) == end) return value;
+  return find_any_number(word);
 }
 
 }  // namespace zoneplate

@@ -48,4 +48,10 @@ class LineWords {
 /// Exact     the float nearest to the decimal number, ties to even.
 std::optional<float> find_number(std::string_view word);
 
+/// Reads a number at the front of a text where that is simply done: sign, digits, point, exponent.
+///
+/// Answers where it ends, which is at a space or at `end`; null where find_number has to decide.
+/// Exact     as find_number.
+const char* scan_number(const char* at, const char* end, float& value);
+
 }  // namespace zoneplate

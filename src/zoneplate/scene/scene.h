@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct Instance {
   float4x4 world_from_object;
 };
 
+/// An animation of a file, and when it runs.
+struct AnimationSpan {
+  std::string name;
+  float begin = 0, end = 0;  ///< in seconds
+};
+
 /// Everything that a picture is made of, flat: no hierarchy is left.
 ///
 /// Requires  every index is in range; `materials` is not empty when there are meshes.
@@ -29,11 +36,23 @@ struct Scene {
   std::vector<TextureImage> images;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
-  float3 ambient_light{0, 0, 0};      ///< (Blinn-)Phong's constant ambient term, times Material::ambient
-  std::vector<std::string> warnings;  ///< what was passed over at load, one line each
+  float3 up{0, 1, 0};             ///< the upward axis that the file's format means; the camera takes it from here
+  float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's constant ambient term, times Material::ambient
+  std::vector<AnimationSpan> animations;  ///< that the file has
+  std::vector<std::string> variants;      ///< likewise, of materials
+  std::vector<std::string> warnings;      ///< what was passed over at load, one line each
 
   /// The world-space bounds of all instances (only of vertices that a primitive uses).
   Box bounds() const;
+};
+
+/// Which of a file's scenes, looks and moments is loaded (glTF).
+struct SceneChoice {
+  static constexpr int all_animations = -1;
+  std::optional<int> scene;      ///< index into the file's scenes; none: the one that the file names
+  std::string variant;           ///< of KHR_materials_variants; empty: the default materials
+  std::optional<int> animation;  ///< index into the file's animations, or all of them; none: not animated
+  double time = 0;               ///< of the animation, in seconds; before its start and after its end it stands still
 };
 
 /// What a loader may consume.

@@ -9,18 +9,21 @@
 
 namespace zoneplate {
 
-/// What is left of the limits of one import. Bytes are taken before they are allocated.
-class GltfBudget {
+/// What is left of the limits of one import, and the name of its file for messages. Bytes are taken before they are
+/// allocated.
+class ImportBudget {
  public:
-  GltfBudget(const std::string& file, const LoadLimits& limits) : file_(file), limits_(limits), left_(limits.memory) {}
+  ImportBudget(const std::string& file, const LoadLimits& limits)
+      : file_(file), limits_(limits), left_(limits.memory) {}
 
   const std::string& file() const { return file_; }
   const LoadLimits& limits() const { return limits_; }
   std::uint64_t memory_left() const { return left_; }
 
-  /// Errors    Trouble::Input when fewer than `bytes` are left.
+  /// Errors    Trouble::Input when fewer than `bytes` are left, and ever after.
   void take(std::uint64_t bytes) {
-    if (bytes > left_)
+    is_spent_ = is_spent_ || bytes > left_;
+    if (is_spent_)
       throw Error(Trouble::Input,
                   file_ + ": needs more than the limit of " + std::to_string(limits_.memory) + " bytes (--max-memory)");
     left_ -= bytes;
@@ -28,9 +31,13 @@ class GltfBudget {
   /// Bytes that were taken and are free again.
   void give_back(std::uint64_t bytes) { left_ += bytes; }
 
+  /// Begins anew with so many bytes, for another import of what is open already.
+  void restart(std::uint64_t left) { left_ = left, is_spent_ = false, clock_ = Stopwatch(); }
+
+  bool has_time() const { return clock_.ms() <= limits_.seconds * 1000; }
   /// Errors    Trouble::Input when the time is up.
   void check_time() const {
-    if (clock_.ms() > limits_.seconds * 1000)
+    if (!has_time())
       throw Error(Trouble::Input, file_ + ": takes longer to load than the limit of " +
                                       std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) + " ms");
   }
@@ -39,6 +46,7 @@ class GltfBudget {
   std::string file_;
   LoadLimits limits_;
   std::uint64_t left_;
+  bool is_spent_ = false;
   Stopwatch clock_;
 };
 

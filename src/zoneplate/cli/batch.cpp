@@ -1,0 +1,149 @@
+#include "zoneplate/cli/batch.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <new>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/cli/frame_name.h"
+#include "zoneplate/cli/render_job.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/scene/gltf_json.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// The words of the command line that a job of the manifest stands for.
+std::vector<std::string> words_of(const JsonValue& job, const std::string& place) {
+  const JsonView view(job, place);
+  std::vector<std::string> words;
+  std::string input;
+  for (std::size_t i = 0; i < job.items.size(); ++i) {
+    const std::string& key = job.keys[i];
+    const JsonValue& value = job.items[i];
+    if (value.kind == JsonValue::Kind::Boolean) {
+      if (value.boolean) words.push_back("--" + key);
+      continue;
+    }
+    if (value.kind != JsonValue::Kind::Text && value.kind != JsonValue::Kind::Number)
+      view.fail(key + " is neither a text, nor a number, nor true or false");
+    const std::string text = value.kind == JsonValue::Kind::Text ? value.text : fmt::format("{}", value.number);
+    if (key == "input")
+      input = text;
+    else
+      words.push_back("--" + key + "=" + text);
+  }
+  if (input.empty()) view.fail("has no input");
+  words.push_back("--");
+  words.push_back(input);
+  return words;
+}
+
+// A line of the manifest that is not empty, and what messages call it.
+struct Line {
+  std::string text, place;
+};
+
+std::vector<Line> lines_of(const std::string& path) {
+  const FileBytes file(path, std::uint64_t{1} << 30);
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  std::vector<Line> lines;
+  std::size_t number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    ++number;
+    if (line.find_first_not_of(" \t\r") != line.npos)
+      lines.push_back({std::string(line), fmt::format("{}: line {}:", path == "-" ? "standard input" : path, number)});
+    at = end + 1;
+  }
+  return lines;
+}
+
+// One job after the other; each failure is told and kept, and the next job begun.
+class Batch {
+ public:
+  explicit Batch(const RenderArgs& common) : common_(common) {}
+
+  // Runs what `make` answers, or tells why it cannot be made.
+  template <class Make>
+  void run(const std::string& name, const Make& make) {
+    const Stopwatch watch;
+    Json::Object line;
+    try {
+      RenderArgs args = make();
+      args.progress = ProgressKind::None;
+      if (args.skip_existing && !has_frame_number(args.output) && exists(args.output)) {
+        line = {{"input", args.input}, {"output", args.output}, {"status", "skipped"}};
+      } else {
+        check_writable(args.output);
+        const Summary summary = jobs_.run(args);
+        line = summary_json(args, summary);
+        line.emplace(line.begin() + 2, "status", "done");
+      }
+    } catch (const Error& error) {
+      line = failure(name, error.what());
+    } catch (const std::bad_alloc&) {
+      line = failure(name, "out of memory");
+    }
+    line.emplace_back("seconds", watch.ms() / 1000);
+    if (common_.verbosity != Verbosity::Quiet) print(Json(std::move(line)).text() + '\n');
+    ++count_;
+  }
+
+  void finish() const {
+    if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
+  }
+
+ private:
+  Json::Object failure(const std::string& name, const std::string& error) {
+    ++failed_;
+    say_error(error);
+    return {{"input", name}, {"output", Json()}, {"status", "failed"}, {"error", error}};
+  }
+
+  const RenderArgs& common_;
+  RenderJobs jobs_;
+  std::uint64_t count_ = 0, failed_ = 0;
+};
+
+std::string model_of(const std::string& input) {
+  std::string stem = std::filesystem::path(input).stem().string();
+  for (char& c : stem)
+    if (c == ':' || c == '/') c = '_';
+  return stem;
+}
+
+}  // namespace
+
+void render_batch(const RenderArgs& common, std::span<const std::string> arguments) {
+  Batch batch(common);
+  std::uint64_t number = 0;
+  for (const std::string& input : common.inputs) {
+    if (!common.shard.has(number++)) continue;
+    batch.run(input, [&] {
+      RenderArgs args = common;
+      args.input = input;
+      if (!args.sequence.is_wanted()) args.output = frame_name(args.output, 0, model_of(input));
+      return args;
+    });
+  }
+  if (common.manifest.empty()) return batch.finish();
+  for (const Line& line : lines_of(common.manifest)) {
+    if (!common.shard.has(number++)) continue;
+    batch.run(line.place, [&] {
+      ImportBudget budget(line.place, common.load.limits);
+      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(line.text.data());
+      const JsonValue job = parse_json({bytes, line.text.size()}, budget);
+      std::vector<std::string> words(arguments.begin(), arguments.end());
+      for (std::string& word : words_of(job, line.place)) words.push_back(std::move(word));
+      return parse_job_args(words);
+    });
+  }
+  batch.finish();
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,98 @@
+#include "zoneplate/cli/render_job.h"
+
+#include <fmt/format.h>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/sequence.h"
+#include "zoneplate/cli/usage.h"
+#include "zoneplate/scene/load.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// What decides how a model is loaded.
+std::string key_of(const RenderArgs& args) {
+  const SceneChoice& c = args.load.choice;
+  const LoadLimits& l = args.load.limits;
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1), c.variant,
+                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path);
+}
+
+}  // namespace
+
+Stage& RenderJobs::stage_of(const RenderArgs& args) {
+  const std::string key = key_of(args);
+  if (stage_ && key == key_ && args.input != "-") return *stage_;
+  stage_.reset();
+  stage_ = std::make_unique<Stage>(load_scene(args.input, args.load));
+  key_ = key;
+  return *stage_;
+}
+
+Summary RenderJobs::run(RenderArgs args) {
+  const Stopwatch total_watch;
+  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
+  check_memory(args, resolver->ask(0));
+  Summary summary;
+  summary.threads = thread_limit();
+  Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+  progress.begin("read", 0);
+  if (args.sequence.is_wanted()) {
+    render_sequence(args, *resolver, summary);
+    summary.times = {{"total", total_watch.ms()}};
+    return summary;
+  }
+
+  const Stopwatch read_watch;
+  Stage& stage = stage_of(args);
+  summary.times.emplace_back("read", read_watch.ms());
+  const Scene& scene = stage.scene();
+  args.view.up = args.up.value_or(scene.up);
+  const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
+  if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
+  const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+  const Camera camera = choose_camera(scene, args.view, aspect);
+  args.options.environment = stage.light(camera, args.look);
+  summary.warnings = scene.warnings;
+  progress.begin("render", 0.2);
+  const Rendered picture = render_picture(args, scene, camera, *resolver, args.output, summary);
+  if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
+
+  progress.begin("encode", 0.8);
+  const Stopwatch encode_watch;
+  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.output);
+  summary.times.emplace_back("encode", encode_watch.ms());
+  progress.begin("write", 0.95);
+  const Stopwatch write_watch;
+  save_bytes(args.output, bytes);
+  for (const OutputFile& file : picture.layers) save_bytes(file.path, file.bytes);
+  summary.times.emplace_back("write", write_watch.ms());
+  summary.times.emplace_back("total", total_watch.ms());
+  return summary;
+}
+
+Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
+  Json::Object times, layers;
+  for (const auto& [name, ms] : summary.times) times.emplace_back(name, ms);
+  for (const Aov* aov : args.aovs) layers.emplace_back(aov->name, aov_path(args.output, aov->name));
+  return Json::Object{{"input", args.input},
+                      {"output", args.output},
+                      {"layers", std::move(layers)},
+                      {"width", summary.width},
+                      {"height", summary.height},
+                      {"method", args.method},
+                      {"frames", summary.frames},
+                      {"triangles", summary.counts.triangles},
+                      {"triangles_set_up", summary.counts.triangles_set_up},
+                      {"shaded", summary.counts.shaded},
+                      {"threads", summary.threads},
+                      {"isa", name_of(args.options.isa)},
+                      {"ms", std::move(times)},
+                      {"peak_memory_bytes", peak_memory()},
+                      {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/cli/render_args.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::cli {
+
+/// A file of the result, ready to be written.
+struct OutputFile {
+  std::string path;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// What is told about a run. Times are in milliseconds, in the order of the work.
+struct Summary {
+  int width = 0, height = 0, threads = 0;
+  RenderCounts counts;
+  std::vector<std::pair<std::string, double>> times;
+  std::vector<std::string> warnings;
+  int frames = 1;
+};
+
+/// A picture, with the data passes that were asked for.
+struct Rendered {
+  Rgba8Image image;
+  Rgba16Image image16;  ///< in place of it, where 16 bits are asked for
+  LinearImage linear;   ///< where the output is a PFM: linear light over the background, before tone mapping
+  bool has_alpha = false;
+  std::vector<OutputFile> layers;
+};
+
+/// The name of a data pass: "chair.png" and "depth" give "chair.depth.png".
+std::string aov_path(const std::string& output, std::string_view name);
+
+/// Fails at once, not after a long render, where the picture can never be written.
+///
+/// Errors    Trouble::Output; Trouble::Usage for a terminal.
+void check_writable(const std::string& output);
+
+/// Errors    Trouble::Usage where frame and picture need more than the limit.
+void check_memory(const RenderArgs& args, const Request& request);
+
+/// Renders a scene that is loaded and lit. The passes are named after `output`: "chair.png", "chair.depth.png".
+Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
+                        const std::string& output, Summary& summary);
+
+/// The mean in linear light of the pictures of `count` scenes at one camera, as an open shutter sees what moves.
+///
+/// Exact     the sum is made in order and divided once.
+Rendered render_mean(const RenderArgs& args, int count, const std::function<const Scene&(int)>& scene_at,
+                     const Camera& camera, Resolver& resolver, Summary& summary);
+
+/// The picture's bytes in the format of its name: PNG, JPEG, WebP or PFM.
+std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output);
+
+/// A picture of nothing is never given without a word.
+std::string emptiness(const RenderArgs& args, const RenderCounts& counts);
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,52 @@
+#include "zoneplate/image/webp_still.h"
+
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+
+std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes) {
+  int2 size;
+  if (WebPGetInfo(bytes.data(), bytes.size(), &size.x, &size.y) == 0) return std::nullopt;
+  return size;
+}
+
+Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, name + ": " + cause); };
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) fail("not a sound WebP file");
+  if (features.has_animation != 0) fail("is an animated WebP, wants a still one");
+  const auto pixels = static_cast<std::uint64_t>(features.width) * static_cast<std::uint64_t>(features.height);
+  if (pixels > max_pixels)
+    fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");
+  Rgba8Image image(features.width, features.height);
+  static_assert(sizeof(Rgba8) == 4, "libwebp writes rows as they lie");
+  auto* const out = reinterpret_cast<std::uint8_t*>(image.values().data());
+  if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), out, image.values().size() * 4, 4 * image.width()) == nullptr)
+    fail("the WebP file is corrupt or cut off");
+  return image;
+}
+
+std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
+  const auto* const pixels = reinterpret_cast<const std::uint8_t*>(image.values().data());
+  std::uint8_t* bytes = nullptr;
+  std::size_t size = 0;
+  if (has_alpha) {
+    size = WebPEncodeLosslessRGBA(pixels, image.width(), image.height(), 4 * image.width(), &bytes);
+  } else {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.values().size() * 3);
+    for (const Rgba8 p : image.values()) rgb.insert(rgb.end(), {p.r, p.g, p.b});
+    size = WebPEncodeLosslessRGB(rgb.data(), image.width(), image.height(), 3 * image.width(), &bytes);
+  }
+  if (size == 0)
+    throw Error(Trouble::Failed, "a picture of " + std::to_string(image.width()) + " x " +
+                                     std::to_string(image.height()) + " pixels cannot be encoded as WebP");
+  std::vector<std::uint8_t> out(bytes, bytes + size);
+  WebPFree(bytes);
+  return out;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate {
+
+/// Width and height as a WebP's header states them.
+std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
+
+/// Decodes a WebP picture.
+///
+/// Errors    Trouble::Input with `name` in front: corrupt, animated, more than `max_pixels`.
+Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+
+/// A lossless WebP file; without alpha, the picture's alpha is not written.
+///
+/// Exact     the same bytes with the same version of libwebp.
+/// Errors    Trouble::Failed: sides above 16383 pixels.
+std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha);
+
+}  // namespace zoneplate

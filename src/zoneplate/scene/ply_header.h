@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zoneplate {
+
+enum class PlyType : std::uint8_t { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float, Double };
+enum class PlyOrder : std::uint8_t { Ascii, Little, Big };
+
+/// The size of a value in a binary file, in bytes.
+std::size_t size_of(PlyType type);
+/// What one is in an integer's code: its greatest value; 1 for floats.
+double one_of(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::Float;    ///< of the value, or of the items of a list, as they are stored
+  PlyType stated = PlyType::Float;  ///< the same as the header says it: what range it has
+  bool is_list = false;
+  PlyType count_type = PlyType::Uint8;
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  PlyOrder order = PlyOrder::Ascii;
+  std::vector<PlyElement> elements;
+  std::string texture;   ///< what a comment "TextureFile" names, as MeshLab writes it
+  std::size_t size = 0;  ///< in bytes, to the end of its last line
+};
+
+/// Reads the header of a PLY file; lines end in any way.
+///
+/// Errors    Trouble::Input naming `file`, line and cause.
+PlyHeader parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
+
+}  // namespace zoneplate

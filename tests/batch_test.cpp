@@ -1,0 +1,149 @@
+// Many pictures by one command: several inputs, manifests, shards, sequences. Runs the built program.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Runs the program in an empty folder of its own, which is removed at the end.
+class Batch : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "zoneplate_batch_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+  }
+  void TearDown() override { fs::remove_all(place); }
+
+  // The exit code; stdout's lines are left in `lines`, stderr in `complaint`.
+  int run(const std::string& arguments) {
+    const std::string command =
+        "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    lines.clear();
+    std::istringstream out(text_of(place / "out.txt"));
+    for (std::string line; std::getline(out, line);)
+      if (line.starts_with("{")) lines.push_back(nlohmann::json::parse(line));
+    complaint = text_of(place / "err.txt");
+    return WEXITSTATUS(status);
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(place / name) << text; }
+  std::vector<std::string> pictures(const std::string& folder = ".") const {
+    std::vector<std::string> out;
+    for (const auto& entry : fs::directory_iterator(place / folder))
+      if (entry.path().extension() == ".png") out.push_back(entry.path().filename().string());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  fs::path place;
+  std::vector<nlohmann::json> lines;
+  std::string complaint;
+};
+
+TEST_F(Batch, SeveralInputsGiveALineEachAndFailuresExitFive) {
+  EXPECT_EQ(run("teapot nothing.stl sphere:triangles=12 -o '{model}.png' --size 16x16"), 5);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0]["status"], "done");
+  EXPECT_EQ(lines[1]["status"], "failed");
+  EXPECT_NE(lines[1]["error"].get<std::string>().find("nothing.stl"), std::string::npos);
+  EXPECT_EQ(lines[2]["output"], "sphere_triangles=12.png");
+  EXPECT_NE(complaint.find("1 of 3 items failed"), std::string::npos);
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"sphere_triangles=12.png", "teapot.png"}));
+  EXPECT_EQ(run("teapot triangles -o one.png"), 2);
+}
+
+TEST_F(Batch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
+  std::string manifest;
+  for (int i = 0; i < 7; ++i)
+    manifest += R"({"input":"sphere:triangles=)" + std::to_string(12 * (i + 1) * (i + 1)) + R"(","output":"DIR/)" +
+                std::to_string(i) + R"(.png","camera-azimuth-angle":)" + std::to_string(i * 10) +
+                (i == 3 ? R"(,"no-background":true)" : "") + "}\n\n";
+  for (const char* folder : {"whole", "parts"}) {
+    fs::create_directory(place / folder);
+    std::string text = manifest;
+    for (std::size_t at = text.find("DIR"); at != text.npos; at = text.find("DIR")) text.replace(at, 3, folder);
+    write(std::string(folder) + ".jsonl", text);
+  }
+  EXPECT_EQ(run("--manifest whole.jsonl --size 24x24"), 0) << complaint;
+  EXPECT_EQ(lines.size(), 7u);
+  for (const char* shard : {"0/3", "1/3", "2/3"})
+    EXPECT_EQ(run(std::string("--manifest parts.jsonl --size 24x24 --shard ") + shard), 0) << complaint;
+  ASSERT_EQ(pictures("whole").size(), 7u);
+  EXPECT_EQ(pictures("whole"), pictures("parts"));
+  for (const std::string& name : pictures("whole"))
+    EXPECT_EQ(text_of(place / "whole" / name), text_of(place / "parts" / name)) << name;
+
+  fs::remove(place / "parts" / "4.png");
+  EXPECT_EQ(run("--manifest parts.jsonl --size 24x24 --skip-existing"), 0);
+  ASSERT_EQ(lines.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(lines[i]["status"], i == 4 ? "done" : "skipped");
+  EXPECT_EQ(text_of(place / "whole/4.png"), text_of(place / "parts/4.png"));
+}
+
+TEST_F(Batch, AManifestsBadLinesAreNamed) {
+  write("jobs.jsonl",
+        "{\"input\":\"teapot\",\"output\":\"a.png\"}\n{]\n{\"output\":\"b.png\"}\n"
+        "{\"input\":\"teapot\",\"output\":\"b.png\",\"siz\":\"8x8\"}\n");
+  EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8"), 5);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0]["status"], "done");
+  EXPECT_NE(complaint.find("jobs.jsonl: line 2:"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("jobs.jsonl: line 3: has no input"), std::string::npos) << complaint;
+  EXPECT_NE(lines[3]["error"].get<std::string>().find("did you mean --size"), std::string::npos);
+}
+
+TEST_F(Batch, TheShardIsReadFromTheScheduler) {
+  fs::create_directory(place / "out");
+  write("jobs.jsonl",
+        "{\"input\":\"teapot\",\"output\":\"out/0.png\"}\n{\"input\":\"teapot\",\"output\":\"out/1.png\"}\n");
+  ::setenv("SLURM_ARRAY_TASK_ID", "6", 1), ::setenv("SLURM_ARRAY_TASK_MIN", "5", 1);
+  ::setenv("SLURM_ARRAY_TASK_COUNT", "2", 1);
+  const int code = run("--manifest jobs.jsonl --size 8x8 --shard auto");
+  for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT"}) ::unsetenv(name);
+  EXPECT_EQ(code, 0) << complaint;
+  EXPECT_EQ(pictures("out"), (std::vector<std::string>{"1.png"}));
+  EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8 --shard auto"), 2);
+  EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8 --shard 2/2"), 2);
+}
+
+TEST_F(Batch, TurntablesAreNumberedOrFilms) {
+  EXPECT_EQ(run("teapot -o t.###.png --turntable 4 --size 32x24"), 0) << complaint;
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"t.000.png", "t.001.png", "t.002.png", "t.003.png"}));
+  EXPECT_NE(text_of(place / "t.000.png"), text_of(place / "t.002.png"));
+  EXPECT_EQ(run("teapot -o one.png --turntable 4 -s 2 -e 2 --size 32x24"), 0) << complaint;
+  EXPECT_EQ(text_of(place / "t.002.png"), text_of(place / "one.png"));
+  EXPECT_EQ(run("teapot -o t.png --turntable 4"), 2);
+  EXPECT_EQ(run("teapot -o t.apng --turntable 3 --size 32x24"), 0) << complaint;
+  const std::string film = text_of(place / "t.apng");
+  EXPECT_NE(film.find("acTL"), std::string::npos);
+  EXPECT_EQ(run("teapot -o t.webp --turntable 3 --size 32x24"), 0) << complaint;
+  EXPECT_NE(text_of(place / "t.webp").find("ANIM"), std::string::npos);
+}
+
+TEST_F(Batch, AContactSheetShowsEveryInputOrItsTrouble) {
+  EXPECT_EQ(run("contact-sheet teapot nothing.obj triangles -o sheet.png --size 48x32"), 0) << complaint;
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"sheet.png"}));
+  EXPECT_EQ(run("contact-sheet -o sheet.png"), 2);
+}
+
+}  // namespace
