@@ -97,21 +97,17 @@ template <class F, Highlight highlight>
 
 template <class F, Highlight highlight>
 void light_phong(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
-  constexpr int most = 4;  // lights whose cosines are kept at a time
   const auto ambient = Vector<F>::all(s.ambient);
-  Cosines cosines[most];
-  alignas(64) Points::Array gathered[6];
-  for (int first = 0; first == 0 || first < s.lights; first += most) {
-    const int last = first + most < s.lights ? first + most : s.lights;
-    for (int k = first; k < last; ++k) find_cosines<F, highlight>(s, s.light[k], batch, p, cosines[k - first]);
+  Cosines cosines;
+  alignas(64) Points::Array diffuse_sum[3], specular_sum[3];
+  for (int k = 0; k == 0 || k < s.lights; ++k) {
+    if (k < s.lights) find_cosines<F, highlight>(s, s.light[k], batch, p, cosines);
     for (int i = 0; i < p.count; i += F::lanes) {
       Vector<F> diffuse = zeros<F>(), specular = zeros<F>();
-      if (first > 0) diffuse = Vector<F>::load(gathered, i), specular = Vector<F>::load(gathered + 3, i);
-      for (int k = first; k < last; ++k)
-        add_light<F, highlight>(s, s.light[k], p, cosines[k - first], diffuse, specular, i);
-      if (last < s.lights) {
-        auto* const rest = gathered + 3;
-        diffuse.store(gathered, i), specular.store(rest, i);
+      if (k > 0) diffuse = Vector<F>::load(diffuse_sum, i), specular = Vector<F>::load(specular_sum, i);
+      if (k < s.lights) add_light<F, highlight>(s, s.light[k], p, cosines, diffuse, specular, i);
+      if (k + 1 < s.lights) {
+        diffuse.store(diffuse_sum, i), specular.store(specular_sum, i);
         continue;
       }
       const auto base = Vector<F>::load(p.base, i);

@@ -28,6 +28,27 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
   return prepared;
 }
 
+/// A material under the scene's lights, which stay where they are.
+Illumination make_illumination(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
+                               const Viewpoint& viewpoint, float3 environment) {
+  const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
+  Illumination s;
+  s.light = lights.data(), s.lights = static_cast<int>(lights.size());
+  s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
+  s.has_occlusion = plan.occlusion.texture != nullptr;
+  s.has_emissive = plan.has_emissive, s.has_emissive_texture = plan.emissive.texture != nullptr;
+  s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
+  copy(plan.emissive_factor, s.emissive);
+  s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
+  copy(plan.ambient, s.ambient), copy(plan.specular, s.specular);
+  s.exponent = plan.exponent;
+  s.has_material_texture = plan.metallic_roughness.texture != nullptr;
+  s.metallic = plan.metallic, s.roughness = plan.roughness;
+  s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
+  s.environment[0] = environment.x, s.environment[1] = environment.y, s.environment[2] = environment.z;
+  return s;
+}
+
 }  // namespace
 
 struct SurfaceShader::Data {
@@ -44,7 +65,10 @@ struct SurfaceShader::Data {
         viewpoint(make_viewpoint(surroundings_in)),
         kernels(pick(surroundings_in.isa, scalar::surface_kernels, N_SSE4::surface_kernels, N_AVX2::surface_kernels)),
         filtering(pick(surroundings_in.isa, scalar::filtering_kernels, N_SSE4::filtering_kernels,
-                       N_AVX2::filtering_kernels)) {}
+                       N_AVX2::filtering_kernels)) {
+    for (const MaterialPlan& plan : plans)
+      illuminations.push_back(make_illumination(plan, lights, viewpoint, surroundings.environment));
+  }
 
   const Scene& scene;
   const Surroundings surroundings;
@@ -57,6 +81,7 @@ struct SurfaceShader::Data {
   const Viewpoint viewpoint;
   const SurfaceKernels& kernels;
   const FilteringKernels& filtering;
+  std::vector<Illumination> illuminations;  ///< by material
 
   struct Walk;
 };
@@ -88,7 +113,7 @@ struct SurfaceShader::Data::Walk {
   void find_emissive();
   void find_occlusion();
   void find_metallic();
-  void light(bool needs_viewer, Shaded& out);
+  void light(Shaded& out);
 };
 
 /// Vertices to points: positions and tangents in world space, normals as the mesh has them.
@@ -168,33 +193,19 @@ void SurfaceShader::Data::Walk::find_metallic() {
 }
 
 /// Base colour and normal to the colour that is seen.
-void SurfaceShader::Data::Walk::light(bool needs_viewer, Shaded& out) {
+void SurfaceShader::Data::Walk::light(Shaded& out) {
   find_occlusion();
   find_emissive();
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
 
-  const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
-  const float3 e = d.surroundings.environment;
-  Illumination s;
-  s.light = d.lights.data(), s.lights = static_cast<int>(d.lights.size());
-  s.viewpoint = d.viewpoint, s.needs_viewer = needs_viewer;
-  s.has_occlusion = plan.occlusion.texture != nullptr;
-  s.has_emissive = plan.has_emissive, s.has_emissive_texture = plan.emissive.texture != nullptr;
-  s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
-  copy(plan.emissive_factor, s.emissive);
+  const Illumination& what = d.illuminations[static_cast<std::size_t>(batch.material)];
   if (is_metallic) {
-    s.has_material_texture = plan.metallic_roughness.texture != nullptr;
-    s.metallic = plan.metallic, s.roughness = plan.roughness;
-    s.has_environment = e.x > 0 || e.y > 0 || e.z > 0;
-    s.environment[0] = e.x, s.environment[1] = e.y, s.environment[2] = e.z;
-    return kernels.light_metallic(s, batch, p, out);
+    kernels.light_metallic(what, batch, p, out);
+  } else {
+    kernels.light_phong(what, batch, p, out);
   }
-  s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
-  copy(plan.ambient, s.ambient), copy(plan.specular, s.specular);
-  s.exponent = plan.exponent;
-  kernels.light_phong(s, batch, p, out);
 }
 
 SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures,
@@ -221,7 +232,7 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
   walk.find_base();
   if (attributes.normal) walk.find_normals();
   if (plan.is_lit) {
-    walk.light(plan.needs_viewer, out);
+    walk.light(out);
   } else {
     walk.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
   }
