@@ -27,8 +27,8 @@ struct Points {
   alignas(64) Array emissive[3];
 };
 
-/// The records of the triangles' corners (shade/vertices.h); where a group shares its triangle, at the group's first
-/// point only.
+/// The records of the triangles' corners (shade/vertices.h); where a group shares its triangle, where it is told
+/// (Batch) only.
 struct Corners {
   const float* record[3][Batch::capacity];
   bool one_instance[Batch::groups];
