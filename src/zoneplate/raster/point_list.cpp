@@ -42,8 +42,15 @@ void add(const Shaded& color, const std::uint32_t* at, const float* weight, int 
   }
 }
 
+void divide(const float* sum, float weight, Linear8& out) {
+  for (std::size_t i = 0; i < Linear8::size; ++i) {
+    const float* const of = sum + 4 * i;
+    out.set(i, {of[0] / weight, of[1] / weight, of[2] / weight, of[3] / weight});
+  }
+}
+
 }  // namespace
 
-const PointListKernels point_list_kernels = {.list = list, .add = add};
+const PointListKernels point_list_kernels = {.list = list, .add = add, .divide = divide};
 
 }  // namespace zoneplate::scalar

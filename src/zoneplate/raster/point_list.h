@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/image/pixel.h"
 #include "zoneplate/raster/batch.h"
 
 namespace zoneplate {
@@ -41,6 +42,8 @@ struct PointListKernels {
   void (*list)(const OwnerRow& row, PointList& out);
   /// sum of the pixel of at[i] += color[i] × weight[i], one after the other; four floats a pixel.
   void (*add)(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum);
+  /// out = sum / weight, of eight pixels.
+  void (*divide)(const float* sum, float weight, Linear8& out);
 };
 
 namespace scalar {

@@ -86,6 +86,18 @@ void list(const OwnerRow& row, PointList& out) {
 using Quad = hn::FixedTag<float, 4>;
 using VQ = hn::Vec<Quad>;
 
+/// Four points' channels to four points and back.
+struct Turned {
+  VQ v[4];
+  HWY_INLINE Turned(VQ r, VQ g, VQ b, VQ a) {
+    const Quad d;
+    const VQ rb01 = hn::InterleaveLower(d, r, b), rb23 = hn::InterleaveUpper(d, r, b);
+    const VQ ga01 = hn::InterleaveLower(d, g, a), ga23 = hn::InterleaveUpper(d, g, a);
+    v[0] = hn::InterleaveLower(d, rb01, ga01), v[1] = hn::InterleaveUpper(d, rb01, ga01);
+    v[2] = hn::InterleaveLower(d, rb23, ga23), v[3] = hn::InterleaveUpper(d, rb23, ga23);
+  }
+};
+
 HWY_INLINE void add_one(VQ color, float weight, std::uint32_t at, float* sum) {
   const Quad d;
   float* const to = sum + 4 * PointList::pixel(at);
@@ -95,21 +107,28 @@ HWY_INLINE void add_one(VQ color, float weight, std::uint32_t at, float* sum) {
 void add(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
   const Quad d;
   for (int i = 0; i < count; i += 4) {
-    const VQ r = hn::Load(d, color.r + i), g = hn::Load(d, color.g + i);
-    const VQ b = hn::Load(d, color.b + i), a = hn::Load(d, color.a + i);
-    const VQ rb01 = hn::InterleaveLower(d, r, b), rb23 = hn::InterleaveUpper(d, r, b);
-    const VQ ga01 = hn::InterleaveLower(d, g, a), ga23 = hn::InterleaveUpper(d, g, a);
-    const VQ turned[4] = {hn::InterleaveLower(d, rb01, ga01), hn::InterleaveUpper(d, rb01, ga01),
-                          hn::InterleaveLower(d, rb23, ga23), hn::InterleaveUpper(d, rb23, ga23)};
+    const Turned turned(hn::Load(d, color.r + i), hn::Load(d, color.g + i), hn::Load(d, color.b + i),
+                        hn::Load(d, color.a + i));
     const int n = count - i < 4 ? count - i : 4;
-    for (int k = 0; k < n; ++k) add_one(turned[k], weight[i + k], at[i + k], sum);
+    for (int k = 0; k < n; ++k) add_one(turned.v[k], weight[i + k], at[i + k], sum);
+  }
+}
+
+void divide(const float* sum, float weight, Linear8& out) {
+  const Quad d;
+  const VQ by = hn::Set(d, weight);
+  for (int i = 0; i < Linear8::size; i += 4) {
+    const float* const of = sum + 4 * i;
+    const Turned turned(hn::LoadU(d, of), hn::LoadU(d, of + 4), hn::LoadU(d, of + 8), hn::LoadU(d, of + 12));
+    hn::Store(hn::Div(turned.v[0], by), d, out.r + i), hn::Store(hn::Div(turned.v[1], by), d, out.g + i);
+    hn::Store(hn::Div(turned.v[2], by), d, out.b + i), hn::Store(hn::Div(turned.v[3], by), d, out.a + i);
   }
 }
 
 }  // namespace
 
 extern const PointListKernels point_list_kernels;
-const PointListKernels point_list_kernels = {.list = list, .add = add};
+const PointListKernels point_list_kernels = {.list = list, .add = add, .divide = divide};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -35,7 +35,7 @@ void TileRenderer::shade_list() {
   if (are_whole_rows) {
     shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
       for (std::size_t i = 0; i < count; i += Batch::group)
-        resolve_.resolve(colors, static_cast<int>(i), weight_sum_, &color_[PointList::pixel(list_.at[first + i])]);
+        resolve_.resolve(colors, static_cast<int>(i), weight_sum_, color_[PointList::pixel(list_.at[first + i]) / 8]);
     });
   } else {
     sum_list();
@@ -53,7 +53,7 @@ void TileRenderer::sum_list() {
     point_lists_.add(colors, at, weight, static_cast<int>(count), &list_sums_[0].r);
   });
   for (const std::uint32_t pixel : listed_rows_)
-    resolve_.divide(&list_sums_[pixel], weight_sum_, Batch::group, &color_[pixel]);
+    point_lists_.divide(&list_sums_[pixel].r, weight_sum_, color_[pixel / 8]);
 }
 
 /// The weight of those samples of the pass, added in their order.

@@ -56,7 +56,7 @@ void interpolate(const Batch& batch, const Corners& corners, const Interpolation
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
     for (int i = 0; i < count; i += F::lanes) {
-      const int told = i / Batch::group * Batch::group;
+      const std::size_t told = batch.told(static_cast<std::size_t>(i));
       if (batch.one_triangle[i / Batch::group]) {
         const float* const v0 = corners.record[0][told] + quad.place;
         const float* const v1 = corners.record[1][told] + quad.place;
@@ -99,7 +99,9 @@ template <class F>
   constexpr std::int32_t stride = sizeof(Placement) / sizeof(float);
   const int group = i / Batch::group;
   if (corners.one_instance[group])
-    return F(first[std::ptrdiff_t{stride} * static_cast<std::ptrdiff_t>(batch.instance[group * Batch::group])]);
+    return F(
+        first[std::ptrdiff_t{stride} *
+              static_cast<std::ptrdiff_t>(batch.instance[batch.told(static_cast<std::size_t>(group) * Batch::group)])]);
   const auto* instance = reinterpret_cast<const std::int32_t*>(batch.instance);
   return F::gather(first, Int::load(instance + i) * Int(stride));
 }
@@ -145,7 +147,7 @@ template <class F>
 [[gnu::always_inline]] inline F facing(const Batch& batch, int i) {
   using Int = typename F::Int;
   const int group = i / Batch::group;
-  if (batch.one_triangle[group]) return F(batch.is_front[group * Batch::group] > 0 ? 1.0f : -1.0f);
+  if (batch.one_triangle[group]) return F(batch.is_front[batch.told(static_cast<std::size_t>(i))] > 0 ? 1.0f : -1.0f);
   return select(Int::load(batch.is_front + i) > Int(0), F(1.0f), F(-1.0f));
 }
 
@@ -155,7 +157,8 @@ void find_normals(const Batch& batch, const Corners& corners, const Placement* p
     const int group = i / Batch::group;
     Vector<F> n = Vector<F>::load(p.normal, i);
     const bool keeps =
-        corners.one_instance[group] && placements[batch.instance[group * Batch::group]].keeps_normals != 0;
+        corners.one_instance[group] &&
+        placements[batch.instance[batch.told(static_cast<std::size_t>(group) * Batch::group)]].keeps_normals != 0;
     if (!keeps) n = turned(batch, corners, placements->normal, n, i);
     // Adding +0 leaves no trace of which way was taken.
     (normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i)).store(p.normal, i);
@@ -179,14 +182,21 @@ void bend_normals(const Batch& batch, const float* const texel[4], float scale, 
   }
 }
 
+/// The way to the viewer, of any length.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> way_to_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
+  using Int = typename F::Int;
+  if (v.is_orthographic) return Vector<F>::all(v.towards);
+  if (!v.has_rays) return Vector<F>::all(v.eye) - Vector<F>::load(p.position, i);
+  const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
+  return Vector<F>::all(v.ray) + Vector<F>::all(v.ray_dx) * x + Vector<F>::all(v.ray_dy) * y;
+}
+
 /// The direction to the viewer.
 template <class F>
 [[gnu::always_inline]] inline Vector<F> towards_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
-  using Int = typename F::Int;
   if (v.is_orthographic) return Vector<F>::all(v.towards);
-  if (!v.has_rays) return normalize(Vector<F>::all(v.eye) - Vector<F>::load(p.position, i));
-  const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
-  return normalize(Vector<F>::all(v.ray) + Vector<F>::all(v.ray_dx) * x + Vector<F>::all(v.ray_dy) * y);
+  return normalize(way_to_viewer<F>(v, batch, p, i));
 }
 
 template <class F>

@@ -28,8 +28,8 @@ struct Points {
   alignas(64) Array emissive[3];
 };
 
-/// The records of the triangles' corners (shade/vertices.h); where a group shares its triangle, at the group's first
-/// point only.
+/// The records of the triangles' corners (shade/vertices.h); where a group shares its triangle, where it is told
+/// (Batch) only.
 struct Corners {
   /// Not null: the record of any of the batch's vertices is first + stride × vertex, and `record` says nothing of
   /// groups of several triangles.

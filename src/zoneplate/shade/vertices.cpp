@@ -101,7 +101,7 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
   for (std::size_t first = 0; first < static_cast<std::size_t>(batch.padded()); first += Batch::group) {
     const std::size_t g = first / Batch::group;
     out.one_instance[g] = true;
-    find(first);
+    if (batch.told(first) == first) find(first);
     if (batch.one_triangle[g]) continue;
     std::uint32_t difference = 0;
     for (std::size_t i = first + 1; i < first + Batch::group; ++i) {
