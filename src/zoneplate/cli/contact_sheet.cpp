@@ -121,6 +121,8 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png");
   static_cast<void>(make_resolver(antialias::methods(), args.render.method));
   check_picture_ending(args.output);
+  if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
+    throw Error(Trouble::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
   check_writable(args.output);
 
   const std::vector<std::string> names = short_names(syntax.found_operands);

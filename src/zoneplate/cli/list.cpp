@@ -92,6 +92,8 @@ Json scenes_json() {
 constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits a channel, sRGB; - writes it to stdout"},
                                            {".jpg", "quality 92, full colour resolution"},
                                            {".webp", "lossless; of several frames, a film"},
+                                           {".exr", "half floats in linear light, data passes as layers"},
+                                           {".rgba", "raw codes, 8 or 16 bits a channel"},
                                            {".pfm", "floats in linear light, before tone mapping"},
                                            {".apng", "a film, lossless"},
                                            {".gif", "a film, by the program ffmpeg"},
@@ -105,7 +107,7 @@ std::string formats_text() {
   text += "Pictures that can be written:\n";
   for (const SceneFormat& format : picture_formats)
     text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
-  text += "Data passes (--aov NAME,...), as .png:\n";
+  text += "Data passes (--aov NAME,...), as .png, or in an .exr or as .pfm:\n";
   for (const Aov& aov : aovs()) text += fmt::format("  {:<16}{}\n", aov.name, aov.meaning);
   return text;
 }

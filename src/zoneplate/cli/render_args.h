@@ -40,6 +40,7 @@ struct RenderArgs {
   bool has_animation_time = false;
   int bit_depth = 8;
   bool dithers = false;
+  std::string stdout_format = "png";
   std::string method = "msaa:n=8";
   RenderOptions options;
   DisplayOptions display;
@@ -55,6 +56,8 @@ struct RenderArgs {
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 
   bool is_batch() const { return inputs.size() > 1 || !manifest.empty(); }
+  /// The output's name with an ending that tells its format, for stdout too.
+  std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };
 
 /// The longest side of a picture, in pixels: the reach of the rasterizer's fixed-point coordinates.

@@ -58,12 +58,12 @@ Summary RenderJobs::run(RenderArgs args) {
   args.options.environment = stage.light(camera, args.look);
   summary.warnings = scene.warnings;
   progress.begin("render", 0.2);
-  const Rendered picture = render_picture(args, scene, camera, *resolver, args.output, summary);
+  const Rendered picture = render_picture(args, scene, camera, *resolver, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
   progress.begin("encode", 0.8);
   const Stopwatch encode_watch;
-  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.output);
+  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.named_output());
   summary.times.emplace_back("encode", encode_watch.ms());
   progress.begin("write", 0.95);
   const Stopwatch write_watch;

@@ -53,6 +53,14 @@ class Plan {
     return *stage_;
   }
 
+  // The same without images, whatever else was loaded.
+  Scene shape(double frame) {
+    if (!is_animated()) return stage_->scene();
+    SceneChoice choice = choice_;
+    choice.time = time_of(frame);
+    return source_.load_shape(choice);
+  }
+
   // The camera that every frame is seen by, before the turntable turns it.
   Camera still_camera(const View& view, float aspect) {
     Scene all = whole();
@@ -124,6 +132,32 @@ class Plan {
   float3 centre_;
 };
 
+// Frames before and after, where a data pass looks at them.
+class Neighbours {
+ public:
+  Neighbours(RenderArgs& args, Plan& plan, const Camera& still, int frame) {
+    const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+    const auto look = [&](bool Planes::*plane, int at, std::optional<Seen>& seen, const Moment*& moment) {
+      moment = nullptr;
+      if (std::ranges::none_of(args.aovs, [&](const Aov* aov) { return aov->plane == plane; })) return;
+      seen.emplace().scene = plan.shape(at);
+      seen->moment = {&seen->scene, plan.camera(still, seen->scene, args.view, aspect, at)};
+      moment = &seen->moment;
+    };
+    look(&Planes::motion, frame - args.sequence.jump, last_, args.options.last);
+    look(&Planes::flow, frame + args.sequence.jump, next_, args.options.next);
+  }
+  Neighbours(const Neighbours&) = delete;
+  Neighbours& operator=(const Neighbours&) = delete;
+
+ private:
+  struct Seen {
+    Scene scene;
+    Moment moment;
+  };
+  std::optional<Seen> last_, next_;
+};
+
 // A frame, its shutter open from its moment on.
 Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int frame, const std::string& output,
                       Resolver& resolver, Summary& summary) {
@@ -140,6 +174,7 @@ Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int fra
     return stage.scene();
   };
   if (samples > 1) return render_mean(args, samples, scene_at, camera, resolver, summary);
+  const Neighbours neighbours(args, plan, still, frame);
   const Scene& scene = scene_at(0);
   return render_picture(args, scene, camera, resolver, output, summary);
 }

@@ -106,7 +106,7 @@ bool TileRenderer::is_plain() const {
   const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.where && !target_.sample_color && !has_passes &&
+  return !has_planes && !target_.where && !target_.sample_triangle && !has_passes &&
          !(target_.is_per_sample && has_layers());
 }
 
@@ -296,7 +296,7 @@ void TileRenderer::find_points() {
 }
 
 void TileRenderer::accumulate() {
-  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.sample_color) {
+  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.sample_triangle) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
     for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));
