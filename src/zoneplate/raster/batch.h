@@ -20,7 +20,8 @@ struct Batch {
   static constexpr int groups = capacity / group;
 
   int count = 0;
-  int material = 0;  ///< index into Scene::materials
+  int material = 0;           ///< index into Scene::materials
+  bool one_instance = false;  ///< all points are known to be of instance[0]
 
   /// The group's points share their triangle and lie side by side in a row, a pixel apart: what is said by triangle
   /// then stands at the first point of the group `told_group` only, the first of those that follow each other and share

@@ -43,7 +43,7 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
     std::int32_t dx[3], dy[3];
     float inv_w[3];
     for (int k = 0; k < 3; ++k) {
-      const ScreenVertex& v = *corners.vertex[k][told];
+      const ScreenVertex& v = corners.of(static_cast<std::size_t>(k), told, batch);
       dx[k] = v.x - (batch.x[i] - viewport.width * 128), dy[k] = v.y - (batch.y[i] - viewport.height * 128);
       inv_w[k] = v.inv_w;
       if (v.needs_clipping()) clipped |= 1u << (i / Batch::group);

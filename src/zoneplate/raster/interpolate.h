@@ -19,8 +19,15 @@ BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport view
 
 /// The corners of a batch's triangles; where a group shares its triangle, where it is told (Batch) only.
 struct BatchCorners {
+  /// Not null: all are screen[batch.vertex], and `vertex` says nothing. Requires: no group shares its triangle.
+  const ScreenVertex* screen = nullptr;
   const ScreenVertex* vertex[3][Batch::capacity];
   alignas(64) std::int32_t is_mirrored[Batch::capacity];  ///< 1: front faces are clockwise; else 0
+
+  /// Corner k of what is told at point i.
+  const ScreenVertex& of(std::size_t k, std::size_t i, const Batch& batch) const {
+    return screen ? screen[batch.vertex[k][i]] : *vertex[k][i];
+  }
 };
 
 /// The planes of 8 points, and the weights and slopes that come out of them.

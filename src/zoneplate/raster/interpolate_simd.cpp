@@ -23,9 +23,21 @@ struct Corner {
   F inv_w;
 };
 
+/// The vertices of one corner, by address.
+struct ByAddress {
+  const ScreenVertex* const* v;
+  HWY_INLINE const ScreenVertex* operator[](int i) const { return v[i]; }
+};
+/// The same by number.
+struct ByNumber {
+  const ScreenVertex* screen;
+  const std::uint32_t* v;
+  HWY_INLINE const ScreenVertex* operator[](int i) const { return screen + v[i]; }
+};
+
 /// Vertices i and i + 4 side by side, or vertex i where vectors have room for four lanes only.
-template <class D>
-HWY_INLINE hn::Vec<D> two_vertices(D d, const ScreenVertex* const* v, int i) {
+template <class D, class Vertices>
+HWY_INLINE hn::Vec<D> two_vertices(D d, const Vertices& v, int i) {
   static_assert(sizeof(ScreenVertex) == 16);
   const hn::FixedTag<std::int32_t, 4> block;
   const auto first = hn::LoadU(block, reinterpret_cast<const std::int32_t*>(v[i]));
@@ -36,7 +48,8 @@ HWY_INLINE hn::Vec<D> two_vertices(D d, const ScreenVertex* const* v, int i) {
   }
 }
 
-HWY_INLINE Corner turned_corners(const ScreenVertex* const* v) {
+template <class Vertices>
+HWY_INLINE Corner turned_corners(const Vertices& v) {
   const IntTag d;
   const I v0 = two_vertices(d, v, 0), v1 = two_vertices(d, v, 1);
   const I v2 = two_vertices(d, v, 2), v3 = two_vertices(d, v, 3);
@@ -53,12 +66,31 @@ HWY_INLINE F to_floats(D l, D h) {
   return hn::Combine(FloatTag(), hn::DemoteTo(HalfFloat(), h), hn::DemoteTo(HalfFloat(), l));
 }
 
+/// The edge functions at points, and their sum or what has its sign.
 struct Edges {
-  F e[3];
-  D sum_low, sum_high;
+  F e[3], sum;
 };
 
+HWY_INLINE Edges near_edges_at(const I (&dx)[3], const I (&dy)[3]) {
+  const FloatTag d;
+  const F x[3] = {hn::ConvertTo(d, dx[0]), hn::ConvertTo(d, dx[1]), hn::ConvertTo(d, dx[2])};
+  const F y[3] = {hn::ConvertTo(d, dy[0]), hn::ConvertTo(d, dy[1]), hn::ConvertTo(d, dy[2])};
+  Edges out;
+  for (int k = 0; k < 3; ++k) {
+    const int m = (k + 1) % 3, n = (k + 2) % 3;
+    out.e[k] = hn::Sub(hn::Mul(x[m], y[n]), hn::Mul(y[m], x[n]));
+  }
+  out.sum = hn::Add(hn::Add(out.e[0], out.e[1]), out.e[2]);
+  return out;
+}
+
 HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
+  // Of corners that are near the point, less than 8 pixels, floats hold the products and their sums as exactly.
+  const IntTag di;
+  const auto beyond = [&](I v) HWY_ATTR { return hn::ShiftRight<11>(hn::Xor(v, hn::BroadcastSignBit(v))); };
+  const I far_x = hn::Or(hn::Or(beyond(dx[0]), beyond(dx[1])), beyond(dx[2]));
+  const I far_y = hn::Or(hn::Or(beyond(dy[0]), beyond(dy[1])), beyond(dy[2]));
+  if (hn::AllTrue(di, hn::Eq(hn::Or(far_x, far_y), hn::Zero(di)))) return near_edges_at(dx, dy);
   const D xl[3] = {low(dx[0]), low(dx[1]), low(dx[2])}, xh[3] = {high(dx[0]), high(dx[1]), high(dx[2])};
   const D yl[3] = {low(dy[0]), low(dy[1]), low(dy[2])}, yh[3] = {high(dy[0]), high(dy[1]), high(dy[2])};
   D l[3], h[3];
@@ -68,8 +100,7 @@ HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
     h[k] = hn::Sub(hn::Mul(xh[m], yh[n]), hn::Mul(yh[m], xh[n]));
   }
   return {{to_floats(l[0], h[0]), to_floats(l[1], h[1]), to_floats(l[2], h[2])},
-          hn::Add(hn::Add(l[0], l[1]), l[2]),
-          hn::Add(hn::Add(h[0], h[1]), h[2])};
+          to_floats(hn::Add(hn::Add(l[0], l[1]), l[2]), hn::Add(hn::Add(h[0], h[1]), h[2]))};
 }
 
 HWY_INLINE F clamped(F b, F limit) {
@@ -82,7 +113,7 @@ HWY_INLINE void store_front(const Edges& e, const std::int32_t* is_mirrored, std
   // The sign of the sum survives the rounding to float.
   const FloatTag d;
   const IntTag di;
-  const auto is_clockwise = hn::Gt(to_floats(e.sum_low, e.sum_high), hn::Zero(d));
+  const auto is_clockwise = hn::Gt(e.sum, hn::Zero(d));
   const I clockwise = hn::IfThenElseZero(hn::RebindMask(di, is_clockwise), hn::Set(di, 1));
   const auto is_front = hn::Eq(clockwise, hn::Load(di, is_mirrored));
   hn::Store(hn::IfThenElseZero(is_front, hn::Set(di, 1)), di, out);
@@ -226,8 +257,10 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
       spread_places(batch, first);
     } else {
       for (int i = first; i < first + Batch::group; i += lanes) {
-        const Corner c[3] = {turned_corners(corners.vertex[0] + i), turned_corners(corners.vertex[1] + i),
-                             turned_corners(corners.vertex[2] + i)};
+        Corner c[3];
+        for (int k = 0; k < 3; ++k)
+          c[k] = corners.screen ? turned_corners(ByNumber{corners.screen, batch.vertex[k] + i})
+                                : turned_corners(ByAddress{corners.vertex[k] + i});
         is_clipped = interpolate_at(c, screen, corners, batch, i) || is_clipped;
       }
     }

@@ -92,6 +92,8 @@ void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint
   constexpr std::size_t ahead = 16;
   batch_.count = static_cast<int>(numbers.size());
   batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
+  batch_.one_instance = false;
+  corners_.screen = nullptr;
   std::fill(std::begin(batch_.one_triangle), std::end(batch_.one_triangle), false);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
     if (i + ahead < numbers.size()) fetch_ahead(points[numbers[i + ahead]].id);
@@ -105,6 +107,8 @@ void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint
 void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers) {
   batch_.count = static_cast<int>(numbers.size()) * Batch::group;
   batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
+  batch_.one_instance = false;
+  corners_.screen = nullptr;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const PointRow& row = rows[numbers[i]];
     batch_.one_triangle[i] = true;
@@ -114,6 +118,84 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
     batch_.x[i * Batch::group] = row.x, batch_.y[i * Batch::group] = row.y;
   }
   interpolate();
+}
+
+/// True if all points of the list are of one draw of triangles; that is then known.
+bool PointBatcher::are_of_one_draw(const PointList& list) {
+  if (list.count == 0) return true;
+  find_draw(list.id[0]);
+  if (!known_.draw->ends.empty()) return false;
+  if (projected_.draws.size() == 1) return true;
+  const auto begin = static_cast<std::uint32_t>(known_.begin), size = static_cast<std::uint32_t>(known_.end) - begin;
+  std::uint32_t others = 0;
+  for (int i = 0; i < list.count; ++i) others += static_cast<std::uint32_t>(list.id[i]) - begin >= size ? 1 : 0;
+  return others == 0;
+}
+
+/// Points of the draw that is known. Indices and vertices, which lie anywhere in memory, are asked for before they are
+/// needed.
+void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t count) {
+  constexpr std::size_t ahead = 32;
+  const Draw& draw = *known_.draw;
+  batch_.count = static_cast<int>(count);
+  batch_.material = draw.material;
+  batch_.one_instance = true;
+  corners_.screen = known_.screen;
+  const auto padded = static_cast<std::size_t>(batch_.padded());
+  std::fill_n(batch_.one_triangle, padded / Batch::group, false);
+  std::fill_n(batch_.instance, padded, draw.instance);
+  std::fill_n(corners_.is_mirrored, padded, draw.is_mirrored ? 1 : 0);
+  std::copy_n(list.x + first, count, batch_.x);
+  std::copy_n(list.y + first, count, batch_.y);
+  std::copy_n(list.id + first, count, reinterpret_cast<std::int32_t*>(batch_.triangle));
+  for (std::size_t i = count; i < padded; ++i) {
+    batch_.x[i] = batch_.x[count - 1], batch_.y[i] = batch_.y[count - 1];
+    batch_.triangle[i] = batch_.triangle[count - 1];
+  }
+  const std::uint32_t* const index = draw.index.data() - 3 * static_cast<std::size_t>(known_.begin);
+  const auto total = static_cast<std::size_t>(list.count);
+  if (first == 0)
+    for (std::size_t i = 0; i < std::min(ahead, total); ++i) __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[i]});
+  for (std::size_t i = 0; i < padded; ++i) {
+    // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
+    if (i % 2 == 0 && first + i + ahead < total)
+      __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[first + i + ahead]});
+    const std::uint32_t* const v = index + 3 * std::size_t{batch_.triangle[i]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      batch_.vertex[k][i] = v[k];
+      __builtin_prefetch(&known_.screen[v[k]]);
+    }
+  }
+  interpolate();
+}
+
+template <class Use>
+void PointBatcher::for_batches(std::span<const Point> points, Use use) {
+  const auto order = order_by_material(points);
+  for (std::size_t first = 0; first < points.size();) {
+    const std::size_t count = same_material(order, first, Batch::capacity);
+    const auto numbers = order.subspan(first, count);
+    fill(points, numbers);
+    use(numbers);
+    first += count;
+  }
+}
+
+/// Points of several draws, through batches by material: fills unmixed_.
+void PointBatcher::shade_mixed(const PointList& list) {
+  const auto total = static_cast<std::size_t>(list.count);
+  mixed_.clear();
+  for (std::size_t i = 0; i < total; ++i) mixed_.push_back({list.x[i], list.y[i], list.id[i], 0, 0});
+  unmixed_.resize((total + Batch::capacity - 1) / Batch::capacity);
+  for_batches(mixed_, [&](std::span<const std::uint32_t> numbers) {
+    shader_.shade(batch_, {}, shaded_batch_);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      Shaded& to = unmixed_[numbers[i] / Batch::capacity];
+      const std::size_t at = numbers[i] % Batch::capacity;
+      to.r[at] = shaded_batch_.r[i], to.g[at] = shaded_batch_.g[i];
+      to.b[at] = shaded_batch_.b[i], to.a[at] = shaded_batch_.a[i];
+    }
+  });
 }
 
 void PointBatcher::interpolate() {
@@ -152,7 +234,8 @@ void PointBatcher::interpolate_clipped(std::size_t group, float spacing) {
   }
   bool is_clipped[Batch::group] = {};
   for (std::size_t i = 0; i < Batch::group; ++i) {
-    for (const auto& corner : corners_.vertex) is_clipped[i] = is_clipped[i] || corner[first + i]->needs_clipping();
+    for (std::size_t k = 0; k < 3; ++k)
+      is_clipped[i] = is_clipped[i] || corners_.of(k, first + i, batch_).needs_clipping();
     if (!is_clipped[i]) continue;
     const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[first + i]));
     put_planes(i, facing.planes);
@@ -187,20 +270,8 @@ void PointBatcher::weigh_ends() {
   }
 }
 
-template <class Use>
-void PointBatcher::for_batches(std::span<const Point> points, Use use) {
-  const auto order = order_by_material(points);
-  shaded_ += points.size();
-  for (std::size_t first = 0; first < points.size();) {
-    const std::size_t count = same_material(order, first, Batch::capacity);
-    const auto numbers = order.subspan(first, count);
-    fill(points, numbers);
-    use(numbers);
-    first += count;
-  }
-}
-
 void PointBatcher::shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data) {
+  shaded_ += points.size();
   colors.resize(points.size());
   const PointShader::Wanted wanted{
       .normal = data && target_.normal, .uv = data && target_.uv, .albedo = data && target_.albedo};
@@ -221,6 +292,7 @@ void PointBatcher::shade(std::span<const Point> points, std::vector<Linear>& col
 }
 
 void PointBatcher::test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there) {
+  shaded_ += points.size();
   is_there.resize(points.size());
   for_batches(points, [&](std::span<const std::uint32_t> numbers) {
     alignas(64) float alpha[Batch::capacity];

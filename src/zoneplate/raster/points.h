@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/point_list.h"
 #include "zoneplate/raster/rasterize.h"
 
 namespace zoneplate {
@@ -47,6 +49,11 @@ class PointBatcher {
   template <class Use>
   void shade_in_order(std::span<const PointRow> rows, Use use);
 
+  /// The colours of a list: `use(shaded, first, count)` is called for consecutive parts of it, which begin at point
+  /// `first` and whose colours stand at the beginning of `shaded`.
+  template <class Use>
+  void shade(const PointList& list, Use use);
+
   /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
   void test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there);
 
@@ -73,10 +80,13 @@ class PointBatcher {
   void for_batches(std::span<const Point> points, Use use);
   void number_up_to(std::size_t count);
   void find_draw(std::int32_t id);
+  bool are_of_one_draw(const PointList& list);
+  void shade_mixed(const PointList& list);
   int material_of(std::int32_t id);
   void fetch_ahead(std::int32_t id) const;
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
+  void fill(const PointList& list, std::size_t first, std::size_t count);
   void put_triangle(std::size_t i, std::int32_t id);
   void interpolate();
   const TriangleFacing& know_clipped(std::int32_t id);
@@ -100,6 +110,8 @@ class PointBatcher {
   BatchCorners corners_{};
   ClippedGroup clipped_{};
   Shaded shaded_batch_;
+  std::vector<Point> mixed_;     ///< a list of several draws
+  std::vector<Shaded> unmixed_;  ///< its colours in its order, a batch's capacity each
 };
 
 template <class Use>
@@ -114,6 +126,25 @@ void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
     for (std::size_t i = 0; i < count; ++i) use(rows[numbers[i]], shaded_batch_, static_cast<int>(i) * Batch::group);
     first += count;
   }
+}
+
+template <class Use>
+void PointBatcher::shade(const PointList& list, Use use) {
+  constexpr std::size_t capacity = Batch::capacity;
+  const auto total = static_cast<std::size_t>(list.count);
+  shaded_ += total;
+  if (are_of_one_draw(list)) {
+    for (std::size_t first = 0; first < total; first += capacity) {
+      const std::size_t count = std::min(capacity, total - first);
+      fill(list, first, count);
+      shader_.shade(batch_, {}, shaded_batch_);
+      use(shaded_batch_, first, count);
+    }
+    return;
+  }
+  shade_mixed(list);
+  for (std::size_t first = 0; first < total; first += capacity)
+    use(unmixed_[first / capacity], first, std::min(capacity, total - first));
 }
 
 template <class Use>

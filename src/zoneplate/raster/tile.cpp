@@ -25,7 +25,9 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       bins_(bins),
       coverage_(coverage_kernels(isa)),
       resolve_(resolve_kernels(isa)),
+      point_lists_(point_list_kernels(isa)),
       target_(target),
+      sample_places_(target.samples),
       shader_(projected, shader, isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
       digit_batcher_(projected, digits_, isa, target),
@@ -33,6 +35,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
   if (weights_.empty()) weights_.assign(target.samples.size(), 1.0f);
   assert(weights_.size() == target.samples.size());
   for (const float w : weights_) weight_sum_ += w;
+  find_weights();
   const std::size_t pass =
       target.is_per_sample ? std::min<std::size_t>(target.samples.size(), samples_per_pass) : target.samples.size();
   assert(pass <= TileTriangle::max_samples);
@@ -43,6 +46,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
                  .id = aligned(id_storage_),
                  .block_far = block_far_,
                  .block_owner = block_owner_};
+  list_sums_.resize(tile_pixels);
   first_point_.resize(tile_pixels + 1);
   fragments_.resize(tile_pixels);
   sum_.resize(tile_pixels / 8);
@@ -123,9 +127,10 @@ void TileRenderer::render_plain() {
   draw_opaque();
   draw_masked();
   times_.visibility += watch_.lap_ms();
-  find_rows();
   begin_colors();
+  find_rows();
   shade_rows();
+  shade_list();
   shader_.shade(points_, colors_, nullptr);
   times_.shading += watch_.lap_ms();
   resolve_points();
@@ -165,6 +170,10 @@ void TileRenderer::find_rows() {
         } else {
           rows_.push_back({(tile_x_ + x) * 256 + 128, (tile_y_ + y) * 256 + 128, owner, pixel});
         }
+        continue;
+      }
+      if (lists_points()) {
+        list_row(x, y);
         continue;
       }
       for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)

@@ -60,6 +60,8 @@ class TileRenderer {
   void render_pass(int first_sample, int sample_count);
   void draw_opaque();
   void draw_fragments();
+  bool opens_most_blocks();
+  void open_blocks(const SampleFragments& part);
   bool has_fragments() const;
   void draw_masked();
   void test_alpha();
@@ -73,6 +75,12 @@ class TileRenderer {
   void add_row_of_samples(std::uint32_t pixel, std::int32_t id);
   void add_pixel(std::uint32_t pixel);
   void resolve_points();
+  bool lists_points() const;
+  void list_row(int x, int y);
+  void shade_list();
+  void sum_list();
+  void find_weights();
+  float weight_of(std::uint32_t samples) const;
   void find_first_points();
   void layer_tile();
   void collect_block_layers();
@@ -127,7 +135,9 @@ class TileRenderer {
   const Bins& bins_;
   const CoverageKernels& coverage_;
   const ResolveKernels& resolve_;
+  const PointListKernels& point_lists_;
   const Target& target_;
+  const SampleArrays sample_places_;
   PointBatcher shader_;
   AlphaDigits digits_;
   PointBatcher digit_batcher_;
@@ -151,6 +161,11 @@ class TileRenderer {
   std::int32_t row_owner_[tile_pixels / 8];
 
   std::vector<PointRow> rows_;
+
+  PointList list_;
+  std::vector<float> samples_weight_;       ///< by set of samples, a bit each
+  std::vector<std::uint32_t> listed_rows_;  ///< by their first pixels
+  std::vector<Linear> list_sums_;           ///< by pixel: what its listed points add up to
 
   std::vector<Point> points_;
   std::vector<std::uint32_t> first_point_;  ///< by pixel, and the total at the end

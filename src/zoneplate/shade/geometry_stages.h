@@ -44,6 +44,14 @@ template <class F>
 }
 
 template <class F>
+[[gnu::always_inline]] inline void load_corner(const Batch& batch, const Corners& corners, int k, int i, int place,
+                                               F (&out)[4]) {
+  const float* record[F::lanes];
+  corners.find(batch, k, i, record);
+  F::load_quads(record, place, out);
+}
+
+template <class F>
 void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, int count) {
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
@@ -58,9 +66,9 @@ void interpolate(const Batch& batch, const Corners& corners, const Interpolation
             store_float(batch, Linear<F>{F(v0[c]), F(v1[c] - v0[c]), F(v2[c] - v0[c])}, quad, c, i);
       } else {
         F v0[4], v1[4], v2[4];
-        F::load_quads(corners.record[0] + i, quad.place, v0);
-        F::load_quads(corners.record[1] + i, quad.place, v1);
-        F::load_quads(corners.record[2] + i, quad.place, v2);
+        load_corner(batch, corners, 0, i, quad.place, v0);
+        load_corner(batch, corners, 1, i, quad.place, v1);
+        load_corner(batch, corners, 2, i, quad.place, v2);
         for (int c = 0; c < 4; ++c)
           if (quad.value[c] != nullptr) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i);
       }
