@@ -208,11 +208,14 @@ void TileRenderer::shade_rows() {
   });
 }
 
-/// One point for each triangle that owns samples of the pixel, in the order of their first samples.
+/// One point for each triangle that owns samples of the pixel, in the order of their first samples; or one for each
+/// sample.
 void TileRenderer::add_pixel(std::uint32_t pixel) {
-  if (pass_samples_ == 1) {
-    const std::int32_t id = visibility_.id[pixel];
-    if (id != no_triangle) points_.push_back(point_at(pixel, id, 1));
+  if (pass_samples_ == 1 || target_.is_per_sample) {
+    for (int s = 0; s < pass_samples_; ++s) {
+      const std::int32_t id = visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel];
+      if (id != no_triangle) points_.push_back(point_at(pixel, id, std::uint64_t{1} << s));
+    }
     return;
   }
   std::uint64_t left = all_samples_;
@@ -224,7 +227,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
       if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
     }
     left &= ~owned;
-    if (id != no_triangle) add_points(pixel, id, owned, target_.is_per_sample, points_);
+    if (id != no_triangle) points_.push_back(point_at(pixel, id, owned));
   }
 }
 
