@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/jpeg_encode.h"
 #include "zoneplate/image/png.h"
 
 namespace zoneplate {
@@ -44,6 +45,17 @@ TEST(ImageFile, SizeOfAJpegStandsInItsFrameHeader) {
   const Bytes head{0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xff, 0xc2, 0, 17, 8, 1, 2, 3, 4, 3};
   EXPECT_EQ(find_image_size(head), (int2{0x304, 0x102}));
   for (std::size_t n = 0; n < 18; ++n) EXPECT_FALSE(find_image_size(std::span(head).first(n))) << n;
+}
+
+TEST(ImageFile, SizeOfAJpegIsKnownWhereverItCanBeDecoded) {
+  const Bytes whole = encode_jpeg(Rgba8Image(9, 7, {200, 100, 50, 255}));
+  for (const Bytes& between : {Bytes{0}, Bytes{1, 2, 3}, Bytes{0xff, 0}, Bytes{0xff, 0xff}}) {
+    Bytes bytes = whole;
+    const std::size_t after_first = 4 + std::size_t{bytes[4]} * 256 + bytes[5];
+    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(after_first), between.begin(), between.end());
+    EXPECT_EQ(decode_image(bytes, "tex", 100), decode_image(whole, "tex", 100));
+    EXPECT_EQ(find_image_size(bytes), (int2{9, 7}));
+  }
 }
 
 TEST(ImageFile, OtherFormatsAreNamed) {
