@@ -298,25 +298,6 @@ void check_output(RenderArgs& args) {
   if (!is_film) check_picture_ending(args.output);
 }
 
-void check_args(RenderArgs& args) {
-  check_output(args);
-  const std::string ending = extension_of(args.output);
-  if (args.bit_depth == 16 && ending != ".png" && args.output != "-")
-    throw Error(Trouble::Usage, "--bit-depth: only .png has 16 bits");
-  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm"))
-    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
-  if (args.sequence.shutter && !args.sequence.is_wanted())
-    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
-    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
-  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
-    args.load.choice.animation = SceneChoice::all_animations;
-  if (const auto& crop = args.options.crop)
-    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
-                                              args.options.width, args.options.height));
-}
-
 }  // namespace
 
 Syntax render_syntax(RenderArgs& args) {
@@ -348,15 +329,23 @@ bool exists(const std::string& path) {
   return path != "-" && std::filesystem::exists(path, ignored);
 }
 
-RenderArgs parse_job_args(std::span<const std::string> arguments) {
-  RenderArgs args;
-  Syntax syntax = render_syntax(args);
-  if (!parse(syntax, arguments) || syntax.found_operands.size() != 1)
-    throw Error(Trouble::Usage, "a job of a manifest has one input");
-  args.inputs = syntax.found_operands;
-  args.input = args.inputs.front();
-  check_args(args);
-  return args;
+void check_args(RenderArgs& args) {
+  check_output(args);
+  const std::string ending = extension_of(args.output);
+  if (args.bit_depth == 16 && ending != ".png" && args.output != "-")
+    throw Error(Trouble::Usage, "--bit-depth: only .png has 16 bits");
+  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm"))
+    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
+  if (args.sequence.shutter && !args.sequence.is_wanted())
+    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
+  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
+    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
+  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
+    args.load.choice.animation = SceneChoice::all_animations;
+  if (const auto& crop = args.options.crop)
+    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
+      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+                                              args.options.width, args.options.height));
 }
 
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
