@@ -22,7 +22,8 @@ constexpr const char* examples =
     "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
 
 constexpr const char* notes =
-    "IN is a .gltf, .glb, .obj, .ply or .stl file, - for stdin, or a built-in scene (zoneplate list scenes). OUT "
+    "IN is a .gltf, .glb, .obj, .ply or .stl file or another (zoneplate list formats), - for stdin, or a built-in "
+    "scene (zoneplate list scenes). OUT "
     "ends\nin "
     ".png, .jpg or .webp; - is stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: "
     "without any camera "
@@ -274,6 +275,8 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.load.limits.pixels = parse_bytes(text); }},
       {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
        [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--sandbox", "", "Read the scene in a process of its own that may do nothing but read", group, false,
+       [&](auto&) { a.load.is_sandboxed = true; }},
       {"--allow-path", "", "Let a model use files outside its own folder", group, false,
        [&](auto&) { a.load.limits.allow_path = true; }},
   };
