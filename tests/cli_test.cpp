@@ -236,7 +236,10 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2, {"list", "method"}, "'method' is not one of methods, scenes, formats; did you mean methods?"},
       {2, {"info"}, "info takes one input: a model or a built-in scene"},
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
-      {3, {"text.xyz", "-o", "a.png"}, "text.xyz: not a format that can be read (.gltf, .glb, .obj, .ply, .stl)"},
+      {3,
+       {"text.xyz", "-o", "a.png"},
+       "text.xyz: not a format that can be read (.gltf, .glb, .obj, .ply, .stl and others, see zoneplate list "
+       "formats)"},
       {3, {"missing.xyz", "-o", "a.png"}, "missing.xyz: no such file, and no built-in scene of that name"},
       {4, {"triangles", "-o", "folder.png"}, "folder.png: is a directory"},
       {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: missing: No such file or directory"},

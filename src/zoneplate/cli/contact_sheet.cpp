@@ -101,6 +101,8 @@ Syntax make_syntax(SheetArgs& args) {
                      [&](auto& text) { args.render.method = text; }},
                     {"--background-color,--background", "COLOR", "Behind the models; default #444444", "Options", false,
                      [&](auto& text) { args.render.background = parse_color(text); }},
+                    {"--sandbox", "", "Read models in processes of their own that may do nothing but read", "Options",
+                     false, [&](auto&) { args.render.load.is_sandboxed = true; }},
                     {"--max-memory", "BYTES", "Refuse scenes that need more, as 512M; default 4G", "Options", false,
                      [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
                     {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Options", false,

@@ -22,7 +22,8 @@ constexpr const char* examples =
     "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
 
 constexpr const char* notes =
-    "IN is a .gltf, .glb, .obj, .ply or .stl file, - for stdin, or a built-in scene (zoneplate list scenes). OUT "
+    "IN is a .gltf, .glb, .obj, .ply or .stl file or another (zoneplate list formats), - for stdin, or a built-in "
+    "scene (zoneplate list scenes). OUT "
     "ends\nin "
     ".png, .jpg or .webp; - is stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: "
     "without any camera "
@@ -282,6 +283,8 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.load.limits.pixels = parse_bytes(text); }},
       {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
        [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--sandbox", "", "Read the scene in a process of its own that may do nothing but read", group, false,
+       [&](auto&) { a.load.is_sandboxed = true; }},
       {"--allow-path", "", "Let a model use files outside its own folder", group, false,
        [&](auto&) { a.load.limits.allow_path = true; }},
   };
@@ -305,33 +308,6 @@ void check_output(RenderArgs& args) {
   if (std::filesystem::is_directory(args.output, ignored))
     throw Error(Trouble::Output, args.output + ": is a directory");
   if (!is_film) check_picture_ending(args.output);
-}
-
-void check_args(RenderArgs& args) {
-  check_output(args);
-  const std::string ending = extension_of(args.named_output());
-  if (args.output != "-" && args.stdout_format != "png")
-    throw Error(Trouble::Usage, "--output-format is for -o -: elsewhere the name's ending tells the format");
-  if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
-    throw Error(Trouble::Usage, "--bit-depth: only .png and .rgba have 16 bits");
-  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
-    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
-  if (args.sequence.shutter && !args.sequence.is_wanted())
-    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
-    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
-  for (const Aov* aov : args.aovs) {
-    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_wanted())
-      throw Error(Trouble::Usage, fmt::format("--aov {} wants a sequence, or a frame of one: -s 5 -e 5", aov->name));
-    if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
-      throw Error(Trouble::Usage, fmt::format("--aov {} wants an .exr, or a picture of it beside a .png", aov->name));
-  }
-  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
-    args.load.choice.animation = SceneChoice::all_animations;
-  if (const auto& crop = args.options.crop)
-    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
-                                              args.options.width, args.options.height));
 }
 
 }  // namespace
@@ -366,15 +342,31 @@ bool exists(const std::string& path) {
   return path != "-" && std::filesystem::exists(path, ignored);
 }
 
-RenderArgs parse_job_args(std::span<const std::string> arguments) {
-  RenderArgs args;
-  Syntax syntax = render_syntax(args);
-  if (!parse(syntax, arguments) || syntax.found_operands.size() != 1)
-    throw Error(Trouble::Usage, "a job of a manifest has one input");
-  args.inputs = syntax.found_operands;
-  args.input = args.inputs.front();
-  check_args(args);
-  return args;
+void check_args(RenderArgs& args) {
+  check_output(args);
+  const std::string ending = extension_of(args.named_output());
+  if (args.output != "-" && args.stdout_format != "png")
+    throw Error(Trouble::Usage, "--output-format is for -o -: elsewhere the name's ending tells the format");
+  if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
+    throw Error(Trouble::Usage, "--bit-depth: only .png and .rgba have 16 bits");
+  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
+    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
+  if (args.sequence.shutter && !args.sequence.is_wanted())
+    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
+  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
+    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
+  for (const Aov* aov : args.aovs) {
+    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_wanted())
+      throw Error(Trouble::Usage, fmt::format("--aov {} wants a sequence, or a frame of one: -s 5 -e 5", aov->name));
+    if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
+      throw Error(Trouble::Usage, fmt::format("--aov {} wants an .exr, or a picture of it beside a .png", aov->name));
+  }
+  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
+    args.load.choice.animation = SceneChoice::all_animations;
+  if (const auto& crop = args.options.crop)
+    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
+      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+                                              args.options.width, args.options.height));
 }
 
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {

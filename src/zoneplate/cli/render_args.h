@@ -66,10 +66,10 @@ inline constexpr int max_side = 16384;
 /// The options of the verb, which set `args`. It keeps a reference to it.
 Syntax render_syntax(RenderArgs& args);
 
-/// Parses and checks the words of one job of a manifest: those of the command line, and the job's.
+/// Checks what options have made of one picture's or sequence's arguments, and completes them.
 ///
 /// Errors    Trouble::Usage.
-RenderArgs parse_job_args(std::span<const std::string> arguments);
+void check_args(RenderArgs& args);
 
 /// Errors    Trouble::Usage for a name whose ending is not that of a picture that can be written.
 void check_picture_ending(const std::string& output);

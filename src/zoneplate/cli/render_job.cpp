@@ -17,8 +17,9 @@ namespace {
 std::string key_of(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1), c.variant,
-                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path);
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
+                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path,
+                     args.load.is_sandboxed);
 }
 
 }  // namespace

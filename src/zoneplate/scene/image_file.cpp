@@ -41,19 +41,16 @@ int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
 }
 
-/// Walks over a JPEG's segments to the frame header (ITU-T T.81, B.2).
+/// Walks over a JPEG's segments to the frame header (ITU-T T.81, B.2); what stands between segments is passed over, as
+/// libjpeg does.
 std::optional<int2> find_jpeg_size(std::span<const std::uint8_t> bytes) {
   for (std::size_t at = 2; at + 9 <= bytes.size();) {
-    if (bytes[at] != 0xff) return std::nullopt;
     const std::uint8_t marker = bytes[at + 1];
-    if (marker == 0xff) {  // fill
-      ++at;
-      continue;
-    }
+    const bool is_marker = bytes[at] == 0xff && marker != 0xff && marker != 0;
     const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_frame) return int2{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+    if (is_marker && is_frame) return int2{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     const bool is_bare = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd9);
-    at += is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
+    at += !is_marker ? 1 : is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
   }
   return std::nullopt;
 }

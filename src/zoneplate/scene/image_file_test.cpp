@@ -6,6 +6,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/exr_encode.h"
+#include "zoneplate/image/jpeg_encode.h"
 #include "zoneplate/image/png.h"
 
 namespace zoneplate {
@@ -63,6 +64,17 @@ TEST(ImageFile, LightBecomesItsCode) {
   EXPECT_EQ(decode_image(hdr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 255}));
   EXPECT_EQ(decode_image(exr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 128}));
   EXPECT_THROW(decode_image(hdr, "tex", 3), Error);
+}
+
+TEST(ImageFile, SizeOfAJpegIsKnownWhereverItCanBeDecoded) {
+  const Bytes whole = encode_jpeg(Rgba8Image(9, 7, {200, 100, 50, 255}));
+  for (const Bytes& between : {Bytes{0}, Bytes{1, 2, 3}, Bytes{0xff, 0}, Bytes{0xff, 0xff}}) {
+    Bytes bytes = whole;
+    const std::size_t after_first = 4 + std::size_t{bytes[4]} * 256 + bytes[5];
+    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(after_first), between.begin(), between.end());
+    EXPECT_EQ(decode_image(bytes, "tex", 100), decode_image(whole, "tex", 100));
+    EXPECT_EQ(find_image_size(bytes), (int2{9, 7}));
+  }
 }
 
 TEST(ImageFile, OtherFormatsAreNamed) {
