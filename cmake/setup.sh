@@ -59,6 +59,7 @@ is_stale() {
   [ -e "$stamp" ] || return 0
   local inputs=(src cmake CMakeLists.txt CMakePresets.json packages.txt)
   [ "$1" = release ] || inputs+=(tests)
+  [ "$1" != fuzz ] || inputs+=(fuzz)
   [ -n "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ]
 }
 

@@ -58,9 +58,9 @@ struct Golden {
 constexpr Golden goldens[] = {
     {"teapot", "none", 0xa7edffd26adfc1d8u},
     {"teapot", "msaa:n=4", 0xa1c07e8df17daadcu},
-    {"teapot", "ssaa:n=3", 0x2d45f6271ab8e68fu},
+    {"teapot", "ssaa:n=3", 0x6534e48a0d58f03u},
     {"checkerboard", "msaa:n=8", 0x28c641a0712ae1bdu},
-    {"checkerboard", "ssaa:pattern=halton,samples=24", 0x87bbe993d125da8du},
+    {"checkerboard", "ssaa:pattern=halton,samples=24", 0xc60082d4c0c6a3eu},
     {"triangles", "msaa:grid=4", 0x3eb3916ef6c22d66u},
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
     {"sphere:triangles=5000", "msaa:n=16", 0x2b2a25ec5fff75b0u},

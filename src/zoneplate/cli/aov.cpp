@@ -3,17 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "zoneplate/image/pfm.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/render/cryptomatte.h"
 
 namespace zoneplate::cli {
 namespace {
 
 constexpr Rgba8 nothing{0, 0, 0, 0};
+const PngOptions data{.is_srgb = false};
 
 // A unit value as an integer code, rounded; what is outside is clamped.
 float code(float value, float top) { return std::floor(std::clamp(value, 0.0f, 1.0f) * top + 0.5f); }
@@ -21,15 +26,16 @@ std::uint8_t code8(float value) { return static_cast<std::uint8_t>(code(value, 2
 
 // The picture of a plane, pixel by pixel; transparent where depth says that nothing is there.
 template <class T, class Colour>
-std::vector<std::uint8_t> data_picture(const Frame& frame, const Plane<T>& plane, bool is_srgb, Colour colour) {
+std::vector<std::uint8_t> data_picture(const Frame& frame, const Plane<T>& plane, const PngOptions& options,
+                                       Colour colour) {
   Rgba8Image image(plane.width(), plane.height(), nothing);
   for (int y = 0; y < plane.height(); ++y)
     for (int x = 0; x < plane.width(); ++x)
       if (std::isfinite(frame.depth(x, y))) image(x, y) = colour(plane(x, y));
-  return encode_png(image, {.is_srgb = is_srgb});
+  return encode_png(image, options);
 }
 
-std::vector<std::uint8_t> depth_picture(const Frame& frame) {
+std::vector<std::uint8_t> depth_picture(const Frame& frame, const Scene&) {
   float near = std::numeric_limits<float>::infinity(), far = -near;
   for (const float depth : frame.depth.values()) {
     if (!std::isfinite(depth)) continue;
@@ -48,42 +54,110 @@ std::vector<std::uint8_t> depth_picture(const Frame& frame) {
   return encode_png(image, options);
 }
 
-std::vector<std::uint8_t> normal_picture(const Frame& frame) {
-  return data_picture(frame, frame.normal, false, [](float3 n) {
+std::vector<std::uint8_t> normal_picture(const Frame& frame, const Scene&) {
+  return data_picture(frame, frame.normal, data, [](float3 n) {
     return Rgba8{code8(0.5f + 0.5f * n.x), code8(0.5f + 0.5f * n.y), code8(0.5f + 0.5f * n.z), 255};
   });
 }
 
-std::vector<std::uint8_t> albedo_picture(const Frame& frame) {
-  return data_picture(frame, frame.albedo, true, [](float3 c) {
+std::vector<std::uint8_t> albedo_picture(const Frame& frame, const Scene&) {
+  return data_picture(frame, frame.albedo, {}, [](float3 c) {
     return Rgba8{encode_srgb8(c.x), encode_srgb8(c.y), encode_srgb8(c.z), 255};
   });
 }
 
-std::vector<std::uint8_t> uv_picture(const Frame& frame) {
-  return data_picture(frame, frame.uv, false, [](float2 uv) {
+std::vector<std::uint8_t> uv_picture(const Frame& frame, const Scene&) {
+  return data_picture(frame, frame.uv, data, [](float2 uv) {
     return Rgba8{code8(uv.x - std::floor(uv.x)), code8(uv.y - std::floor(uv.y)), 0, 255};
   });
 }
 
-template <Plane<std::uint32_t> Frame::*ids>
-std::vector<std::uint8_t> id_picture(const Frame& frame) {
-  // Channels stay above 64, so that no surface is taken for the black of nothing.
+// Channels stay above 64, so that no surface is taken for the black of nothing.
+Rgba8 id_color(std::uint32_t id) {
   const auto channel = [](std::uint32_t word) { return static_cast<std::uint8_t>(64 + (word & 255) * 191 / 255); };
-  return data_picture(frame, frame.*ids, false, [&](std::uint32_t id) {
-    const std::uint32_t word = hash(id);
-    return id == Frame::no_id ? nothing : Rgba8{channel(word), channel(word >> 8), channel(word >> 16), 255};
+  const std::uint32_t word = hash(id);
+  return {channel(word), channel(word >> 8), channel(word >> 16), 255};
+}
+
+template <Plane<std::uint32_t> Frame::*ids>
+std::vector<std::uint8_t> id_picture(const Frame& frame, const Scene&) {
+  return data_picture(frame, frame.*ids, data,
+                      [&](std::uint32_t id) { return id == Frame::no_id ? nothing : id_color(id); });
+}
+
+// As colours stand for names in the id passes, but of names: the same in every picture of any scene.
+template <MatteKind kind>
+std::vector<std::uint8_t> matte_picture(const Frame& frame, const Scene& scene) {
+  const Cryptomatte matte = make_cryptomatte(frame, scene, kind);
+  const Plane<float4>& first = matte.ranks.front();
+  Rgba8Image image(first.width(), first.height(), nothing);
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    float4 sum{0, 0, 0, 0};
+    const auto add = [&](float id, float share) {
+      const Rgba8 c = id_color(std::bit_cast<std::uint32_t>(id));
+      sum = sum + float4{decode_srgb8(c.r), decode_srgb8(c.g), decode_srgb8(c.b), 1} * share;
+    };
+    for (const Plane<float4>& plane : matte.ranks) {
+      const float4 pair = plane.values()[i];
+      add(pair.x, pair.y);
+      add(pair.z, pair.w);
+    }
+    if (sum.w > 0)
+      image.values()[i] = {encode_srgb8(sum.x / sum.w), encode_srgb8(sum.y / sum.w), encode_srgb8(sum.z / sum.w),
+                           code8(sum.w)};
+  }
+  return encode_png(image);
+}
+
+std::vector<std::uint8_t> position_picture(const Frame& frame, const Scene&) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  float3 least{infinity, infinity, infinity}, greatest = -least;
+  for (std::size_t i = 0; i < frame.position.values().size(); ++i) {
+    if (!std::isfinite(frame.depth.values()[i])) continue;
+    const float3 p = frame.position.values()[i];
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    greatest = {std::max(greatest.x, p.x), std::max(greatest.y, p.y), std::max(greatest.z, p.z)};
+  }
+  PngOptions options{.is_srgb = false};
+  const auto text = [](float3 p) { return fmt::format("{} {} {}", p.x, p.y, p.z); };
+  if (least.x <= greatest.x) options.text = {{"least", text(least)}, {"greatest", text(greatest)}};
+  const auto part = [](float value, float low, float high) {
+    return code8(high > low ? (value - low) / (high - low) : 0.5f);
+  };
+  return data_picture(frame, frame.position, options, [&](float3 p) {
+    return Rgba8{part(p.x, least.x, greatest.x), part(p.y, least.y, greatest.y), part(p.z, least.z, greatest.z), 255};
   });
 }
 
-std::vector<std::uint8_t> coverage_picture(const Frame& frame) {
+// A hue of the colour circle, from red (0) by green (1/3) and blue (2/3) to red (1), mixed with white.
+Rgba8 circle_color(float turn, float saturation) {
+  const auto channel = [&](float offset) {
+    const float t = 6 * (turn + offset), from = t - 6 * std::floor(t / 6);
+    const float value = std::clamp(std::abs(from - 3) - 1, 0.0f, 1.0f);
+    return code8(1 - saturation * (1 - value));
+  };
+  return {channel(0), channel(2.0f / 3), channel(1.0f / 3), 255};
+}
+
+template <Plane<float2> Frame::*steps>
+std::vector<std::uint8_t> motion_picture(const Frame& frame, const Scene&) {
+  constexpr float two_pi = 6.2831853f;
+  float greatest = 0;
+  for (const float2 m : (frame.*steps).values()) greatest = std::max(greatest, length(m));
+  const float scale = greatest > 0 ? 1 / greatest : 0.0f;
+  const PngOptions options{.is_srgb = false, .text = {{"greatest", fmt::format("{}", greatest)}}};
+  return data_picture(frame, frame.*steps, options,
+                      [&](float2 m) { return circle_color(atan2(m.y, m.x) / two_pi, length(m) * scale); });
+}
+
+std::vector<std::uint8_t> coverage_picture(const Frame& frame, const Scene&) {
   Plane<std::uint16_t> image(frame.coverage.width(), frame.coverage.height());
   for (std::size_t i = 0; i < image.values().size(); ++i)
     image.values()[i] = static_cast<std::uint16_t>(code(frame.coverage.values()[i], 65535));
   return encode_png(image, {.has_alpha = false, .is_srgb = false});
 }
 
-std::vector<std::uint8_t> error_picture(const Frame& frame) {
+std::vector<std::uint8_t> error_picture(const Frame& frame, const Scene&) {
   float greatest = 0;
   double squares = 0;
   for (const float e : frame.error.values()) greatest = std::max(greatest, e), squares += static_cast<double>(e) * e;
@@ -96,20 +170,113 @@ std::vector<std::uint8_t> error_picture(const Frame& frame) {
                             .text = {{"greatest", fmt::format("{}", greatest)}, {"rms", fmt::format("{}", rms)}}});
 }
 
+template <Plane<float> Frame::*plane>
+void add_value(const Frame& frame, DataChannels& out, std::string name) {
+  out.list.push_back({std::move(name), ExrType::Float, (frame.*plane).values().data()});
+}
+
+// A channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z.
+void add_vector(const float* first, std::string_view letters, ExrType type, std::string_view layer, DataChannels& out) {
+  for (std::size_t i = 0; i < letters.size(); ++i)
+    out.list.push_back({fmt::format("{}{}", layer, letters[i]), type, first + i, nullptr, letters.size()});
+}
+
+template <Plane<std::uint32_t> Frame::*ids>
+void add_ids(const Frame& frame, DataChannels& out, std::string name) {
+  out.list.push_back({std::move(name), ExrType::Number, nullptr, (frame.*ids).values().data()});
+}
+
+template <MatteKind kind>
+void add_matte(const Frame& frame, const Scene& scene, DataChannels& out) {
+  Cryptomatte matte = make_cryptomatte(frame, scene, kind);
+  for (std::size_t i = 0; i < matte.ranks.size(); ++i) {
+    const Plane<float4>& plane = out.made.emplace_back(std::move(matte.ranks[i]));
+    add_vector(&plane.values().data()->x, "RGBA", ExrType::Float, fmt::format("{}{:02}.", matte.layer, i), out);
+  }
+  out.attributes.insert(out.attributes.end(), matte.attributes.begin(), matte.attributes.end());
+}
+
+void add_depth(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::depth>(frame, out, "Z"); }
+void add_normal(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.normal.values().data()->x, "XYZ", ExrType::Float, "N.", out);
+}
+void add_position(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.position.values().data()->x, "XYZ", ExrType::Float, "P.", out);
+}
+void add_albedo(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.albedo.values().data()->x, "RGB", ExrType::Half, "albedo.", out);
+}
+void add_uv(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.uv.values().data()->x, "UV", ExrType::Float, "UV.", out);
+}
+void add_motion(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.motion.values().data()->x, "XY", ExrType::Float, "motion.", out);
+  out.attributes.emplace_back("motion",
+                              "pixels, +x right, +y down: position now minus position in the last frame, no jitter");
+}
+void add_flow(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.flow.values().data()->x, "XY", ExrType::Float, "flow.", out);
+  out.attributes.emplace_back("flow",
+                              "pixels, +x right, +y down: position in the next frame minus position now, no jitter");
+}
+void add_object_id(const Frame& frame, const Scene&, DataChannels& out) {
+  add_ids<&Frame::object_id>(frame, out, "objectId");
+}
+void add_material_id(const Frame& frame, const Scene&, DataChannels& out) {
+  add_ids<&Frame::material_id>(frame, out, "materialId");
+}
+void add_primitive_id(const Frame& frame, const Scene&, DataChannels& out) {
+  add_ids<&Frame::primitive_id>(frame, out, "primId");
+}
+void add_coverage(const Frame& frame, const Scene&, DataChannels& out) {
+  add_value<&Frame::coverage>(frame, out, "coverage");
+}
+void add_error(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::error>(frame, out, "error"); }
+
 constexpr Aov all[] = {
-    {"depth", "distance along the view axis, near black, far white", &Planes::depth, depth_picture},
-    {"normal", "world-space normal as colour", &Planes::normal, normal_picture},
-    {"albedo", "base colour without light", &Planes::albedo, albedo_picture},
-    {"uv", "texture coordinates as red and green", &Planes::uv, uv_picture},
-    {"object-id", "a false colour for each object", &Planes::object_id, id_picture<&Frame::object_id>},
-    {"material-id", "a false colour for each material", &Planes::material_id, id_picture<&Frame::material_id>},
+    {"depth", "distance along the view axis, near black, far white", &Planes::depth, depth_picture, add_depth},
+    {"normal", "world-space normal as colour", &Planes::normal, normal_picture, add_normal},
+    {"position", "world-space position as colour", &Planes::position, position_picture, add_position},
+    {"albedo", "base colour without light", &Planes::albedo, albedo_picture, add_albedo},
+    {"uv", "texture coordinates as red and green", &Planes::uv, uv_picture, add_uv},
+    {"motion", "way on the screen since the last frame: direction as hue, length as saturation", &Planes::motion,
+     motion_picture<&Frame::motion>, add_motion},
+    {"flow", "the same to the next frame", &Planes::flow, motion_picture<&Frame::flow>, add_flow},
+    {"object-id", "a false colour for each object", &Planes::object_id, id_picture<&Frame::object_id>, add_object_id},
+    {"material-id", "a false colour for each material", &Planes::material_id, id_picture<&Frame::material_id>,
+     add_material_id},
     {"primitive-id", "a false colour for each triangle of a mesh", &Planes::primitive_id,
-     id_picture<&Frame::primitive_id>},
-    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, coverage_picture},
-    {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, error_picture}};
+     id_picture<&Frame::primitive_id>, add_primitive_id},
+    {"crypto-object", "Cryptomatte of objects by name", &Planes::sample_triangles, matte_picture<MatteKind::Object>,
+     add_matte<MatteKind::Object>},
+    {"crypto-material", "Cryptomatte of materials by name", &Planes::sample_triangles,
+     matte_picture<MatteKind::Material>, add_matte<MatteKind::Material>},
+    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, coverage_picture, add_coverage},
+    {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, error_picture,
+     add_error}};
 
 }  // namespace
 
 std::span<const Aov> aovs() { return all; }
+
+std::optional<std::vector<std::uint8_t>> encode_data_pfm(const Aov& aov, const Frame& frame, const Scene& scene) {
+  DataChannels channels;
+  aov.add_channels(frame, scene, channels);
+  if (channels.list.size() > 3) return std::nullopt;
+  const auto value = [&](std::size_t channel, std::size_t pixel) {
+    const ExrChannel& c = channels.list[channel];
+    return c.value ? c.value[pixel * c.step] : static_cast<float>(c.number[pixel * c.step]);
+  };
+  const int width = frame.depth.width(), height = frame.depth.height();
+  if (channels.list.size() == 1) {
+    Plane<float> grey(width, height);
+    for (std::size_t i = 0; i < grey.values().size(); ++i) grey.values()[i] = value(0, i);
+    return encode_pfm(grey);
+  }
+  LinearImage color(width, height);
+  for (std::size_t i = 0; i < color.values().size(); ++i)
+    color.values()[i] = {value(0, i), value(1, i), channels.list.size() > 2 ? value(2, i) : 0.0f, 1};
+  return encode_pfm(color);
+}
 
 }  // namespace zoneplate::cli

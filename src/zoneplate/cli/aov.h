@@ -1,19 +1,31 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/image/exr_encode.h"
 #include "zoneplate/render/frame.h"
+#include "zoneplate/scene/scene.h"
 
 namespace zoneplate::cli {
 
-/// A data pass that is written as a picture beside the colour.
+/// Data passes as channels of a file: views of a frame, and of what had to be made from it.
+struct DataChannels {
+  std::vector<ExrChannel> list;
+  ExrAttributes attributes;
+  std::deque<Plane<float4>> made;
+};
+
+/// A data pass: a picture beside the colour, or channels in one file with it.
 struct Aov {
   std::string_view name, meaning;
-  bool Planes::*plane;                                ///< the plane of the frame that it needs
-  std::vector<std::uint8_t> (*encode)(const Frame&);  ///< as PNG
+  bool Planes::*plane;                                              ///< the plane of the frame that it needs
+  std::vector<std::uint8_t> (*encode)(const Frame&, const Scene&);  ///< as PNG
+  void (*add_channels)(const Frame&, const Scene&, DataChannels&);
 };
 
 /// All of them.
@@ -24,9 +36,17 @@ struct Aov {
 /// albedo       8-bit sRGB base colour.
 /// uv           8-bit: red and green are the fractional parts of u and v.
 /// *-id         a false colour for each number, the same in every picture.
+/// crypto-*     the colours of what owns parts of the pixel, each by its share; transparent by what is left.
+/// position     8-bit: from 0 to 1 between the least and the greatest of what is seen, axis by axis; these are in
+///              the tEXt chunks "least" and "greatest".
+/// motion, flow 8-bit: the hue is the direction (red to the right, green-yellow down), the saturation the length, full
+///              at the greatest of the picture, which is in the tEXt chunk "greatest", in pixels.
 /// coverage     16-bit grey: share of the pixel's samples that a surface owns.
 /// error        16-bit grey: estimated standard error of the colour, white being the greatest of the picture; that and
 ///              the root mean square, in light, are in the tEXt chunks "greatest" and "rms".
 std::span<const Aov> aovs();
+
+/// The values themselves as a portable float map, of passes with at most three channels; nothing for others.
+std::optional<std::vector<std::uint8_t>> encode_data_pfm(const Aov& aov, const Frame& frame, const Scene& scene);
 
 }  // namespace zoneplate::cli

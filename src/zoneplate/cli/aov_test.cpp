@@ -25,16 +25,34 @@ Frame frame() {
   f.uv = plane(float2{0.5f, 1.25f}, float2{-0.25f, 0}, float2{});
   f.object_id = f.material_id = f.primitive_id = plane(0u, 1u, Frame::no_id);
   f.coverage = plane(1.0f, 0.5f, 0.0f);
+  f.position = plane(float3{1, 2, 3}, float3{2, 0, 3}, float3{});
+  f.motion = plane(float2{4, 0}, float2{0, 2}, float2{});
+  f.flow = plane(float2{-4, 0}, float2{}, float2{});
+  f.sample_triangle = {plane(0u, 1u, Frame::no_id), plane(0u, 0u, Frame::no_id)};
   f.error = plane(0.003f, 0.0015f, 0.0f);
   return f;
 }
 
-PngImage picture(std::string_view name) {
-  for (const Aov& aov : aovs())
-    if (aov.name == name) return decode_png(aov.encode(frame()), std::string(name));
-  ADD_FAILURE() << "no data pass " << name;
-  return {};
+// Two triangles, an object and a material each.
+Scene scene() {
+  Scene s;
+  s.objects = {"one", "two"};
+  s.materials.resize(2);
+  for (int i = 0; i < 2; ++i) {
+    s.meshes.push_back({.position = std::vector<float3>(3), .index = {0, 1, 2}, .material = i});
+    s.instances.push_back({.mesh = i, .object = i});
+  }
+  return s;
 }
+
+const Aov& aov_of(std::string_view name) {
+  for (const Aov& aov : aovs())
+    if (aov.name == name) return aov;
+  ADD_FAILURE() << "no data pass " << name;
+  return aovs()[0];
+}
+
+PngImage picture(std::string_view name) { return decode_png(aov_of(name).encode(frame(), scene()), std::string(name)); }
 
 constexpr Rgba8 nothing{0, 0, 0, 0};
 
@@ -47,7 +65,7 @@ TEST(Aov, DepthIsLinearFromTheNearestToTheFarthestSeen) {
 }
 
 TEST(Aov, DepthTellsItsDistances) {
-  const std::vector<std::uint8_t> bytes = aovs()[0].encode(frame());
+  const std::vector<std::uint8_t> bytes = aovs()[0].encode(frame(), {});
   const std::string text(bytes.begin(), bytes.end());
   EXPECT_NE(text.find(std::string("tEXtnear\0002", 10)), std::string::npos);
   EXPECT_NE(text.find(std::string("tEXtfar\0006", 9)), std::string::npos);
@@ -81,6 +99,78 @@ TEST(Aov, IdsHaveDistinctColoursAndNothingHasNone) {
   }
 }
 
+TEST(Aov, PositionsFillTheirRange) {
+  const PngImage png = picture("position");
+  EXPECT_EQ(png.pixels(0, 0), (Rgba8{0, 255, 128, 255}));
+  EXPECT_EQ(png.pixels(1, 0), (Rgba8{255, 0, 128, 255}));
+  EXPECT_EQ(png.pixels(2, 0), nothing);
+}
+
+TEST(Aov, MotionIsAHueOfItsDirection) {
+  const PngImage motion = picture("motion");
+  EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // to the right, the longest
+  const Rgba8 down = motion.pixels(1, 0);                   // half as long: half way to white
+  EXPECT_EQ(down.g, 255);
+  EXPECT_NEAR(down.r, 191, 1);
+  EXPECT_NEAR(down.b, 128, 1);
+  EXPECT_EQ(motion.pixels(2, 0), nothing);
+  const PngImage flow = picture("flow");
+  EXPECT_EQ(flow.pixels(0, 0), (Rgba8{0, 255, 255, 255}));  // to the left
+  EXPECT_EQ(flow.pixels(1, 0), (Rgba8{255, 255, 255, 255}));
+}
+
+TEST(Aov, MattesMixTheirOwnersColours) {
+  const PngImage png = picture("crypto-object");
+  EXPECT_EQ(png.pixels(0, 0).a, 255);
+  EXPECT_NE(png.pixels(0, 0), png.pixels(1, 0));
+  EXPECT_EQ(png.pixels(2, 0), nothing);
+  EXPECT_NE(png.pixels(0, 0), picture("crypto-material").pixels(0, 0));  // another name
+}
+
+TEST(Aov, ChannelsAreNamedAsPipelinesExpectThem) {
+  const Frame f = frame();
+  const Scene s = scene();
+  std::string names;
+  for (const Aov& aov : aovs()) {
+    DataChannels channels;
+    aov.add_channels(f, s, channels);
+    for (const ExrChannel& c : channels.list) names += c.name + ' ';
+  }
+  EXPECT_EQ(names,
+            "Z N.X N.Y N.Z P.X P.Y P.Z albedo.R albedo.G albedo.B UV.U UV.V motion.X motion.Y flow.X flow.Y objectId "
+            "materialId primId CryptoObject00.R CryptoObject00.G CryptoObject00.B CryptoObject00.A CryptoObject01.R "
+            "CryptoObject01.G CryptoObject01.B CryptoObject01.A CryptoObject02.R CryptoObject02.G CryptoObject02.B "
+            "CryptoObject02.A CryptoMaterial00.R CryptoMaterial00.G CryptoMaterial00.B CryptoMaterial00.A "
+            "CryptoMaterial01.R CryptoMaterial01.G CryptoMaterial01.B CryptoMaterial01.A CryptoMaterial02.R "
+            "CryptoMaterial02.G CryptoMaterial02.B CryptoMaterial02.A coverage error ");
+}
+
+TEST(Aov, ChannelsAreTheValuesThemselves) {
+  const Frame f = frame();
+  DataChannels channels;
+  aov_of("normal").add_channels(f, {}, channels);
+  aov_of("primitive-id").add_channels(f, {}, channels);
+  const auto value = [&](std::size_t channel, std::size_t pixel) {
+    return channels.list[channel].value[pixel * channels.list[channel].step];
+  };
+  EXPECT_EQ(value(0, 1), -1);
+  EXPECT_EQ(value(2, 0), 1);
+  EXPECT_EQ(channels.list[3].number[2], Frame::no_id);
+}
+
+TEST(Aov, FloatMapsHoldTheValues) {
+  const auto text = [&](std::string_view name) {
+    const auto bytes = encode_data_pfm(aov_of(name), frame(), scene());
+    return bytes ? std::string(bytes->begin(), bytes->end()) : "none";
+  };
+  const auto floats = [](std::initializer_list<float> values) {
+    return std::string(reinterpret_cast<const char*>(values.begin()), values.size() * sizeof(float));
+  };
+  EXPECT_EQ(text("depth"), "Pf\n3 1\n-1.0\n" + floats({2, 6, std::numeric_limits<float>::infinity()}));
+  EXPECT_EQ(text("motion"), "PF\n3 1\n-1.0\n" + floats({4, 0, 0, 0, 2, 0, 0, 0, 0}));
+  EXPECT_EQ(text("crypto-object"), "none");
+}
+
 TEST(Aov, CoverageIsAShare) {
   const PngImage png = picture("coverage");
   EXPECT_EQ(png.pixels16(0, 0).r, 65535);
@@ -93,7 +183,7 @@ TEST(Aov, ErrorIsShownAgainstTheGreatestAndTellsIt) {
   EXPECT_EQ(png.pixels16(0, 0).r, 65535);
   EXPECT_EQ(png.pixels16(1, 0).r, 32768);
   EXPECT_EQ(png.pixels16(2, 0).r, 0);
-  const std::vector<std::uint8_t> bytes = aovs().back().encode(frame());
+  const std::vector<std::uint8_t> bytes = aovs().back().encode(frame(), {});
   EXPECT_NE(std::string(bytes.begin(), bytes.end()).find(std::string("tEXtgreatest\0000.003", 18)), std::string::npos);
 }
 

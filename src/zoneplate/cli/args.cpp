@@ -67,6 +67,20 @@ std::string usage_line(const Syntax& syntax) {
                                   : fmt::format("unknown option {}; did you mean {}?", name, near));
 }
 
+void set(const Option& option, const std::string& text) {
+  try {
+    option.set(text);
+  } catch (const Error& error) {
+    throw Error(error.trouble(), names_of(option).front() + ": " + error.what());
+  }
+}
+
+[[noreturn]] void refuse_value(const Option& option) {
+  throw Error(Trouble::Usage, names_of(option).front() + " takes no value");
+}
+
+std::string missing_value(const Option& option) { return names_of(option).front() + " needs a value: " + option.value; }
+
 }  // namespace
 
 bool parse(Syntax& syntax, std::span<const std::string> arguments) {
@@ -82,7 +96,7 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   for (const Option& option : syntax.options) {
     CLI::Option* parser = option.value.empty() ? app.add_flag(option.names) : app.add_option(option.names);
     if (!option.value.empty()) parser->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    places[parser->get_name()] = names_of(option).front() + " needs a value: " + option.value;
+    places[parser->get_name()] = missing_value(option);
     parsers.push_back(parser);
   }
 
@@ -107,15 +121,24 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
     if (parsers[i]->count() == 0) continue;
     const Option& option = syntax.options[i];
     const std::string& text = parsers[i]->results().back();
-    if (option.value.empty() && text != "true")
-      throw Error(Trouble::Usage, names_of(option).front() + " takes no value");
-    try {
-      option.set(option.value.empty() ? "" : text);
-    } catch (const Error& error) {
-      throw Error(error.trouble(), names_of(option).front() + ": " + error.what());
-    }
+    if (option.value.empty() && text != "true") refuse_value(option);
+    set(option, option.value.empty() ? "" : text);
   }
   return true;
+}
+
+void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value) {
+  // Names are few and parted by commas; that one is the beginning of another is excluded by what follows it.
+  const std::string wanted = "--" + name;
+  const auto has_name = [&](const Option& option) {
+    const std::size_t at = option.names.find(wanted), end = at + wanted.size();
+    return at != std::string::npos && (end == option.names.size() || option.names[end] == ',');
+  };
+  const auto option = std::find_if(syntax.options.begin(), syntax.options.end(), has_name);
+  if (option == syntax.options.end()) refuse_unknown(syntax, wanted);
+  if (option->value.empty() && value) refuse_value(*option);
+  if (!option->value.empty() && !value) throw Error(Trouble::Usage, missing_value(*option));
+  set(*option, value.value_or(""));
 }
 
 std::string short_help(const Syntax& syntax) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,11 @@ struct Syntax {
 ///
 /// Errors    Trouble::Usage naming the option: unknown (with the closest one), without its value, or refused by `set`.
 bool parse(Syntax& syntax, std::span<const std::string> arguments);
+
+/// Sets one option, named without dashes, as a job of a manifest does; `value` is nothing for a switch.
+///
+/// Errors    as `parse`.
+void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value);
 
 /// The text of the short help (-h) and of the full one (--help).
 std::string short_help(const Syntax& syntax);

@@ -16,31 +16,42 @@
 namespace zoneplate::cli {
 namespace {
 
-// The words of the command line that a job of the manifest stands for.
-std::vector<std::string> words_of(const JsonValue& job, const std::string& place) {
-  const JsonView view(job, place);
-  std::vector<std::string> words;
-  std::string input;
-  for (std::size_t i = 0; i < job.items.size(); ++i) {
-    const std::string& key = job.keys[i];
-    const JsonValue& value = job.items[i];
-    if (value.kind == JsonValue::Kind::Boolean) {
-      if (value.boolean) words.push_back("--" + key);
-      continue;
-    }
-    if (value.kind != JsonValue::Kind::Text && value.kind != JsonValue::Kind::Number)
-      view.fail(key + " is neither a text, nor a number, nor true or false");
-    const std::string text = value.kind == JsonValue::Kind::Text ? value.text : fmt::format("{}", value.number);
-    if (key == "input")
-      input = text;
-    else
-      words.push_back("--" + key + "=" + text);
+// The jobs of a manifest: each is what the command line says, with options of its own over that.
+class Jobs {
+ public:
+  explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
+  Jobs(const Jobs&) = delete;
+  Jobs& operator=(const Jobs&) = delete;
+
+  RenderArgs read(const JsonValue& job, const std::string& place) {
+    const JsonView view(job, place);
+    args_ = common_;
+    args_.input.clear();
+    for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
+    if (args_.input.empty()) view.fail("has no input");
+    args_.inputs = {args_.input};
+    check_args(args_);
+    return args_;
   }
-  if (input.empty()) view.fail("has no input");
-  words.push_back("--");
-  words.push_back(input);
-  return words;
-}
+
+ private:
+  void set(const std::string& key, const JsonValue& value, const JsonView& view) {
+    using Kind = JsonValue::Kind;
+    if (value.kind != Kind::Boolean && value.kind != Kind::Text && value.kind != Kind::Number)
+      view.fail(key + " is neither a text, nor a number, nor true or false");
+    const std::string text = value.kind == Kind::Number ? fmt::format("{}", value.number) : value.text;
+    if (key == "input" && value.kind != Kind::Boolean)
+      args_.input = text;
+    else if (value.kind != Kind::Boolean)
+      set_option(syntax_, key, text);
+    else if (value.boolean)
+      set_option(syntax_, key, std::nullopt);
+  }
+
+  const RenderArgs& common_;
+  RenderArgs args_;
+  Syntax syntax_;  ///< whose options set args_
+};
 
 // A line of the manifest that is not empty, and what messages call it.
 struct Line {
@@ -119,7 +130,7 @@ std::string model_of(const std::string& input) {
 
 }  // namespace
 
-void render_batch(const RenderArgs& common, std::span<const std::string> arguments) {
+void render_batch(const RenderArgs& common) {
   Batch batch(common);
   std::uint64_t number = 0;
   for (const std::string& input : common.inputs) {
@@ -132,15 +143,13 @@ void render_batch(const RenderArgs& common, std::span<const std::string> argumen
     });
   }
   if (common.manifest.empty()) return batch.finish();
+  Jobs jobs(common);
   for (const Line& line : lines_of(common.manifest)) {
     if (!common.shard.has(number++)) continue;
     batch.run(line.place, [&] {
       ImportBudget budget(line.place, common.load.limits);
       const auto* const bytes = reinterpret_cast<const std::uint8_t*>(line.text.data());
-      const JsonValue job = parse_json({bytes, line.text.size()}, budget);
-      std::vector<std::string> words(arguments.begin(), arguments.end());
-      for (std::string& word : words_of(job, line.place)) words.push_back(std::move(word));
-      return parse_job_args(words);
+      return jobs.read(parse_json({bytes, line.text.size()}, budget), line.place);
     });
   }
   batch.finish();

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "zoneplate/cli/render_args.h"
 
 namespace zoneplate::cli {
@@ -13,6 +10,6 @@ namespace zoneplate::cli {
 /// those of the command line: {"input": "a.glb", "output": "a.png", "size": "64x64", "no-background": true}. Of several
 /// items that follow each other with the same input, the model is read once.
 /// Errors    PartialFailure where some items failed, after all others were made; Trouble::Usage for the manifest.
-void render_batch(const RenderArgs& args, std::span<const std::string> arguments);
+void render_batch(const RenderArgs& args);
 
 }  // namespace zoneplate::cli

@@ -101,6 +101,8 @@ Syntax make_syntax(SheetArgs& args) {
                      [&](auto& text) { args.render.method = text; }},
                     {"--background-color,--background", "COLOR", "Behind the models; default #444444", "Options", false,
                      [&](auto& text) { args.render.background = parse_color(text); }},
+                    {"--sandbox", "", "Read models in processes of their own that may do nothing but read", "Options",
+                     false, [&](auto&) { args.render.load.is_sandboxed = true; }},
                     {"--max-memory", "BYTES", "Refuse scenes that need more, as 512M; default 4G", "Options", false,
                      [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
                     {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Options", false,
@@ -121,6 +123,8 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png");
   static_cast<void>(make_resolver(antialias::methods(), args.render.method));
   check_picture_ending(args.output);
+  if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
+    throw Error(Trouble::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
   check_writable(args.output);
 
   const std::vector<std::string> names = short_names(syntax.found_operands);

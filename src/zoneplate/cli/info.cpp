@@ -167,6 +167,8 @@ void run_info(std::span<const std::string> arguments) {
                      [&](auto& text) { options.limits.memory = parse_bytes(text); }},
                     {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
                      [&](auto& text) { options.format = text; }},
+                    {"--sandbox", "", "Read it in a process of its own that may do nothing but read", "Options", false,
+                     [&](auto&) { options.is_sandboxed = true; }},
                     {"--allow-path", "", "Let a model use files outside its own folder", "Options", false,
                      [&](auto&) { options.limits.allow_path = true; }}};
   if (!parse(syntax, arguments)) return;

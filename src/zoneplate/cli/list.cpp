@@ -8,6 +8,7 @@
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/report/json.h"
+#include "zoneplate/scene/assimp.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/load.h"
 
@@ -92,6 +93,8 @@ Json scenes_json() {
 constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits a channel, sRGB; - writes it to stdout"},
                                            {".jpg", "quality 92, full colour resolution"},
                                            {".webp", "lossless; of several frames, a film"},
+                                           {".exr", "half floats in linear light, data passes as layers"},
+                                           {".rgba", "raw codes, 8 or 16 bits a channel"},
                                            {".pfm", "floats in linear light, before tone mapping"},
                                            {".apng", "a film, lossless"},
                                            {".gif", "a film, by the program ffmpeg"},
@@ -100,27 +103,29 @@ constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits a channel, sRG
 
 std::string formats_text() {
   std::string text = "Models that can be read:\n";
-  for (const SceneFormat& format : scene_formats())
-    text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
+  for (const std::span<const SceneFormat> formats : {scene_formats(), assimp_formats()})
+    for (const SceneFormat& format : formats) text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
   text += "Pictures that can be written:\n";
   for (const SceneFormat& format : picture_formats)
     text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
-  text += "Data passes (--aov NAME,...), as .png:\n";
+  text += "Data passes (--aov NAME,...), as .png, or in an .exr or as .pfm:\n";
   for (const Aov& aov : aovs()) text += fmt::format("  {:<16}{}\n", aov.name, aov.meaning);
   return text;
 }
 
 Json formats_json() {
-  const auto rows = [](std::span<const SceneFormat> formats) {
+  const auto rows = [](std::span<const SceneFormat> formats, std::span<const SceneFormat> others = {}) {
     Json::Array out;
-    for (const SceneFormat& format : formats)
-      out.emplace_back(Json::Object{{"extension", format.extension}, {"summary", format.summary}});
+    for (const auto& list : {formats, others})
+      for (const SceneFormat& format : list)
+        out.emplace_back(Json::Object{{"extension", format.extension}, {"summary", format.summary}});
     return out;
   };
   Json::Array passes;
   for (const Aov& aov : aovs()) passes.emplace_back(Json::Object{{"name", aov.name}, {"meaning", aov.meaning}});
-  return Json::Object{
-      {"models", rows(scene_formats())}, {"pictures", rows(picture_formats)}, {"aovs", std::move(passes)}};
+  return Json::Object{{"models", rows(scene_formats(), assimp_formats())},
+                      {"pictures", rows(picture_formats)},
+                      {"aovs", std::move(passes)}};
 }
 
 struct Topic {

@@ -1,6 +1,7 @@
 // zoneplate: the command. A table of verbs, and the one place where errors become exit codes.
 #include <fmt/format.h>
 
+#include <fcntl.h>
 #include <unistd.h>
 #include <csignal>
 #include <filesystem>
@@ -103,6 +104,12 @@ void run(std::vector<std::string> arguments) {
   run_render(all);
 }
 
+// A stream that the caller has closed gets a file that refuses writes, lest an output be opened in its place.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDONLY));
+}
+
 // What a signal may do: forget what is half written, and leave with the shell's code for it.
 extern "C" void leave(int signal) {
   remove_temporaries();
@@ -128,8 +135,10 @@ int exit_code(Trouble trouble) {
 
 int main(int argc, char** argv) {
   using namespace zoneplate;
+  cli::occupy_closed_streams();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, cli::leave);
   std::signal(SIGPIPE, SIG_IGN);  // a closed stdout is an error of write(), and so exit code 4
+  std::signal(SIGXFSZ, SIG_IGN);  // likewise a file that may not grow
   try {
     cli::run(std::vector<std::string>(argv + 1, argv + argc));
     return 0;

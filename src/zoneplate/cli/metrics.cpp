@@ -191,8 +191,9 @@ Syntax make_syntax(MetricsArgs& args) {
                     "  zoneplate metrics frames/a.####.png frames/b.####.png --metric psnr,flicker --json\n"
                     "  zoneplate metrics golden/ made/ --metric ssim --threshold 0.98\n",
                 .notes =
-                    "Operands are PNG or JPEG files, directories (paired by name) or sequences (name.####.png,\n"
-                    "name.%04d.png). Exit code 0: the pictures are the same, or reach every threshold; 1: they do\n"
+                    "Operands are PNG, JPEG, HDR or EXR files, directories (paired by name) or sequences\n"
+                    "(name.####.png, name.%04d.png). Exit code 0: the pictures are the same, or reach every threshold; "
+                    "1: they do\n"
                     "not; 2: trouble.\n\n" +
                     catalogue_text()};
   syntax.options = {

@@ -34,7 +34,7 @@ void run_render(std::span<const std::string> arguments) {
   RenderArgs& args = *parsed;
   if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
   if (args.is_batch()) {
-    with_threads(args.threads, [&] { render_batch(args, arguments); });
+    with_threads(args.threads, [&] { render_batch(args); });
     return;
   }
   static_cast<void>(make_resolver(antialias::methods(), args.method));

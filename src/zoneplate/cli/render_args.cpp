@@ -22,7 +22,8 @@ constexpr const char* examples =
     "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
 
 constexpr const char* notes =
-    "IN is a .gltf, .glb, .obj, .ply or .stl file, - for stdin, or a built-in scene (zoneplate list scenes). OUT "
+    "IN is a .gltf, .glb, .obj, .ply or .stl file or another (zoneplate list formats), - for stdin, or a built-in "
+    "scene (zoneplate list scenes). OUT "
     "ends\nin "
     ".png, .jpg or .webp; - is stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: "
     "without any camera "
@@ -151,8 +152,15 @@ std::vector<Option> picture_options(RenderArgs& a) {
   const std::string group = "Picture";
   return {
       {"--output,-o", "OUT",
-       "The picture to write: .png, .jpg, .webp or .pfm, or - for stdout; a film: .apng, .webp, .gif, .mp4, .webm",
+       "The picture to write: .png, .jpg, .webp, .exr, .pfm or .rgba, or - for stdout; a film: .apng, .webp, .gif, "
+       ".mp4, .webm",
        group, true, [&](auto& text) { a.output = text; }},
+      {"--output-format", "FORMAT", "Of a picture on stdout: png, jpg, webp, exr, pfm or rgba; default png", group,
+       false,
+       [&](auto& text) {
+         const std::vector<std::string_view> formats = {"png", "jpg", "webp", "exr", "pfm", "rgba"};
+         a.stdout_format = formats[parse_choice(text, formats)];
+       }},
       {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600; default 800,600", group, true,
        [&](auto& text) {
          const int2 size = parse_size(text, max_side);
@@ -181,7 +189,8 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--crop", "X,Y,W,H", "Write only this part, with the same bits as in the whole picture", group, false,
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
-       "Data passes to write too: depth, normal, albedo, uv, object-id, material-id, primitive-id, coverage, error",
+       "Data passes to write too: depth, normal, position, albedo, uv, motion, flow, object-id, material-id, "
+       "primitive-id, crypto-object, crypto-material, coverage, error; in an .exr as its layers",
        group, false, [&](auto& text) { a.aovs = parse_aovs(text); }},
       {"--color-management", "MODE",
        "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
@@ -274,6 +283,8 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.load.limits.pixels = parse_bytes(text); }},
       {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
        [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--sandbox", "", "Read the scene in a process of its own that may do nothing but read", group, false,
+       [&](auto&) { a.load.is_sandboxed = true; }},
       {"--allow-path", "", "Let a model use files outside its own folder", group, false,
        [&](auto&) { a.load.limits.allow_path = true; }},
   };
@@ -288,7 +299,8 @@ void check_output(RenderArgs& args) {
   const bool is_film = is_one_of(extension_of(args.output), {".apng", ".gif", ".mp4", ".webm"});
   args.sequence.is_film = is_film || has_frame_number(args.output);
   if (args.output == "-") {
-    if (!args.aovs.empty()) throw Error(Trouble::Usage, "--aov writes files beside OUT, which cannot be -");
+    if (!args.aovs.empty() && args.stdout_format != "exr")
+      throw Error(Trouble::Usage, "--aov writes files beside OUT, which cannot be -; an .exr holds them itself");
     if (args.sequence.is_wanted()) throw Error(Trouble::Usage, "several frames cannot be written to -");
     return;
   }
@@ -296,25 +308,6 @@ void check_output(RenderArgs& args) {
   if (std::filesystem::is_directory(args.output, ignored))
     throw Error(Trouble::Output, args.output + ": is a directory");
   if (!is_film) check_picture_ending(args.output);
-}
-
-void check_args(RenderArgs& args) {
-  check_output(args);
-  const std::string ending = extension_of(args.output);
-  if (args.bit_depth == 16 && ending != ".png" && args.output != "-")
-    throw Error(Trouble::Usage, "--bit-depth: only .png has 16 bits");
-  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm"))
-    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
-  if (args.sequence.shutter && !args.sequence.is_wanted())
-    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
-    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
-  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
-    args.load.choice.animation = SceneChoice::all_animations;
-  if (const auto& crop = args.options.crop)
-    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
-                                              args.options.width, args.options.height));
 }
 
 }  // namespace
@@ -338,9 +331,10 @@ std::string extension_of(const std::string& name) {
 }
 
 void check_picture_ending(const std::string& output) {
-  if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm"}))
-    throw Error(Trouble::Usage,
-                fmt::format("--output: {} is not a format that can be written (.png, .jpg, .webp, .pfm)", output));
+  if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"}))
+    throw Error(
+        Trouble::Usage,
+        fmt::format("--output: {} is not a format that can be written (.png, .jpg, .webp, .exr, .pfm, .rgba)", output));
 }
 
 bool exists(const std::string& path) {
@@ -348,15 +342,31 @@ bool exists(const std::string& path) {
   return path != "-" && std::filesystem::exists(path, ignored);
 }
 
-RenderArgs parse_job_args(std::span<const std::string> arguments) {
-  RenderArgs args;
-  Syntax syntax = render_syntax(args);
-  if (!parse(syntax, arguments) || syntax.found_operands.size() != 1)
-    throw Error(Trouble::Usage, "a job of a manifest has one input");
-  args.inputs = syntax.found_operands;
-  args.input = args.inputs.front();
-  check_args(args);
-  return args;
+void check_args(RenderArgs& args) {
+  check_output(args);
+  const std::string ending = extension_of(args.named_output());
+  if (args.output != "-" && args.stdout_format != "png")
+    throw Error(Trouble::Usage, "--output-format is for -o -: elsewhere the name's ending tells the format");
+  if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
+    throw Error(Trouble::Usage, "--bit-depth: only .png and .rgba have 16 bits");
+  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
+    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
+  if (args.sequence.shutter && !args.sequence.is_wanted())
+    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
+  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
+    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
+  for (const Aov* aov : args.aovs) {
+    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_wanted())
+      throw Error(Trouble::Usage, fmt::format("--aov {} wants a sequence, or a frame of one: -s 5 -e 5", aov->name));
+    if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
+      throw Error(Trouble::Usage, fmt::format("--aov {} wants an .exr, or a picture of it beside a .png", aov->name));
+  }
+  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
+    args.load.choice.animation = SceneChoice::all_animations;
+  if (const auto& crop = args.options.crop)
+    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
+      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+                                              args.options.width, args.options.height));
 }
 
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {

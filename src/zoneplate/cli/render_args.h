@@ -40,6 +40,7 @@ struct RenderArgs {
   bool has_animation_time = false;
   int bit_depth = 8;
   bool dithers = false;
+  std::string stdout_format = "png";
   std::string method = "msaa:n=8";
   RenderOptions options;
   DisplayOptions display;
@@ -55,6 +56,8 @@ struct RenderArgs {
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 
   bool is_batch() const { return inputs.size() > 1 || !manifest.empty(); }
+  /// The output's name with an ending that tells its format, for stdout too.
+  std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };
 
 /// The longest side of a picture, in pixels: the reach of the rasterizer's fixed-point coordinates.
@@ -63,10 +66,10 @@ inline constexpr int max_side = 16384;
 /// The options of the verb, which set `args`. It keeps a reference to it.
 Syntax render_syntax(RenderArgs& args);
 
-/// Parses and checks the words of one job of a manifest: those of the command line, and the job's.
+/// Checks what options have made of one picture's or sequence's arguments, and completes them.
 ///
 /// Errors    Trouble::Usage.
-RenderArgs parse_job_args(std::span<const std::string> arguments);
+void check_args(RenderArgs& args);
 
 /// Errors    Trouble::Usage for a name whose ending is not that of a picture that can be written.
 void check_picture_ending(const std::string& output);

@@ -17,8 +17,9 @@ namespace {
 std::string key_of(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1), c.variant,
-                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path);
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
+                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path,
+                     args.load.is_sandboxed);
 }
 
 }  // namespace
@@ -58,12 +59,12 @@ Summary RenderJobs::run(RenderArgs args) {
   args.options.environment = stage.light(camera, args.look);
   summary.warnings = scene.warnings;
   progress.begin("render", 0.2);
-  const Rendered picture = render_picture(args, scene, camera, *resolver, args.output, summary);
+  const Rendered picture = render_picture(args, scene, camera, *resolver, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
   progress.begin("encode", 0.8);
   const Stopwatch encode_watch;
-  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.output);
+  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.named_output());
   summary.times.emplace_back("encode", encode_watch.ms());
   progress.begin("write", 0.95);
   const Stopwatch write_watch;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/dither.h"
+#include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/jpeg_encode.h"
 #include "zoneplate/image/pfm.h"
 #include "zoneplate/image/png.h"
@@ -55,6 +57,8 @@ void cut_out(Plane<T>& image, const Crop& part) {
 }
 
 bool is_pfm(const std::string& output) { return extension_of(output) == ".pfm"; }
+bool is_exr(const std::string& output) { return extension_of(output) == ".exr"; }
+bool is_linear(const std::string& output) { return is_pfm(output) || is_exr(output); }
 
 // The picture before tone mapping, over the background.
 LinearImage over_background(LinearImage image, const DisplayOptions& display) {
@@ -76,7 +80,7 @@ DisplayOptions display_of(const RenderArgs& args) {
 // From linear light to what is written.
 void finish(const RenderArgs& args, LinearImage picture, const Frame& frame, Resolver& resolver,
             const std::string& output, Rendered& out) {
-  if (is_pfm(output)) {
+  if (is_linear(output)) {
     out.linear = over_background(std::move(picture), frame.display);
     return;
   }
@@ -85,6 +89,39 @@ void finish(const RenderArgs& args, LinearImage picture, const Frame& frame, Res
     out.image16 = quantize16(shown);
   else
     out.image = args.dithers ? quantize8_dithered(shown) : quantize8(shown);
+}
+
+std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& data) {
+  const Linear* first = color.values().data();
+  std::vector<ExrChannel> channels = {{"R", ExrType::Half, &first->r, nullptr, 4},
+                                      {"G", ExrType::Half, &first->g, nullptr, 4},
+                                      {"B", ExrType::Half, &first->b, nullptr, 4},
+                                      {"A", ExrType::Half, &first->a, nullptr, 4}};
+  channels.insert(channels.end(), data.list.begin(), data.list.end());
+  return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
+}
+
+// Codes one after the other as they stand in memory, rows from the top.
+template <class T>
+std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
+  static_assert(std::endian::native == std::endian::little, "16 bits are written low byte first");
+  const auto* first = reinterpret_cast<const std::uint8_t*>(image.values().data());
+  return {first, first + image.values().size_bytes()};
+}
+
+// The data passes, in files of their own or in the picture's.
+void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, const std::string& output,
+                Rendered& out) {
+  DataChannels data;
+  for (const Aov* aov : args.aovs) {
+    if (is_exr(output)) {
+      aov->add_channels(frame, scene, data);
+      continue;
+    }
+    std::optional<std::vector<std::uint8_t>> pfm = is_pfm(output) ? encode_data_pfm(*aov, frame, scene) : std::nullopt;
+    out.layers.push_back({aov_path(output, aov->name), pfm ? std::move(*pfm) : aov->encode(frame, scene)});
+  }
+  if (is_exr(output)) out.exr = exr_of(out.linear, data);
 }
 
 void count_times(Summary& summary) {
@@ -96,12 +133,13 @@ void count_times(Summary& summary) {
 }  // namespace
 
 std::string aov_path(const std::string& output, std::string_view name) {
-  return std::filesystem::path(output).replace_extension(fmt::format(".{}.png", name)).string();
+  if (is_exr(output)) return output;
+  return std::filesystem::path(output).replace_extension(fmt::format(".{}.{}", name, is_pfm(output) ? "pfm" : "png"));
 }
 
 void check_writable(const std::string& output) {
   if (output == "-") {
-    if (::isatty(STDOUT_FILENO) == 1) throw Error(Trouble::Usage, "a PNG will not be written to a terminal");
+    if (::isatty(STDOUT_FILENO) == 1) throw Error(Trouble::Usage, "a picture will not be written to a terminal");
     return;
   }
   const std::filesystem::path path(output);
@@ -113,8 +151,11 @@ void check_writable(const std::string& output) {
 // The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
 void check_memory(const RenderArgs& args, const Request& request) {
   constexpr std::uint64_t bytes_per_sample = 24;  // where every sample is stored: colour, depth, triangle
-  const std::uint64_t bytes_per_pixel =
-      (args.aovs.empty() ? 44 : 104) + (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
+  const bool has_matte =
+      std::ranges::any_of(args.aovs, [](const Aov* a) { return a->plane == &Planes::sample_triangles; });
+  const std::uint64_t bytes_per_pixel = (args.aovs.empty() ? 44 : 136) +
+                                        (has_matte ? 96 + sizeof(std::uint32_t) * request.samples.size() : 0) +
+                                        (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
   const std::optional<Crop> crop = rendered_crop(args.options, request.halo);
   const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
@@ -130,7 +171,7 @@ Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera
   const Request request = request_of(resolver, args);
   RenderOptions options = args.options;
   options.crop = rendered_crop(args.options, request.halo);
-  const bool is_shown = request.is_local && args.bit_depth == 8 && !args.dithers && !is_pfm(output);
+  const bool is_shown = request.is_local && args.bit_depth == 8 && !args.dithers && !is_linear(output);
   if (is_shown) options.shown = &display;
   Frame frame = render_rounds(scene, camera, resolver, request, options, display, &summary.counts);
   count_times(summary);
@@ -151,7 +192,7 @@ Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera
   if (!args.aovs.empty() && ((args.options.crop && request.halo > 0) || frame.depth.empty()))
     frame = render(scene, camera, request, args.options);
   out.has_alpha = display.is_transparent || display.background.w < 1;
-  for (const Aov* aov : args.aovs) out.layers.push_back({aov_path(output, aov->name), aov->encode(frame)});
+  add_passes(args, scene, frame, output, out);
   summary.times.emplace_back("display", watch.ms());
   return out;
 }
@@ -186,7 +227,9 @@ Rendered render_mean(const RenderArgs& args, int count, const std::function<cons
 
 std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output) {
   const std::string extension = extension_of(output);
+  if (extension == ".rgba") return picture.image16.empty() ? raw_of(picture.image) : raw_of(picture.image16);
   if (extension == ".pfm") return encode_pfm(picture.linear);
+  if (extension == ".exr") return picture.exr.empty() ? exr_of(picture.linear, {}) : picture.exr;
   if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(picture.image);
   if (extension == ".webp") return encode_webp(picture.image, picture.has_alpha);
   if (!picture.image16.empty()) return encode_png(picture.image16, {.has_alpha = picture.has_alpha});

@@ -30,12 +30,14 @@ struct Summary {
 struct Rendered {
   Rgba8Image image;
   Rgba16Image image16;  ///< in place of it, where 16 bits are asked for
-  LinearImage linear;   ///< where the output is a PFM: linear light over the background, before tone mapping
+  LinearImage linear;   ///< where the output is a PFM or EXR: linear light over the background, before tone mapping
+  std::vector<std::uint8_t> exr;  ///< the whole file, where the output is an EXR with data passes in it
   bool has_alpha = false;
   std::vector<OutputFile> layers;
 };
 
-/// The name of a data pass: "chair.png" and "depth" give "chair.depth.png".
+/// Where a data pass goes: "chair.png" and "depth" give "chair.depth.png", as do pictures of other formats; beside a
+/// PFM it is one too, and in an EXR it is in the picture's own file.
 std::string aov_path(const std::string& output, std::string_view name);
 
 /// Fails at once, not after a long render, where the picture can never be written.
@@ -56,7 +58,7 @@ Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera
 Rendered render_mean(const RenderArgs& args, int count, const std::function<const Scene&(int)>& scene_at,
                      const Camera& camera, Resolver& resolver, Summary& summary);
 
-/// The picture's bytes in the format of its name: PNG, JPEG, WebP or PFM.
+/// The picture's bytes in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
 std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output);
 
 /// A picture of nothing is never given without a word.

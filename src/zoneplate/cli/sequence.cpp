@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numeric>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/cli/background.h"
 #include "zoneplate/cli/film.h"
 #include "zoneplate/cli/frame_name.h"
 #include "zoneplate/cli/stage.h"
@@ -49,6 +51,14 @@ class Plan {
     choice.time = time_of(frame);
     *stage_ = Stage(source_.load(choice));
     return *stage_;
+  }
+
+  // The same without images, whatever else was loaded.
+  Scene shape(double frame) {
+    if (!is_animated()) return stage_->scene();
+    SceneChoice choice = choice_;
+    choice.time = time_of(frame);
+    return source_.load_shape(choice);
   }
 
   // The camera that every frame is seen by, before the turntable turns it.
@@ -122,6 +132,32 @@ class Plan {
   float3 centre_;
 };
 
+// Frames before and after, where a data pass looks at them.
+class Neighbours {
+ public:
+  Neighbours(RenderArgs& args, Plan& plan, const Camera& still, int frame) {
+    const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+    const auto look = [&](bool Planes::*plane, int at, std::optional<Seen>& seen, const Moment*& moment) {
+      moment = nullptr;
+      if (std::ranges::none_of(args.aovs, [&](const Aov* aov) { return aov->plane == plane; })) return;
+      seen.emplace().scene = plan.shape(at);
+      seen->moment = {&seen->scene, plan.camera(still, seen->scene, args.view, aspect, at)};
+      moment = &seen->moment;
+    };
+    look(&Planes::motion, frame - args.sequence.jump, last_, args.options.last);
+    look(&Planes::flow, frame + args.sequence.jump, next_, args.options.next);
+  }
+  Neighbours(const Neighbours&) = delete;
+  Neighbours& operator=(const Neighbours&) = delete;
+
+ private:
+  struct Seen {
+    Scene scene;
+    Moment moment;
+  };
+  std::optional<Seen> last_, next_;
+};
+
 // A frame, its shutter open from its moment on.
 Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int frame, const std::string& output,
                       Resolver& resolver, Summary& summary) {
@@ -138,6 +174,7 @@ Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int fra
     return stage.scene();
   };
   if (samples > 1) return render_mean(args, samples, scene_at, camera, resolver, summary);
+  const Neighbours neighbours(args, plan, still, frame);
   const Scene& scene = scene_at(0);
   return render_picture(args, scene, camera, resolver, output, summary);
 }
@@ -190,18 +227,27 @@ void render_sequence(RenderArgs args, Resolver& resolver, Summary& summary) {
 
   const std::string model = std::filesystem::path(args.input).stem().string();
   Animation film = film_of(args.sequence.rate);
+  Background background;
   for (const int frame : plan.frames()) {
     const std::string output = is_numbered ? frame_name(args.output, frame, model) : args.output;
     if (is_numbered && args.skip_existing && std::filesystem::exists(output)) continue;
     Rendered picture = render_frame(args, plan, still, frame, output, resolver, summary);
     if (is_numbered) {
-      save_bytes(output, encode_picture(picture, output));
-      for (const OutputFile& file : picture.layers) save_bytes(file.path, file.bytes);
+      const auto write = [picture = std::make_shared<Rendered>(std::move(picture)), output] {
+        save_bytes(output, encode_picture(*picture, output));
+        for (const OutputFile& file : picture->layers) save_bytes(file.path, file.bytes);
+      };
+      // PNG takes all threads by itself.
+      if (extension_of(output) == ".png")
+        write();
+      else
+        background.run(write);
     } else {
       film.has_alpha = picture.has_alpha;
       film.frames.push_back(std::move(picture.image));
     }
   }
+  background.wait();
   summary.frames = static_cast<int>(plan.frames().size());
   if (!is_numbered) save_bytes(args.output, encode_film(film, args.output));
 }

@@ -59,7 +59,8 @@ const std::string& only_operand(const Syntax& syntax, const std::string& what) {
 
 std::string image_notes() {
   std::string text =
-      "IMAGE is a PNG or JPEG file, - for stdin, or a pattern made in code, NAME or NAME:PARAMETER=VALUE,...\n"
+      "IMAGE is a PNG, JPEG, WebP, HDR or EXR file, - for stdin, or a pattern made in code, NAME or "
+      "NAME:PARAMETER=VALUE,...\n"
       "(a file with such a name is given as ./NAME):\n";
   for (const PatternEntry& entry : patterns()) {
     std::string params;

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "zoneplate/base/file.h"
+#include "zoneplate/image/exr.h"
+#include "zoneplate/image/hdr.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/rows.h"
@@ -54,6 +56,11 @@ LinearImage as_codes(LinearImage image) {
 LinearImage load_signal(const std::string& operand, bool uses_codes) {
   if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
   const FileBytes file(operand);
+  if (is_hdr(file.bytes()) || is_exr(file.bytes())) {
+    LinearImage light = is_hdr(file.bytes()) ? decode_hdr(file.bytes(), operand, most_pixels)
+                                             : decode_exr(file.bytes(), operand, most_pixels);
+    return uses_codes ? as_codes(std::move(light)) : light;
+  }
   const bool is_png = !file.bytes().empty() && file.bytes()[0] == 0x89;
   if (!is_png) return image_of(decode_image(file.bytes(), operand, most_pixels), uses_codes);
   const PngImage png = decode_png(file.bytes(), operand, most_pixels);

@@ -30,22 +30,30 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
 }
 
 std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
+  WebPConfig config;
+  WebPPicture picture;
+  if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
+    throw Error(Trouble::Failed, "libwebp has another version than its headers");
+  config.lossless = 1;
+  config.exact = 1;     // colours that alpha hides are kept: filters mix them in
+  config.quality = 70;  // the effort; as libwebp's own short functions have it
+
+  WebPMemoryWriter writer;
+  WebPMemoryWriterInit(&writer);
+  picture.use_argb = 1;
+  picture.width = image.width(), picture.height = image.height();
+  picture.writer = WebPMemoryWrite;
+  picture.custom_ptr = &writer;
   const auto* const pixels = reinterpret_cast<const std::uint8_t*>(image.values().data());
-  std::uint8_t* bytes = nullptr;
-  std::size_t size = 0;
-  if (has_alpha) {
-    size = WebPEncodeLosslessRGBA(pixels, image.width(), image.height(), 4 * image.width(), &bytes);
-  } else {
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(image.values().size() * 3);
-    for (const Rgba8 p : image.values()) rgb.insert(rgb.end(), {p.r, p.g, p.b});
-    size = WebPEncodeLosslessRGB(rgb.data(), image.width(), image.height(), 3 * image.width(), &bytes);
-  }
-  if (size == 0)
+  const auto import = has_alpha ? WebPPictureImportRGBA : WebPPictureImportRGBX;
+  const bool is_done = import(&picture, pixels, 4 * image.width()) != 0 && WebPEncode(&config, &picture) != 0;
+  std::vector<std::uint8_t> out;
+  if (is_done) out.assign(writer.mem, writer.mem + writer.size);
+  WebPMemoryWriterClear(&writer);
+  WebPPictureFree(&picture);
+  if (!is_done)
     throw Error(Trouble::Failed, "a picture of " + std::to_string(image.width()) + " x " +
                                      std::to_string(image.height()) + " pixels cannot be encoded as WebP");
-  std::vector<std::uint8_t> out(bytes, bytes + size);
-  WebPFree(bytes);
   return out;
 }
 

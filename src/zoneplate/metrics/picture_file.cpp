@@ -8,9 +8,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/image/exr.h"
+#include "zoneplate/image/hdr.h"
 #include "zoneplate/image/jpeg.h"
 #include "zoneplate/image/png.h"
 
@@ -39,9 +42,7 @@ DisplayImage display_of(const Rgba16Image& codes) {
   return image;
 }
 
-DisplayImage load_display(const std::string& path) {
-  const FileBytes file(path);
-  const auto bytes = file.bytes();
+DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path) {
   constexpr std::array<std::uint8_t, 3> jpeg_start = {0xff, 0xd8, 0xff};
   if (bytes.size() >= jpeg_start.size() && std::equal(jpeg_start.begin(), jpeg_start.end(), bytes.begin())) {
     return display_of(decode_jpeg(bytes, path));
@@ -75,7 +76,8 @@ bool comes_before(const std::string& a, const std::string& b) {
 bool is_picture_name(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+  constexpr std::array<std::string_view, 5> known = {".png", ".jpg", ".jpeg", ".hdr", ".exr"};
+  return std::ranges::find(known, extension) != known.end();
 }
 
 /// The paths of a directory's files for which `is_wanted(name)`.
@@ -136,13 +138,19 @@ const std::string* find_alone(const std::vector<std::string>& paths, const std::
 
 }  // namespace
 
-Picture load_picture(const std::string& path) { return make_picture(load_display(path)); }
+Picture load_picture(const std::string& path) {
+  const FileBytes file(path);
+  if (is_hdr(file.bytes())) return make_picture(decode_hdr(file.bytes(), path));
+  if (is_exr(file.bytes())) return make_picture(decode_exr(file.bytes(), path));
+  return make_picture(decode_display(file.bytes(), path));
+}
 
 std::vector<std::string> list_pictures(const std::string& operand) {
   const fs::path path(operand);
   if (is_directory(operand)) {
     std::vector<std::string> paths = files_of(path, is_picture_name);
-    if (paths.empty()) throw Error(Trouble::Input, operand + ": the directory holds no .png, .jpg or .jpeg file");
+    if (paths.empty())
+      throw Error(Trouble::Input, operand + ": the directory holds no .png, .jpg, .jpeg, .hdr or .exr file");
     return paths;
   }
   const auto pattern = frame_pattern(path.filename().string());

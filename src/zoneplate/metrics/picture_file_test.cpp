@@ -8,6 +8,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/metrics/metrics.h"
 
@@ -55,6 +56,23 @@ TEST_F(PictureFile, OfSixteenBitsKeepsThem) {
   const std::string path = at("deep.png");
   save_bytes(path, encode_png(Rgba16Image(1, 1, {1, 2, 3, 65535})));
   EXPECT_EQ(load_picture(path).display(0, 0), (Display{1 / 65535.0f, 2 / 65535.0f, 3 / 65535.0f, 1}));
+}
+
+TEST_F(PictureFile, OfLightIsUnboundedAndItsCodesAreClamped) {
+  const LinearImage light(2, 1, {4, 0.25f, 0, 1});
+  const Linear& first = light.values()[0];
+  save_bytes(at("a.exr"), encode_exr(2, 1,
+                                     {{"R", ExrType::Half, &first.r, nullptr, 4},
+                                      {"G", ExrType::Half, &first.g, nullptr, 4},
+                                      {"B", ExrType::Half, &first.b, nullptr, 4}}));
+  const std::string bytes("#?RADIANCE\n\n-Y 1 +X 2\n\x80\x08\x00\x83\x80\x08\x00\x83", 30);
+  save_bytes(at("a.hdr"), std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+  for (const char* name : {"a.exr", "a.hdr"}) {
+    const Picture picture = load_picture(at(name));
+    EXPECT_EQ(picture.linear, light) << name;
+    EXPECT_EQ(picture.display(1, 0).r, 1) << name;
+    EXPECT_NEAR(picture.display(1, 0).g, 0.5370987, 1e-5) << name;
+  }
 }
 
 TEST_F(PictureFile, DirectoriesListPicturesInTheOrderOfNumbers) {

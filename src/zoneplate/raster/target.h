@@ -45,7 +45,7 @@ struct Target {
   Plane<std::uint32_t>* primitive = nullptr;
   Plane<float>* coverage = nullptr;
 
-  std::vector<LinearImage>* sample_color = nullptr;  ///< by sample
+  std::vector<LinearImage>* sample_color = nullptr;  ///< by sample; this and the next only beside `sample_triangle`
   std::vector<Plane<float>>* sample_depth = nullptr;
   std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
 

@@ -110,7 +110,7 @@ bool TileRenderer::is_plain() const {
   const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.where && !target_.sample_color && !has_passes &&
+  return !has_planes && !target_.where && !target_.sample_triangle && !has_passes &&
          !(target_.is_per_sample && has_layers());
 }
 
@@ -208,11 +208,14 @@ void TileRenderer::shade_rows() {
   });
 }
 
-/// One point for each triangle that owns samples of the pixel, in the order of their first samples.
+/// One point for each triangle that owns samples of the pixel, in the order of their first samples; or one for each
+/// sample.
 void TileRenderer::add_pixel(std::uint32_t pixel) {
-  if (pass_samples_ == 1) {
-    const std::int32_t id = visibility_.id[pixel];
-    if (id != no_triangle) points_.push_back(point_at(pixel, id, 1));
+  if (pass_samples_ == 1 || target_.is_per_sample) {
+    for (int s = 0; s < pass_samples_; ++s) {
+      const std::int32_t id = visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel];
+      if (id != no_triangle) points_.push_back(point_at(pixel, id, std::uint64_t{1} << s));
+    }
     return;
   }
   std::uint64_t left = all_samples_;
@@ -224,7 +227,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
       if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
     }
     left &= ~owned;
-    if (id != no_triangle) add_points(pixel, id, owned, target_.is_per_sample, points_);
+    if (id != no_triangle) points_.push_back(point_at(pixel, id, owned));
   }
 }
 
@@ -305,7 +308,7 @@ void TileRenderer::find_points() {
 }
 
 void TileRenderer::accumulate() {
-  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.sample_color) {
+  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.sample_triangle) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
     for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));

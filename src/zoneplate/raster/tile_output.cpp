@@ -42,8 +42,8 @@ void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) 
   const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
   const auto s = static_cast<std::size_t>(first_sample_ + sample);
   const std::size_t at = static_cast<std::size_t>(sample) * tile_pixels + pixel;
-  (*target_.sample_color)[s](x, y) = color;
-  (*target_.sample_depth)[s](x, y) = visibility_.depth[at];
+  if (target_.sample_color) (*target_.sample_color)[s](x, y) = color;
+  if (target_.sample_depth) (*target_.sample_depth)[s](x, y) = visibility_.depth[at];
   (*target_.sample_triangle)[s](x, y) =
       visibility_.id[at] == no_triangle ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
 }

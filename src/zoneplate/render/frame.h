@@ -13,11 +13,16 @@ namespace zoneplate {
 struct Planes {
   bool depth = false, normal = false, albedo = false, uv = false;
   bool object_id = false, material_id = false, primitive_id = false, coverage = false;
-  bool error = false;    ///< of methods that estimate it
-  bool samples = false;  ///< colour, depth and triangle id of every sample
+  bool position = false, motion = false, flow = false;
+  bool error = false;             ///< of methods that estimate it
+  bool samples = false;           ///< colour, depth and triangle id of every sample
+  bool sample_triangles = false;  ///< triangle id of every sample alone
 
+  /// What is found from the pixels' primitives.
+  bool any_point_plane() const { return position || motion || flow; }
   bool any_pixel_plane() const {
-    return depth || normal || albedo || uv || object_id || material_id || primitive_id || coverage;
+    return depth || normal || albedo || uv || object_id || material_id || primitive_id || coverage ||
+           any_point_plane() || sample_triangles;
   }
 };
 
@@ -40,6 +45,10 @@ struct Frame {
   Plane<float3> albedo;         ///< linear base colour
   Plane<float2> uv;
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
+  Plane<std::uint32_t> instance;                              ///< index into Scene::instances
+  Plane<float3> position;                                     ///< world space
+  Plane<float2> motion;  ///< pixels, x right, y down: the surface point now minus at the last moment, no jitter
+  Plane<float2> flow;    ///< the same at the next moment minus now
   Plane<float> coverage;
   Plane<float> error;  ///< estimated standard error of the colour, the greatest of its channels
 

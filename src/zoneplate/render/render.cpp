@@ -8,6 +8,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/raster/rasterize.h"
 #include "zoneplate/render/drawing.h"
+#include "zoneplate/render/motion.h"
 #include "zoneplate/render/surfaces.h"
 #include "zoneplate/shade/surface.h"
 
@@ -68,12 +69,13 @@ Rgba8Image make_shown(int w, int h, RasterMemory* memory) {
   return fits ? std::move(memory->shown) : Rgba8Image(w, h);
 }
 
-void make_planes(const Planes& planes, const SamplePattern& samples, int w, int h, Frame& frame, Target& target) {
+void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Frame& frame, Target& target) {
   const auto make = [&](bool wanted, auto& plane, auto*& pointer, auto empty) {
     if (!wanted) return;
     plane = {w, h, empty};
     pointer = &plane;
   };
+  if (planes.any_point_plane()) planes.object_id = planes.primitive_id = true;
   make(!target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
@@ -83,13 +85,15 @@ void make_planes(const Planes& planes, const SamplePattern& samples, int w, int 
   make(planes.material_id, frame.material_id, target.material, Frame::no_id);
   make(planes.primitive_id, frame.primitive_id, target.primitive, Frame::no_id);
   make(planes.coverage, frame.coverage, target.coverage, 0.0f);
+  if (planes.samples || planes.sample_triangles) {
+    frame.sample_triangle.assign(samples.size(), Plane<std::uint32_t>(w, h, Frame::no_id));
+    target.sample_triangle = &frame.sample_triangle;
+  }
   if (!planes.samples) return;
   frame.sample_color.assign(samples.size(), LinearImage(w, h, Linear{0, 0, 0, 0}));
   frame.sample_depth.assign(samples.size(), Plane<float>(w, h, 0.0f));
-  frame.sample_triangle.assign(samples.size(), Plane<std::uint32_t>(w, h, Frame::no_id));
   target.sample_color = &frame.sample_color;
   target.sample_depth = &frame.sample_depth;
-  target.sample_triangle = &frame.sample_triangle;
 }
 
 /// The distance along the view axis at which the projection gives this reversed depth.
@@ -170,6 +174,10 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
                                                 frame.error.empty() ? nullptr : &frame.error)
                                       : rasterize(draws.draws, points, rules, target, options.memory);
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
+  if (request.planes.any_point_plane()) {
+    frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
+    add_surface_points({&scene, camera}, request, options, frame);
+  }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
   if (counts)

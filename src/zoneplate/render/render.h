@@ -30,6 +30,12 @@ enum class Visibility {
   Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
 };
 
+/// A scene as it is at some time, and the camera then.
+struct Moment {
+  const Scene* scene = nullptr;
+  Camera camera;
+};
+
 /// How a scene becomes a frame; what does not depend on an antialiasing method.
 struct RenderOptions {
   int width = 800, height = 600;
@@ -49,6 +55,8 @@ struct RenderOptions {
   const DisplayOptions* shown = nullptr;
   /// How the picture will be shown, for methods that average what is shown; null: as DisplayOptions{}.
   const DisplayOptions* display = nullptr;
+  const Moment* last = nullptr;  ///< what Frame::motion is counted from; null: nothing moves
+  const Moment* next = nullptr;  ///< what Frame::flow leads to
   // The scene's, made once for many frames; null: made for this one.
   const TextureSet* textures = nullptr;
   const VertexRecords* records = nullptr;

@@ -174,7 +174,7 @@ TEST(GltfMaterial, ImagesThatNobodyUsesAreNotRead) {
 TEST(GltfMaterial, ImageErrorsNameTheFirstImage) {
   GltfMaker m = painted(R"({"emissiveTexture":{"index":0},"occlusionTexture":{"index":1}})");
   m.rest = R"(,"images":[{"bufferView":0,"name":"x"},{"bufferView":0}],"textures":[{"source":0},{"source":1}])";
-  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, wants PNG, JPEG or WebP");
+  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, wants PNG, JPEG, WebP, HDR or EXR");
   m.rest = R"(,"images":[{"uri":"none.png"},{}],"textures":[{"source":0},{"source":1}])";
   EXPECT_EQ(error_of(m).rfind("image 0: ", 0), 0u);
   m.rest = R"(,"images":[{"bufferView":1},{}],"textures":[{"source":0},{"source":1}])";

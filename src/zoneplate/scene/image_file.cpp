@@ -4,8 +4,11 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/exr.h"
+#include "zoneplate/image/hdr.h"
 #include "zoneplate/image/jpeg.h"
 #include "zoneplate/image/png.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/image/webp_still.h"
 
 namespace zoneplate {
@@ -29,7 +32,6 @@ std::string_view known_format(std::span<const std::uint8_t> bytes) {
   if (has_text(bytes, 0, "GIF8")) return "a GIF";
   if (has_text(bytes, 4, "ftypavif")) return "an AVIF";
   if (has_text(bytes, 0, "BM")) return "a BMP";
-  if (has_text(bytes, 0, "#?RADIANCE")) return "an HDR";
   return "no known";
 }
 
@@ -39,19 +41,16 @@ int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
 }
 
-/// Walks over a JPEG's segments to the frame header (ITU-T T.81, B.2).
+/// Walks over a JPEG's segments to the frame header (ITU-T T.81, B.2); what stands between segments is passed over, as
+/// libjpeg does.
 std::optional<int2> find_jpeg_size(std::span<const std::uint8_t> bytes) {
   for (std::size_t at = 2; at + 9 <= bytes.size();) {
-    if (bytes[at] != 0xff) return std::nullopt;
     const std::uint8_t marker = bytes[at + 1];
-    if (marker == 0xff) {  // fill
-      ++at;
-      continue;
-    }
+    const bool is_marker = bytes[at] == 0xff && marker != 0xff && marker != 0;
     const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_frame) return int2{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+    if (is_marker && is_frame) return int2{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     const bool is_bare = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd9);
-    at += is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
+    at += !is_marker ? 1 : is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
   }
   return std::nullopt;
 }
@@ -66,11 +65,24 @@ Rgba8Image narrow(const Rgba16Image& wide) {
   return out;
 }
 
+Rgba8Image codes_of(const LinearImage& light) {
+  Rgba8Image out(light.width(), light.height());
+  std::transform(light.values().begin(), light.values().end(), out.values().begin(), [](Linear c) {
+    if (!(c.a > 0)) return Rgba8{0, 0, 0, 0};
+    const float alpha = std::min(c.a, 1.0f);
+    return Rgba8{encode_srgb8(c.r / c.a), encode_srgb8(c.g / c.a), encode_srgb8(c.b / c.a),
+                 static_cast<std::uint8_t>(alpha * 255 + 0.5f)};
+  });
+  return out;
+}
+
 }  // namespace
 
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_jpeg(bytes)) return find_jpeg_size(bytes);
   if (is_webp(bytes)) return find_webp_size(bytes);
+  if (is_hdr(bytes)) return find_hdr_size(bytes);
+  if (is_exr(bytes)) return find_exr_size(bytes);
   if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
   return std::nullopt;
 }
@@ -78,8 +90,11 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
 Rgba8Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, max_pixels);
   if (is_webp(bytes)) return decode_webp(bytes, name, max_pixels);
+  if (is_hdr(bytes)) return codes_of(decode_hdr(bytes, name, max_pixels / 4));
+  if (is_exr(bytes)) return codes_of(decode_exr(bytes, name, max_pixels / 4));
   if (!is_png(bytes))
-    throw Error(Trouble::Input, name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG or WebP");
+    throw Error(Trouble::Input,
+                name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG, WebP, HDR or EXR");
   PngImage png = decode_png(bytes, name, max_pixels);
   return png.pixels16.empty() ? std::move(png.pixels) : narrow(png.pixels16);
 }

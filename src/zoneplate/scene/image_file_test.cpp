@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/exr_encode.h"
+#include "zoneplate/image/jpeg_encode.h"
 #include "zoneplate/image/png.h"
 
 namespace zoneplate {
@@ -46,12 +48,41 @@ TEST(ImageFile, SizeOfAJpegStandsInItsFrameHeader) {
   for (std::size_t n = 0; n < 18; ++n) EXPECT_FALSE(find_image_size(std::span(head).first(n))) << n;
 }
 
+TEST(ImageFile, LightBecomesItsCode) {
+  const std::string head = "#?RADIANCE\n\n-Y 1 +X 1\n";
+  Bytes hdr(head.begin(), head.end());
+  hdr.insert(hdr.end(), {128, 8, 0, 131});              // 4, 0.25, 0
+  const LinearImage light(1, 1, {2, 0.125f, 0, 0.5f});  // the same at half of the alpha
+  const Linear& first = light.values()[0];
+  const Bytes exr = encode_exr(1, 1,
+                               {{"R", ExrType::Float, &first.r, nullptr, 4},
+                                {"G", ExrType::Float, &first.g, nullptr, 4},
+                                {"B", ExrType::Float, &first.b, nullptr, 4},
+                                {"A", ExrType::Float, &first.a, nullptr, 4}});
+  EXPECT_EQ(find_image_size(hdr), (int2{1, 1}));
+  EXPECT_EQ(find_image_size(exr), (int2{1, 1}));
+  EXPECT_EQ(decode_image(hdr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 255}));
+  EXPECT_EQ(decode_image(exr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 128}));
+  EXPECT_THROW(decode_image(hdr, "tex", 3), Error);
+}
+
+TEST(ImageFile, SizeOfAJpegIsKnownWhereverItCanBeDecoded) {
+  const Bytes whole = encode_jpeg(Rgba8Image(9, 7, {200, 100, 50, 255}));
+  for (const Bytes& between : {Bytes{0}, Bytes{1, 2, 3}, Bytes{0xff, 0}, Bytes{0xff, 0xff}}) {
+    Bytes bytes = whole;
+    const std::size_t after_first = 4 + std::size_t{bytes[4]} * 256 + bytes[5];
+    bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(after_first), between.begin(), between.end());
+    EXPECT_EQ(decode_image(bytes, "tex", 100), decode_image(whole, "tex", 100));
+    EXPECT_EQ(find_image_size(bytes), (int2{9, 7}));
+  }
+}
+
 TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
   EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
-  EXPECT_EQ(error_of(bytes("\xabKTX 20\xbb\r\n\x1a\n")), "tex: is a KTX image, wants PNG, JPEG or WebP");
-  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, wants PNG, JPEG or WebP");
-  EXPECT_EQ(error_of({}), "tex: is no known image, wants PNG, JPEG or WebP");
+  EXPECT_EQ(error_of(bytes("\xabKTX 20\xbb\r\n\x1a\n")), "tex: is a KTX image, wants PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, wants PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of({}), "tex: is no known image, wants PNG, JPEG, WebP, HDR or EXR");
   EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
   EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
 }

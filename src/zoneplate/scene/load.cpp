@@ -5,10 +5,13 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/scene/assimp.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/gltf.h"
+#include "zoneplate/scene/import_child.h"
 #include "zoneplate/scene/obj.h"
 #include "zoneplate/scene/ply.h"
+#include "zoneplate/scene/scene_bytes.h"
 #include "zoneplate/scene/stl.h"
 
 namespace zoneplate {
@@ -58,13 +61,10 @@ bool is_builtin_scene(std::string_view name) {
   return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) { return scene.name == stem; });
 }
 
-Scene load_scene(const std::string& name, const LoadOptions& options) {
-  if (options.format.empty() && name != "-")
-    if (std::optional<Scene> scene = make_builtin_scene(name)) {
-      static_cast<void>(limits_of(options));
-      return std::move(*scene);
-    }
+namespace {
 
+/// Reads a file of a format that is known, or finds out why it is not.
+Scene read_file(const std::string& name, const LoadOptions& options) {
   std::string wanted;
   for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
@@ -72,7 +72,10 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
   const std::string extension = extension_of(name, options.format);
   for (std::size_t i = 0; i < std::size(formats); ++i)
     if (extension == formats[i].extension) return loaders[i](name, options);
+  for (const SceneFormat& format : assimp_formats())
+    if (extension == format.extension) return load_by_assimp(name, extension, limits_of(options));
 
+  wanted += " and others, see zoneplate list formats";
   if (!options.format.empty())
     throw Error(Trouble::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
   std::error_code ignored;
@@ -81,10 +84,37 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
                                      : name + ": no such file, and no built-in scene of that name");
 }
 
+/// The same in a child process, as the libraries are that open one for themselves.
+Scene read_in_child(const std::string& name, const LoadOptions& options) {
+  ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
+  ImportChild child(budget.file(), budget, [&](ImportAnswer& answer) {
+    const Scene scene = read_file(name, options);
+    write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
+  });
+  return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
+}
+
+bool is_for_assimp(const std::string& extension) {
+  const auto others = assimp_formats();
+  return std::any_of(others.begin(), others.end(), [&](const SceneFormat& f) { return f.extension == extension; });
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& name, const LoadOptions& options) {
+  if (options.format.empty() && name != "-")
+    if (std::optional<Scene> scene = make_builtin_scene(name)) {
+      static_cast<void>(limits_of(options));
+      return std::move(*scene);
+    }
+  const bool has_child = options.is_sandboxed && !is_for_assimp(extension_of(name, options.format));
+  return has_child ? read_in_child(name, options) : read_file(name, options);
+}
+
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
   const std::string extension = extension_of(name_, options_.format);
   const bool is_gltf = extension == ".gltf" || extension == ".glb";
-  if (is_gltf && (name_ != "-" || !options_.format.empty()))
+  if (is_gltf && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
     gltf_ = std::make_unique<GltfModel>(name_, options_.limits);
 }
 SceneSource::~SceneSource() = default;

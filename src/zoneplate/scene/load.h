@@ -6,17 +6,13 @@
 #include <string_view>
 
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/scene/scene_format.h"
 
 namespace zoneplate {
 
 class GltfModel;
 
-struct SceneFormat {
-  std::string_view extension;  ///< lower case, with its dot
-  std::string_view summary;
-};
-
-/// The file formats that `load_scene` reads.
+/// The file formats that `load_scene` reads by itself. Those of assimp.h it reads too.
 std::span<const SceneFormat> scene_formats();
 
 /// True for the name of a built-in scene, with or without parameters.
@@ -27,6 +23,7 @@ struct LoadOptions {
   LoadLimits limits;
   std::string format;  ///< an extension without its dot, "stl"; empty: that of the name
   SceneChoice choice;
+  bool is_sandboxed = false;  ///< reads in a child process with limits (import_child.h), whatever the format
 };
 
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".

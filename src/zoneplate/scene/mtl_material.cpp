@@ -141,19 +141,41 @@ int ObjFolder::image(const std::string& within, const std::string& name) {
   return entry->second;
 }
 
-int ObjFolder::load(const std::string& name, const std::optional<std::string>& path) {
+/// The number of the image that is made, or -1 and a warning.
+template <class Make>
+int ObjFolder::add(Make make) {
   try {
-    if (!path) throw Error(Trouble::Input, name + ": not found in the model's folder");
-    const FileBytes file(*path, budget_.limits().memory);
-    const std::optional<int2> size = find_image_size(file.bytes());
-    if (size) budget_.take(static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
-    scene_.images.push_back({name, decode_image(file.bytes(), name, budget_.limits().pixels)});
+    scene_.images.push_back(make());
     return static_cast<int>(scene_.images.size()) - 1;
   } catch (const Error& error) {
     budget_.take(0);  // what is over the budget stays an error
     scene_.warnings.push_back(fmt::format("{}: texture {}", budget_.file(), error.what()));
     return -1;
   }
+}
+
+TextureImage ObjFolder::decode(const std::string& name, std::span<const std::uint8_t> bytes) {
+  const std::optional<int2> size = find_image_size(bytes);
+  if (size) budget_.take(static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
+  return {name, decode_image(bytes, name, budget_.limits().pixels)};
+}
+
+int ObjFolder::load(const std::string& name, const std::optional<std::string>& path) {
+  return add([&] {
+    if (!path) throw Error(Trouble::Input, name + ": not found in the model's folder");
+    const FileBytes file(*path, budget_.limits().memory);
+    return decode(name, file.bytes());
+  });
+}
+
+void ObjFolder::embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes) {
+  const int number = add([&] { return decode(names.front(), bytes); });
+  for (const std::string& name : names) images_["missing " + name] = number;
+}
+
+void ObjFolder::embed(std::span<const std::string> names, Rgba8Image pixels) {
+  const int number = add([&] { return TextureImage{names.front(), std::move(pixels)}; });
+  for (const std::string& name : names) images_["missing " + name] = number;
 }
 
 Material plain_material(const std::string& name) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,11 +29,18 @@ class ObjFolder {
   /// The number of the image in Scene::images, which is loaded at its first use; -1, with a warning, if there is none.
   int image(const std::string& within, const std::string& name);
 
+  /// An image that the model's file holds: it is found by any of the names, where there is no file of that name.
+  void embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes);
+  void embed(std::span<const std::string> names, Rgba8Image pixels);
+
   ImportBudget& budget() { return budget_; }
   Scene& scene() { return scene_; }
 
  private:
   int load(const std::string& name, const std::optional<std::string>& path);
+  TextureImage decode(const std::string& name, std::span<const std::uint8_t> bytes);
+  template <class Make>
+  int add(Make make);
 
   std::string folder_;
   ImportBudget& budget_;

@@ -100,11 +100,14 @@ std::string_view LineWords::next() {
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
-std::string_view LineWords::rest() {
+std::string LineWords::rest() {
   skip_space();
   const char* last = end_;
   while (last != at_ && is_space(last[-1])) --last;
-  return {at_, static_cast<std::size_t>(last - at_)};
+  std::string out;
+  for (const char* c = at_; c != last; ++c)
+    out += static_cast<unsigned char>(*c) < ' ' || (*c == '\\' && is_continuation(c, end_)) ? ' ' : *c;
+  return out;
 }
 
 const char* scan_number(const char* at, const char* end, float& value) {

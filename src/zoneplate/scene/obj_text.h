@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace zoneplate {
@@ -33,8 +34,8 @@ class LineWords {
 
   /// The next word; empty at the end of the line, or where a word begins with '#'.
   std::string_view next();
-  /// All that is left, without the spaces around it.
-  std::string_view rest();
+  /// All that is left, without the spaces around it; continuations and control characters in it become spaces.
+  std::string rest();
 
  private:
   void skip_space();

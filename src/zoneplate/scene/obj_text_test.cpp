@@ -90,6 +90,7 @@ TEST(LineWords, KeepSpacesInTheRest) {
   LineWords words("usemtl \t dark red#2  \r");
   EXPECT_EQ(words.next(), "usemtl");
   EXPECT_EQ(words.rest(), "dark red#2");
+  EXPECT_EQ(LineWords(" a\\\nb\tc ").rest(), "a  b c");  // a name is one line, wherever it is shown
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+# The fuzz targets of libFuzzer, fuzz_<format>, and the program that writes their seeds. They need clang.
+#
+# They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers.
+set(fuzzed_sources ${all_sources})
+list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|math|image|signal|scene)/")
+list(FILTER fuzzed_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|scene/draco\\.cpp$")
+set(fuzzed_simd_sources ${simd_sources})
+list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|math|image|signal|scene)/")
+
+add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp)
+foreach(isa sse4 avx2)
+  add_library(zoneplate_fuzzed_${isa} OBJECT ${fuzzed_simd_sources})
+  target_compile_options(zoneplate_fuzzed_${isa} PRIVATE ${flags_${isa}})
+  target_compile_definitions(zoneplate_fuzzed_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
+  target_link_libraries(zoneplate_fuzzed_${isa} PRIVATE zoneplate_flags)
+  target_sources(zoneplate_fuzzed PRIVATE $<TARGET_OBJECTS:zoneplate_fuzzed_${isa}>)
+endforeach()
+target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library}
+                      ${webp_library} PNG::PNG ${meshoptimizer_library} z)
+target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
+
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp)
+foreach(format IN LISTS fuzz_formats)
+  set(kind model)
+  if(format MATCHES "png|jpeg|webp|hdr")
+    set(kind image)
+  endif()
+  add_executable(fuzz_${format} fuzz/${kind}_fuzz.cpp)
+  target_compile_definitions(fuzz_${format} PRIVATE ZONEPLATE_FUZZ_FORMAT="${format}")
+  target_link_libraries(fuzz_${format} PRIVATE zoneplate_fuzzed)
+  target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
+endforeach()
+add_executable(fuzz_seeds fuzz/seeds.cpp)
+target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed)
+
+# Here nothing else is wanted.
+set_target_properties(zoneplate zoneplate_sse4 zoneplate_avx2 zoneplate_cli zoneplate_program
+                      PROPERTIES EXCLUDE_FROM_ALL ON)

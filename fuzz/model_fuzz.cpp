@@ -1,0 +1,80 @@
+// A fuzz target of libFuzzer: bytes that pretend to be a model of the format that the build names.
+//
+// Whatever they are, reading them ends with a sound scene or with zoneplate::Error of one line; the sanitizers watch
+// the way there.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/scene/gltf.h"
+#include "zoneplate/scene/gltf_maker_test.h"
+#include "zoneplate/scene/load.h"
+#include "zoneplate/scene/mtl.h"
+#include "zoneplate/scene/sound.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::string_view format = ZONEPLATE_FUZZ_FORMAT;
+constexpr LoadLimits limits{.memory = 1 << 26, .pixels = 1 << 20, .seconds = 5};
+
+/// The name of a file in memory that holds the bytes.
+std::string file_of(const Bytes& bytes) {
+  static const int number = ::memfd_create("fuzz", 0);
+  const auto size = static_cast<ssize_t>(bytes.size());
+  if (::ftruncate(number, size) != 0 || ::pwrite(number, bytes.data(), bytes.size(), 0) != size) std::abort();
+  return "/proc/self/fd/" + std::to_string(number);
+}
+
+void check(const Scene& scene) {
+  const auto flaw = find_flaw(scene);
+  if (!flaw) return;
+  std::fprintf(stderr, "the scene is not sound: %s\n", flaw->c_str());
+  std::abort();
+}
+
+/// JSON, a zero, and the binary chunk become a GLB, so that parts may change their lengths; what is a GLB stays one.
+Bytes glb_of(const Bytes& bytes) {
+  constexpr std::string_view magic = "glTF";
+  if (std::equal(magic.begin(), magic.end(), bytes.begin(),
+                 bytes.begin() + std::min<std::ptrdiff_t>(4, std::ssize(bytes))))
+    return bytes;
+  const auto zero = std::find(bytes.begin(), bytes.end(), 0);
+  return GltfMaker::glb({bytes.begin(), zero}, {zero == bytes.end() ? zero : zero + 1, bytes.end()});
+}
+
+void read(const Bytes& bytes) {
+  if (format == "gltf") {
+    GltfModel model(file_of(glb_of(bytes)), limits);
+    const Scene scene = model.scene({});
+    check(scene);
+    if (!scene.animations.empty()) check(model.scene({.animation = SceneChoice::all_animations, .time = 0.4}));
+    for (const std::string& variant : scene.variants) check(model.scene({.variant = variant}));
+  } else if (format == "mtl") {
+    Scene scene;
+    parse_mtl({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "file", scene.warnings);
+    check(scene);
+  } else {
+    check(load_scene(file_of(bytes), {.limits = limits, .format = std::string(format)}));
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    zoneplate::read({data, data + size});
+  } catch (const zoneplate::Error& error) {
+    if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,101 @@
+// Writes the seeds of the fuzz targets, a folder a format: small files that between them use what a format has.
+#include <filesystem>
+#include <string>
+
+#include "zoneplate/base/file.h"
+#include "zoneplate/image/jpeg_encode.h"
+#include "zoneplate/image/png.h"
+#include "zoneplate/image/webp_still.h"
+#include "zoneplate/math/random.h"
+#include "zoneplate/scene/gltf_sample_for_test.h"
+#include "zoneplate/scene/mesh_samples_for_test.h"
+
+namespace {
+
+using namespace zoneplate;
+using namespace mesh_samples;
+
+void write(const std::string& folder, const std::string& name, const Bytes& bytes) {
+  std::filesystem::create_directories(folder);
+  save_bytes(folder + "/" + name, bytes);
+}
+
+/// JSON, a zero and the binary chunk, as model_fuzz.cpp takes them.
+Bytes parts_of(const GltfMaker& m) {
+  Bytes out = bytes_of(m.json());
+  out.push_back(0);
+  out.insert(out.end(), m.binary.begin(), m.binary.end());
+  return out;
+}
+
+/// A triangle that is packed by Draco, instanced, has variants and a material with all textures.
+GltfMaker extended() {
+  GltfMaker m;
+  const std::string packed = m.view<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 128, 63});
+  const std::string position = m.accessor(R"({"componentType":5126,"count":3,"type":"VEC3"})");
+  const std::string index = m.accessor(R"({"componentType":5125,"count":3,"type":"SCALAR"})");
+  m.mesh(R"("POSITION":)" + position,
+         R"(,"material":0,"indices":)" + index + R"(,"extensions":{"KHR_draco_mesh_compression":{"bufferView":)" +
+             packed +
+             R"(,"attributes":{"POSITION":0}},"KHR_materials_variants":{"mappings":[{"material":0,"variants":[0]}]}})");
+  const std::string places = m.floats("VEC3", {0, 0, 0, 1, 2, 3});
+  m.nodes = R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" + places + "}}}}";
+  m.materials = R"({"emissiveTexture":{"index":0},"occlusionTexture":{"index":0,"strength":0.5},
+      "extensions":{"KHR_materials_unlit":{},"KHR_materials_emissive_strength":{"emissiveStrength":3}}})";
+  m.rest = R"(,"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}],
+      "extensions":{"KHR_materials_variants":{"variants":[{"name":"red"}]}})";
+  return m;
+}
+
+/// A view of four values and an index packed by meshoptimizer, whose bytes a fuzzer may find.
+GltfMaker packed() {
+  GltfMaker m;
+  const std::string bytes = m.view<std::uint8_t>(Bytes(64, 0xa0));
+  m.views += R"(,{"buffer":0,"byteLength":48,"extensions":{"EXT_meshopt_compression":{"buffer":0,"byteOffset":0,
+      "byteLength":64,"byteStride":12,"count":4,"mode":"ATTRIBUTES","filter":"NONE"}}})";
+  m.mesh(R"("POSITION":)" + m.accessor(R"({"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"})"));
+  m.rest = R"(,"extensionsUsed":["EXT_meshopt_compression"])";
+  return m;
+}
+
+Rgba8Image noise(int width, int height) {
+  Rgba8Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t h = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0u);
+      image(x, y) = {static_cast<std::uint8_t>(h), static_cast<std::uint8_t>(h >> 8), static_cast<std::uint8_t>(x),
+                     static_cast<std::uint8_t>(h >> 16)};
+    }
+  return image;
+}
+
+void write_images(const std::string& root) {
+  const Rgba8Image image = noise(9, 7);
+  write(root + "/png", "rgba.png", encode_png(image));
+  write(root + "/png", "rgb.png", encode_png(image, {.has_alpha = false}));
+  write(root + "/png", "indexed.png", encode_png(Rgba8Image(5, 3, {1, 2, 3, 255}), {.may_be_indexed = true}));
+  write(root + "/png", "rgba16.png", encode_png(Rgba16Image(4, 4, {1000, 2000, 3000, 4000})));
+  write(root + "/png", "grey16.png", encode_png(Plane<std::uint16_t>(4, 4, 999)));
+  write(root + "/jpeg", "noise.jpg", encode_jpeg(image));
+  write(root + "/jpeg", "pixel.jpg", encode_jpeg(Rgba8Image(1, 1)));
+  write(root + "/webp", "rgba.webp", encode_webp(image, true));
+  write(root + "/webp", "rgb.webp", encode_webp(image, false));
+}
+
+}  // namespace
+
+int main(int, char** argv) {
+  const std::string root = argv[1];
+  write(root + "/gltf", "everything", parts_of(everything()));
+  write(root + "/gltf", "extended", parts_of(extended()));
+  write(root + "/gltf", "packed", parts_of(packed()));
+  write(root + "/gltf", "triangle.glb", triangle_maker().glb());
+  write(root + "/obj", "all.obj", bytes_of(obj));
+  write(root + "/mtl", "all.mtl", bytes_of(mtl));
+  write(root + "/ply", "ascii.ply", bytes_of(ascii_ply));
+  write(root + "/ply", "little.ply", binary_ply(false));
+  write(root + "/ply", "big.ply", binary_ply(true));
+  write(root + "/stl", "ascii.stl", bytes_of(ascii_stl));
+  write(root + "/stl", "binary.stl", binary_stl());
+  write_images(root);
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate {
+
+/// True for the first bytes of an OpenEXR picture.
+bool is_exr(std::span<const std::uint8_t> bytes);
+
+/// Width and height of its display window.
+std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
+
+/// Decodes the colour of an OpenEXR picture: the channels R, G, B and A, or Y as grey, of its first part; scanlines or
+/// the finest tiles, any compression but DWA.
+///
+/// The library is opened when this is called, and works in a child process with limits.
+/// Shape     the display window; black and transparent where the data window does not reach.
+/// Units     as stored, premultiplied; what is not a number becomes 0, infinity 65504. Without A, alpha is 1.
+/// Errors    Trouble::Input with `name` in front: not such a picture, deep, without these channels or with fewer
+///           samples in one, truncated, corrupt, more than `max_pixels` pixels. Trouble::Failed where libOpenEXRCore is
+///           not installed.
+LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
+                       std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
+}  // namespace zoneplate

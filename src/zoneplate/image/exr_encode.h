@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/image/plane.h"
+
+namespace zoneplate {
+
+/// How a channel's values are stored. A number is an unsigned word of 32 bits.
+enum class ExrType { Number = 0, Half = 1, Float = 2 };
+
+/// One channel of a picture: a view of values that stand elsewhere, one a pixel, rows without padding.
+struct ExrChannel {
+  std::string name;  ///< "R", or with its layer "N.X"; at most 31 bytes
+  ExrType type = ExrType::Half;
+  const float* value = nullptr;           ///< the first pixel's, where type is Half or Float
+  const std::uint32_t* number = nullptr;  ///< the same for Number
+  std::size_t step = 1;                   ///< from a pixel's value to the next one's
+};
+
+using ExrAttributes = std::vector<std::pair<std::string, std::string>>;
+
+/// An OpenEXR picture of one part: scanlines, ZIP compression in blocks of 16, channels in the order of their names,
+/// and attributes that are text.
+///
+/// Units     Half is rounded to the nearest, and stays finite.
+/// Exact     the same bytes for any number of threads and any version of any library; nothing tells the time.
+/// Requires  no two channels, and no two attributes, of one name.
+/// Source    OpenEXR File Layout, openexr.com.
+std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChannel> channels,
+                                     const ExrAttributes& attributes = {});
+
+}  // namespace zoneplate

@@ -1,0 +1,212 @@
+#include "zoneplate/render/motion.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/interpolate.h"
+
+namespace zoneplate {
+namespace {
+
+struct Double3 {
+  double x = 0, y = 0, z = 0;
+};
+
+/// On the screen, in pixels from the picture's top-left corner.
+using Place = std::array<double, 2>;
+
+/// A point of a primitive: so much of each of its corners, which sum to 1.
+struct Mixture {
+  std::array<std::uint32_t, 3> vertex{};
+  std::array<double, 3> share{};
+};
+
+/// A moment's camera as numbers, and its scene.
+struct Seen {
+  const Scene* scene = nullptr;
+  float4x4 clip_from_world;
+
+  Seen(const Moment& moment, float aspect)
+      : scene(moment.scene),
+        clip_from_world(moment.camera.clip_from_camera(aspect) * inverse(moment.camera.world_from_camera)) {}
+};
+
+Double3 transformed(const float4x4& m, Double3 p) {
+  const auto& c = m.column;
+  return {((c[0].x * p.x + c[1].x * p.y) + c[2].x * p.z) + c[3].x,
+          ((c[0].y * p.x + c[1].y * p.y) + c[2].y * p.z) + c[3].y,
+          ((c[0].z * p.x + c[1].z * p.y) + c[2].z * p.z) + c[3].z};
+}
+
+/// The place on the screen in pixels; nothing behind the eye.
+std::optional<Place> on_screen(const float4x4& clip_from_world, Double3 p, Viewport viewport) {
+  const auto& c = clip_from_world.column;
+  const auto row = [&](float a, float b, float e, float d) { return ((a * p.x + b * p.y) + e * p.z) + d; };
+  const double w = row(c[0].w, c[1].w, c[2].w, c[3].w);
+  if (!(w > 0)) return std::nullopt;
+  const double x = row(c[0].x, c[1].x, c[2].x, c[3].x) / w, y = row(c[0].y, c[1].y, c[2].y, c[3].y) / w;
+  return Place{(x + 1) * viewport.width / 2, (1 - y) * viewport.height / 2};
+}
+
+/// Finds the surface points of a frame's pixels.
+class PointFinder {
+ public:
+  PointFinder(const Seen& now, const SamplePattern& samples, Viewport viewport)
+      : now_(now), samples_(samples), viewport_(viewport) {
+    for (const Instance& instance : now.scene->instances)
+      clip_from_object_.push_back(now.clip_from_world * instance.world_from_object);
+  }
+
+  /// The point of a primitive that the picture's pixel (x, y) shows.
+  Mixture find(std::uint32_t instance, std::uint32_t primitive, int x, int y) const {
+    const Scene& scene = *now_.scene;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh)];
+    const auto corners = static_cast<std::size_t>(mesh.vertices_per_primitive());
+    Mixture out;
+    for (std::size_t k = 0; k < 3; ++k) out.vertex[k] = mesh.index[primitive * corners + std::min(k, corners - 1)];
+    std::array<float4, 3> clip;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float3 p = mesh.position[out.vertex[k]];
+      clip[k] = clip_from_object_[instance] * float4{p.x, p.y, p.z, 1};
+    }
+    out.share = corners == 3   ? triangle_shares(clip, x, y)
+                : corners == 2 ? line_shares(clip[0], clip[1], x, y)
+                               : Shares{1, 0, 0};
+    return out;
+  }
+
+ private:
+  using Shares = std::array<double, 3>;
+
+  Shares triangle_shares(const std::array<float4, 3>& clip, int x, int y) const {
+    const BarycentricPlanes planes = barycentric_planes(clip[0], clip[1], clip[2], viewport_);
+    // The place in pixels from the picture's corner; planes count 1/256 pixel from its middle.
+    const auto shares_at = [&](Place at) -> Shares {
+      const double px = 256 * (at[0] - viewport_.width / 2.0), py = 256 * (at[1] - viewport_.height / 2.0);
+      Shares q{};
+      for (std::size_t k = 0; k < 3; ++k) q[k] = (planes.x[k] * px + planes.y[k] * py) + planes.one[k];
+      const double sum = (q[0] + q[1]) + q[2];
+      if (sum == 0) return {1, 0, 0};
+      return {q[0] / sum, q[1] / sum, q[2] / sum};
+    };
+    const auto least = [](const Shares& b) { return std::min({b[0], b[1], b[2]}); };
+    Place place{x + 0.5, y + 0.5};
+    Shares best = shares_at(place);
+    for (std::size_t i = 0; i < samples_.size() && !(least(best) >= 0); ++i) {
+      const Place other{x + samples_[i].x / 256.0, y + samples_[i].y / 256.0};
+      const Shares shares = shares_at(other);
+      if (least(shares) > least(best)) best = shares, place = other;
+    }
+    return least(best) >= 0 ? best : outline_shares(clip, place, best);
+  }
+
+  /// Coverage knows edges to 1/256 pixel: a sample that is outside by less stands for the nearest point of the outline.
+  Shares outline_shares(const std::array<float4, 3>& clip, Place place, Shares outside) const {
+    double least = std::numeric_limits<double>::infinity();
+    Shares best{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      const std::optional<OnSegment> found = nearest_on_segment(clip[k], clip[next], place);
+      if (!found || !(found->square < least)) continue;
+      least = found->square;
+      best = {};
+      best[k] = 1 - found->share, best[next] = found->share;
+    }
+    if (least < std::numeric_limits<double>::infinity()) return best;
+    for (double& b : outside) b = std::max(b, 0.0);
+    const double sum = (outside[0] + outside[1]) + outside[2];
+    return {outside[0] / sum, outside[1] / sum, outside[2] / sum};
+  }
+
+  Shares line_shares(float4 a, float4 b, int x, int y) const {
+    const std::optional<OnSegment> found = nearest_on_segment(a, b, {x + 0.5, y + 0.5});
+    return found ? Shares{1 - found->share, found->share, 0} : Shares{1, 0, 0};
+  }
+
+  struct OnSegment {
+    double share = 0;   ///< of b, in space
+    double square = 0;  ///< of the distance on the screen
+  };
+  /// The point of a segment that is nearest to a place on the screen; nothing if an end is behind the eye.
+  std::optional<OnSegment> nearest_on_segment(float4 a, float4 b, Place place) const {
+    if (!(a.w > 0) || !(b.w > 0)) return std::nullopt;
+    const auto on_screen = [&](float4 p) -> Place {
+      return {(1.0 * p.x / p.w + 1) * viewport_.width / 2, (1 - 1.0 * p.y / p.w) * viewport_.height / 2};
+    };
+    const Place from = on_screen(a), to = on_screen(b);
+    const double dx = to[0] - from[0], dy = to[1] - from[1], square = dx * dx + dy * dy;
+    const double along = (place[0] - from[0]) * dx + (place[1] - from[1]) * dy;
+    const double s = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+    const double ox = place[0] - (from[0] + s * dx), oy = place[1] - (from[1] + s * dy);
+    const double at_a = (1 - s) / a.w, at_b = s / b.w;
+    return OnSegment{at_b / (at_a + at_b), ox * ox + oy * oy};
+  }
+
+  const Seen& now_;
+  const SamplePattern& samples_;
+  Viewport viewport_;
+  std::vector<float4x4> clip_from_object_;
+};
+
+/// Where a mixture of a mesh's vertices is in the world; nothing if this scene has not the same mesh there.
+std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, const Scene& scene, const Mesh& like) {
+  if (instance >= scene.instances.size()) return std::nullopt;
+  const Instance& placed = scene.instances[instance];
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(placed.mesh)];
+  if (mesh.position.size() != like.position.size() || mesh.topology != like.topology) return std::nullopt;
+  Double3 sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float3 p = mesh.position[point.vertex[k]];
+    const double share = point.share[k];
+    sum = {sum.x + share * p.x, sum.y + share * p.y, sum.z + share * p.z};
+  }
+  return transformed(placed.world_from_object, sum);
+}
+
+/// How far a point moves on the screen from one moment to another.
+float2 step_between(const Seen& from, const Seen& to, const Mixture& point, std::uint32_t instance, const Mesh& mesh,
+                    Viewport viewport) {
+  const auto at = [&](const Seen& seen) -> std::optional<Place> {
+    const std::optional<Double3> place = place_of(point, instance, *seen.scene, mesh);
+    return place ? on_screen(seen.clip_from_world, *place, viewport) : std::nullopt;
+  };
+  const auto start = at(from), end = at(to);
+  if (!start || !end) return {0, 0};
+  return {static_cast<float>((*end)[0] - (*start)[0]), static_cast<float>((*end)[1] - (*start)[1])};
+}
+
+}  // namespace
+
+void add_surface_points(const Moment& now, const Request& request, const RenderOptions& options, Frame& frame) {
+  const Planes& planes = request.planes;
+  const int width = frame.instance.width(), height = frame.instance.height();
+  const Viewport viewport{options.width, options.height};
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const Seen seen(now, aspect), last(options.last ? *options.last : now, aspect),
+      next(options.next ? *options.next : now, aspect);
+  const PointFinder finder(seen, request.samples, viewport);
+  if (planes.position) frame.position = {width, height, float3{}};
+  if (planes.motion) frame.motion = {width, height, float2{}};
+  if (planes.flow) frame.flow = {width, height, float2{}};
+
+  parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t instance = frame.instance(x, y);
+      if (instance == Frame::no_id) continue;
+      const Mixture point = finder.find(instance, frame.primitive_id(x, y), frame.x + x, frame.y + y);
+      const Mesh& mesh = now.scene->meshes[static_cast<std::size_t>(now.scene->instances[instance].mesh)];
+      if (planes.position) {
+        const Double3 p = *place_of(point, instance, *now.scene, mesh);
+        frame.position(x, y) = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      }
+      if (planes.motion) frame.motion(x, y) = step_between(last, seen, point, instance, mesh, viewport);
+      if (planes.flow) frame.flow(x, y) = step_between(seen, next, point, instance, mesh, viewport);
+    }
+  });
+}
+
+}  // namespace zoneplate

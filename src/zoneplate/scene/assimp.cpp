@@ -1,0 +1,107 @@
+#include "zoneplate/scene/assimp.h"
+
+#include <filesystem>
+#include <new>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/scene/assimp_files.h"
+#include "zoneplate/scene/assimp_scene.h"
+#include "zoneplate/scene/import_child.h"
+#include "zoneplate/scene/scene_bytes.h"
+
+#if __has_include(<assimp/cimport.h>)
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <dlfcn.h>
+#endif
+
+namespace zoneplate {
+namespace {
+
+constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
+                                   {".dae", "COLLADA"},
+                                   {".3ds", "3D Studio"},
+                                   {".x", "DirectX X"},
+                                   {".off", "Object File Format"},
+                                   {".3mf", "3D Manufacturing Format"},
+                                   {".amf", "Additive Manufacturing File"},
+                                   {".lwo", "LightWave object"},
+                                   {".ase", "3D Studio ASE"},
+                                   {".ac", "AC3D"},
+                                   {".blend", "Blender, to 2.7"},
+                                   {".dxf", "Drawing Interchange"},
+                                   {".ms3d", "MilkShape 3D"},
+                                   {".md2", "Quake II"},
+                                   {".md3", "Quake III"},
+                                   {".md5mesh", "Doom 3"},
+                                   {".b3d", "BlitzBasic 3D"},
+                                   {".iqm", "Inter-Quake Model"},
+                                   {".smd", "Valve SMD"},
+                                   {".x3d", "X3D"},
+                                   {".cob", "TrueSpace"},
+                                   {".nff", "Neutral File Format"}};
+
+#if __has_include(<assimp/cimport.h>)
+
+/// The functions of the library that are wanted; it stays open as long as the process.
+struct Library {
+  decltype(&aiImportFileEx) import = nullptr;
+  decltype(&aiGetErrorString) error = nullptr;
+};
+
+Library open_library(const std::string& file) {
+  const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, file + ": " + cause); };
+  constexpr const char* name = "libassimp.so.5";  // the version whose headers these are
+  void* const handle = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) fail("is read by the library assimp (package libassimp5), which is not here");
+  Library library;
+  library.import = reinterpret_cast<decltype(library.import)>(::dlsym(handle, "aiImportFileEx"));
+  library.error = reinterpret_cast<decltype(library.error)>(::dlsym(handle, "aiGetErrorString"));
+  if (library.import == nullptr || library.error == nullptr) fail("the library assimp lacks its functions");
+  return library;
+}
+
+Scene import(const Library& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
+  const std::string folder = path == "-" ? "." : std::filesystem::path(path).parent_path().string();
+  AssimpFiles files(path, folder, extension, budget);
+  constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
+  const aiScene* const read = library.import(files.model_name().c_str(), steps, files.io());
+  if (read == nullptr && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos)
+    throw std::bad_alloc();
+  if (read == nullptr) throw Error(Trouble::Input, budget.file() + ": " + library.error());
+  Scene scene;
+  ObjFolder textures(folder, budget, scene);
+  convert_assimp_scene(*read, textures);
+  if (scene.instances.empty()) throw Error(Trouble::Input, budget.file() + ": holds nothing to draw");
+  return scene;
+}
+
+#else
+
+struct Library {};
+Library open_library(const std::string& file) {
+  throw Error(Trouble::Input, file + ": wants the library assimp, which this program was built without");
+}
+Scene import(const Library&, const std::string&, std::string_view, ImportBudget&) { return {}; }
+
+#endif
+
+}  // namespace
+
+std::span<const SceneFormat> assimp_formats() { return formats; }
+
+Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits) {
+  ImportBudget budget(path == "-" ? "standard input" : path, limits);
+  Library library;
+  const auto prepare = [&] { library = open_library(budget.file()); };
+  ImportChild child(
+      budget.file(), budget,
+      [&](ImportAnswer& answer) {
+        const Scene scene = import(library, path, extension, budget);
+        write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
+      },
+      prepare);
+  return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
+}
+
+}  // namespace zoneplate
