@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numeric>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/cli/background.h"
 #include "zoneplate/cli/film.h"
 #include "zoneplate/cli/frame_name.h"
 #include "zoneplate/cli/stage.h"
@@ -225,18 +227,27 @@ void render_sequence(RenderArgs args, Resolver& resolver, Summary& summary) {
 
   const std::string model = std::filesystem::path(args.input).stem().string();
   Animation film = film_of(args.sequence.rate);
+  Background background;
   for (const int frame : plan.frames()) {
     const std::string output = is_numbered ? frame_name(args.output, frame, model) : args.output;
     if (is_numbered && args.skip_existing && std::filesystem::exists(output)) continue;
     Rendered picture = render_frame(args, plan, still, frame, output, resolver, summary);
     if (is_numbered) {
-      save_bytes(output, encode_picture(picture, output));
-      for (const OutputFile& file : picture.layers) save_bytes(file.path, file.bytes);
+      const auto write = [picture = std::make_shared<Rendered>(std::move(picture)), output] {
+        save_bytes(output, encode_picture(*picture, output));
+        for (const OutputFile& file : picture->layers) save_bytes(file.path, file.bytes);
+      };
+      // PNG takes all threads by itself.
+      if (extension_of(output) == ".png")
+        write();
+      else
+        background.run(write);
     } else {
       film.has_alpha = picture.has_alpha;
       film.frames.push_back(std::move(picture.image));
     }
   }
+  background.wait();
   summary.frames = static_cast<int>(plan.frames().size());
   if (!is_numbered) save_bytes(args.output, encode_film(film, args.output));
 }

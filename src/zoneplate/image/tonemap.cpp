@@ -85,9 +85,19 @@ void display_row(const DisplayStep& step, const float* linear, float* display, s
   for (std::size_t i = 0; i < n; ++i) display_pixel(step, linear + 4 * i, display + 4 * i);
 }
 
+void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < Linear8::size; ++k) {
+      const Linear color = linear[i].get(k);
+      float display[4];
+      display_pixel(step, &color.r, display);
+      transfer_kernels.quantize8(display, &shown[Linear8::size * i + k].r, 4);
+    }
+}
+
 }  // namespace
 
-const TonemapKernels tonemap_kernels = {.display_row = display_row};
+const TonemapKernels tonemap_kernels = {.display_row = display_row, .show_groups = show_groups};
 
 }  // namespace scalar
 
@@ -129,21 +139,14 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
 }
 
 Presenter::Presenter(const DisplayOptions& options) : step_(make_step(options)) {
-  const Linear nothing{0, 0, 0, 0};
-  present({&nothing, 1}, &background_);
+  Rgba8 shown[Linear8::size];
+  const Linear8 nothing{};
+  present({&nothing, 1}, shown);
+  background_ = shown[0];
 }
 
-void Presenter::present(std::span<const Linear> run, Rgba8* out) const {
-  const TonemapKernels& tonemap = best_kernels();
-  const TransferKernels& transfer =
-      pick(best_isa(), scalar::transfer_kernels, N_SSE4::transfer_kernels, N_AVX2::transfer_kernels);
-  constexpr std::size_t step = 64;
-  Display shown[step];
-  for (std::size_t i = 0; i < run.size(); i += step) {
-    const std::size_t n = std::min(step, run.size() - i);
-    tonemap.display_row(step_, &run[i].r, &shown[0].r, n);
-    transfer.quantize8(&shown[0].r, &out[i].r, 4 * n);
-  }
+void Presenter::present(std::span<const Linear8> groups, Rgba8* out) const {
+  best_kernels().show_groups(step_, groups.data(), out, groups.size());
 }
 
 }  // namespace zoneplate

@@ -29,13 +29,13 @@ struct DisplayOptions {
 ///           background's own code is shown, where the picture is opaque nothing of it.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
 
-/// quantize8 of make_display, run by run: for pixels that are shown while they are in cache.
+/// quantize8 of make_display, a few pixels at a time: for those that are shown while they are in cache.
 class Presenter {
  public:
   explicit Presenter(const DisplayOptions& options);
 
-  /// `out` has the run's size.
-  void present(std::span<const Linear> run, Rgba8* out) const;
+  /// `out` has room for eight pixels a group.
+  void present(std::span<const Linear8> groups, Rgba8* out) const;
   /// What is shown where the picture is empty.
   Rgba8 background() const { return background_; }
 

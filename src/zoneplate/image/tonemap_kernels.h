@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "zoneplate/image/pixel.h"
 #include "zoneplate/image/tone_mapping.h"
 
 namespace zoneplate {
@@ -19,6 +20,8 @@ struct DisplayStep {
 struct TonemapKernels {
   /// n pixels of four floats: Linear in, Display out.
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
+  /// The same of n groups of eight pixels, and quantize8 of that.
+  void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
 };
 
 namespace scalar {

@@ -5,7 +5,7 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
-using Floats = hn::ScalableTag<float>;
+using Floats = hn::CappedTag<float, 8>;
 using V = hn::Vec<Floats>;
 constexpr Floats d;
 
@@ -67,19 +67,22 @@ HWY_INLINE Color map_neutral(const Color& color) {
 
 template <ToneMapping mapping>
 HWY_INLINE Color tone_map(Color color) {
+  if constexpr (mapping == ToneMapping::None) return each(color, [](V x) { return clamp_unit(d, x); });
   color = each(color, usable_light);
   if (mapping == ToneMapping::Aces) color = map_aces(color);
   if (mapping == ToneMapping::Neutral) color = map_neutral(color);
   return each(color, [](V x) { return clamp_unit(d, x); });
 }
 
-/// One vector of pixels.
-template <ToneMapping mapping>
-HWY_INLINE void display_vector(const DisplayStep& step, const float* linear, float* display) {
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+struct Pixels {
   Color color;
   V alpha;
-  hn::LoadInterleaved4(d, linear, color.r, color.g, color.b, alpha);
+};
+
+/// One vector of pixels.
+template <ToneMapping mapping>
+HWY_INLINE Pixels shown_pixels(const DisplayStep& step, const Color& color, V alpha) {
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V a = clamp_unit(d, alpha);
   const V exposure = hn::Set(d, step.exposure);
   const auto encoded = [&](V x) { return step.is_encoded ? encode_srgb(d, x) : clamp_unit(d, x); };
@@ -87,9 +90,7 @@ HWY_INLINE void display_vector(const DisplayStep& step, const float* linear, flo
   // Where all is opaque, nothing is divided and nothing shines through: x / 1, x 1 + 0 and a > 0 change no bit.
   if (hn::AllTrue(d, hn::Eq(a, one))) {
     const Color mapped = tone_map<mapping>(each(color, [&](V x) { return hn::Mul(x, exposure); }));
-    const Color shown = each(mapped, encoded);
-    hn::StoreInterleaved4(shown.r, shown.g, shown.b, one, d, display);
-    return;
+    return {step.is_encoded ? each(mapped, encoded) : mapped, one};
   }
 
   const auto is_seen = hn::Gt(a, zero);
@@ -102,8 +103,17 @@ HWY_INLINE void display_vector(const DisplayStep& step, const float* linear, flo
     const V over = hn::Div(hn::Add(hn::Mul(light, a), hn::Mul(hn::Set(d, step.light[c]), rest)), total);
     return hn::IfThenElse(is_seen, encoded(step.is_transparent ? light : over), hn::Set(d, step.code[c]));
   };
-  hn::StoreInterleaved4(shown(mapped.r, 0), shown(mapped.g, 1), shown(mapped.b, 2),
-                        hn::IfThenElse(is_seen, clamp_unit(d, total), hn::Set(d, step.code[3])), d, display);
+  return {{shown(mapped.r, 0), shown(mapped.g, 1), shown(mapped.b, 2)},
+          hn::IfThenElse(is_seen, clamp_unit(d, total), hn::Set(d, step.code[3]))};
+}
+
+template <ToneMapping mapping>
+HWY_INLINE void display_vector(const DisplayStep& step, const float* linear, float* display) {
+  Color color;
+  V alpha;
+  hn::LoadInterleaved4(d, linear, color.r, color.g, color.b, alpha);
+  const Pixels p = shown_pixels<mapping>(step, color, alpha);
+  hn::StoreInterleaved4(p.color.r, p.color.g, p.color.b, p.alpha, d, display);
 }
 
 template <ToneMapping mapping>
@@ -133,10 +143,38 @@ void display_row(const DisplayStep& step, const float* linear, float* display, s
   }
 }
 
+/// 0 to 255, in the lowest byte; x in [0, 1].
+HWY_INLINE auto codes(V x) { return truncated(d, hn::Add(hn::Mul(x, hn::Set(d, 255.0f)), hn::Set(d, 0.5f))); }
+
+template <ToneMapping mapping>
+void show_all(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n) {
+  const hn::RebindToSigned<Floats> di;
+  static_assert(sizeof(Rgba8) == 4);
+  for (const Linear8* group = linear; group != linear + n; ++group)
+    for (std::size_t k = 0; k < Linear8::size; k += hn::Lanes(d), shown += hn::Lanes(d)) {
+      const Color color{hn::Load(d, group->r + k), hn::Load(d, group->g + k), hn::Load(d, group->b + k)};
+      const Pixels p = shown_pixels<mapping>(step, color, hn::Load(d, group->a + k));
+      const auto rg = hn::Or(codes(p.color.r), hn::ShiftLeft<8>(codes(p.color.g)));
+      const auto ba = hn::Or(hn::ShiftLeft<16>(codes(p.color.b)), hn::ShiftLeft<24>(codes(p.alpha)));
+      hn::StoreU(hn::Or(rg, ba), di, reinterpret_cast<std::int32_t*>(shown));
+    }
+}
+
+void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n) {
+  switch (step.mapping) {
+    case ToneMapping::None:
+      return show_all<ToneMapping::None>(step, linear, shown, n);
+    case ToneMapping::Aces:
+      return show_all<ToneMapping::Aces>(step, linear, shown, n);
+    case ToneMapping::Neutral:
+      return show_all<ToneMapping::Neutral>(step, linear, shown, n);
+  }
+}
+
 }  // namespace
 
 extern const TonemapKernels tonemap_kernels;
-const TonemapKernels tonemap_kernels = {.display_row = display_row};
+const TonemapKernels tonemap_kernels = {.display_row = display_row, .show_groups = show_groups};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

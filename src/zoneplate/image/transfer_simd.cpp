@@ -27,11 +27,10 @@ void decode(const float* code, float* linear, std::size_t n) {
 template <class T>
 HWY_INLINE void quantize(float greatest, const float* values, T* codes, std::size_t n) {
   for_vectors(n, [=](auto d, std::size_t i) {
-    const hn::RebindToSigned<decltype(d)> di;
     const hn::Rebind<T, decltype(d)> dt;
     const auto x = clamp_unit(d, hn::LoadU(d, values + i));
     const auto scaled = hn::Add(hn::Mul(x, hn::Set(d, greatest)), hn::Set(d, 0.5f));
-    hn::StoreU(hn::DemoteTo(dt, hn::ConvertTo(di, scaled)), dt, codes + i);
+    hn::StoreU(hn::DemoteTo(dt, truncated(d, scaled)), dt, codes + i);
   });
 }
 

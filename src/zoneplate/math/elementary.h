@@ -108,6 +108,16 @@ constexpr float log2(float x) {
   return l.e + (l.s * two_log2_e_head + l.s * tail);
 }
 
+/// The logarithm to base 2 where four digits do. Requires: x normal, positive. Exact: within 1/3000; at powers of two.
+constexpr float coarse_log2(float x) {
+  using namespace elementary;
+  const std::int32_t bits = std::bit_cast<std::int32_t>(x);
+  const float e = static_cast<float>((bits >> 23) - 127);
+  const float t = std::bit_cast<float>((bits & 0x7fffff) | 0x3f800000) - 1;
+  const float q = (coarse_log2_c[0] + t * coarse_log2_c[1]) + (t * t) * coarse_log2_c[2];
+  return e + (t + (t * (t - 1)) * q);
+}
+
 /// The natural logarithm. Edges: as log2. Exact: within 3 ulp.
 constexpr float log(float x) {
   using namespace elementary;

@@ -32,6 +32,19 @@ HWY_INLINE V horner(D d, V z, const float (&c)[3]) {
   return add_product(d, hn::Set(d, c[0]), z, add_product(d, hn::Set(d, c[1]), z, hn::Set(d, c[2])));
 }
 
+/// x cut off to an integer. Requires |x| < 2^31: x86 then needs one instruction, where ConvertTo sees to the rest too.
+template <class D>
+HWY_INLINE Ints<D> truncated(D, hn::Vec<D> x) {
+  const hn::RebindToSigned<D> di;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSSE3
+  if constexpr (hn::MaxLanes(D()) == 4) return Ints<D>{_mm_cvttps_epi32(x.raw)};
+#if HWY_TARGET <= HWY_AVX2
+  if constexpr (hn::MaxLanes(D()) == 8) return Ints<D>{_mm256_cvttps_epi32(x.raw)};
+#endif
+#endif
+  return hn::ConvertTo(di, x);
+}
+
 template <class D>
 HWY_INLINE Ints<D> nearest(D d, hn::Vec<D> x) {
   const hn::RebindToSigned<D> di;
@@ -141,6 +154,19 @@ HWY_INLINE hn::Vec<D> log2(D d, hn::Vec<D> x) {
   const auto tail = add_product(d, hn::Set(d, elementary::two_log2_e_tail), z, horner(d, z, elementary::log2_c));
   const auto m = add_product(d, hn::Mul(l.s, hn::Set(d, elementary::two_log2_e_head)), l.s, tail);
   return log_or_edge(d, x, hn::Add(l.e, m));
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> coarse_log2(D d, hn::Vec<D> x) {
+  const hn::RebindToSigned<D> di;
+  const float(&c)[3] = elementary::coarse_log2_c;
+  const auto bits = hn::BitCast(di, x);
+  const auto e = hn::ConvertTo(d, hn::Sub(hn::ShiftRight<23>(bits), hn::Set(di, 127)));
+  const auto m = hn::Or(hn::And(bits, hn::Set(di, 0x7fffff)), hn::Set(di, 0x3f800000));
+  const auto one = hn::Set(d, 1.0f), t = hn::Sub(hn::BitCast(d, m), one);
+  const auto line = add_product(d, hn::Set(d, c[0]), t, hn::Set(d, c[1]));
+  const auto q = add_product(d, line, hn::Mul(t, t), hn::Set(d, c[2]));
+  return hn::Add(e, add_product(d, t, hn::Mul(t, hn::Sub(t, one)), q));
 }
 
 template <class D>

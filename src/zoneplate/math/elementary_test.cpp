@@ -89,6 +89,8 @@ TEST(Elementary, LogarithmsAreWithinThreeUlp) {
                   values, [](float x) { return log(x); }, truth),
               3);
   }
+  for (int k = -126; k < 128; ++k) EXPECT_EQ(coarse_log2(std::ldexp(1.0f, k)), static_cast<float>(k));
+  for (float x = 0.25f; x < 4; x *= 1.0003f) ASSERT_NEAR(coarse_log2(x), std::log2(x), 1.0 / 3000);
   for (int k = -126; k < 128; ++k) EXPECT_EQ(log2(std::ldexp(1.0f, k)), static_cast<float>(k));
   EXPECT_EQ(log(1), 0);
   for (const float x : {0.0f, -0.0f, -1.0f, 1e-40f}) {

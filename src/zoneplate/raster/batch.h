@@ -20,11 +20,14 @@ struct Batch {
   static constexpr int groups = capacity / group;
 
   int count = 0;
-  int material = 0;  ///< index into Scene::materials
+  int material = 0;           ///< index into Scene::materials
+  bool one_instance = false;  ///< all points are known to be of instance[0]
 
   /// The group's points share their triangle and lie side by side in a row, a pixel apart: what is said by triangle
-  /// then stands at the group's first point only.
+  /// then stands at the first point of the group `told_group` only, the first of those that follow each other and share
+  /// the triangle.
   bool one_triangle[groups] = {};
+  std::uint8_t told_group[groups] = {};
 
   // By triangle.
   alignas(64) std::uint32_t triangle[capacity];   ///< triangle id, in draw order over the whole frame
@@ -39,7 +42,9 @@ struct Batch {
 
   int padded() const { return (count + group - 1) / group * group; }
   /// Where point i's triangle is told of.
-  std::size_t told(std::size_t i) const { return one_triangle[i / group] ? i / group * group : i; }
+  std::size_t told(std::size_t i) const {
+    return one_triangle[i / group] ? static_cast<std::size_t>(told_group[i / group]) * group : i;
+  }
 };
 
 /// What shading gives for a batch. Colour is linear and premultiplied. The rest is filled when asked for.

@@ -22,14 +22,6 @@ struct Extent {
   std::int32_t low_x, high_x, low_y, high_y;
 };
 
-/// The pattern's places as plain arrays.
-struct SampleArrays {
-  std::vector<std::int32_t> x, y;
-  explicit SampleArrays(const SamplePattern& samples) {
-    for (const SamplePosition s : samples) x.push_back(s.x), y.push_back(s.y);
-  }
-};
-
 /// The work of one thread on a run of triangles of one draw.
 class Binner {
  public:
@@ -103,10 +95,11 @@ class Binner {
     });
   }
 
-  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile) {
+  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile, std::int32_t first_id) {
     auto* part = reinterpret_cast<SampleFragments*>(static_cast<Arena*>(sink.owner)->take(sizeof(SampleFragments)));
     part->previous = sink.last[tile];
     part->count = 0;
+    part->first_id = first_id;
     return sink.last[tile] = part;
   }
 

@@ -12,6 +12,14 @@
 
 namespace zoneplate {
 
+/// A pattern's places as plain arrays.
+struct SampleArrays {
+  std::vector<std::int32_t> x, y;
+  explicit SampleArrays(const SamplePattern& samples) {
+    for (const SamplePosition s : samples) x.push_back(s.x), y.push_back(s.y);
+  }
+};
+
 /// The triangles of a frame by the tiles that they may touch.
 ///
 /// Each thread fills its own lists; which thread set up a triangle leaves no trace in the picture, because what is

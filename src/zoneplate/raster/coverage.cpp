@@ -7,6 +7,7 @@ namespace zoneplate {
 void TileVisibility::clear() {
   std::fill_n(block_far, blocks, 0.0f);
   std::fill_n(block_owner, blocks, no_triangle);
+  stale = 0;
 }
 
 void TileVisibility::open_block(int block) {
@@ -66,10 +67,12 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   return count;
 }
 
-int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* out, std::uint8_t* is_partial) {
+int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
+                 std::uint8_t* is_partial) {
   int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      if (!(blocks >> ((y & ~7) + bx / 8) & 1)) continue;
       RowLayer layer{t.id, static_cast<std::uint32_t>(y * 8 + bx / 8), t.z_high, t.z_low};
       int won = 0;
       for (int s = 0; s < tile.sample_count; ++s)
@@ -88,6 +91,41 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* ou
   return count;
 }
 
+void find_nearest(const TileVisibility& tile, float* nearest) {
+  for (int block = 0; block < TileVisibility::blocks; ++block) {
+    nearest[block] = 0;
+    if (tile.block_owner[block] == no_triangle) continue;
+    for (int s = 0; s < tile.sample_count; ++s)
+      for (int i = 0; i < 64; ++i) {
+        const int y = block / 8 * 8 + i / 8, x = block % 8 * 8 + i % 8;
+        nearest[block] = std::max(nearest[block], tile.depth[s * tile_pixels + y * tile_size + x]);
+      }
+  }
+}
+
+int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const float* nearest, BlockLayer* out,
+                   std::uint64_t& others) {
+  int count = 0;
+  for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      const int block = by + bx / 8;
+      BlockLayer layer{t.id, static_cast<std::uint32_t>(block), t.z_high, t.z_low};
+      int covered = 0;
+      for (int s = 0; s < tile.sample_count; ++s)
+        for (int i = 0; i < 64; ++i) {
+          const int x = bx + i % 8, y = by + i / 8;
+          covered += covers(t, s, x, y) ? 1 : 0;
+          layer.least = std::min(layer.least, depth_at(t, s, x, y));
+          layer.greatest = std::max(layer.greatest, depth_at(t, s, x, y));
+        }
+      if (covered == 64 * tile.sample_count && layer.least > nearest[block])
+        out[count++] = layer;
+      else if (covered > 0)
+        others |= std::uint64_t{1} << block;
+    }
+  return count;
+}
+
 void find_owners(const TileVisibility& tile, std::int32_t* owners) {
   for (int row = 0; row < tile_pixels / 8; ++row) {
     owners[row] = tile.block_owner[row / 64 * 8 + row % 8];
@@ -101,8 +139,12 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
 
 }  // namespace
 
-const CoverageKernels coverage_kernels = {
-    .draw = draw, .collect = collect, .collect_rows = collect_rows, .find_owners = find_owners};
+const CoverageKernels coverage_kernels = {.draw = draw,
+                                          .collect = collect,
+                                          .collect_rows = collect_rows,
+                                          .find_nearest = find_nearest,
+                                          .collect_blocks = collect_blocks,
+                                          .find_owners = find_owners};
 
 }  // namespace scalar
 }  // namespace zoneplate

@@ -31,6 +31,7 @@ struct TileVisibility {
   std::int32_t* id = nullptr;
   float* block_far = nullptr;
   std::int32_t* block_owner = nullptr;
+  std::uint64_t stale = 0;  ///< a bit for each block whose `block_far` may be too low
 
   /// Nothing is drawn yet.
   void clear();
@@ -52,12 +53,30 @@ struct RowLayer {
   float least, greatest;  ///< its depths there
 };
 
+/// A block of 8 × 8 pixels where a triangle covers every sample in front of all that the tile holds there.
+struct BlockLayer {
+  std::int32_t id;
+  std::uint32_t block;
+  float least, greatest;  ///< its depths there
+};
+
 /// Depth of the triangle at sample s of the tile's pixel (x, y); the same bits in every kernel.
 inline float depth_at(const TileTriangle& t, int s, int x, int y) {
   const float row = t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y);
   const float z = row + t.dzdx * static_cast<float>(x - t.origin_x);
   const float raised = z > t.z_low ? z : t.z_low;
   return raised < t.z_high ? raised : t.z_high;
+}
+
+/// The greatest depth of a triangle's samples in the tile: rounding is monotone, so it is found at a corner.
+inline float greatest_depth(const TileTriangle& t, int samples) {
+  const int x = t.dzdx > 0 ? t.last_x : t.first_x, y = t.dzdy > 0 ? t.last_y : t.first_y;
+  float greatest = depth_at(t, 0, x, y);
+  for (int s = 1; s < samples; ++s) {
+    const float z = depth_at(t, s, x, y);
+    greatest = z > greatest ? z : greatest;
+  }
+  return greatest;
 }
 
 struct CoverageKernels {
@@ -70,11 +89,18 @@ struct CoverageKernels {
   /// Requires  open blocks.
   int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, Fragment* out);
   /// Lists the rows of 8 pixels where the triangle would win every sample, in the lines from first_y to last_y; sets
-  /// is_partial[row] where it would win some but not all. `out` has room for every row of those lines.
+  /// is_partial[row] where it would win some but not all. Only in blocks whose bit is set. `out` has room for every row
+  /// of those lines.
   ///
   /// Requires  open blocks.
-  int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, RowLayer* out,
+  int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
                       std::uint8_t* is_partial);
+  /// The greatest depth of the samples of each block; 0 where nothing is drawn.
+  void (*find_nearest)(const TileVisibility& tile, float* nearest);
+  /// Lists the blocks where the triangle covers every sample and is in front of `nearest`; sets the bits in `others` of
+  /// the other blocks where it may win some. `out` has room for every block; gives their number.
+  int (*collect_blocks)(const TileTriangle& triangle, const TileVisibility& tile, const float* nearest, BlockLayer* out,
+                        std::uint64_t& others);
   /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
   /// `many_triangles`; `no_triangle` where nothing is.
   void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);

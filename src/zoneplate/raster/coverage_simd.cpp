@@ -18,13 +18,16 @@ int greatest(int p, int q) { return p > q ? p : q; }
 /// What a tile triangle's blocks have in common: the spread of its constants over the samples.
 struct Spread {
   std::int32_t c_least[3], c_greatest[3];
-  float z_greatest;
+  float z_least, z_greatest;
 };
 
 Spread spread_of(const TileTriangle& t, int samples) {
   Spread r;
-  r.z_greatest = t.z[0];
-  for (int s = 1; s < samples; ++s) r.z_greatest = t.z[s] > r.z_greatest ? t.z[s] : r.z_greatest;
+  r.z_least = r.z_greatest = t.z[0];
+  for (int s = 1; s < samples; ++s) {
+    r.z_greatest = t.z[s] > r.z_greatest ? t.z[s] : r.z_greatest;
+    r.z_least = t.z[s] < r.z_least ? t.z[s] : r.z_least;
+  }
   for (int k = 0; k < 3; ++k) {
     r.c_least[k] = r.c_greatest[k] = t.c[k][0];
     for (int s = 1; s < samples; ++s) {
@@ -37,26 +40,34 @@ Spread spread_of(const TileTriangle& t, int samples) {
 
 enum class Block { Outside, Partial, Inside };
 
-/// Where the 8 × 8 block at pixel (x, y) lies, by the least and greatest values of the edges in it.
-Block classify(const TileTriangle& t, const Spread& spread, int x, int y) {
+/// Where the square of `size` pixels at pixel (x, y) lies, by the least and greatest values of the edges in it.
+Block classify(const TileTriangle& t, const Spread& spread, int x, int y, int size = 8) {
   bool inside = true;
   for (int k = 0; k < 3; ++k) {
     const std::int32_t corner = t.a[k] * x + t.b[k] * y;
-    const std::int32_t up = greatest(t.a[k], 0) * 7 + greatest(t.b[k], 0) * 7;
-    const std::int32_t down = least(t.a[k], 0) * 7 + least(t.b[k], 0) * 7;
+    const std::int32_t up = (greatest(t.a[k], 0) + greatest(t.b[k], 0)) * (size - 1);
+    const std::int32_t down = (least(t.a[k], 0) + least(t.b[k], 0)) * (size - 1);
     if (corner + up + spread.c_greatest[k] < 0) return Block::Outside;
     inside = inside && corner + down + spread.c_least[k] >= 0;
   }
   return inside ? Block::Inside : Block::Partial;
 }
 
-/// The greatest depth that `depth_at` gives in the block: rounding is monotone, so it is the value at one corner.
-float greatest_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
-  const int near_x = t.dzdx > 0 ? x + 7 : x, near_y = t.dzdy > 0 ? y + 7 : y;
-  const float row = spread.z_greatest + t.dzdy * static_cast<float>(near_y - t.origin_y);
-  const float z = row + t.dzdx * static_cast<float>(near_x - t.origin_x);
+/// depth_at, for a sample where the depth at the origin is `base`.
+float depth_from(const TileTriangle& t, float base, int x, int y) {
+  const float row = base + t.dzdy * static_cast<float>(y - t.origin_y);
+  const float z = row + t.dzdx * static_cast<float>(x - t.origin_x);
   const float raised = z > t.z_low ? z : t.z_low;
   return raised < t.z_high ? raised : t.z_high;
+}
+
+/// The greatest depth that `depth_at` gives in the block: rounding is monotone, so it is the value at one corner.
+float greatest_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
+  return depth_from(t, spread.z_greatest, t.dzdx > 0 ? x + 7 : x, t.dzdy > 0 ? y + 7 : y);
+}
+
+float least_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
+  return depth_from(t, spread.z_least, t.dzdx > 0 ? x : x + 7, t.dzdy > 0 ? y : y + 7);
 }
 
 /// One vector of pixels of one sample: where the triangle is inside and wins, and its depth there.
@@ -103,15 +114,14 @@ float farthest(const TileVisibility& tile, int x, int y) {
   return hn::GetLane(hn::MinOfLanes(d, low));
 }
 
-/// Draws into a block that the triangle covers and where nothing is yet: it wins everywhere. Gives the least depth.
-float fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int by) {
+/// Draws into a block that the triangle covers and where nothing is yet: it wins everywhere.
+void fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int by) {
   const F d;
   const I di;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const VF lane = hn::Iota(d, 0), dzdx = hn::Set(d, t.dzdx);
   const VF z_low = hn::Set(d, t.z_low), z_high = hn::Set(d, t.z_high);
   const VI id = hn::Set(di, t.id);
-  VF least_z = z_high;
   for (int s = 0; s < tile.sample_count; ++s)
     for (int y = by; y < by + 8; ++y) {
       const VF row = hn::Set(d, t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y));
@@ -121,10 +131,8 @@ float fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int 
         const int at = s * tile_pixels + y * tile_size + x;
         hn::Store(z, d, tile.depth + at);
         hn::Store(id, di, tile.id + at);
-        least_z = hn::Min(least_z, z);
       }
     }
-  return hn::GetLane(hn::MinOfLanes(d, least_z));
 }
 
 HWY_INLINE hn::Mask<F> inside(VI e0, VI e1, VI e2) {
@@ -176,14 +184,25 @@ bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, c
 bool draw(const TileTriangle& t, TileVisibility& tile) {
   const Spread spread = spread_of(t, tile.sample_count);
   const Step step(t);
+  const bool covers_tile = classify(t, spread, 0, 0, tile_size) == Block::Inside;
   bool has_risen = false;
   for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      const Block place = classify(t, spread, bx, by);
+      const Block place = covers_tile ? Block::Inside : classify(t, spread, bx, by);
       const int block = by + bx / 8;
-      if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_far[block]) continue;
+      if (place == Block::Outside) continue;
+      const std::uint64_t bit = std::uint64_t{1} << block;
+      const float nearest = greatest_depth(t, spread, bx, by);
+      if (nearest < tile.block_far[block]) continue;
+      if (tile.stale & bit) {
+        tile.stale &= ~bit;
+        tile.block_far[block] = farthest(tile, bx, by);
+        has_risen = true;
+        if (nearest < tile.block_far[block]) continue;
+      }
       if (place == Block::Inside && tile.block_owner[block] == no_triangle) {
-        tile.block_far[block] = fill_block(t, tile, bx, by);
+        fill_block(t, tile, bx, by);
+        tile.block_far[block] = least_depth(t, spread, bx, by);
         tile.block_owner[block] = t.id;
         has_risen = true;
         continue;
@@ -191,10 +210,8 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       tile.open_block(block);
       const int top = greatest(by, t.first_y), bottom = least(by + 7, t.last_y);
       const bool all = draw_block(t, spread, step, tile, bx, top, bottom);
-      if (place != Block::Inside) continue;
-      tile.block_far[block] = farthest(tile, bx, by);
-      if (all) tile.block_owner[block] = t.id;
-      has_risen = true;
+      tile.stale |= bit;
+      if (place == Block::Inside && all) tile.block_owner[block] = t.id;
     }
   return has_risen;
 }
@@ -223,7 +240,8 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   return count;
 }
 
-int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* out, std::uint8_t* is_partial) {
+int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
+                 std::uint8_t* is_partial) {
   const F d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Spread spread = spread_of(t, tile.sample_count);
@@ -231,7 +249,7 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* ou
   int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      if (classify(t, spread, bx, y & ~7) == Block::Outside) continue;
+      if (!(blocks >> ((y & ~7) + bx / 8) & 1) || classify(t, spread, bx, y & ~7) == Block::Outside) continue;
       VF low = step.z_high, high = step.z_low;
       bool all = true, any = false;
       for (int s = 0; s < tile.sample_count; ++s)
@@ -248,6 +266,39 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, RowLayer* ou
         out[count++] = {t.id, row, hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
       else if (any)
         is_partial[row] = 1;
+    }
+  return count;
+}
+
+void find_nearest(const TileVisibility& tile, float* nearest) {
+  const F d;
+  for (int block = 0; block < TileVisibility::blocks; ++block) {
+    nearest[block] = 0;
+    if (tile.block_owner[block] == no_triangle) continue;
+    const float* const corner = tile.depth + block / 8 * 8 * tile_size + block % 8 * 8;
+    VF high = hn::Zero(d);
+    for (int s = 0; s < tile.sample_count; ++s)
+      for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; x += static_cast<int>(hn::Lanes(d)))
+          high = hn::Max(high, hn::Load(d, corner + s * tile_pixels + y * tile_size + x));
+    nearest[block] = hn::GetLane(hn::MaxOfLanes(d, high));
+  }
+}
+
+int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const float* nearest, BlockLayer* out,
+                   std::uint64_t& others) {
+  const Spread spread = spread_of(t, tile.sample_count);
+  int count = 0;
+  for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
+      const Block place = classify(t, spread, bx, by);
+      const int block = by + bx / 8;
+      if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_far[block]) continue;
+      const float low = least_depth(t, spread, bx, by);
+      if (place == Block::Inside && low > nearest[block])
+        out[count++] = {t.id, static_cast<std::uint32_t>(block), low, greatest_depth(t, spread, bx, by)};
+      else
+        others |= std::uint64_t{1} << block;
     }
   return count;
 }
@@ -270,8 +321,12 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
 }  // namespace
 
 extern const CoverageKernels coverage_kernels;
-const CoverageKernels coverage_kernels = {
-    .draw = draw, .collect = collect, .collect_rows = collect_rows, .find_owners = find_owners};
+const CoverageKernels coverage_kernels = {.draw = draw,
+                                          .collect = collect,
+                                          .collect_rows = collect_rows,
+                                          .find_nearest = find_nearest,
+                                          .collect_blocks = collect_blocks,
+                                          .find_owners = find_owners};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

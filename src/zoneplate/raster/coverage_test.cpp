@@ -204,8 +204,9 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
           b.visibility.open_all();
           std::vector<RowLayer> ra(tile_pixels / 8), rb(tile_pixels / 8);
           std::vector<std::uint8_t> pa(tile_pixels / 8), pb(tile_pixels / 8);
-          const int rows = scalar::coverage_kernels.collect_rows(tile, a.visibility, ra.data(), pa.data());
-          ASSERT_EQ(rows, coverage_kernels(isa).collect_rows(tile, b.visibility, rb.data(), pb.data()));
+          const std::uint64_t blocks = i % 2 == 0 ? ~std::uint64_t{0} : 0x0f3355aa5533f00full;
+          const int rows = scalar::coverage_kernels.collect_rows(tile, a.visibility, blocks, ra.data(), pa.data());
+          ASSERT_EQ(rows, coverage_kernels(isa).collect_rows(tile, b.visibility, blocks, rb.data(), pb.data()));
           ASSERT_EQ(pa, pb);
           for (std::size_t k = 0; k < static_cast<std::size_t>(rows); ++k)
             ASSERT_TRUE(ra[k].row == rb[k].row && ra[k].least == rb[k].least && ra[k].greatest == rb[k].greatest);
@@ -231,6 +232,58 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
       EXPECT_EQ(std::memcmp(a.visibility.id, b.visibility.id, bytes), 0) << name_of(isa) << " " << samples;
     }
   }
+}
+
+// What is drawn before, half of the tile empty; then triangles that reach over it, in front, behind and through.
+TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
+  const SetupRules rules{.viewport = viewport};
+  int whole = 0, left_out = 0;
+  for (const int samples : {1, 4, 8}) {
+    const SamplePattern pattern = standard_pattern(samples);
+    for (const Isa isa : supported_isas()) {
+      const CoverageKernels& kernels = coverage_kernels(isa);
+      Buffers held(samples);
+      TileTriangle tile;
+      for (std::uint32_t i = 0; i < 60; ++i) {
+        ScreenVertex v[3];
+        random_corners(hash(i, 5), v);
+        const int shrink = i < 6 ? 8 : 1;
+        for (ScreenVertex& c : v) c.x /= shrink, c.y /= shrink;
+        if (doubled_area(v[0], v[1], v[2]) == 0) continue;
+        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(i), rules), pattern.data(),
+                           samples, 512, 384, tile);
+        if (i < 6) {
+          kernels.draw(tile, held.visibility);
+          continue;
+        }
+        float nearest[2][TileVisibility::blocks];
+        scalar::coverage_kernels.find_nearest(held.visibility, nearest[0]);
+        kernels.find_nearest(held.visibility, nearest[1]);
+        ASSERT_TRUE(std::equal(nearest[0], nearest[0] + TileVisibility::blocks, nearest[1]));
+        BlockLayer a[TileVisibility::blocks], b[TileVisibility::blocks];
+        std::uint64_t others_a = 0, others_b = 0;
+        const int n = scalar::coverage_kernels.collect_blocks(tile, held.visibility, nearest[0], a, others_a);
+        ASSERT_EQ(n, kernels.collect_blocks(tile, held.visibility, nearest[0], b, others_b)) << i;
+        std::uint64_t listed = 0;
+        for (int k = 0; k < n; ++k) {
+          ASSERT_TRUE(a[k].block == b[k].block && a[k].least == b[k].least && a[k].greatest == b[k].greatest);
+          listed |= std::uint64_t{1} << a[k].block;
+        }
+        whole += n;
+        held.visibility.open_all();
+        std::vector<Fragment> found(tile_pixels);
+        const int won = kernels.collect(tile, held.visibility, found.data());
+        for (int k = 0; k < won; ++k) {
+          const std::uint32_t pixel = found[static_cast<std::size_t>(k)].pixel;
+          ASSERT_TRUE((listed | others_b) >> (pixel / 512 * 8 + pixel % 64 / 8) & 1) << i;
+        }
+        ASSERT_EQ(listed & others_b, 0u);
+        left_out += listed == 0 && others_b == 0;
+      }
+    }
+  }
+  EXPECT_GT(whole, 100);
+  EXPECT_GT(left_out, 0);
 }
 
 }  // namespace

@@ -33,20 +33,23 @@ bool is_in_rectangle(const Bounds& b, const FrontRun& run) {
          b.high_y >> 8 >= run.top;
 }
 
-void put(FragmentSink& sink, std::int32_t tile, float depth, std::int32_t id, std::uint32_t at) {
+void put(const FrontRun& run, FragmentSink& sink, std::int32_t tile, float depth, std::int32_t id, std::uint32_t at) {
   SampleFragments* part = sink.last[tile];
-  if (!part || part->count == SampleFragments::capacity) part = sink.grow(sink, tile);
+  const auto is_full = [&] {
+    return part->count == SampleFragments::capacity || id < part->first_id || id - part->first_id > 0xffff;
+  };
+  if (!part || is_full()) part = sink.grow(sink, tile, run.first_id);
   part->depth[part->count] = depth;
-  part->id[part->count] = id;
-  part->at[part->count++] = at;
+  part->what[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
 }
 
 void draw(const Triangle& t, const FrontRun& run, FragmentSink& sink) {
   SamplePosition samples[TileTriangle::max_samples];
   for (int s = 0; s < run.sample_count; ++s)
     samples[s] = {static_cast<std::uint8_t>(run.sample_x[s]), static_cast<std::uint8_t>(run.sample_y[s])};
-  for (int y = std::max(t.min_y, run.top); y <= std::min(t.max_y, run.bottom); ++y)
-    for (int x = std::max(t.min_x, run.left); x <= std::min(t.max_x, run.right); ++x) {
+  constexpr int last = tile_size - 1;
+  for (int y = std::max(t.min_y, run.top & ~last); y <= std::min(t.max_y, run.bottom | last); ++y)
+    for (int x = std::max(t.min_x, run.left & ~last); x <= std::min(t.max_x, run.right | last); ++x) {
       const int column = x / tile_size, row = y / tile_size, i = x % tile_size, j = y % tile_size;
       TileTriangle tile;
       make_tile_triangle(t, samples, run.sample_count, column * tile_size, row * tile_size, tile);
@@ -54,8 +57,8 @@ void draw(const Triangle& t, const FrontRun& run, FragmentSink& sink) {
         bool is_covered = true;
         for (int k = 0; k < 3; ++k) is_covered = is_covered && tile.a[k] * i + tile.b[k] * j + tile.c[k][s] >= 0;
         if (is_covered)
-          put(sink, (row - sink.first_row) * sink.columns + column - sink.first_column, depth_at(tile, s, i, j), t.id,
-              static_cast<std::uint32_t>(s * tile_pixels + j * tile_size + i));
+          put(run, sink, (row - sink.first_row) * sink.columns + column - sink.first_column, depth_at(tile, s, i, j),
+              t.id, static_cast<std::uint32_t>(s * tile_pixels + j * tile_size + i));
       }
     }
 }

@@ -10,14 +10,18 @@ namespace zoneplate {
 
 /// Samples of one tile that small triangles cover, in any order; a list of these is what a thread has for a tile.
 ///
-/// Units     at = sample × 4096 + 64 y + x, with the pixel (x, y) within the tile.
+/// Units     what = 65536 (id - first_id) + at, at = 4096 sample + 64 y + x, with the pixel (x, y) within the tile.
 struct SampleFragments {
-  static constexpr int capacity = 340;
+  static constexpr int capacity = 510;
+  static constexpr int most_samples = 16;
   SampleFragments* previous;
   std::int32_t count;
+  std::int32_t first_id;
   float depth[capacity];
-  std::int32_t id[capacity];
-  std::uint32_t at[capacity];
+  std::uint32_t what[capacity];
+
+  static std::uint32_t at(std::uint32_t w) { return w & 0xffff; }
+  std::int32_t id(std::uint32_t w) const { return first_id + static_cast<std::int32_t>(w >> 16); }
 };
 
 /// Where the fragments of one thread go: by tile of the picture's grid, the list's last part, or null.
@@ -25,7 +29,8 @@ struct FragmentSink {
   std::int32_t first_column, first_row, columns;
   SampleFragments** last;
   void* owner;
-  SampleFragments* (*grow)(FragmentSink& sink, std::int32_t tile);  ///< gives the list a new, empty last part
+  /// Gives the list a new, empty last part for triangles from `first_id` on.
+  SampleFragments* (*grow)(FragmentSink& sink, std::int32_t tile, std::int32_t first_id);
 };
 
 /// A run of consecutive triangles of one draw, and what they are tested against.
@@ -35,12 +40,15 @@ struct FrontRun {
   std::int32_t count;          ///< at most `capacity`
   std::int32_t first_id;
   Viewport viewport;
-  std::int32_t left, top, right, bottom;  ///< the pixels that are drawn, ends included
+  /// The pixels that are drawn, ends included. Fragments fill their tiles beyond them.
+  std::int32_t left, top, right, bottom;
   const std::int32_t *sample_x, *sample_y;
   std::int32_t sample_count;
-  std::int32_t facing;        ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
-  bool is_top_left;           ///< as SetupRules
-  std::int32_t small_extent;  ///< 1/256 pixel: what is no wider and no higher becomes fragments; at most 2047, -1: none
+  std::int32_t facing;  ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
+  bool is_top_left;     ///< as SetupRules
+  /// 1/256 pixel: what is no wider and no higher becomes fragments; at most 2047, -1: none, as it must be where there
+  /// are more samples than SampleFragments::most_samples.
+  std::int32_t small_extent;
 
   Triangle* records;  ///< room for those that are kept and not small; null: they are listed, not set up
 

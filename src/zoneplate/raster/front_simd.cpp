@@ -164,46 +164,83 @@ class Front {
   HWY_NOINLINE void draw(const Corners& c, const Extent& e, MI alive) {
     SetUp t;
     set_up(c, e, run_.is_top_left, t);
-    // A sample of one kind has at most so many candidates among the pixels.
     const VI dead = hn::VecFromMask(i32, hn::Not(alive));
-    const VI width = hn::AndNot(dead, hn::Sub(e.high_x, e.low_x)),
-             height = hn::AndNot(dead, hn::Sub(e.high_y, e.low_y));
-    const int columns = (hn::GetLane(hn::MaxOfLanes(i32, width)) >> 8) + 1;
-    const int rows = (hn::GetLane(hn::MaxOfLanes(i32, height)) >> 8) + 1;
-    const std::int32_t tile = tile_of_all(e, alive);
-    for (std::int32_t s = 0; s < run_.sample_count; ++s) {
-      const Candidates n = candidates_of(c, e, t, run_.sample_x[s], run_.sample_y[s]);
-      if (tile < 0) {
-        cover(t, n, dead, columns, rows, Scatter{run_, sink_, n, c.id, s});
-        continue;
-      }
-      const VI in_tile = set(63);
-      const VI place = hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile));
-      const Append append{sink_, tile, hn::Add(place, set(s << 12)), c.id};
-      if (columns <= 2 && rows <= 2)
-        cover_2x2(t, n, dead, append);
-      else
-        cover(t, n, dead, columns, rows, append);
+    const VI width = hn::AndNot(dead, hn::Sub(e.high_x, e.low_x));
+    const VI height = hn::AndNot(dead, hn::Sub(e.high_y, e.low_y));
+    const Work work{c, e, t, Way(c, t), dead, hn::ShiftLeft<16>(c.id)};
+    const std::int32_t tile = tile_of_all(e, dead);
+    // A sample of one kind has at most a candidate more in each direction than there are whole pixels.
+    if (tile < 0) {
+      scatter(work, candidates(width), candidates(height));
+    } else if (!hn::AllFalse(i32, hn::Gt(hn::Max(width, height), set(511)))) {
+      append_many(work, tile, candidates(width), candidates(height));
+    } else if (!hn::AllFalse(i32, hn::Gt(width, set(255)))) {
+      append<2, 2>(work, tile);
+    } else if (!hn::AllFalse(i32, hn::Gt(height, set(255)))) {
+      append<1, 2>(work, tile);
+    } else {
+      append<1, 1>(work, tile);
     }
   }
 
-  // The tile in which all lanes lie, in the rectangle too, so that whole vectors go to one list; or -1.
-  HWY_INLINE std::int32_t tile_of_all(const Extent& e, MI alive) const {
-    alignas(64) std::int32_t columns[lanes], rows[lanes];
-    hn::Store(hn::ShiftRight<14>(e.low_x), i32, columns);
-    hn::Store(hn::ShiftRight<14>(e.low_y), i32, rows);
-    const auto first = static_cast<std::size_t>(hn::FindFirstTrue(i32, alive));
-    const std::int32_t column = columns[first], row = rows[first];
-    const std::int32_t left = greatest(column * 64, run_.left), right = least(column * 64 + 63, run_.right);
-    const std::int32_t top = greatest(row * 64, run_.top), bottom = least(row * 64 + 63, run_.bottom);
-    const VI beyond = hn::Or(hn::Or(hn::Sub(e.low_x, set(left * 256)), hn::Sub(set(right * 256 + 255), e.high_x)),
-                             hn::Or(hn::Sub(e.low_y, set(top * 256)), hn::Sub(set(bottom * 256 + 255), e.high_y)));
-    if (!hn::AllFalse(i32, hn::And(alive, hn::Lt(beyond, hn::Zero(i32))))) return -1;
-    return (row - sink_.first_row) * sink_.columns + column - sink_.first_column;
+  static HWY_INLINE int candidates(VI extent) { return (hn::GetLane(hn::MaxOfLanes(i32, extent)) >> 8) + 1; }
+
+  /// A vector of triangles on its way to become fragments.
+  struct Work {
+    const Corners& c;
+    const Extent& e;
+    const SetUp& t;
+    Way way;
+    VI dead;
+    VI number;  ///< as what is said of fragments has it
+  };
+
+  /// Where the candidates lie in no more columns and rows than that.
+  template <int columns, int rows>
+  HWY_INLINE void append(const Work& w, std::int32_t tile) {
+    for (std::int32_t s = 0; s < run_.sample_count; ++s) {
+      const Candidates n = candidates_of(w.c, w.e, w.t, w.way, run_.sample_x[s], run_.sample_y[s]);
+      cover_few<columns, rows>(w.t, n, w.dead, append_at(w, n, s, tile, columns * rows));
+    }
   }
 
-  static std::int32_t least(std::int32_t p, std::int32_t q) { return p < q ? p : q; }
-  static std::int32_t greatest(std::int32_t p, std::int32_t q) { return p > q ? p : q; }
+  HWY_NOINLINE void append_many(const Work& w, std::int32_t tile, int columns, int rows) {
+    for (std::int32_t s = 0; s < run_.sample_count; ++s) {
+      const Candidates n = candidates_of(w.c, w.e, w.t, w.way, run_.sample_x[s], run_.sample_y[s]);
+      Edges row{n.e[0], n.e[1], n.e[2]};
+      for (int j = 0; j < rows; ++j, row = row.down(w.t))
+        cover_row(w.t, n, row, w.dead, columns, j, append_at(w, n, s, tile, columns + 1));
+    }
+  }
+
+  HWY_INLINE Append append_at(const Work& w, const Candidates& n, std::int32_t s, std::int32_t tile, int places) {
+    SampleFragments* const part = part_with_room(run_, sink_, tile, places * lanes);
+    const VI in_tile = set(63);
+    const VI place = hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile));
+    const auto rest = (static_cast<std::uint32_t>(s) << 12) - (static_cast<std::uint32_t>(part->first_id) << 16);
+    return {part, hn::Add(hn::Add(place, w.number), set(static_cast<std::int32_t>(rest)))};
+  }
+
+  HWY_NOINLINE void scatter(const Work& w, int columns, int rows) {
+    for (std::int32_t s = 0; s < run_.sample_count; ++s) {
+      const Candidates n = candidates_of(w.c, w.e, w.t, w.way, run_.sample_x[s], run_.sample_y[s]);
+      Edges row{n.e[0], n.e[1], n.e[2]};
+      for (int j = 0; j < rows; ++j, row = row.down(w.t))
+        cover_row(w.t, n, row, w.dead, columns, j, Scatter{run_, sink_, n, w.c.id, s});
+    }
+  }
+
+  // The tile in which all lanes lie, so that whole vectors go to one list; or -1.
+  HWY_INLINE std::int32_t tile_of_all(const Extent& e, VI dead) const {
+    const auto first = hn::FindFirstTrue(i32, hn::Eq(dead, hn::Zero(i32)));
+    const auto lane = hn::IndicesFromVec(i32, set(static_cast<std::int32_t>(first)));
+    const VI x = hn::TableLookupLanes(e.low_x, lane), y = hn::TableLookupLanes(e.low_y, lane);
+    const VI beyond =
+        hn::Or(hn::Or(hn::Xor(e.low_x, x), hn::Xor(e.high_x, x)), hn::Or(hn::Xor(e.low_y, y), hn::Xor(e.high_y, y)));
+    if (!hn::AllTrue(i32, hn::Eq(hn::ShiftRight<14>(hn::AndNot(dead, beyond)), hn::Zero(i32)))) return -1;
+    const std::int32_t column = hn::GetLane(x) >> 14, row = hn::GetLane(y) >> 14;
+    return (row - sink_.first_row) * sink_.columns + column - sink_.first_column;
+  }
 
   const FrontRun& run_;
   FragmentSink& sink_;

@@ -61,17 +61,19 @@ class Lists {
     for (std::size_t tile = 0; tile < last_.size(); ++tile)
       for (const SampleFragments* p = last_[tile]; p; p = p->previous)
         for (std::int32_t i = 0; i < p->count; ++i)
-          out.emplace_back(static_cast<std::int32_t>(tile), p->at[i], p->id[i], p->depth[i]);
+          out.emplace_back(static_cast<std::int32_t>(tile), SampleFragments::at(p->what[i]), p->id(p->what[i]),
+                           p->depth[i]);
     std::sort(out.begin(), out.end());
     return out;
   }
 
  private:
-  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile) {
+  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile, std::int32_t first_id) {
     auto& lists = *static_cast<Lists*>(sink.owner);
     lists.parts_.emplace_back();
     lists.parts_.back().previous = sink.last[tile];
     lists.parts_.back().count = 0;
+    lists.parts_.back().first_id = first_id;
     return sink.last[tile] = &lists.parts_.back();
   }
   std::deque<SampleFragments> parts_;
@@ -213,8 +215,11 @@ TEST(Front, FragmentsAreTheSamplesInsideSmallTriangles) {
       if (listed[t] || area == 0 || (c.facing && (area > 0) != (c.facing > 0))) continue;
       const Triangle triangle = make_triangle(*v[0], *v[1], *v[2], static_cast<std::int32_t>(t),
                                               {.viewport = viewport, .is_top_left = c.is_top_left});
-      for (int y = std::max(triangle.min_y, c.top); y <= std::min(triangle.max_y, c.bottom); ++y)
-        for (int x = std::max(triangle.min_x, c.left); x <= std::min(triangle.max_x, c.right); ++x)
+      if (triangle.min_x > c.right || triangle.max_x < c.left || triangle.min_y > c.bottom || triangle.max_y < c.top)
+        continue;
+      constexpr int last = tile_size - 1;
+      for (int y = std::max(triangle.min_y, c.top & ~last); y <= std::min(triangle.max_y, c.bottom | last); ++y)
+        for (int x = std::max(triangle.min_x, c.left & ~last); x <= std::min(triangle.max_x, c.right | last); ++x)
           for (std::size_t s = 0; s < c.pattern.size(); ++s) {
             if (!covers(corner, x * 256 + c.pattern[s].x, y * 256 + c.pattern[s].y, c.is_top_left)) continue;
             const int tile_x = x / tile_size * tile_size, tile_y = y / tile_size * tile_size;

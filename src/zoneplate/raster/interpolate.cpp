@@ -37,11 +37,13 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   const float step = 256.0f * spacing;
   std::uint32_t clipped = 0;
   for (int i = 0; i < batch.padded(); ++i) {
+    const int in_group = i % Batch::group, first = i - in_group;
+    if (batch.one_triangle[i / Batch::group]) batch.x[i] = batch.x[first] + 256 * in_group, batch.y[i] = batch.y[first];
     const std::size_t told = batch.told(static_cast<std::size_t>(i));
     std::int32_t dx[3], dy[3];
     float inv_w[3];
     for (int k = 0; k < 3; ++k) {
-      const ScreenVertex& v = *corners.vertex[k][told];
+      const ScreenVertex& v = corners.of(static_cast<std::size_t>(k), told, batch);
       dx[k] = v.x - (batch.x[i] - viewport.width * 128), dy[k] = v.y - (batch.y[i] - viewport.height * 128);
       inv_w[k] = v.inv_w;
       if (v.needs_clipping()) clipped |= 1u << (i / Batch::group);
@@ -69,31 +71,60 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   return clipped;
 }
 
-void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
+/// The weights of the second and the third vertex, and their slopes.
+struct ClippedPoint {
+  float b[2], dbdx[2], dbdy[2];
+};
+
+ClippedPoint interpolate_point(const BarycentricPlanes& t, double px, double py, float spacing) {
   const double step = 256.0 * static_cast<double>(spacing);
+  double q[3];
+  for (int k = 0; k < 3; ++k) q[k] = (t.x[k] * px + t.y[k] * py) + t.one[k];
+  const double sum = (q[0] + q[1]) + q[2];
+  const double inverse = 1.0 / (sum == 0 ? 1.0 : sum);
+  const double sum_x = (t.x[0] + t.x[1]) + t.x[2], sum_y = (t.y[0] + t.y[1]) + t.y[2];
+  double limit = 1;
+  ClippedPoint p;
+  for (int k = 0; k < 2; ++k) {
+    const double b = clamped(q[k + 1] * inverse, limit);
+    limit = limit - b;
+    p.b[k] = static_cast<float>(b);
+    p.dbdx[k] = static_cast<float>((t.x[k + 1] - b * sum_x) * inverse * step);
+    p.dbdy[k] = static_cast<float>((t.y[k + 1] - b * sum_y) * inverse * step);
+  }
+  return p;
+}
+
+void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   for (int i = 0; i < Batch::group; ++i) {
-    const double px = g.px[i] - viewport.width * 128, py = g.py[i] - viewport.height * 128;
-    double q[3];
-    for (int k = 0; k < 3; ++k) q[k] = (g.x[k][i] * px + g.y[k][i] * py) + g.one[k][i];
-    const double sum = (q[0] + q[1]) + q[2];
-    const double inverse = 1.0 / (sum == 0 ? 1.0 : sum);
-    const double sum_x = (g.x[0][i] + g.x[1][i]) + g.x[2][i];
-    const double sum_y = (g.y[0][i] + g.y[1][i]) + g.y[2][i];
-    double limit = 1;
+    BarycentricPlanes t;
+    for (int k = 0; k < 3; ++k) t.x[k] = g.x[k][i], t.y[k] = g.y[k][i], t.one[k] = g.one[k][i];
+    const ClippedPoint p =
+        interpolate_point(t, g.px[i] - viewport.width * 128, g.py[i] - viewport.height * 128, spacing);
     for (int k = 0; k < 2; ++k) {
-      const double b = clamped(q[k + 1] * inverse, limit);
-      limit = limit - b;
-      g.b[k][i] = static_cast<float>(b);
-      if (spacing == 0) continue;
-      g.dbdx[k][i] = static_cast<float>((g.x[k + 1][i] - b * sum_x) * inverse * step);
-      g.dbdy[k][i] = static_cast<float>((g.y[k + 1][i] - b * sum_y) * inverse * step);
+      g.b[k][i] = p.b[k];
+      if (spacing != 0) g.dbdx[k][i] = p.dbdx[k], g.dbdy[k][i] = p.dbdy[k];
+    }
+  }
+}
+
+void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                             std::size_t first) {
+  for (std::size_t i = first; i < first + Batch::group; ++i) {
+    const ClippedPoint p =
+        interpolate_point(planes, batch.x[i] - viewport.width * 128, batch.y[i] - viewport.height * 128, spacing);
+    for (int k = 0; k < 2; ++k) {
+      batch.b[k][i] = p.b[k];
+      if (spacing != 0) batch.dbdx[k][i] = p.dbdx[k], batch.dbdy[k][i] = p.dbdy[k];
     }
   }
 }
 
 }  // namespace
 
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate, .interpolate_clipped = interpolate_clipped};
+const InterpolateKernels interpolate_kernels = {.interpolate = interpolate,
+                                                .interpolate_clipped = interpolate_clipped,
+                                                .interpolate_clipped_row = interpolate_clipped_row};
 
 }  // namespace scalar
 }  // namespace zoneplate

@@ -17,10 +17,17 @@ struct BarycentricPlanes {
 };
 BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport viewport);
 
-/// The corners of a batch's triangles; where a group shares its triangle, at the group's first point only.
+/// The corners of a batch's triangles; where a group shares its triangle, where it is told (Batch) only.
 struct BatchCorners {
+  /// Not null: all are screen[batch.vertex], and `vertex` says nothing. Requires: no group shares its triangle.
+  const ScreenVertex* screen = nullptr;
   const ScreenVertex* vertex[3][Batch::capacity];
   alignas(64) std::int32_t is_mirrored[Batch::capacity];  ///< 1: front faces are clockwise; else 0
+
+  /// Corner k of what is told at point i.
+  const ScreenVertex& of(std::size_t k, std::size_t i, const Batch& batch) const {
+    return screen ? screen[batch.vertex[k][i]] : *vertex[k][i];
+  }
 };
 
 /// The planes of 8 points, and the weights and slopes that come out of them.
@@ -34,7 +41,8 @@ struct ClippedGroup {
 /// change of b_k per `spacing` pixels, but only if `spacing` is not 0. Weights are clamped: no attribute is
 /// extrapolated.
 struct InterpolateKernels {
-  /// Fills b, dbdx, dbdy and is_front of all padded() entries from the snapped vertices. Gives the groups in which a
+  /// Fills b, dbdx, dbdy and is_front of all padded() entries from the snapped vertices, and x and y of groups that
+  /// share their triangle from those of their first points. Gives the groups in which a
   /// triangle needs clipping, a bit each; for its points the result says nothing.
   ///
   /// Exact     E_k is an exact integer, and so is the sign of their sum, the side that is seen.
@@ -42,6 +50,9 @@ struct InterpolateKernels {
 
   /// The same for points of triangles that cross the eye's plane.
   void (*interpolate_clipped)(Viewport viewport, float spacing, ClippedGroup& group);
+  /// The same for the group of one such triangle whose first point is `first`: fills b, dbdx and dbdy.
+  void (*interpolate_clipped_row)(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                                  std::size_t first);
 };
 
 namespace scalar {

@@ -23,9 +23,21 @@ struct Corner {
   F inv_w;
 };
 
+/// The vertices of one corner, by address.
+struct ByAddress {
+  const ScreenVertex* const* v;
+  HWY_INLINE const ScreenVertex* operator[](int i) const { return v[i]; }
+};
+/// The same by number.
+struct ByNumber {
+  const ScreenVertex* screen;
+  const std::uint32_t* v;
+  HWY_INLINE const ScreenVertex* operator[](int i) const { return screen + v[i]; }
+};
+
 /// Vertices i and i + 4 side by side, or vertex i where vectors have room for four lanes only.
-template <class D>
-HWY_INLINE hn::Vec<D> two_vertices(D d, const ScreenVertex* const* v, int i) {
+template <class D, class Vertices>
+HWY_INLINE hn::Vec<D> two_vertices(D d, const Vertices& v, int i) {
   static_assert(sizeof(ScreenVertex) == 16);
   const hn::FixedTag<std::int32_t, 4> block;
   const auto first = hn::LoadU(block, reinterpret_cast<const std::int32_t*>(v[i]));
@@ -36,7 +48,8 @@ HWY_INLINE hn::Vec<D> two_vertices(D d, const ScreenVertex* const* v, int i) {
   }
 }
 
-HWY_INLINE Corner turned_corners(const ScreenVertex* const* v) {
+template <class Vertices>
+HWY_INLINE Corner turned_corners(const Vertices& v) {
   const IntTag d;
   const I v0 = two_vertices(d, v, 0), v1 = two_vertices(d, v, 1);
   const I v2 = two_vertices(d, v, 2), v3 = two_vertices(d, v, 3);
@@ -53,12 +66,31 @@ HWY_INLINE F to_floats(D l, D h) {
   return hn::Combine(FloatTag(), hn::DemoteTo(HalfFloat(), h), hn::DemoteTo(HalfFloat(), l));
 }
 
+/// The edge functions at points, and their sum or what has its sign.
 struct Edges {
-  F e[3];
-  D sum_low, sum_high;
+  F e[3], sum;
 };
 
+HWY_INLINE Edges near_edges_at(const I (&dx)[3], const I (&dy)[3]) {
+  const FloatTag d;
+  const F x[3] = {hn::ConvertTo(d, dx[0]), hn::ConvertTo(d, dx[1]), hn::ConvertTo(d, dx[2])};
+  const F y[3] = {hn::ConvertTo(d, dy[0]), hn::ConvertTo(d, dy[1]), hn::ConvertTo(d, dy[2])};
+  Edges out;
+  for (int k = 0; k < 3; ++k) {
+    const int m = (k + 1) % 3, n = (k + 2) % 3;
+    out.e[k] = hn::Sub(hn::Mul(x[m], y[n]), hn::Mul(y[m], x[n]));
+  }
+  out.sum = hn::Add(hn::Add(out.e[0], out.e[1]), out.e[2]);
+  return out;
+}
+
 HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
+  // Of corners that are near the point, less than 8 pixels, floats hold the products and their sums as exactly.
+  const IntTag di;
+  const auto beyond = [&](I v) HWY_ATTR { return hn::ShiftRight<11>(hn::Xor(v, hn::BroadcastSignBit(v))); };
+  const I far_x = hn::Or(hn::Or(beyond(dx[0]), beyond(dx[1])), beyond(dx[2]));
+  const I far_y = hn::Or(hn::Or(beyond(dy[0]), beyond(dy[1])), beyond(dy[2]));
+  if (hn::AllTrue(di, hn::Eq(hn::Or(far_x, far_y), hn::Zero(di)))) return near_edges_at(dx, dy);
   const D xl[3] = {low(dx[0]), low(dx[1]), low(dx[2])}, xh[3] = {high(dx[0]), high(dx[1]), high(dx[2])};
   const D yl[3] = {low(dy[0]), low(dy[1]), low(dy[2])}, yh[3] = {high(dy[0]), high(dy[1]), high(dy[2])};
   D l[3], h[3];
@@ -68,8 +100,7 @@ HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
     h[k] = hn::Sub(hn::Mul(xh[m], yh[n]), hn::Mul(yh[m], xh[n]));
   }
   return {{to_floats(l[0], h[0]), to_floats(l[1], h[1]), to_floats(l[2], h[2])},
-          hn::Add(hn::Add(l[0], l[1]), l[2]),
-          hn::Add(hn::Add(h[0], h[1]), h[2])};
+          to_floats(hn::Add(hn::Add(l[0], l[1]), l[2]), hn::Add(hn::Add(h[0], h[1]), h[2]))};
 }
 
 HWY_INLINE F clamped(F b, F limit) {
@@ -82,7 +113,7 @@ HWY_INLINE void store_front(const Edges& e, const std::int32_t* is_mirrored, std
   // The sign of the sum survives the rounding to float.
   const FloatTag d;
   const IntTag di;
-  const auto is_clockwise = hn::Gt(to_floats(e.sum_low, e.sum_high), hn::Zero(d));
+  const auto is_clockwise = hn::Gt(e.sum, hn::Zero(d));
   const I clockwise = hn::IfThenElseZero(hn::RebindMask(di, is_clockwise), hn::Set(di, 1));
   const auto is_front = hn::Eq(clockwise, hn::Load(di, is_mirrored));
   hn::Store(hn::IfThenElseZero(is_front, hn::Set(di, 1)), di, out);
@@ -144,22 +175,21 @@ HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const
 
 /// What the rows of one triangle have in common: E_k = a_k x + (b_k y + c_k), all of it exact, and the slopes of q_k.
 struct RowTriangle {
-  const ScreenVertex* vertex[3] = {};
   double a[3] = {}, b[3] = {}, c[3] = {};
+  alignas(32) double way[3][lanes];  ///< a_k × the way from a vector's first pixel to each
   float inv_w[3] = {}, gx[3] = {}, gy[3] = {}, sum_x = 0, sum_y = 0;
   std::int32_t is_clockwise = 0;
   bool needs_clipping = false;
 
-  HWY_INLINE bool is_of(const BatchCorners& corners, int i) const {
-    return vertex[0] == corners.vertex[0][i] && vertex[1] == corners.vertex[1][i] && vertex[2] == corners.vertex[2][i];
-  }
   HWY_INLINE void make(const BatchCorners& corners, int i) {
+    const ScreenVertex* const vertex[3] = {corners.vertex[0][i], corners.vertex[1][i], corners.vertex[2][i]};
     needs_clipping = false;
     for (int k = 0; k < 3; ++k) {
-      vertex[k] = corners.vertex[k][i];
       inv_w[k] = vertex[k]->inv_w;
       needs_clipping = needs_clipping || inv_w[k] == 0;
     }
+    const DoubleTag dd;
+    const D steps = hn::Mul(hn::Iota(dd, 0.0), hn::Set(dd, 256.0));
     for (int k = 0; k < 3; ++k) {
       const ScreenVertex &m = *vertex[(k + 1) % 3], &n = *vertex[(k + 2) % 3];
       a[k] = static_cast<double>(m.y - n.y);
@@ -167,6 +197,8 @@ struct RowTriangle {
       c[k] = static_cast<double>(m.x) * static_cast<double>(n.y) - static_cast<double>(m.y) * static_cast<double>(n.x);
       gx[k] = static_cast<float>(m.y - n.y) * inv_w[k];
       gy[k] = static_cast<float>(n.x - m.x) * inv_w[k];
+      hn::Store(hn::Mul(hn::Set(dd, a[k]), steps), dd, way[k]);
+      hn::Store(hn::Mul(hn::Set(dd, a[k]), hn::Add(steps, hn::Set(dd, 128.0 * lanes))), dd, way[k] + lanes / 2);
     }
     sum_x = (gx[0] + gx[1]) + gx[2];
     sum_y = (gy[0] + gy[1]) + gy[2];
@@ -181,13 +213,10 @@ HWY_INLINE void interpolate_row(const RowTriangle& t, const Screen& screen, View
   const DoubleTag dd;
   const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
   const double px = static_cast<double>(batch.x[first] - viewport.width * 128 + (i - first) * 256);
-  const D step = hn::Mul(hn::Iota(dd, 0.0), hn::Set(dd, 256.0));
-  const double half = 256.0 * static_cast<double>(lanes / 2);
   F edge[3];
   for (int k = 0; k < 3; ++k) {
-    const double at = t.a[k] * px + (t.b[k] * py + t.c[k]);
-    const D way = hn::Mul(hn::Set(dd, t.a[k]), step);
-    edge[k] = to_floats(hn::Add(hn::Set(dd, at), way), hn::Add(hn::Set(dd, at + t.a[k] * half), way));
+    const D at = hn::Set(dd, t.a[k] * px + (t.b[k] * py + t.c[k]));
+    edge[k] = to_floats(hn::Add(at, hn::Load(dd, t.way[k])), hn::Add(at, hn::Load(dd, t.way[k] + lanes / 2)));
   }
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
   const Weights w = store_weights(edge, same(t.inv_w[0]), same(t.inv_w[1]), same(t.inv_w[2]), batch, i);
@@ -195,6 +224,17 @@ HWY_INLINE void interpolate_row(const RowTriangle& t, const Screen& screen, View
   const F by = hn::Mul(w.inverse, screen.step);
   store_slopes(w, by, same(t.gx[1]), same(t.gx[2]), same(t.sum_x), batch.dbdx, i);
   store_slopes(w, by, same(t.gy[1]), same(t.gy[2]), same(t.sum_y), batch.dbdy, i);
+}
+
+/// x and y of the group's points from those of the first.
+HWY_INLINE void spread_places(Batch& batch, int first) {
+  const IntTag d;
+  const I steps = hn::Mul(hn::Iota(d, 0), hn::Set(d, 256));
+  const std::int32_t x = batch.x[first], y = batch.y[first];
+  for (int i = 0; i < Batch::group; i += lanes) {
+    hn::Store(hn::Add(hn::Set(d, x + i * 256), steps), d, batch.x + first + i);
+    hn::Store(hn::Set(d, y), d, batch.y + first + i);
+  }
 }
 
 std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
@@ -206,14 +246,21 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   for (int first = 0; first < count; first += Batch::group) {
     bool is_clipped = false;
     if (batch.one_triangle[first / Batch::group]) {
-      if (!row.is_of(corners, first)) row.make(corners, first);
+      if (batch.told_group[first / Batch::group] * Batch::group == first) {
+        row.make(corners, first);
+        batch.is_front[first] = row.is_clockwise == corners.is_mirrored[first] ? 1 : 0;
+      }
       is_clipped = row.needs_clipping;
-      batch.is_front[first] = row.is_clockwise == corners.is_mirrored[first] ? 1 : 0;
-      for (int i = first; i < first + Batch::group; i += lanes) interpolate_row(row, screen, viewport, batch, first, i);
+      if (!is_clipped)
+        for (int i = first; i < first + Batch::group; i += lanes)
+          interpolate_row(row, screen, viewport, batch, first, i);
+      spread_places(batch, first);
     } else {
       for (int i = first; i < first + Batch::group; i += lanes) {
-        const Corner c[3] = {turned_corners(corners.vertex[0] + i), turned_corners(corners.vertex[1] + i),
-                             turned_corners(corners.vertex[2] + i)};
+        Corner c[3];
+        for (int k = 0; k < 3; ++k)
+          c[k] = corners.screen ? turned_corners(ByNumber{corners.screen, batch.vertex[k] + i})
+                                : turned_corners(ByAddress{corners.vertex[k] + i});
         is_clipped = interpolate_at(c, screen, corners, batch, i) || is_clipped;
       }
     }
@@ -222,43 +269,79 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   return clipped;
 }
 
-void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
-  const hn::CappedTag<double, 8> d;
-  const hn::Rebind<float, decltype(d)> df;
-  const hn::Rebind<std::int32_t, decltype(d)> di;
-  using V = hn::Vec<decltype(d)>;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0), step = hn::Set(d, 256.0 * static_cast<double>(spacing));
-  const auto centre_x = hn::Set(di, viewport.width * 128), centre_y = hn::Set(di, viewport.height * 128);
-  for (int i = 0; i < Batch::group; i += static_cast<int>(hn::Lanes(d))) {
-    const V px = hn::PromoteTo(d, hn::Sub(hn::Load(di, g.px + i), centre_x));
-    const V py = hn::PromoteTo(d, hn::Sub(hn::Load(di, g.py + i), centre_y));
-    V x[3], y[3], q[3];
-    for (int k = 0; k < 3; ++k) {
-      x[k] = hn::Load(d, g.x[k] + i), y[k] = hn::Load(d, g.y[k] + i);
-      q[k] = hn::Add(hn::Add(hn::Mul(x[k], px), hn::Mul(y[k], py)), hn::Load(d, g.one[k] + i));
-    }
-    const V sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
-    const V inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
-    const V sum_x = hn::Add(hn::Add(x[0], x[1]), x[2]), sum_y = hn::Add(hn::Add(y[0], y[1]), y[2]);
-    V limit = one;
-    for (int k = 0; k < 2; ++k) {
-      const V b = hn::Add(hn::Min(hn::Max(hn::Mul(q[k + 1], inverse), zero), limit), zero);
-      limit = hn::Sub(limit, b);
-      hn::Store(hn::DemoteTo(df, b), df, g.b[k] + i);
-      if (spacing == 0) continue;
-      const auto slope = [&](V plane, V total) HWY_ATTR {
-        return hn::DemoteTo(df, hn::Mul(hn::Mul(hn::Sub(plane, hn::Mul(b, total)), inverse), step));
-      };
-      hn::Store(slope(x[k + 1], sum_x), df, g.dbdx[k] + i);
-      hn::Store(slope(y[k + 1], sum_y), df, g.dbdy[k] + i);
-    }
+using ClippedTag = hn::CappedTag<double, 8>;
+using ClippedV = hn::Vec<ClippedTag>;
+
+/// The planes of as many points as a vector of doubles holds.
+struct Planes {
+  ClippedV x[3], y[3], one[3];
+};
+
+struct Place {
+  std::int32_t centre_x, centre_y;
+  double step;
+  explicit Place(Viewport viewport, float spacing)
+      : centre_x(viewport.width * 128), centre_y(viewport.height * 128), step(256.0 * static_cast<double>(spacing)) {}
+};
+
+/// The points at (x, y) and on. Slopes are left out where the step is 0.
+HWY_INLINE void interpolate_planes(const Planes& t, const Place& place, const std::int32_t* x, const std::int32_t* y,
+                                   float* const (&b_out)[2], float* const (&dbdx)[2], float* const (&dbdy)[2]) {
+  const ClippedTag d;
+  const hn::Rebind<float, ClippedTag> df;
+  const hn::Rebind<std::int32_t, ClippedTag> di;
+  const ClippedV zero = hn::Zero(d), one = hn::Set(d, 1.0), step = hn::Set(d, place.step);
+  const ClippedV px = hn::PromoteTo(d, hn::Sub(hn::Load(di, x), hn::Set(di, place.centre_x)));
+  const ClippedV py = hn::PromoteTo(d, hn::Sub(hn::Load(di, y), hn::Set(di, place.centre_y)));
+  ClippedV q[3];
+  for (int k = 0; k < 3; ++k) q[k] = hn::Add(hn::Add(hn::Mul(t.x[k], px), hn::Mul(t.y[k], py)), t.one[k]);
+  const ClippedV sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
+  const ClippedV inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
+  const ClippedV sum_x = hn::Add(hn::Add(t.x[0], t.x[1]), t.x[2]), sum_y = hn::Add(hn::Add(t.y[0], t.y[1]), t.y[2]);
+  ClippedV limit = one;
+  for (int k = 0; k < 2; ++k) {
+    const ClippedV b = hn::Add(hn::Min(hn::Max(hn::Mul(q[k + 1], inverse), zero), limit), zero);
+    limit = hn::Sub(limit, b);
+    hn::Store(hn::DemoteTo(df, b), df, b_out[k]);
+    if (place.step == 0) continue;
+    const auto slope = [&](ClippedV plane, ClippedV total) HWY_ATTR {
+      return hn::DemoteTo(df, hn::Mul(hn::Mul(hn::Sub(plane, hn::Mul(b, total)), inverse), step));
+    };
+    hn::Store(slope(t.x[k + 1], sum_x), df, dbdx[k]);
+    hn::Store(slope(t.y[k + 1], sum_y), df, dbdy[k]);
   }
+}
+
+void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
+  const ClippedTag d;
+  const Place place(viewport, spacing);
+  for (std::size_t i = 0; i < Batch::group; i += hn::Lanes(d)) {
+    Planes t;
+    for (int k = 0; k < 3; ++k)
+      t.x[k] = hn::Load(d, g.x[k] + i), t.y[k] = hn::Load(d, g.y[k] + i), t.one[k] = hn::Load(d, g.one[k] + i);
+    interpolate_planes(t, place, g.px + i, g.py + i, {g.b[0] + i, g.b[1] + i}, {g.dbdx[0] + i, g.dbdx[1] + i},
+                       {g.dbdy[0] + i, g.dbdy[1] + i});
+  }
+}
+
+void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                             std::size_t first) {
+  const ClippedTag d;
+  const Place place(viewport, spacing);
+  Planes t;
+  for (int k = 0; k < 3; ++k)
+    t.x[k] = hn::Set(d, planes.x[k]), t.y[k] = hn::Set(d, planes.y[k]), t.one[k] = hn::Set(d, planes.one[k]);
+  for (std::size_t i = first; i < first + Batch::group; i += hn::Lanes(d))
+    interpolate_planes(t, place, batch.x + i, batch.y + i, {batch.b[0] + i, batch.b[1] + i},
+                       {batch.dbdx[0] + i, batch.dbdx[1] + i}, {batch.dbdy[0] + i, batch.dbdy[1] + i});
 }
 
 }  // namespace
 
 extern const InterpolateKernels interpolate_kernels;
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate, .interpolate_clipped = interpolate_clipped};
+const InterpolateKernels interpolate_kernels = {.interpolate = interpolate,
+                                                .interpolate_clipped = interpolate_clipped,
+                                                .interpolate_clipped_row = interpolate_clipped_row};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

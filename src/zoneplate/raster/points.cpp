@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 namespace zoneplate {
 
@@ -14,42 +13,45 @@ PointBatcher::PointBatcher(const ProjectedDraws& projected, const PointShader& s
       has_ends_(
           std::any_of(projected.draws.begin(), projected.draws.end(), [](const Draw& d) { return !d.ends.empty(); })) {}
 
-/// order_: the list's numbers, those of one material together; material_: by number.
+/// The list's numbers, those of one material together.
 template <class T>
-void PointBatcher::order_by_material(std::span<const T> list) {
+std::span<const std::uint32_t> PointBatcher::order_by_material(std::span<const T> list) {
+  order_.clear();
+  material_.clear();
+  number_up_to(list.size());
+  const auto as_is = std::span<const std::uint32_t>(as_is_).first(list.size());
+  if (list.empty()) return as_is;
+  find_draw(list[0].id);
+  one_material_ = known_.draw->material;
+  std::size_t same = 1;
+  while (same < list.size() && (list[same].id == list[same - 1].id || material_of(list[same].id) == one_material_))
+    ++same;
+  if (same == list.size()) return as_is;
+
   material_.resize(list.size());
-  order_.resize(list.size());
-  std::iota(order_.begin(), order_.end(), 0u);
-  std::int32_t begin = 0, end = 0;  // the triangles of the draw found last
-  std::uint32_t material = 0;
-  bool is_mixed = false;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i].id < begin || list[i].id >= end) {
-      const std::size_t d = projected_.draw_of(list[i].id);
-      begin = projected_.first_triangle[d], end = projected_.first_triangle[d + 1];
-      material = static_cast<std::uint32_t>(projected_.draws[d].material);
-    }
-    material_[i] = material;
-    is_mixed = is_mixed || material != material_[0];
-  }
-  if (is_mixed)
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::uint32_t p, std::uint32_t q) { return material_[p] < material_[q]; });
+  for (std::size_t i = 0; i < list.size(); ++i) material_[i] = static_cast<std::uint32_t>(material_of(list[i].id));
+  order_.assign(as_is.begin(), as_is.end());
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](std::uint32_t p, std::uint32_t q) { return material_[p] < material_[q]; });
+  return order_;
 }
 
-template void PointBatcher::order_by_material(std::span<const PointRow> list);
+template std::span<const std::uint32_t> PointBatcher::order_by_material(std::span<const PointRow> list);
 
-/// How many of the list's numbers from `first` on share a material, `most` at most.
-template <class T>
-std::size_t PointBatcher::same_material(std::span<const T> list, std::size_t first, std::size_t most) const {
-  const std::size_t limit = std::min(list.size(), first + most);
+/// as_is_: so many numbers at least.
+void PointBatcher::number_up_to(std::size_t count) {
+  for (std::size_t i = as_is_.size(); i < count; ++i) as_is_.push_back(static_cast<std::uint32_t>(i));
+}
+
+/// How many numbers from `first` on share a material, `most` at most.
+std::size_t PointBatcher::same_material(std::span<const std::uint32_t> order, std::size_t first,
+                                        std::size_t most) const {
+  const std::size_t limit = std::min(order.size(), first + most);
+  if (material_.empty()) return limit - first;
   std::size_t last = first + 1;
-  while (last < limit && material_[order_[last]] == material_[order_[first]]) ++last;
+  while (last < limit && material_[order[last]] == material_[order[first]]) ++last;
   return last - first;
 }
-
-template std::size_t PointBatcher::same_material(std::span<const PointRow> list, std::size_t first,
-                                                 std::size_t most) const;
 
 void PointBatcher::find_draw(std::int32_t id) {
   if (id >= known_.begin && id < known_.end) return;
@@ -57,6 +59,11 @@ void PointBatcher::find_draw(std::int32_t id) {
   known_.draw = &projected_.draws[known_.number];
   known_.screen = projected_.screen[known_.number].data();
   known_.begin = projected_.first_triangle[known_.number], known_.end = projected_.first_triangle[known_.number + 1];
+}
+
+int PointBatcher::material_of(std::int32_t id) {
+  find_draw(id);
+  return known_.draw->material;
 }
 
 /// Asks for the indices of a triangle that is about to be known.
@@ -81,20 +88,12 @@ void PointBatcher::put_triangle(std::size_t i, std::int32_t id) {
   }
 }
 
-void PointBatcher::copy_triangle(std::size_t from, std::size_t to) {
-  batch_.triangle[to] = batch_.triangle[from];
-  batch_.instance[to] = batch_.instance[from];
-  corners_.is_mirrored[to] = corners_.is_mirrored[from];
-  for (std::size_t k = 0; k < 3; ++k) {
-    corners_.vertex[k][to] = corners_.vertex[k][from];
-    batch_.vertex[k][to] = batch_.vertex[k][from];
-  }
-}
-
 void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
   constexpr std::size_t ahead = 16;
   batch_.count = static_cast<int>(numbers.size());
-  batch_.material = static_cast<int>(material_[numbers[0]]);
+  batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
+  batch_.one_instance = false;
+  corners_.screen = nullptr;
   std::fill(std::begin(batch_.one_triangle), std::end(batch_.one_triangle), false);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
     if (i + ahead < numbers.size()) fetch_ahead(points[numbers[i + ahead]].id);
@@ -107,20 +106,96 @@ void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint
 
 void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers) {
   batch_.count = static_cast<int>(numbers.size()) * Batch::group;
-  batch_.material = static_cast<int>(material_[numbers[0]]);
+  batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
+  batch_.one_instance = false;
+  corners_.screen = nullptr;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const PointRow& row = rows[numbers[i]];
     batch_.one_triangle[i] = true;
-    if (i > 0 && row.id == rows[numbers[i - 1]].id) {
-      copy_triangle((i - 1) * Batch::group, i * Batch::group);
-    } else {
-      put_triangle(i * Batch::group, row.id);
-    }
-    std::int32_t* const x = batch_.x + i * Batch::group;
-    std::int32_t* const y = batch_.y + i * Batch::group;
-    for (int k = 0; k < Batch::group; ++k) x[k] = row.x + k * 256, y[k] = row.y;
+    const bool is_told = i > 0 && row.id == rows[numbers[i - 1]].id;
+    batch_.told_group[i] = is_told ? batch_.told_group[i - 1] : static_cast<std::uint8_t>(i);
+    if (!is_told) put_triangle(i * Batch::group, row.id);
+    batch_.x[i * Batch::group] = row.x, batch_.y[i * Batch::group] = row.y;
   }
   interpolate();
+}
+
+/// True if all points of the list are of one draw of triangles; that is then known.
+bool PointBatcher::are_of_one_draw(const PointList& list) {
+  if (list.count == 0) return true;
+  find_draw(list.id[0]);
+  if (!known_.draw->ends.empty()) return false;
+  if (projected_.draws.size() == 1) return true;
+  const auto begin = static_cast<std::uint32_t>(known_.begin), size = static_cast<std::uint32_t>(known_.end) - begin;
+  std::uint32_t others = 0;
+  for (int i = 0; i < list.count; ++i) others += static_cast<std::uint32_t>(list.id[i]) - begin >= size ? 1 : 0;
+  return others == 0;
+}
+
+/// Points of the draw that is known. Indices and vertices, which lie anywhere in memory, are asked for before they are
+/// needed.
+void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t count) {
+  constexpr std::size_t ahead = 32;
+  const Draw& draw = *known_.draw;
+  batch_.count = static_cast<int>(count);
+  batch_.material = draw.material;
+  batch_.one_instance = true;
+  corners_.screen = known_.screen;
+  const auto padded = static_cast<std::size_t>(batch_.padded());
+  std::fill_n(batch_.one_triangle, padded / Batch::group, false);
+  std::fill_n(batch_.instance, padded, draw.instance);
+  std::fill_n(corners_.is_mirrored, padded, draw.is_mirrored ? 1 : 0);
+  std::copy_n(list.x + first, count, batch_.x);
+  std::copy_n(list.y + first, count, batch_.y);
+  std::copy_n(list.id + first, count, reinterpret_cast<std::int32_t*>(batch_.triangle));
+  for (std::size_t i = count; i < padded; ++i) {
+    batch_.x[i] = batch_.x[count - 1], batch_.y[i] = batch_.y[count - 1];
+    batch_.triangle[i] = batch_.triangle[count - 1];
+  }
+  const std::uint32_t* const index = draw.index.data() - 3 * static_cast<std::size_t>(known_.begin);
+  const auto total = static_cast<std::size_t>(list.count);
+  if (first == 0)
+    for (std::size_t i = 0; i < std::min(ahead, total); ++i) __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[i]});
+  for (std::size_t i = 0; i < padded; ++i) {
+    // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
+    if (i % 2 == 0 && first + i + ahead < total)
+      __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[first + i + ahead]});
+    const std::uint32_t* const v = index + 3 * std::size_t{batch_.triangle[i]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      batch_.vertex[k][i] = v[k];
+      __builtin_prefetch(&known_.screen[v[k]]);
+    }
+  }
+  interpolate();
+}
+
+template <class Use>
+void PointBatcher::for_batches(std::span<const Point> points, Use use) {
+  const auto order = order_by_material(points);
+  for (std::size_t first = 0; first < points.size();) {
+    const std::size_t count = same_material(order, first, Batch::capacity);
+    const auto numbers = order.subspan(first, count);
+    fill(points, numbers);
+    use(numbers);
+    first += count;
+  }
+}
+
+/// Points of several draws, through batches by material: fills unmixed_.
+void PointBatcher::shade_mixed(const PointList& list) {
+  const auto total = static_cast<std::size_t>(list.count);
+  mixed_.clear();
+  for (std::size_t i = 0; i < total; ++i) mixed_.push_back({list.x[i], list.y[i], list.id[i], 0, 0});
+  unmixed_.resize((total + Batch::capacity - 1) / Batch::capacity);
+  for_batches(mixed_, [&](std::span<const std::uint32_t> numbers) {
+    shader_.shade(batch_, {}, shaded_batch_);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      Shaded& to = unmixed_[numbers[i] / Batch::capacity];
+      const std::size_t at = numbers[i] % Batch::capacity;
+      to.r[at] = shaded_batch_.r[i], to.g[at] = shaded_batch_.g[i];
+      to.b[at] = shaded_batch_.b[i], to.a[at] = shaded_batch_.a[i];
+    }
+  });
 }
 
 void PointBatcher::interpolate() {
@@ -148,28 +223,23 @@ void PointBatcher::put_planes(std::size_t i, const BarycentricPlanes& planes) {
 /// Does those of the group's points again whose triangles need clipping.
 void PointBatcher::interpolate_clipped(std::size_t group, float spacing) {
   const std::size_t first = group * Batch::group;
-  bool is_clipped[Batch::group] = {};
   const auto is_front = [&](std::size_t told, const TriangleFacing& facing) {
     return facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
   };
   if (batch_.one_triangle[group]) {
-    // Rows of one triangle mostly follow each other; then its planes are there already.
-    const auto id = static_cast<std::int32_t>(batch_.triangle[first]);
-    const TriangleFacing& facing = know_clipped(id);
-    if (clipped_row_ != id)
-      for (std::size_t i = 0; i < Batch::group; ++i) put_planes(i, facing.planes);
-    clipped_row_ = id;
-    batch_.is_front[first] = is_front(first, facing);
-    std::fill(std::begin(is_clipped), std::end(is_clipped), true);
-  } else {
-    clipped_row_ = -1;
-    for (std::size_t i = 0; i < Batch::group; ++i) {
-      for (const auto& corner : corners_.vertex) is_clipped[i] = is_clipped[i] || corner[first + i]->needs_clipping();
-      if (!is_clipped[i]) continue;
-      const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[first + i]));
-      put_planes(i, facing.planes);
-      batch_.is_front[first + i] = is_front(first + i, facing);
-    }
+    const std::size_t told = batch_.told(first);
+    const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
+    batch_.is_front[told] = is_front(told, facing);
+    return interpolate_.interpolate_clipped_row(facing.planes, target_.viewport, spacing, batch_, first);
+  }
+  bool is_clipped[Batch::group] = {};
+  for (std::size_t i = 0; i < Batch::group; ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      is_clipped[i] = is_clipped[i] || corners_.of(k, first + i, batch_).needs_clipping();
+    if (!is_clipped[i]) continue;
+    const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[first + i]));
+    put_planes(i, facing.planes);
+    batch_.is_front[first + i] = is_front(first + i, facing);
   }
   std::copy_n(batch_.x + first, Batch::group, clipped_.px);
   std::copy_n(batch_.y + first, Batch::group, clipped_.py);
@@ -200,20 +270,8 @@ void PointBatcher::weigh_ends() {
   }
 }
 
-template <class Use>
-void PointBatcher::for_batches(std::span<const Point> points, Use use) {
-  order_by_material(points);
-  shaded_ += points.size();
-  for (std::size_t first = 0; first < points.size();) {
-    const std::size_t count = same_material(points, first, Batch::capacity);
-    const auto numbers = std::span<const std::uint32_t>(order_).subspan(first, count);
-    fill(points, numbers);
-    use(numbers);
-    first += count;
-  }
-}
-
 void PointBatcher::shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data) {
+  shaded_ += points.size();
   colors.resize(points.size());
   const PointShader::Wanted wanted{
       .normal = data && target_.normal, .uv = data && target_.uv, .albedo = data && target_.albedo};
@@ -234,6 +292,7 @@ void PointBatcher::shade(std::span<const Point> points, std::vector<Linear>& col
 }
 
 void PointBatcher::test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there) {
+  shaded_ += points.size();
   is_there.resize(points.size());
   for_batches(points, [&](std::span<const std::uint32_t> numbers) {
     alignas(64) float alpha[Batch::capacity];

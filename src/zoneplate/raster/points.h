@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/point_list.h"
 #include "zoneplate/raster/rasterize.h"
 
 namespace zoneplate {
@@ -43,6 +45,15 @@ class PointBatcher {
   template <class Use>
   void shade(std::span<const PointRow> rows, Use use);
 
+  /// The same, row after row in the order of the list.
+  template <class Use>
+  void shade_in_order(std::span<const PointRow> rows, Use use);
+
+  /// The colours of a list: `use(shaded, first, count)` is called for consecutive parts of it, which begin at point
+  /// `first` and whose colours stand at the beginning of `shaded`.
+  template <class Use>
+  void shade(const PointList& list, Use use);
+
   /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
   void test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there);
 
@@ -63,17 +74,20 @@ class PointBatcher {
   };
 
   template <class T>
-  void order_by_material(std::span<const T> list);
-  template <class T>
-  std::size_t same_material(std::span<const T> list, std::size_t first, std::size_t most) const;
+  std::span<const std::uint32_t> order_by_material(std::span<const T> list);
+  std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;
   template <class Use>
   void for_batches(std::span<const Point> points, Use use);
+  void number_up_to(std::size_t count);
   void find_draw(std::int32_t id);
+  bool are_of_one_draw(const PointList& list);
+  void shade_mixed(const PointList& list);
+  int material_of(std::int32_t id);
   void fetch_ahead(std::int32_t id) const;
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
+  void fill(const PointList& list, std::size_t first, std::size_t count);
   void put_triangle(std::size_t i, std::int32_t id);
-  void copy_triangle(std::size_t from, std::size_t to);
   void interpolate();
   const TriangleFacing& know_clipped(std::int32_t id);
   void put_planes(std::size_t i, const BarycentricPlanes& planes);
@@ -87,26 +101,68 @@ class PointBatcher {
   const bool has_ends_;  ///< some draw has lines or points
   std::uint64_t shaded_ = 0;
 
-  std::vector<std::uint32_t> order_, material_;
+  std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
+  std::vector<std::uint32_t> order_, material_;  ///< of a list of several materials; else empty
+  int one_material_ = 0;                         ///< of a list of one
   Known known_;
   KnownClipped known_clipped_;
   Batch batch_;
   BatchCorners corners_{};
   ClippedGroup clipped_{};
-  std::int32_t clipped_row_ = -1;  ///< the triangle whose planes all of clipped_ holds
   Shaded shaded_batch_;
+  std::vector<Point> mixed_;     ///< a list of several draws
+  std::vector<Shaded> unmixed_;  ///< its colours in its order, a batch's capacity each
 };
 
 template <class Use>
 void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
-  order_by_material(rows);
+  const auto order = order_by_material(rows);
   shaded_ += rows.size() * Batch::group;
   for (std::size_t first = 0; first < rows.size();) {
-    const std::size_t count = same_material(rows, first, Batch::capacity / Batch::group);
-    const auto numbers = std::span<const std::uint32_t>(order_).subspan(first, count);
+    const std::size_t count = same_material(order, first, Batch::capacity / Batch::group);
+    const auto numbers = order.subspan(first, count);
     fill(rows, numbers);
     shader_.shade(batch_, {}, shaded_batch_);
     for (std::size_t i = 0; i < count; ++i) use(rows[numbers[i]], shaded_batch_, static_cast<int>(i) * Batch::group);
+    first += count;
+  }
+}
+
+template <class Use>
+void PointBatcher::shade(const PointList& list, Use use) {
+  constexpr std::size_t capacity = Batch::capacity;
+  const auto total = static_cast<std::size_t>(list.count);
+  shaded_ += total;
+  if (are_of_one_draw(list)) {
+    for (std::size_t first = 0; first < total; first += capacity) {
+      const std::size_t count = std::min(capacity, total - first);
+      fill(list, first, count);
+      shader_.shade(batch_, {}, shaded_batch_);
+      use(shaded_batch_, first, count);
+    }
+    return;
+  }
+  shade_mixed(list);
+  for (std::size_t first = 0; first < total; first += capacity)
+    use(unmixed_[first / capacity], first, std::min(capacity, total - first));
+}
+
+template <class Use>
+void PointBatcher::shade_in_order(std::span<const PointRow> rows, Use use) {
+  constexpr std::size_t most = Batch::capacity / Batch::group;
+  number_up_to(rows.size());
+  material_.clear();
+  shaded_ += rows.size() * Batch::group;
+  for (std::size_t first = 0; first < rows.size();) {
+    one_material_ = material_of(rows[first].id);
+    std::size_t count = 1;
+    const auto is_alike = [&](std::size_t i) {
+      return rows[i].id == rows[i - 1].id || material_of(rows[i].id) == one_material_;
+    };
+    while (first + count < rows.size() && count < most && is_alike(first + count)) ++count;
+    fill(rows, std::span<const std::uint32_t>(as_is_).subspan(first, count));
+    shader_.shade(batch_, {}, shaded_batch_);
+    for (std::size_t i = 0; i < count; ++i) use(rows[first + i], shaded_batch_, static_cast<int>(i) * Batch::group);
     first += count;
   }
 }

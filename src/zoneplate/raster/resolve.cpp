@@ -3,40 +3,48 @@
 namespace zoneplate::scalar {
 namespace {
 
-Linear at(const Shaded& color, int i) { return {color.r[i], color.g[i], color.b[i], color.a[i]}; }
+constexpr auto size = Linear8::size;
+
+Linear at(const Shaded& color, int first, std::size_t i) {
+  const std::size_t p = static_cast<std::size_t>(first) + i;
+  return {color.r[p], color.g[p], color.b[p], color.a[p]};
+}
 Linear divided(Linear c, float weight) { return {c.r / weight, c.g / weight, c.b / weight, c.a / weight}; }
 
-void resolve(const Shaded& color, int first, float weight, Linear* out) {
-  for (int i = 0; i < Batch::group; ++i) out[i] = divided(Linear{0, 0, 0, 0} + at(color, first + i) * weight, weight);
+void resolve(const Shaded& color, int first, float weight, Linear8& out) {
+  for (std::size_t i = 0; i < size; ++i) out.set(i, divided(Linear{0, 0, 0, 0} + at(color, first, i) * weight, weight));
 }
 
-void over(const float* color, float* behind) {
-  for (int i = 0; i < Batch::group; ++i)
-    for (int c = 0; c < 4; ++c)
-      behind[c * Batch::group + i] =
-          color[c * Batch::group + i] + behind[c * Batch::group + i] * (1 - color[3 * Batch::group + i]);
-}
-
-void resolve_samples(const float* color, const float* weights, int samples, float weight_sum, Linear* out) {
-  for (int i = 0; i < Batch::group; ++i) {
-    const Linear c{color[i], color[Batch::group + i], color[2 * Batch::group + i], color[3 * Batch::group + i]};
-    Linear sum{0, 0, 0, 0};
-    for (int s = 0; s < samples; ++s) sum = sum + c * weights[s];
-    out[i] = divided(sum, weight_sum);
+void over(const Shaded& color, int first, Linear8& behind) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const Linear front = at(color, first, i);
+    behind.set(i, front + behind.get(i) * (1 - front.a));
   }
 }
 
-void add(const Shaded& color, int first, float weight, Linear* sum) {
-  for (int i = 0; i < Batch::group; ++i) sum[i] = sum[i] + at(color, first + i) * weight;
+void resolve_samples(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out) {
+  for (std::size_t i = 0; i < size; ++i) {
+    Linear sum{0, 0, 0, 0};
+    for (int s = 0; s < samples; ++s) sum = sum + color.get(i) * weights[s];
+    out.set(i, divided(sum, weight_sum));
+  }
 }
 
-void divide(const Linear* sum, float weight, int n, Linear* out) {
-  for (int i = 0; i < n; ++i) out[i] = divided(sum[i], weight);
+void add(const Shaded& color, int first, float weight, Linear8& sum) {
+  for (std::size_t i = 0; i < size; ++i) sum.set(i, sum.get(i) + at(color, first, i) * weight);
+}
+
+void divide(const Linear8& sum, float weight, Linear8& out) {
+  for (std::size_t i = 0; i < size; ++i) out.set(i, divided(sum.get(i), weight));
+}
+
+void put(const Linear8& color, Linear* out) {
+  for (std::size_t i = 0; i < size; ++i) out[i] = color.get(i);
 }
 
 }  // namespace
 
 const ResolveKernels resolve_kernels = {
-    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide};
+    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide, .put = put};
 
 }  // namespace zoneplate::scalar

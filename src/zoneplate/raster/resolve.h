@@ -1,7 +1,7 @@
 #pragma once
 
 #include "zoneplate/base/isa.h"
-#include "zoneplate/image/rgb.h"
+#include "zoneplate/image/pixel.h"
 #include "zoneplate/raster/batch.h"
 
 namespace zoneplate {
@@ -11,15 +11,17 @@ namespace zoneplate {
 /// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
 struct ResolveKernels {
   /// out = (0 + color × weight) / weight: one surface owns all samples.
-  void (*resolve)(const Shaded& color, int first, float weight, Linear* out);
-  /// behind = color + behind × (1 - alpha of color), of eight points as r, g, b and a of each: 32 floats.
-  void (*over)(const float* color, float* behind);
-  /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum, of such eight points.
-  void (*resolve_samples)(const float* color, const float* weights, int samples, float weight_sum, Linear* out);
+  void (*resolve)(const Shaded& color, int first, float weight, Linear8& out);
+  /// behind = color + behind × (1 - alpha of color).
+  void (*over)(const Shaded& color, int first, Linear8& behind);
+  /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum.
+  void (*resolve_samples)(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out);
   /// sum += color × weight.
-  void (*add)(const Shaded& color, int first, float weight, Linear* sum);
-  /// out = sum / weight, for n pixels.
-  void (*divide)(const Linear* sum, float weight, int n, Linear* out);
+  void (*add)(const Shaded& color, int first, float weight, Linear8& sum);
+  /// out = sum / weight.
+  void (*divide)(const Linear8& sum, float weight, Linear8& out);
+  /// The pixels one by one.
+  void (*put)(const Linear8& color, Linear* out);
 };
 
 namespace scalar {

@@ -2,87 +2,109 @@
 
 #include <hwy/highway.h>
 
+#include <cstdint>
+
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-// Four points' channels become four pixels, a pixel a vector.
-using D = hn::FixedTag<float, 4>;
+using D = hn::CappedTag<float, 8>;
 using V = hn::Vec<D>;
+constexpr D d;
 
-struct FourPixels {
-  V pixel[4];
+/// What step gives of each channel's vectors.
+template <class Step>
+HWY_INLINE void each_channel(const Shaded& color, int first, Linear8& out, Step step) {
+  for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
+    const std::size_t p = static_cast<std::size_t>(first) + i;
+    step(hn::Load(d, color.r + p), out.r + i, i), step(hn::Load(d, color.g + p), out.g + i, i);
+    step(hn::Load(d, color.b + p), out.b + i, i), step(hn::Load(d, color.a + p), out.a + i, i);
+  }
+}
+
+template <class Step>
+HWY_INLINE void each_channel(const Linear8& color, Linear8& out, Step step) {
+  for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
+    step(hn::Load(d, color.r + i), out.r + i), step(hn::Load(d, color.g + i), out.g + i);
+    step(hn::Load(d, color.b + i), out.b + i), step(hn::Load(d, color.a + i), out.a + i);
+  }
+}
+
+HWY_INLINE bool is_power_of_two(float x) {
+  std::uint32_t bits;
+  __builtin_memcpy(&bits, &x, sizeof(bits));
+  return (bits & 0x7fffffu) == 0;
+}
+
+/// A sum divided by its weight. By 1 it stays what it is.
+struct Mean {
+  V weight;
+  bool is_one;
+  explicit HWY_INLINE Mean(float w) : weight(hn::Set(d, w)), is_one(w == 1) {}
+  HWY_INLINE V operator()(V sum) const { return is_one ? sum : hn::Div(sum, weight); }
 };
 
-HWY_INLINE FourPixels turned(V r, V g, V b, V a) {
-  const D d;
-  const V rb01 = hn::InterleaveLower(d, r, b), rb23 = hn::InterleaveUpper(d, r, b);
-  const V ga01 = hn::InterleaveLower(d, g, a), ga23 = hn::InterleaveUpper(d, g, a);
-  return {{hn::InterleaveLower(d, rb01, ga01), hn::InterleaveUpper(d, rb01, ga01), hn::InterleaveLower(d, rb23, ga23),
-           hn::InterleaveUpper(d, rb23, ga23)}};
+void resolve(const Shaded& color, int first, float weight, Linear8& out) {
+  const V zero = hn::Zero(d), w = hn::Set(d, weight);
+  // What a power of two multiplies and divides is as before.
+  if (is_power_of_two(weight))
+    return each_channel(color, first, out,
+                        [&](V c, float* to, std::size_t) HWY_ATTR { hn::Store(hn::Add(zero, c), d, to); });
+  each_channel(color, first, out, [&](V c, float* to, std::size_t) HWY_ATTR {
+    hn::Store(hn::Div(hn::Add(zero, hn::Mul(c, w)), w), d, to);
+  });
 }
 
-HWY_INLINE FourPixels four_at(const Shaded& color, int i) {
-  const D d;
-  return turned(hn::Load(d, color.r + i), hn::Load(d, color.g + i), hn::Load(d, color.b + i), hn::Load(d, color.a + i));
+void over(const Shaded& color, int first, Linear8& behind) {
+  const float* const alpha = color.a + first;
+  each_channel(color, first, behind, [&](V c, float* to, std::size_t i) HWY_ATTR {
+    const V rest = hn::Sub(hn::Set(d, 1.0f), hn::Load(d, alpha + i));
+    hn::Store(hn::Add(c, hn::Mul(hn::Load(d, to), rest)), d, to);
+  });
 }
 
-void resolve(const Shaded& color, int first, float weight, Linear* out) {
-  const D d;
-  const V w = hn::Set(d, weight), zero = hn::Zero(d);
-  for (int i = 0; i < Batch::group; i += 4) {
-    const FourPixels p = four_at(color, first + i);
-    for (int k = 0; k < 4; ++k) hn::StoreU(hn::Div(hn::Add(zero, hn::Mul(p.pixel[k], w)), w), d, &out[i + k].r);
-  }
+void resolve_samples(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out) {
+  const Mean mean(weight_sum);
+  each_channel(color, out, [&](V c, float* to) HWY_ATTR {
+    V sum = hn::Zero(d);
+    for (int s = 0; s < samples; ++s) sum = hn::Add(sum, hn::Mul(c, hn::Set(d, weights[s])));
+    hn::Store(mean(sum), d, to);
+  });
 }
 
-void over(const float* color, float* behind) {
-  const hn::CappedTag<float, 8> d;
-  for (int i = 0; i < Batch::group; i += static_cast<int>(hn::Lanes(d))) {
-    const auto rest = hn::Sub(hn::Set(d, 1.0f), hn::Load(d, color + 3 * Batch::group + i));
-    for (int c = 0; c < 4; ++c) {
-      float* const at = behind + c * Batch::group + i;
-      hn::Store(hn::Add(hn::Load(d, color + c * Batch::group + i), hn::Mul(hn::Load(d, at), rest)), d, at);
-    }
-  }
-}
-
-void resolve_samples(const float* color, const float* weights, int samples, float weight_sum, Linear* out) {
-  const D d;
-  const V total = hn::Set(d, weight_sum);
-  for (int i = 0; i < Batch::group; i += 4) {
-    const FourPixels p = turned(hn::Load(d, color + i), hn::Load(d, color + Batch::group + i),
-                                hn::Load(d, color + 2 * Batch::group + i), hn::Load(d, color + 3 * Batch::group + i));
-    for (int k = 0; k < 4; ++k) {
-      V sum = hn::Zero(d);
-      for (int s = 0; s < samples; ++s) sum = hn::Add(sum, hn::Mul(p.pixel[k], hn::Set(d, weights[s])));
-      hn::StoreU(hn::Div(sum, total), d, &out[i + k].r);
-    }
-  }
-}
-
-void add(const Shaded& color, int first, float weight, Linear* sum) {
-  const D d;
+void add(const Shaded& color, int first, float weight, Linear8& sum) {
   const V w = hn::Set(d, weight);
-  for (int i = 0; i < Batch::group; i += 4) {
-    const FourPixels p = four_at(color, first + i);
-    for (int k = 0; k < 4; ++k)
-      hn::StoreU(hn::Add(hn::LoadU(d, &sum[i + k].r), hn::Mul(p.pixel[k], w)), d, &sum[i + k].r);
-  }
+  each_channel(color, first, sum, [&](V c, float* to, std::size_t) HWY_ATTR {
+    hn::Store(hn::Add(hn::Load(d, to), hn::Mul(c, w)), d, to);
+  });
 }
 
-void divide(const Linear* sum, float weight, int n, Linear* out) {
-  const D d;
-  const V w = hn::Set(d, weight);
-  for (int i = 0; i < n; ++i) hn::StoreU(hn::Div(hn::LoadU(d, &sum[i].r), w), d, &out[i].r);
+void divide(const Linear8& sum, float weight, Linear8& out) {
+  const Mean mean(weight);
+  each_channel(sum, out, [&](V c, float* to) HWY_ATTR { hn::Store(mean(c), d, to); });
+}
+
+// Four points' channels become four pixels, a pixel a vector.
+void put(const Linear8& color, Linear* out) {
+  const hn::FixedTag<float, 4> d4;
+  for (std::size_t i = 0; i < Linear8::size; i += 4) {
+    const auto r = hn::Load(d4, color.r + i), g = hn::Load(d4, color.g + i);
+    const auto b = hn::Load(d4, color.b + i), a = hn::Load(d4, color.a + i);
+    const auto rb01 = hn::InterleaveLower(d4, r, b), rb23 = hn::InterleaveUpper(d4, r, b);
+    const auto ga01 = hn::InterleaveLower(d4, g, a), ga23 = hn::InterleaveUpper(d4, g, a);
+    hn::StoreU(hn::InterleaveLower(d4, rb01, ga01), d4, &out[i].r);
+    hn::StoreU(hn::InterleaveUpper(d4, rb01, ga01), d4, &out[i + 1].r);
+    hn::StoreU(hn::InterleaveLower(d4, rb23, ga23), d4, &out[i + 2].r);
+    hn::StoreU(hn::InterleaveUpper(d4, rb23, ga23), d4, &out[i + 3].r);
+  }
 }
 
 }  // namespace
 
 extern const ResolveKernels resolve_kernels;
 const ResolveKernels resolve_kernels = {
-    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide};
+    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide, .put = put};
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <limits>
 
 namespace zoneplate {
 namespace {
@@ -24,7 +25,9 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       bins_(bins),
       coverage_(coverage_kernels(isa)),
       resolve_(resolve_kernels(isa)),
+      point_lists_(point_list_kernels(isa)),
       target_(target),
+      sample_places_(target.samples),
       shader_(projected, shader, isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
       digit_batcher_(projected, digits_, isa, target),
@@ -32,6 +35,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
   if (weights_.empty()) weights_.assign(target.samples.size(), 1.0f);
   assert(weights_.size() == target.samples.size());
   for (const float w : weights_) weight_sum_ += w;
+  find_weights();
   const std::size_t pass =
       target.is_per_sample ? std::min<std::size_t>(target.samples.size(), samples_per_pass) : target.samples.size();
   assert(pass <= TileTriangle::max_samples);
@@ -42,11 +46,12 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
                  .id = aligned(id_storage_),
                  .block_far = block_far_,
                  .block_owner = block_owner_};
+  list_sums_.resize(tile_pixels);
   first_point_.resize(tile_pixels + 1);
   fragments_.resize(tile_pixels);
-  sum_.resize(tile_pixels);
-  color_.resize(tile_pixels);
-  base_.resize(tile_pixels);
+  sum_.resize(tile_pixels / 8);
+  color_.resize(tile_pixels / 8);
+  base_.resize(tile_pixels / 8);
   covered_.resize(tile_pixels);
   nearest_.resize(tile_pixels);
 }
@@ -55,7 +60,7 @@ void TileRenderer::render(std::size_t tile) {
   watch_.lap_ms();
   gather(tile);
   if (is_plain()) return render_plain();
-  std::fill(sum_.begin(), sum_.end(), Linear{0, 0, 0, 0});
+  std::fill(sum_.begin(), sum_.end(), Linear8{});
   std::fill(covered_.begin(), covered_.end(), 0.0f);
   std::fill(nearest_.begin(), nearest_.end(), Nearest{0, no_triangle});
   const int total = static_cast<int>(target_.samples.size());
@@ -122,17 +127,16 @@ void TileRenderer::render_plain() {
   draw_opaque();
   draw_masked();
   times_.visibility += watch_.lap_ms();
-  find_rows();
   begin_colors();
+  find_rows();
   shade_rows();
+  shade_list();
   shader_.shade(points_, colors_, nullptr);
   times_.shading += watch_.lap_ms();
   resolve_points();
   if (has_layers()) {
     times_.output += watch_.lap_ms();
-    visibility_.open_all();
-    find_first_points();
-    for (int y = 0; y < tile_size; y += 8) layer_strip(std::max(y, top_), std::min(y + 8, bottom_));
+    layer_tile();
     times_.blending += watch_.lap_ms();
   }
   write_colors();
@@ -143,8 +147,7 @@ void TileRenderer::render_plain() {
 void TileRenderer::begin_colors() {
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     if (block_owner_[block] != many_triangles && block_owner_[block] != no_triangle) continue;
-    for (int y = 0; y < 8; ++y)
-      std::fill_n(color_.begin() + (block / 8 * 8 + y) * tile_size + block % 8 * 8, 8, Linear{0, 0, 0, 0});
+    for (int y = 0; y < 8; ++y) color_[static_cast<std::size_t>((block / 8 * 8 + y) * 8 + block % 8)] = {};
   }
 }
 
@@ -161,7 +164,16 @@ void TileRenderer::find_rows() {
       const std::int32_t owner = row_owner_[y * 8 + block % 8];
       if (owner == no_triangle) continue;
       if (owner != many_triangles && is_whole) {
-        add_row(static_cast<std::uint32_t>(y * tile_size + x), owner);
+        const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
+        if (target_.is_per_sample) {
+          add_row_of_samples(pixel, owner);
+        } else {
+          rows_.push_back({(tile_x_ + x) * 256 + 128, (tile_y_ + y) * 256 + 128, owner, pixel});
+        }
+        continue;
+      }
+      if (lists_points()) {
+        list_row(x, y);
         continue;
       }
       for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
@@ -170,13 +182,8 @@ void TileRenderer::find_rows() {
   }
 }
 
-void TileRenderer::add_row(std::uint32_t pixel, std::int32_t id) {
-  if (!target_.is_per_sample) {
-    const int x = tile_x_ + static_cast<int>(pixel % tile_size), y = tile_y_ + static_cast<int>(pixel / tile_size);
-    rows_.push_back({x * 256 + 128, y * 256 + 128, id, pixel});
-    return;
-  }
-  std::fill_n(sum_.begin() + pixel, Batch::group, Linear{0, 0, 0, 0});
+void TileRenderer::add_row_of_samples(std::uint32_t pixel, std::int32_t id) {
+  sum_[pixel / 8] = {};
   for (int s = 0; s < pass_samples_; ++s) {
     const Point at = point_at(pixel, id, std::uint64_t{1} << s);
     rows_.push_back({at.x, at.y, id, pixel});
@@ -186,10 +193,8 @@ void TileRenderer::add_row(std::uint32_t pixel, std::int32_t id) {
 void TileRenderer::shade_rows() {
   if (!target_.is_per_sample) {
     shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
-      resolve_.resolve(color, first, weight_sum_, &color_[row.pixel]);
-      if (!has_layers()) return;
-      for (std::size_t i = 0, at = static_cast<std::size_t>(first); i < Batch::group; ++i, ++at)
-        base_[row.pixel + i] = {color.r[at], color.g[at], color.b[at], color.a[at]};
+      resolve_.resolve(color, first, weight_sum_, color_[row.pixel / 8]);
+      if (has_layers()) resolve_.resolve(color, first, 1, base_[row.pixel / 8]);
     });
     return;
   }
@@ -197,17 +202,20 @@ void TileRenderer::shade_rows() {
   const auto samples = static_cast<std::size_t>(pass_samples_);
   std::size_t s = 0;
   shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
-    resolve_.add(color, first, weights_[s], &sum_[row.pixel]);
+    resolve_.add(color, first, weights_[s], sum_[row.pixel / 8]);
     s = s + 1 == samples ? 0 : s + 1;
-    if (s == 0) resolve_.divide(&sum_[row.pixel], weight_sum_, Batch::group, &color_[row.pixel]);
+    if (s == 0) resolve_.divide(sum_[row.pixel / 8], weight_sum_, color_[row.pixel / 8]);
   });
 }
 
-/// One point for each triangle that owns samples of the pixel, in the order of their first samples.
+/// One point for each triangle that owns samples of the pixel, in the order of their first samples; or one for each
+/// sample.
 void TileRenderer::add_pixel(std::uint32_t pixel) {
-  if (pass_samples_ == 1) {
-    const std::int32_t id = visibility_.id[pixel];
-    if (id != no_triangle) points_.push_back(point_at(pixel, id, 1));
+  if (pass_samples_ == 1 || target_.is_per_sample) {
+    for (int s = 0; s < pass_samples_; ++s) {
+      const std::int32_t id = visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel];
+      if (id != no_triangle) points_.push_back(point_at(pixel, id, std::uint64_t{1} << s));
+    }
     return;
   }
   std::uint64_t left = all_samples_;
@@ -219,7 +227,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
       if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
     }
     left &= ~owned;
-    if (id != no_triangle) add_points(pixel, id, owned, target_.is_per_sample, points_);
+    if (id != no_triangle) points_.push_back(point_at(pixel, id, owned));
   }
 }
 
@@ -239,7 +247,7 @@ void TileRenderer::resolve_points() {
         weight += weights_[static_cast<std::size_t>(std::countr_zero(left))];
       sum = sum + colors_[first] * weight;
     }
-    color_[pixel] = {sum.r / weight_sum_, sum.g / weight_sum_, sum.b / weight_sum_, sum.a / weight_sum_};
+    color_[pixel / 8].set(pixel % 8, mean_of(sum));
   }
 }
 
@@ -259,10 +267,13 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
 
 void TileRenderer::draw_opaque() {
   visibility_.clear();
+  for (int block = 0; block < TileVisibility::blocks; ++block)
+    if (!is_drawn(block)) block_far_[block] = std::numeric_limits<float>::infinity();
   float tile_far = 0;  // no sample of the tile is below it
   for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Opaque)]) {
     if (t->z_high < tile_far) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
+    if (greatest_depth(tile_triangle_, pass_samples_) < tile_far) continue;
     const bool has_risen = coverage_.draw(tile_triangle_, visibility_);
     const bool is_large = tile_triangle_.last_x - tile_triangle_.first_x >= tile_size / 2 &&
                           tile_triangle_.last_y - tile_triangle_.first_y >= tile_size / 2;
@@ -311,7 +322,7 @@ void TileRenderer::add_surfaces(std::uint32_t pixel) {
     float weight = 0;
     for (std::uint64_t left = points_[p].samples; left; left &= left - 1)
       weight += weights_[static_cast<std::size_t>(first_sample_ + std::countr_zero(left))];
-    sum_[pixel] = sum_[pixel] + colors_[p] * weight;
+    add_to_sum(pixel, colors_[p] * weight);
     covered_[pixel] += static_cast<float>(std::popcount(points_[p].samples));
   }
 }

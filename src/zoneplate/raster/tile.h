@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "zoneplate/base/clock.h"
@@ -43,10 +44,6 @@ class TileRenderer {
     std::int32_t id;
     Linear color;
   };
-  /// Eight points: r of each, g, b and a.
-  struct alignas(64) RowColor {
-    float value[4 * Batch::group];
-  };
   struct BlendedRow {
     std::uint32_t row;
     std::uint32_t end;  ///< of its layers in rows_
@@ -63,6 +60,8 @@ class TileRenderer {
   void render_pass(int first_sample, int sample_count);
   void draw_opaque();
   void draw_fragments();
+  bool opens_most_blocks();
+  void open_blocks(const SampleFragments& part);
   bool has_fragments() const;
   void draw_masked();
   void test_alpha();
@@ -73,10 +72,21 @@ class TileRenderer {
   void render_plain();
   void find_rows();
   void shade_rows();
-  void add_row(std::uint32_t pixel, std::int32_t id);
+  void add_row_of_samples(std::uint32_t pixel, std::int32_t id);
   void add_pixel(std::uint32_t pixel);
   void resolve_points();
+  bool lists_points() const;
+  void list_row(int x, int y);
+  void shade_list();
+  void sum_list();
+  void find_weights();
+  float weight_of(std::uint32_t samples) const;
   void find_first_points();
+  void layer_tile();
+  void collect_block_layers();
+  bool starts_from_rows(std::uint32_t block) const;
+  static bool sort_block(std::span<BlockLayer> layers);
+  void blend_blocks(std::uint32_t strip, std::span<const BlockLayer> (&layers)[8]);
   void layer_strip(int top, int bottom);
   void collect_row_layers(int top, int bottom);
   bool sort_row(std::size_t first, std::size_t last);
@@ -84,6 +94,8 @@ class TileRenderer {
   void layer_slow_rows(int top, int bottom);
   void begin_colors();
   void write_colors();
+  template <class Pixel, class Make>
+  void write_row(Plane<Pixel>& plane, int y, Make make);
   void write_background();
 
   void find_points();
@@ -104,8 +116,18 @@ class TileRenderer {
     return x >= left_ && x < right_ && y >= top_ && y < bottom_ &&
            (!target_.where || (*target_.where)(tile_x_ + x - target_.x, tile_y_ + y - target_.y));
   }
+  Linear mean_of(Linear sum) const {
+    return {sum.r / weight_sum_, sum.g / weight_sum_, sum.b / weight_sum_, sum.a / weight_sum_};
+  }
+  void add_to_sum(std::uint32_t pixel, Linear color) {
+    sum_[pixel / 8].set(pixel % 8, sum_[pixel / 8].get(pixel % 8) + color);
+  }
   /// True if all eight pixels are to be drawn; rows as in `row_owner_`, or as columns of blocks.
   bool is_whole_row(int row) const { return row % 8 * 8 >= left_ && row % 8 * 8 + 8 <= right_; }
+  bool is_drawn(int block) const {
+    const int x = block % 8 * 8, y = block / 8 * 8;
+    return x < right_ && x + 8 > left_ && y < bottom_ && y + 8 > top_;
+  }
   bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }
   Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
 
@@ -113,7 +135,9 @@ class TileRenderer {
   const Bins& bins_;
   const CoverageKernels& coverage_;
   const ResolveKernels& resolve_;
+  const PointListKernels& point_lists_;
   const Target& target_;
+  const SampleArrays sample_places_;
   PointBatcher shader_;
   AlphaDigits digits_;
   PointBatcher digit_batcher_;
@@ -138,6 +162,11 @@ class TileRenderer {
 
   std::vector<PointRow> rows_;
 
+  PointList list_;
+  std::vector<float> samples_weight_;       ///< by set of samples, a bit each
+  std::vector<std::uint32_t> listed_rows_;  ///< by their first pixels
+  std::vector<Linear> list_sums_;           ///< by pixel: what its listed points add up to
+
   std::vector<Point> points_;
   std::vector<std::uint32_t> first_point_;  ///< by pixel, and the total at the end
   std::vector<Linear> colors_;
@@ -156,11 +185,13 @@ class TileRenderer {
   std::vector<RowLayer> row_layers_, sorted_row_layers_;
   std::uint8_t is_slow_row_[tile_pixels / 8];
   std::vector<BlendedRow> blended_rows_;
-  std::vector<RowColor> row_colors_;
+  std::vector<BlockLayer> block_layers_, unsorted_layers_;
+  Linear8 behind_[64];              ///< by rows of a strip of blocks
+  std::uint64_t other_blocks_ = 0;  ///< a bit for each block whose layers go by rows or pixels
 
-  std::vector<Linear> sum_;     ///< by pixel: weighted sum of samples
-  std::vector<Linear> color_;   ///< by pixel: their mean
-  std::vector<Linear> base_;    ///< by pixel: the colour of the one surface that owns it, under layers
+  std::vector<Linear8> sum_;    ///< by eight pixels: weighted sum of samples
+  std::vector<Linear8> color_;  ///< by eight pixels: their mean
+  std::vector<Linear8> base_;   ///< by eight pixels: the colour of the one surface that owns them, under layers
   std::vector<float> covered_;  ///< by pixel: samples that a surface owns
   std::vector<Nearest> nearest_;
   float weight_sum_ = 0;

@@ -134,7 +134,7 @@ void TileRenderer::blend_pixel(std::uint32_t pixel, std::size_t first, std::size
     }
   add_layers(first, last, behind);
   for (int s = 0; s < pass_samples_; ++s) {
-    sum_[pixel] = sum_[pixel] + behind[s] * weights_[static_cast<std::size_t>(first_sample_ + s)];
+    add_to_sum(pixel, behind[s] * weights_[static_cast<std::size_t>(first_sample_ + s)]);
     if (target_.sample_triangle) store_samples(pixel, s, behind[s]);
   }
 }
@@ -160,116 +160,6 @@ void TileRenderer::add_layers(std::size_t first, std::size_t last, Linear* behin
                                                    [&](const Over& o) { return o.id == overs_[i].id; });
       if (!again) behind[s] = overs_[i].color + behind[s] * (1 - overs_[i].color.a);
     }
-  }
-}
-
-/// The layers of one strip of eight lines, over what is resolved already. Where triangles cover eight pixels of a row
-/// wholly and lie in one order there, they are sorted, shaded and laid over one another as rows; the other pixels are
-/// done one by one.
-void TileRenderer::layer_strip(int top, int bottom) {
-  if (top >= bottom) return;
-  constexpr std::size_t enough = 256;  // rows of points that are shaded together
-  collect_row_layers(top, bottom);
-  rows_.clear();
-  blended_rows_.clear();
-  bool has_slow = false;
-  std::size_t first = 0;
-  for (auto row = static_cast<std::uint32_t>(top * 8); row < static_cast<std::uint32_t>(bottom * 8); ++row) {
-    std::size_t last = first;
-    while (last < row_layers_.size() && row_layers_[last].row == row) ++last;
-    if (!is_slow_row_[row] && !sort_row(first, last)) is_slow_row_[row] = 1;
-    has_slow = has_slow || is_slow_row_[row];
-    if (!is_slow_row_[row] && last > first) {
-      for (; first < last; ++first) {
-        const Point centre = point_at(row * 8, row_layers_[first].id, all_samples_);
-        rows_.push_back({centre.x, centre.y, row_layers_[first].id, row * 8});
-      }
-      blended_rows_.push_back({row, static_cast<std::uint32_t>(rows_.size())});
-      if (rows_.size() >= enough) blend_rows();
-    }
-    first = last;
-  }
-  blend_rows();
-  if (has_slow) layer_slow_rows(top, bottom);
-}
-
-/// row_layers_: those of triangles that cover rows of the strip wholly, row by row; is_slow_row_: whether a row has
-/// others too, or pixels that do not count or start from different surfaces.
-void TileRenderer::collect_row_layers(int top, int bottom) {
-  RowLayer found[64];
-  std::uint32_t begin[tile_pixels / 8 + 1] = {};
-  row_layers_.clear();
-  std::fill_n(is_slow_row_ + top * 8, (bottom - top) * 8, std::uint8_t{0});
-  for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Blended)]) {
-    if (t->max_y - tile_y_ < top || t->min_y - tile_y_ >= bottom) continue;
-    make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
-    tile_triangle_.first_y = std::max(tile_triangle_.first_y, top);
-    tile_triangle_.last_y = std::min(tile_triangle_.last_y, bottom - 1);
-    const int n = coverage_.collect_rows(tile_triangle_, visibility_, found, is_slow_row_);
-    for (int i = 0; i < n; ++i) ++begin[found[i].row + 1];
-    row_layers_.insert(row_layers_.end(), found, found + n);
-  }
-  for (int row = top * 8; row < bottom * 8; ++row)
-    if (begin[row + 1] > 0 && (row_owner_[row] == many_triangles || !is_whole_row(row))) is_slow_row_[row] = 1;
-
-  for (std::size_t row = 0; row < tile_pixels / 8; ++row) begin[row + 1] += begin[row];
-  sorted_row_layers_.resize(row_layers_.size());
-  for (const RowLayer& layer : row_layers_) sorted_row_layers_[begin[layer.row]++] = layer;
-  row_layers_.swap(sorted_row_layers_);
-}
-
-/// Farthest first; false if two of the layers may change places within the row, or are pieces of one triangle.
-bool TileRenderer::sort_row(std::size_t first, std::size_t last) {
-  const auto at = [&](std::size_t i) { return row_layers_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::sort(at(first), at(last), [](const RowLayer& p, const RowLayer& q) { return p.least < q.least; });
-  for (std::size_t i = first + 1; i < last; ++i)
-    if (!(row_layers_[i - 1].greatest < row_layers_[i].least) || row_layers_[i - 1].id == row_layers_[i].id)
-      return false;
-  return true;
-}
-
-/// Shades rows_ and lays them over one another, each row's layers in their order.
-void TileRenderer::blend_rows() {
-  row_colors_.resize(rows_.size());
-  shader_.shade(rows_, [&](const PointRow& row, const Shaded& s, int first) {
-    float* to = row_colors_[static_cast<std::size_t>(&row - rows_.data())].value;
-    for (const float* channel : {s.r, s.g, s.b, s.a}) to = std::copy_n(channel + first, Batch::group, to);
-  });
-  std::size_t layer = 0;
-  for (const BlendedRow& blended : blended_rows_) {
-    RowColor behind{};
-    if (row_owner_[blended.row] != no_triangle)
-      for (std::size_t i = 0; i < Batch::group; ++i) {
-        const Linear& c = base_[blended.row * 8 + i];
-        behind.value[i] = c.r, behind.value[Batch::group + i] = c.g;
-        behind.value[2 * Batch::group + i] = c.b, behind.value[3 * Batch::group + i] = c.a;
-      }
-    for (; layer < blended.end; ++layer) resolve_.over(row_colors_[layer].value, behind.value);
-    resolve_.resolve_samples(behind.value, weights_.data(), pass_samples_, weight_sum_, &color_[blended.row * 8]);
-  }
-  rows_.clear();
-  blended_rows_.clear();
-}
-
-void TileRenderer::layer_slow_rows(int top, int bottom) {
-  collect_layers(Surface::Blended, top, bottom, is_slow_row_);
-  find_layer_points(target_.is_per_sample);
-  shader_.shade(layer_points_, layer_colors_, nullptr);
-  Linear behind[TileTriangle::max_samples];
-  for (std::size_t first = 0; first < layers_.size();) {
-    const std::uint32_t pixel = layers_[first].pixel;
-    std::size_t last = first;
-    while (last < layers_.size() && layers_[last].pixel == pixel) ++last;
-    const std::int32_t owner = row_owner_[pixel / 8];
-    const bool has_points = owner == many_triangles || !is_whole_row(static_cast<int>(pixel / 8));
-    std::fill_n(behind, pass_samples_, has_points || owner == no_triangle ? Linear{0, 0, 0, 0} : base_[pixel]);
-    for (std::size_t p = first_point_[pixel]; p < points_.size() && points_[p].pixel == pixel; ++p)
-      for (std::uint64_t left = points_[p].samples; left; left &= left - 1) behind[std::countr_zero(left)] = colors_[p];
-    add_layers(first, last, behind);
-    Linear sum{0, 0, 0, 0};
-    for (int s = 0; s < pass_samples_; ++s) sum = sum + behind[s] * weights_[static_cast<std::size_t>(s)];
-    resolve_.divide(&sum, weight_sum_, 1, &color_[pixel]);
-    first = last;
   }
 }
 

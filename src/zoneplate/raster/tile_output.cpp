@@ -49,13 +49,33 @@ void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) 
 }
 
 void TileRenderer::write_colors() {
-  const auto width = static_cast<std::size_t>(right_ - left_);
   for (int y = top_; y < bottom_; ++y) {
-    const Linear* row = &color_[static_cast<std::size_t>(y * tile_size + left_)];
-    const int px = tile_x_ + left_ - target_.x, py = tile_y_ + y - target_.y;
-    if (target_.color) std::copy_n(row, width, &(*target_.color)(px, py));
-    if (target_.shown) target_.presenter->present({row, width}, &(*target_.shown)(px, py));
+    const Linear8* const row = &color_[static_cast<std::size_t>(y * 8)];
+    if (target_.color)
+      write_row<Linear>(*target_.color, y, [&](int first, int count, Linear* out) {
+        for (int i = 0; i < count; ++i) resolve_.put(row[first + i], out + i * 8);
+      });
+    if (target_.shown)
+      write_row<Rgba8>(*target_.shown, y, [&](int first, int count, Rgba8* out) {
+        target_.presenter->present({row + first, static_cast<std::size_t>(count)}, out);
+      });
   }
+}
+
+/// make(first, count, out) writes whole groups of eight pixels; of those at the edges only a part is wanted.
+template <class Pixel, class Make>
+void TileRenderer::write_row(Plane<Pixel>& plane, int y, Make make) {
+  Pixel* const out = &plane(tile_x_ + left_ - target_.x, tile_y_ + y - target_.y);  // pixel left_
+  const int whole = (left_ + 7) / 8, end = right_ / 8;
+  if (whole < end) make(whole, end - whole, out + (whole * 8 - left_));
+  const auto put_part = [&](int group) {
+    Pixel part[8];
+    make(group, 1, part);
+    const int from = std::max(left_, group * 8), to = std::min(right_, group * 8 + 8);
+    std::copy(part + (from - group * 8), part + (to - group * 8), out + (from - left_));
+  };
+  if (left_ % 8 != 0) put_part(left_ / 8);
+  if (right_ % 8 != 0 && (right_ / 8 != left_ / 8 || left_ % 8 == 0)) put_part(right_ / 8);
 }
 
 void TileRenderer::write_background() {
@@ -66,7 +86,7 @@ void TileRenderer::write_background() {
 }
 
 void TileRenderer::finish() {
-  resolve_.divide(sum_.data(), weight_sum_, tile_pixels, color_.data());
+  for (std::size_t i = 0; i < sum_.size(); ++i) resolve_.divide(sum_[i], weight_sum_, color_[i]);
   write_colors();
   if (!target_.coverage) return;
   for (int y = top_; y < bottom_; ++y)

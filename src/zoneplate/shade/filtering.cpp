@@ -12,15 +12,16 @@ namespace zoneplate {
 
 Filtering make_filtering(const Sampler& sampler, int anisotropy) {
   const bool blends = sampler.level == LevelFilter::Linear && sampler.minify == TexelFilter::Linear;
-  return {.mirror_u = sampler.wrap_u == Wrap::Mirror,
-          .clamp_u = sampler.wrap_u == Wrap::Clamp,
-          .mirror_v = sampler.wrap_v == Wrap::Mirror,
-          .clamp_v = sampler.wrap_v == Wrap::Clamp,
-          .nearest_magnify = sampler.magnify == TexelFilter::Nearest,
-          .nearest_minify = sampler.minify == TexelFilter::Nearest,
-          .has_levels = sampler.level != LevelFilter::None,
-          .blends_levels = sampler.level == LevelFilter::Linear,
-          .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, 16) : 1};
+  return {
+      .mirror_u = sampler.wrap_u == Wrap::Mirror,
+      .clamp_u = sampler.wrap_u == Wrap::Clamp,
+      .mirror_v = sampler.wrap_v == Wrap::Mirror,
+      .clamp_v = sampler.wrap_v == Wrap::Clamp,
+      .nearest_magnify = sampler.magnify == TexelFilter::Nearest,
+      .nearest_minify = sampler.minify == TexelFilter::Nearest,
+      .has_levels = sampler.level != LevelFilter::None,
+      .blends_levels = sampler.level == LevelFilter::Linear,
+      .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, Filtering::most_anisotropy) : 1};
 }
 
 namespace scalar {
@@ -36,8 +37,8 @@ std::int32_t mix_level(const Code* codes, int shift, const Taps& taps, int level
   };
   const std::int32_t upper = taps.upper[level][point], lower = taps.lower[level][point];
   const std::int32_t right = taps.right[level][point];
-  return mix(mix(code(upper), code(upper + 1), right), mix(code(lower), code(lower + 1), right),
-             taps.down[level][point]);
+  const std::int32_t down = taps.down[level][point];
+  return mix(mix(code(upper), code(lower), down), mix(code(upper + 1), code(lower + 1), down), right);
 }
 
 template <class Code>
@@ -56,8 +57,8 @@ void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int c
 }
 
 void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
-  zoneplate::sample_anisotropic<Float>(t, f, at, out, count,
-                                       [&](const Taps& taps, float* const probe[4]) { mix_taps(t, taps, probe, 8); });
+  zoneplate::sample_anisotropic<Float>(
+      t, f, at, out, count, [&](const Taps& taps, float* const probe[4], int n) { mix_taps(t, taps, probe, n); });
 }
 
 }  // namespace

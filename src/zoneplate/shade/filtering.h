@@ -13,7 +13,8 @@ struct Filtering {
   bool mirror_v = false, clamp_v = false;
   bool nearest_magnify = false, nearest_minify = false;
   bool has_levels = true, blends_levels = true;
-  std::int32_t anisotropy = 1;  ///< most probes along a footprint; 1: isotropic
+  std::int32_t anisotropy = 1;  ///< most probes along a footprint, up to most_anisotropy; 1: isotropic
+  static constexpr std::int32_t most_anisotropy = 16;
   bool operator==(const Filtering&) const = default;
 };
 /// `anisotropy`: asked for beside the sampler's own; the greater counts. Only samplers that blend levels have any.
@@ -26,7 +27,8 @@ struct Footprint {
 };
 
 /// The texels that points need, and how to weigh them: of two levels the upper left and the lower left texel of four.
-/// The right ones follow them. Where no blend weight is above 0 the second level is not read.
+/// The right ones follow them; what has no weight may lie outside the level. Where no blend weight is above 0 the
+/// second level is not read.
 ///
 /// Units     weights in 1/32768.
 struct Taps {
@@ -42,8 +44,10 @@ struct Taps {
 /// The level is log2 of the footprint: D = ½ log2 max(|∂(s,t)/∂x|², |∂(s,t)/∂y|²) with (s, t) in texels of level 0,
 /// clamped to the levels there are. D > 0 minifies, else the picture is magnified. The coordinate is wrapped before
 /// it is scaled to a level. Nearest takes the texel that holds the point; linear the four whose centres surround
-/// it, mixed by their distances: first along x, then y, then between levels (floor D and the next; or, without
+/// it, mixed by their distances: first along y, then x, then between levels (floor D and the next; or, without
 /// blending, the level nearest to D).
+///
+/// Level and weights are cut off after 15 bits; log2 is that of coarse_log2.
 ///
 /// Edges     any coordinate and any derivative, infinities and NaN included, give texels inside the texture.
 /// Exact     a point on a texel's centre (of a size that is a power of two) gives that texel; texels of one value give

@@ -18,11 +18,12 @@ constexpr int points = 2 * blocks;
 template <class D>
 HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint8_t* first, [[maybe_unused]] const std::uint8_t* second) {
   const hn::FixedTag<std::uint8_t, 8> codes;
+  const hn::FixedTag<std::int16_t, 8> block;
+  const auto at = [&](const std::uint8_t* p) HWY_ATTR { return hn::PromoteTo(block, hn::LoadU(codes, p)); };
   if constexpr (blocks == 2) {
-    const hn::FixedTag<std::uint8_t, 16> both;
-    return hn::ShiftLeft<7>(hn::PromoteTo(d, hn::Combine(both, hn::LoadU(codes, second), hn::LoadU(codes, first))));
+    return hn::ShiftLeft<7>(hn::Combine(d, at(second), at(first)));
   } else {
-    return hn::ShiftLeft<7>(hn::PromoteTo(d, hn::LoadU(codes, first)));
+    return hn::ShiftLeft<7>(at(first));
   }
 }
 
@@ -91,13 +92,13 @@ HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, V right,
   const std::int32_t* const upper = taps.upper[level] + i + n * points;
   const std::int32_t* const lower = taps.lower[level] + i + n * points;
   constexpr int other = blocks == 2 ? 2 : 0;
-  // Left and right texels of the upper and the lower row.
-  const auto columns = [&](int p, const std::uint8_t* bytes) HWY_ATTR {
+  // Left and right texels.
+  const auto rows = [&](int p, const std::uint8_t* bytes) HWY_ATTR {
     const V up = codes.pair(upper[p], upper[p + other]), low = codes.pair(lower[p], lower[p + other]);
-    return mix(lower_halves(up, low), upper_halves(up, low), spread_weights(right, bytes));
+    return mix(up, low, spread_weights(down, bytes));
   };
-  const V even = columns(0, spread.even[n]), odd = columns(1, spread.odd[n]);
-  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(down, spread.both[n]));
+  const V even = rows(0, spread.even[n]), odd = rows(1, spread.odd[n]);
+  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(right, spread.both[n]));
 }
 
 /// Points of four lanes each in two vectors, to channels.
@@ -142,8 +143,9 @@ void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int c
 }
 
 void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
-  zoneplate::sample_anisotropic<Float>(
-      t, f, at, out, count, [&](const Taps& taps, float* const probe[4]) HWY_ATTR { mix_taps(t, taps, probe, 8); });
+  zoneplate::sample_anisotropic<Float>(t, f, at, out, count,
+                                       [&](const Taps& taps, float* const probe[4], int n)
+                                           HWY_ATTR { mix_taps(t, taps, probe, n); });
 }
 
 }  // namespace

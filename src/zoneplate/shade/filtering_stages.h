@@ -4,10 +4,11 @@
 
 namespace zoneplate {
 
-/// The size of a texture's level at each point, and where its texels begin.
+/// A texture's level at each point: its size in 1/32768 texel, and how its texels lie.
 template <class F>
 struct LevelPlace {
-  typename F::Int width, height, offset;
+  F width, height;
+  typename F::Int columns, rows, pitch, offset;
 };
 
 /// Points near each other mostly share a level, which then is looked up once.
@@ -15,10 +16,12 @@ template <class F, class View>
 [[gnu::always_inline]] inline LevelPlace<F> find_level(const View& t, typename F::Int level) {
   using Int = typename F::Int;
   if (level.is_uniform()) {
-    const std::int32_t l = level.first();
-    return {Int(t.width[l]), Int(t.height[l]), Int(t.offset[l])};
+    const std::int32_t l = level.first(), w = t.width[l], h = t.height[l];
+    const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
+    return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[l])};
   }
-  return {Int::gather(t.width, level), Int::gather(t.height, level), Int::gather(t.offset, level)};
+  const Int w = Int::gather(t.width, level), h = Int::gather(t.height, level);
+  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::gather(t.offset, level)};
 }
 
 /// A coordinate brought into [0, 1]; NaN gives 0.
@@ -48,32 +51,35 @@ template <class Filter>
   return f.nearest_magnify || f.nearest_minify;
 }
 
-/// The two texels of an axis around a wrapped coordinate, and the weight of the second in 1/32768.
+inline bool is_usual(const Filtering& f) {
+  return !f.mirror_u && !f.clamp_u && !f.mirror_v && !f.clamp_v && !may_be_nearest(f) && f.has_levels &&
+         f.blends_levels;
+}
+
+/// The two texels of an axis around a wrapped coordinate, counted from the border on, and the weight of the second in
+/// 1/32768. The second follows the first, or is the same and has no weight.
 template <class F>
 struct AxisTaps {
-  typename F::Int first, second, weight;
+  typename F::Int first, weight;
+  typename F::Bool is_same;
 };
 
+/// `size` in 1/32768 texel, `count` in texels.
 template <class F>
-[[gnu::always_inline]] inline AxisTaps<F> axis_taps(F wrapped, typename F::Int size, bool may_be_nearest,
+[[gnu::always_inline]] inline AxisTaps<F> axis_taps(F wrapped, F size, typename F::Int count, bool may_be_nearest,
                                                     typename F::Bool is_nearest, bool repeats) {
   using Int = typename F::Int;
-  const F at = wrapped * F::from(size);
-  const F shifted = may_be_nearest ? select(is_nearest, at, at - F(0.5f)) : at - F(0.5f);
-  const F whole = floor(shifted);
-  const Int i = truncate(whole);
-  const Int none(0), last = size - Int(1), next = i + Int(1);
-  Int weight = min(truncate((shifted - whole) * F(32768.0f) + F(0.5f)), Int(32767));
-  if (may_be_nearest) weight = select(is_nearest, none, weight);
+  // Centres of texels lie at halves, and the border is one texel wide.
+  const F to_first = may_be_nearest ? select(is_nearest, F(32768.0f), F(16384.0f)) : F(16384.0f);
+  const Int at = truncate(wrapped * size + to_first);
+  Int first = at.template shifted_right<15>(), weight = at & Int(32767);
+  if (may_be_nearest) weight = select(is_nearest, Int(0), weight);
+  if (repeats) return {first, weight, may_be_nearest ? is_nearest : weight < Int(0)};
 
   // A coordinate in [0, 1] leaves the level by one texel at most. Where it does not repeat, both are the same there.
-  if (repeats) {
-    Int first = select(i < none, last, i), second = select(next > last, none, next);
-    if (may_be_nearest) first = select(i > last, none, first);
-    return {first, second, weight};
-  }
-  const Int first = min(max(i, none), last), second = min(max(next, none), last);
-  return {first, second, select(second > first, weight, none)};
+  const auto is_same = (first < Int(1)) | (first > count - Int(1)) | (may_be_nearest ? is_nearest : weight < Int(0));
+  first = min(max(first, Int(1)), count);
+  return {first, select(is_same, Int(0), weight), is_same};
 }
 
 /// log2 of the footprint in texels of level 0, clamped to ±64.
@@ -83,7 +89,7 @@ template <class F, class View>
   const F sx = F::load(p.dudx + i) * w, tx = F::load(p.dvdx + i) * h;
   const F sy = F::load(p.dudy + i) * w, ty = F::load(p.dvdy + i) * h;
   const F square = max(sx * sx + tx * tx, sy * sy + ty * ty);
-  return F(0.5f) * log2(min(max(square, F(0x1p-100f)), F(0x1p100f)));
+  return F(0.5f) * coarse_log2(min(max(square, F(0x1p-100f)), F(0x1p100f)));
 }
 
 template <class F>
@@ -103,25 +109,6 @@ template <class View>
   }
 }
 
-template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void store_level(const View& t, const Filter& f, const WrappedPoint<F>& p,
-                                               typename F::Int level, Taps& out, int which, int i) {
-  using Int = typename F::Int;
-  const LevelPlace<F> place = find_level<F>(t, level);
-  const bool nearest = may_be_nearest(f);
-  const AxisTaps<F> x = axis_taps(p.u, place.width, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
-  const AxisTaps<F> y = axis_taps(p.v, place.height, nearest, p.is_nearest, !f.mirror_v && !f.clamp_v);
-  const Int pitch = place.width + Int(1), left = place.offset + x.first;
-  (left + y.first * pitch).store(out.upper[which] + i);
-  (left + y.second * pitch).store(out.lower[which] + i);
-  x.weight.store_narrow(out.right[which] + i);
-  y.weight.store_narrow(out.down[which] + i);
-  for (const int end : {0, F::lanes - 1}) {
-    fetch_ahead(t, out.upper[which][i + end]);
-    fetch_ahead(t, out.lower[which][i + end]);
-  }
-}
-
 /// The levels to look at.
 template <class F>
 struct Levels {
@@ -138,18 +125,51 @@ template <class F, class View, class Filter>
   return {truncate(fine), blend, detail > F(0.0f)};
 }
 
+/// What points that look at the same levels have in common.
+template <class F>
+struct Lookup {
+  LevelPlace<F> place[2];
+  typename F::Int blend;  ///< weight of the second level, in 1/32768
+  typename F::Bool is_nearest;
+};
+
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline Lookup<F> find_lookup(const View& t, const Filter& f, F detail) {
+  using Int = typename F::Int;
+  const Levels<F> levels = find_levels<F>(t, f, detail);
+  const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
+  Lookup<F> at{{find_level<F>(t, levels.first), {}},
+               min(truncate(levels.blend * F(32768.0f) + F(0.5f)), Int(32767)),
+               select(levels.is_minified, minify, magnify) > F(0.5f)};
+  if (f.has_levels && f.blends_levels) at.place[1] = find_level<F>(t, min(levels.first + Int(1), Int(t.levels - 1)));
+  return at;
+}
+
+template <class F, class Filter>
+[[gnu::always_inline]] inline void store_level(const Filter& f, const WrappedPoint<F>& p, const LevelPlace<F>& place,
+                                               Taps& out, int which, int i) {
+  using Int = typename F::Int;
+  const bool nearest = may_be_nearest(f), repeats_v = !f.mirror_v && !f.clamp_v;
+  const AxisTaps<F> x = axis_taps(p.u, place.width, place.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
+  const AxisTaps<F> y = axis_taps(p.v, place.height, place.rows, nearest, p.is_nearest, repeats_v);
+  const Int upper = place.offset + y.first * place.pitch + x.first;
+  const Int below = repeats_v && !nearest ? place.pitch : select(y.is_same, Int(0), place.pitch);
+  upper.store(out.upper[which] + i);
+  (upper + below).store(out.lower[which] + i);
+  x.weight.store_narrow(out.right[which] + i);
+  y.weight.store_narrow(out.down[which] + i);
+}
+
 /// The taps of points at (u, v), the i-th of `out` and on.
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void store_taps(const View& t, const Filter& f, const Levels<F>& levels, F u, F v,
-                                              Taps& out, int i) {
-  using Int = typename F::Int;
-  min(truncate(levels.blend * F(32768.0f) + F(0.5f)), Int(32767)).store_narrow(out.blend + i);
-  const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
-  const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v),
-                          select(levels.is_minified, minify, magnify) > F(0.5f)};
-  store_level<F>(t, f, p, levels.first, out, 0, i);
-  if (f.has_levels && f.blends_levels)
-    store_level<F>(t, f, p, min(levels.first + Int(1), Int(t.levels - 1)), out, 1, i);
+[[gnu::always_inline]] inline void store_taps(const View& t, const Filter& f, const Lookup<F>& at, F u, F v, Taps& out,
+                                              int i) {
+  at.blend.store_narrow(out.blend + i);
+  const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
+  for (int which = 0; which < (f.has_levels && f.blends_levels ? 2 : 1); ++which) {
+    store_level<F>(f, p, at.place[which], out, which, i);
+    for (const int end : {0, F::lanes - 1}) fetch_ahead(t, out.lower[which][i + end]);
+  }
 }
 
 template <class F, class View, class Filter>
@@ -158,78 +178,83 @@ template <class F, class View, class Filter>
   // Apart from the addresses, because both are long chains of operations that wait for each other.
   for (int i = 0; i < count; i += F::lanes) footprint_level<F>(t, at, i).store(out.detail + i);
   for (int i = 0; i < count; i += F::lanes)
-    store_taps<F>(t, f, find_levels<F>(t, f, F::load(out.detail + i)), F::load(at.u + i), F::load(at.v + i), out, i);
+    store_taps<F>(t, f, find_lookup<F>(t, f, F::load(out.detail + i)), F::load(at.u + i), F::load(at.v + i), out, i);
 }
 
 /// The stage `find_taps` of shade/filtering.h.
 template <class F, class View>
 void find_taps(const View& t, const Filtering& f, const Footprint& footprint, Taps& out, int count) {
-  const bool is_usual =
-      !f.mirror_u && !f.clamp_u && !f.mirror_v && !f.clamp_v && !may_be_nearest(f) && f.has_levels && f.blends_levels;
-  if (is_usual) return find_all_taps<F>(t, UsualFiltering{}, footprint, out, count);
+  if (is_usual(f)) return find_all_taps<F>(t, UsualFiltering{}, footprint, out, count);
   find_all_taps<F>(t, f, footprint, out, count);
 }
 
-/// Eight points' longer axes of their footprints, and the probes along them.
+/// Points' longer axes of their footprints, the probes along them and their level.
+template <class F>
 struct Probes {
-  alignas(64) float du[8], dv[8];  ///< the longer axis
-  alignas(64) float count[8], detail[8];
-  float most = 1;
+  F du, dv;  ///< the longer axis
+  F count, detail;
 };
 
 template <class F, class View>
-[[gnu::always_inline]] inline void find_probes(const View& t, const Filtering& f, const Footprint& p, int first,
-                                               Probes& out) {
+[[gnu::always_inline]] inline Probes<F> find_probes(const View& t, int anisotropy, const Footprint& p, int i) {
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0])), one(1.0f);
-  for (int k = 0; k < 8; k += F::lanes) {
-    const int i = first + k;
-    const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
-    const F sx = ux * w, tx = vx * h, sy = uy * w, ty = vy * h;
-    const F x = min(max(sx * sx + tx * tx, F(0x1p-60f)), F(0x1p60f));
-    const F y = min(max(sy * sy + ty * ty, F(0x1p-60f)), F(0x1p60f));
-    const auto is_wide = x > y;
-    const F longer = max(x, y), ratio = sqrt(longer / min(x, y));
+  const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
+  const F sx = ux * w, tx = vx * h, sy = uy * w, ty = vy * h;
+  const F x = min(max(sx * sx + tx * tx, F(0x1p-60f)), F(0x1p60f));
+  const F y = min(max(sy * sy + ty * ty, F(0x1p-60f)), F(0x1p60f));
+  const auto is_wide = x > y;
+  const F longer = max(x, y), ratio = sqrt(longer / min(x, y));
 
-    // As many as the footprint is longer than wide; but no more than it has texels.
-    const F wanted = min(min(-floor(-ratio), -floor(-sqrt(longer))), F(static_cast<float>(f.anisotropy)));
-    const F count = max(wanted, one);
-    select(is_wide, ux, uy).store(out.du + k);
-    select(is_wide, vx, vy).store(out.dv + k);
-    count.store(out.count + k);
-    (F(0.5f) * log2(longer / (count * count))).store(out.detail + k);
-  }
-  out.most = 1;
-  for (const float n : out.count) out.most = out.most < n ? n : out.most;
+  // As many as the footprint is longer than wide; but no more than it has texels.
+  const F wanted = min(min(-floor(-ratio), -floor(-sqrt(longer))), F(static_cast<float>(anisotropy)));
+  const F count = max(wanted, one);
+  return {select(is_wide, ux, uy), select(is_wide, vx, vy), count, F(0.5f) * coarse_log2(longer / (count * count))};
 }
 
-/// The stage `sample_anisotropic` of shade/filtering.h; mix(taps, out) mixes the first eight taps.
+/// The taps of eight points' probes, the first of all points before the second of any. Gives the most that a point has,
+/// which all are given.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline int store_probes(const View& t, const Filter& f, int anisotropy, const Footprint& at,
+                                               int first, Taps& out, float (&counts)[8]) {
+  constexpr int vectors = 8 / F::lanes;
+  Probes<F> probes[vectors];
+  for (int k = 0; k < vectors; ++k) {
+    probes[k] = find_probes<F>(t, anisotropy, at, first + k * F::lanes);
+    probes[k].count.store(counts + k * F::lanes);
+  }
+  float most = 1;
+  for (const float n : counts) most = most < n ? n : most;
+  for (int k = 0; k < vectors; ++k) {
+    const int i = first + k * F::lanes;
+    const Lookup<F> lookup = find_lookup<F>(t, f, probes[k].detail);
+    const F u = F::load(at.u + i), v = F::load(at.v + i), all = probes[k].count, step = F(1.0f) / (all + F(1.0f));
+    for (int n = 0; n < static_cast<int>(most); ++n) {
+      const F along = min(F(static_cast<float>(n + 1)), all) * step - F(0.5f);
+      store_taps<F>(t, f, lookup, u + probes[k].du * along, v + probes[k].dv * along, out, 8 * n + k * F::lanes);
+    }
+  }
+  return static_cast<int>(most);
+}
+
+/// The stage `sample_anisotropic` of shade/filtering.h; mix(taps, out, count) mixes the first taps.
 template <class F, class View, class Mix>
 [[gnu::always_inline]] inline void sample_anisotropic(const View& t, const Filtering& f, const Footprint& at,
                                                       float* const out[4], int count, Mix mix) {
+  static_assert(Taps::capacity >= 8 * Filtering::most_anisotropy);
   Taps taps;
-  Probes probes;
-  alignas(64) float mixed[4][8];
+  alignas(64) float mixed[4][Taps::capacity], counts[8];
   float* const probe[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
-  const F one(1.0f);
   for (int first = 0; first < count; first += 8) {
-    find_probes<F>(t, f, at, first, probes);
-    for (float n = 1; n <= probes.most; n += 1) {
-      for (int k = 0; k < 8; k += F::lanes) {
-        const F all = F::load(probes.count + k);
-        const F along = min(F(n), all) / (all + one) - F(0.5f);
-        const F u = F::load(at.u + first + k) + F::load(probes.du + k) * along;
-        const F v = F::load(at.v + first + k) + F::load(probes.dv + k) * along;
-        store_taps<F>(t, f, find_levels<F>(t, f, F::load(probes.detail + k)), u, v, taps, k);
-      }
-      mix(taps, probe);
-      for (int k = 0; k < 8; k += F::lanes) {
-        const F all = F::load(probes.count + k);
-        const F weight = select(F(n) > all, F(0.0f), one / all);
-        for (int c = 0; c < 4; ++c) {
-          float* const to = out[c] + first + k;
-          const F more = F::load(probe[c] + k) * weight;
-          (n > 1 ? F::load(to) + more : more).store(to);
-        }
+    const int most = is_usual(f) ? store_probes<F>(t, UsualFiltering{}, f.anisotropy, at, first, taps, counts)
+                                 : store_probes<F>(t, f, f.anisotropy, at, first, taps, counts);
+    mix(taps, probe, 8 * most);
+    for (int k = 0; k < 8; k += F::lanes) {
+      const F all = F::load(counts + k), share = F(1.0f) / all;
+      for (int c = 0; c < 4; ++c) {
+        F sum = F::load(mixed[c] + k) * share;
+        for (int n = 1; n < most; ++n)
+          sum = sum + F::load(mixed[c] + 8 * n + k) * select(F(static_cast<float>(n + 1)) > all, F(0.0f), share);
+        sum.store(out[c] + first + k);
       }
     }
   }

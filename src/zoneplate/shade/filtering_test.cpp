@@ -172,10 +172,11 @@ struct Staircase {
     for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
       view.width[view.levels] = w, view.height[view.levels] = h;
       view.offset[view.levels] = static_cast<std::int32_t>(codes.size() / 4);
-      const auto texels = static_cast<std::size_t>((w + 1) * h);
+      const auto texels = static_cast<std::size_t>((w + 2) * (h + 2));
       codes.resize(codes.size() + 4 * texels, static_cast<std::uint8_t>(8 * view.levels++ + 4));
       if (w == 1 && h == 1) break;
     }
+    codes.resize(codes.size() + 8);
     view.codes8 = codes.data();
   }
   /// The level at which each point looked.
@@ -343,7 +344,7 @@ TEST(Filtering, NoPlaceLeavesTheTexture) {
   for (const auto& size : sizes) {
     const Texture texture(noise(size[0], size[1]), TexelMeaning::Values);
     const TextureView& view = texture.view();
-    const int texels = view.offset[view.levels - 1] + 2;
+    const int texels = view.offset[view.levels - 1] + 9 + 2;
     for (const Filtering& filtering : all_filterings())
       for (const Isa isa : supported_isas()) {
         kernels(isa).find_taps(view, filtering, points.footprint(), taps, points.padded());

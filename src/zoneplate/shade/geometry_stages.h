@@ -44,26 +44,59 @@ template <class F>
 }
 
 template <class F>
+[[gnu::always_inline]] inline void load_corner(const Batch& batch, const Corners& corners, int k, int i, int place,
+                                               F (&out)[4]) {
+  const float* record[F::lanes];
+  corners.find(batch, k, i, record);
+  F::load_quads(record, place, out);
+}
+
+/// The end of the groups from point i on that share a triangle.
+[[gnu::always_inline]] inline int run_end(const Batch& batch, int i, int count) {
+  const int first = i / Batch::group;
+  int g = first + 1;
+  while (g * Batch::group < count && batch.one_triangle[g] && batch.told_group[g] == batch.told_group[first]) ++g;
+  return g * Batch::group;
+}
+
+/// Points i to `end`, of one triangle.
+template <class F>
+[[gnu::always_inline]] inline void interpolate_run(const Batch& batch, const Corners& corners,
+                                                   const Interpolation::Quad& quad, int i, int end) {
+  const std::size_t told = batch.told(static_cast<std::size_t>(i));
+  const float* const v0 = corners.record[0][told] + quad.place;
+  const float* const v1 = corners.record[1][told] + quad.place;
+  const float* const v2 = corners.record[2][told] + quad.place;
+  for (int c = 0; c < 4; ++c) {
+    if (quad.value[c] == nullptr) continue;
+    const float second = v1[c] - v0[c], third = v2[c] - v0[c];
+    if (second == 0 && third == 0 && quad.dx[c] == nullptr) {
+      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(quad.value[c] + k);
+      continue;
+    }
+    const Linear<F> line{F(v0[c]), F(second), F(third)};
+    for (int k = i; k < end; k += F::lanes) store_float(batch, line, quad, c, k);
+  }
+}
+
+template <class F>
 void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, int count) {
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
-    for (int i = 0; i < count; i += F::lanes) {
-      const int told = i / Batch::group * Batch::group;
+    for (int i = 0; i < count;) {
       if (batch.one_triangle[i / Batch::group]) {
-        const float* const v0 = corners.record[0][told] + quad.place;
-        const float* const v1 = corners.record[1][told] + quad.place;
-        const float* const v2 = corners.record[2][told] + quad.place;
-        for (int c = 0; c < 4; ++c)
-          if (quad.value[c] != nullptr)
-            store_float(batch, Linear<F>{F(v0[c]), F(v1[c] - v0[c]), F(v2[c] - v0[c])}, quad, c, i);
-      } else {
-        F v0[4], v1[4], v2[4];
-        F::load_quads(corners.record[0] + i, quad.place, v0);
-        F::load_quads(corners.record[1] + i, quad.place, v1);
-        F::load_quads(corners.record[2] + i, quad.place, v2);
-        for (int c = 0; c < 4; ++c)
-          if (quad.value[c] != nullptr) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i);
+        const int end = run_end(batch, i, count);
+        interpolate_run<F>(batch, corners, quad, i, end);
+        i = end;
+        continue;
       }
+      F v0[4], v1[4], v2[4];
+      load_corner(batch, corners, 0, i, quad.place, v0);
+      load_corner(batch, corners, 1, i, quad.place, v1);
+      load_corner(batch, corners, 2, i, quad.place, v2);
+      for (int c = 0; c < 4; ++c)
+        if (quad.value[c] != nullptr) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i);
+      i += F::lanes;
     }
   }
 }
@@ -91,7 +124,9 @@ template <class F>
   constexpr std::int32_t stride = sizeof(Placement) / sizeof(float);
   const int group = i / Batch::group;
   if (corners.one_instance[group])
-    return F(first[std::ptrdiff_t{stride} * static_cast<std::ptrdiff_t>(batch.instance[group * Batch::group])]);
+    return F(
+        first[std::ptrdiff_t{stride} *
+              static_cast<std::ptrdiff_t>(batch.instance[batch.told(static_cast<std::size_t>(group) * Batch::group)])]);
   const auto* instance = reinterpret_cast<const std::int32_t*>(batch.instance);
   return F::gather(first, Int::load(instance + i) * Int(stride));
 }
@@ -137,20 +172,40 @@ template <class F>
 [[gnu::always_inline]] inline F facing(const Batch& batch, int i) {
   using Int = typename F::Int;
   const int group = i / Batch::group;
-  if (batch.one_triangle[group]) return F(batch.is_front[group * Batch::group] > 0 ? 1.0f : -1.0f);
+  if (batch.one_triangle[group]) return F(batch.is_front[batch.told(static_cast<std::size_t>(i))] > 0 ? 1.0f : -1.0f);
   return select(Int::load(batch.is_front + i) > Int(0), F(1.0f), F(-1.0f));
+}
+
+/// True if the normal is the same all over the triangle that is told of at a point.
+[[gnu::always_inline]] inline bool is_flat(const Corners& corners, std::size_t told) {
+  const float *const v0 = corners.record[0][told], *const v1 = corners.record[1][told];
+  const float* const v2 = corners.record[2][told];
+  bool is_same = true;
+  for (int c = 0; c < 3; ++c) is_same = is_same && v1[c] == v0[c] && v2[c] == v0[c];
+  return is_same;
 }
 
 template <class F>
 void find_normals(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
+  Vector<F> flat{F(0.0f), F(0.0f), F(0.0f)};
+  int flat_group = -1;  // where the triangle is told of that `flat` belongs to
   for (int i = 0; i < p.count; i += F::lanes) {
+    const int told_group = batch.one_triangle[i / Batch::group] ? batch.told_group[i / Batch::group] : -1;
+    if (told_group >= 0 && told_group == flat_group) {
+      flat.store(p.normal, i);
+      continue;
+    }
     const int group = i / Batch::group;
     Vector<F> n = Vector<F>::load(p.normal, i);
     const bool keeps =
-        corners.one_instance[group] && placements[batch.instance[group * Batch::group]].keeps_normals != 0;
+        corners.one_instance[group] &&
+        placements[batch.instance[batch.told(static_cast<std::size_t>(group) * Batch::group)]].keeps_normals != 0;
     if (!keeps) n = turned(batch, corners, placements->normal, n, i);
     // Adding +0 leaves no trace of which way was taken.
-    (normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i)).store(p.normal, i);
+    const Vector<F> normal = normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i);
+    normal.store(p.normal, i);
+    if (told_group >= 0 && is_flat(corners, static_cast<std::size_t>(told_group * Batch::group)))
+      flat = normal, flat_group = told_group;
   }
 }
 
@@ -171,14 +226,21 @@ void bend_normals(const Batch& batch, const float* const texel[4], float scale, 
   }
 }
 
+/// The way to the viewer, of any length.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> way_to_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
+  using Int = typename F::Int;
+  if (v.is_orthographic) return Vector<F>::all(v.towards);
+  if (!v.has_rays) return Vector<F>::all(v.eye) - Vector<F>::load(p.position, i);
+  const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
+  return Vector<F>::all(v.ray) + Vector<F>::all(v.ray_dx) * x + Vector<F>::all(v.ray_dy) * y;
+}
+
 /// The direction to the viewer.
 template <class F>
 [[gnu::always_inline]] inline Vector<F> towards_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
-  using Int = typename F::Int;
   if (v.is_orthographic) return Vector<F>::all(v.towards);
-  if (!v.has_rays) return normalize(Vector<F>::all(v.eye) - Vector<F>::load(p.position, i));
-  const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
-  return normalize(Vector<F>::all(v.ray) + Vector<F>::all(v.ray_dx) * x + Vector<F>::all(v.ray_dy) * y);
+  return normalize(way_to_viewer<F>(v, batch, p, i));
 }
 
 template <class F>

@@ -24,6 +24,7 @@ struct Bool {
 struct Int {
   static constexpr int lanes = 1;
   std::int32_t v;
+  Int() = default;
   Int(std::int32_t x) : v(x) {}
   static Int load(const std::int32_t* p) { return *p; }
   void store(std::int32_t* p) const { *p = v; }
@@ -36,6 +37,11 @@ struct Int {
   friend Int operator*(Int a, Int b) { return a.v * b.v; }
   friend Bool operator<(Int a, Int b) { return {a.v < b.v}; }
   friend Bool operator>(Int a, Int b) { return {a.v > b.v}; }
+  friend Int operator&(Int a, Int b) { return a.v & b.v; }
+  template <int bits>
+  Int shifted_right() const {
+    return v >> bits;
+  }
   friend Int min(Int a, Int b) { return a.v < b.v ? a : b; }
   friend Int max(Int a, Int b) { return a.v > b.v ? a : b; }
   friend Int select(Bool m, Int a, Int b) { return m.v ? a : b; }
@@ -71,6 +77,10 @@ struct Lane {
   friend Int truncate(Lane a) { return static_cast<std::int32_t>(a.v); }
   friend Lane log2(Lane a) {
     if constexpr (std::is_same_v<T, float>) return zoneplate::log2(a.v);
+    return static_cast<T>(std::log2(a.v));
+  }
+  friend Lane coarse_log2(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::coarse_log2(a.v);
     return static_cast<T>(std::log2(a.v));
   }
   friend Lane exp2(Lane a) {

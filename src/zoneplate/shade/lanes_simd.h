@@ -23,6 +23,7 @@ struct Bool {
 struct Int {
   static constexpr int lanes = static_cast<int>(hn::MaxLanes(IntTag()));
   hn::Vec<IntTag> v;
+  Int() = default;
   HWY_INLINE Int(std::int32_t x) : v(hn::Set(IntTag(), x)) {}
   HWY_INLINE explicit Int(hn::Vec<IntTag> x) : v(x) {}
   static HWY_INLINE Int load(const std::int32_t* p) { return Int(hn::LoadU(IntTag(), p)); }
@@ -39,6 +40,11 @@ struct Int {
   friend HWY_INLINE Int operator*(Int a, Int b) { return Int(hn::Mul(a.v, b.v)); }
   friend HWY_INLINE Bool operator<(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Lt(a.v, b.v))}; }
   friend HWY_INLINE Bool operator>(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Gt(a.v, b.v))}; }
+  friend HWY_INLINE Int operator&(Int a, Int b) { return Int(hn::And(a.v, b.v)); }
+  template <int bits>
+  HWY_INLINE Int shifted_right() const {
+    return Int(hn::ShiftRight<bits>(v));
+  }
   friend HWY_INLINE Int min(Int a, Int b) { return Int(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Int max(Int a, Int b) { return Int(hn::Max(a.v, b.v)); }
   friend HWY_INLINE Int select(Bool m, Int a, Int b) {
@@ -90,8 +96,9 @@ struct Float {
   friend HWY_INLINE Float select(Bool m, Float a, Float b) { return Float(hn::IfThenElse(m.v, a.v, b.v)); }
   friend HWY_INLINE Float sqrt(Float a) { return Float(hn::Sqrt(a.v)); }
   friend HWY_INLINE Float floor(Float a) { return Float(hn::Floor(a.v)); }
-  friend HWY_INLINE Int truncate(Float a) { return Int(hn::ConvertTo(IntTag(), a.v)); }
+  friend HWY_INLINE Int truncate(Float a) { return Int(truncated(FloatTag(), a.v)); }
   friend HWY_INLINE Float log2(Float a) { return Float(HWY_NAMESPACE::log2(FloatTag(), a.v)); }
+  friend HWY_INLINE Float coarse_log2(Float a) { return Float(HWY_NAMESPACE::coarse_log2(FloatTag(), a.v)); }
   friend HWY_INLINE Float exp2(Float a) { return Float(HWY_NAMESPACE::exp2(FloatTag(), a.v)); }
   friend HWY_INLINE Float pow(Float a, Float b) { return Float(HWY_NAMESPACE::pow(FloatTag(), a.v, b.v)); }
   static HWY_INLINE Float from(Int i) { return Float(hn::ConvertTo(FloatTag(), i.v)); }

@@ -60,11 +60,20 @@ template <class F>
 
 enum class Highlight { None, BlinnPhong, Phong };
 
+/// n · h with h halfway between l and the way to the viewer, whose length need not be one; 0 where there is no h.
+template <class F>
+[[gnu::always_inline]] inline F halfway_cosine(Vector<F> n, Vector<F> l, Vector<F> way) {
+  const Vector<F> h = l * sqrt(dot(way, way)) + way;
+  const F square = dot(h, h);
+  return select(square > F(1e-36f), dot(n, h) / sqrt(square), F(0.0f));
+}
+
 /// The cosine whose power is the highlight. Source: as in shade/brdf.h.
 template <class F, Highlight highlight>
-[[gnu::always_inline]] inline F highlight_cosine(Vector<F> n, Vector<F> l, Vector<F> v) {
-  if constexpr (highlight == Highlight::Phong) return phong_cosine(n, l, v);
-  return dot(n, normalize(l + v));
+[[gnu::always_inline]] inline F highlight_cosine(const Illumination& s, const Batch& batch, const Points& p,
+                                                 Vector<F> n, Vector<F> l, int i) {
+  if constexpr (highlight == Highlight::Phong) return phong_cosine(n, l, towards_viewer<F>(s.viewpoint, batch, p, i));
+  return halfway_cosine(n, l, way_to_viewer<F>(s.viewpoint, batch, p, i));
 }
 
 /// Room for the cosines of a batch's points. They are found apart from the powers, because both are long chains of
@@ -80,8 +89,7 @@ template <class F, Highlight highlight>
     const auto n = Vector<F>::load(p.normal, i), l = arriving<F>(of, p, i).from;
     lambert(dot(n, l)).store(out.diffuse + i);
     if constexpr (highlight == Highlight::None) continue;
-    const auto v = towards_viewer<F>(s.viewpoint, batch, p, i);
-    max(highlight_cosine<F, highlight>(n, l, v), F(0.0f)).store(out.highlight + i);
+    max(highlight_cosine<F, highlight>(s, batch, p, n, l, i), F(0.0f)).store(out.highlight + i);
   }
 }
 

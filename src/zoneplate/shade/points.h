@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "zoneplate/raster/batch.h"
@@ -27,11 +28,24 @@ struct Points {
   alignas(64) Array emissive[3];
 };
 
-/// The records of the triangles' corners (shade/vertices.h); where a group shares its triangle, at the group's first
-/// point only.
+/// The records of the triangles' corners (shade/vertices.h); where a group shares its triangle, where it is told
+/// (Batch) only.
 struct Corners {
+  /// Not null: the record of any of the batch's vertices is first + stride × vertex, and `record` says nothing of
+  /// groups of several triangles.
+  const float* first = nullptr;
+  std::size_t stride = 0;
   const float* record[3][Batch::capacity];
   bool one_instance[Batch::groups];
+
+  template <int lanes>
+  void find(const Batch& batch, int corner, int i, const float* (&out)[lanes]) const {
+    if (first != nullptr) {
+      for (int k = 0; k < lanes; ++k) out[k] = first + stride * batch.vertex[corner][i + k];
+    } else {
+      for (int k = 0; k < lanes; ++k) out[k] = record[corner][i + k];
+    }
+  }
 };
 
 /// One placement of a mesh as kernels see it.

@@ -35,10 +35,26 @@ struct Size {
   std::int32_t width, height;
 };
 
-/// A row ends with a copy of its first texel.
+/// Around a row of the level: copies of its last and its first texel.
 template <class Code>
 void close_row(Code* row, std::int32_t width) {
   std::copy_n(row, 4, row + std::ptrdiff_t{4} * width);
+  std::copy_n(row + std::ptrdiff_t{4} * (width - 1), 4, row - 4);
+}
+
+/// Above and below a level whose rows are closed: copies of its last and its first row.
+template <class Code>
+void close_level(Code* codes, const TextureView& view, int l) {
+  const std::ptrdiff_t pitch = std::ptrdiff_t{4} * view.pitch(l);
+  Code* const level = codes + std::ptrdiff_t{4} * view.offset[l];
+  std::copy_n(level + pitch * view.height[l], pitch, level);
+  std::copy_n(level + pitch, pitch, level + pitch * (view.height[l] + 1));
+}
+
+/// Texel (0, y) of a level.
+template <class Code>
+Code* row_of(Code* codes, const TextureView& view, int l, std::size_t y) {
+  return codes + std::ptrdiff_t{4} * view.texel(l, 0, static_cast<std::int32_t>(y));
 }
 
 /// Both sizes even: the mean of four.
@@ -63,7 +79,7 @@ void shrink_row(const Code* source, Size size, std::int32_t y, std::int32_t out_
       std::uint64_t sum = total / 2;
       for (std::int32_t j = 0; j < rows.count; ++j)
         for (std::int32_t i = 0; i < columns.count; ++i) {
-          const std::ptrdiff_t texel = std::ptrdiff_t{rows.first + j} * (size.width + 1) + columns.first + i;
+          const std::ptrdiff_t texel = std::ptrdiff_t{rows.first + j} * (size.width + 2) + columns.first + i;
           sum += rows.weight[j] * columns.weight[i] * source[4 * texel + c];
         }
       out[std::ptrdiff_t{4} * x + c] = static_cast<Code>(sum / total);
@@ -76,35 +92,34 @@ template <class Code>
 void make_levels(Code* codes, const TextureView& view) {
   for (std::int32_t l = 1; l < view.levels; ++l) {
     const Size size{view.width[l - 1], view.height[l - 1]}, out_size{view.width[l], view.height[l]};
-    const Code* source = codes + std::ptrdiff_t{4} * view.offset[l - 1];
-    Code* target = codes + std::ptrdiff_t{4} * view.offset[l];
+    const Code* source = row_of(codes, view, l - 1, 0);
     const bool is_even = size.width % 2 == 0 && size.height % 2 == 0;
     parallel_ranges(static_cast<std::size_t>(out_size.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
       for (std::size_t y = begin; y < end; ++y) {
-        Code* out = target + 4 * y * static_cast<std::size_t>(out_size.width + 1);
-        const std::size_t pitch = 4 * static_cast<std::size_t>(size.width + 1);
-        const Code* upper = source + 2 * y * pitch;
+        Code* out = row_of(codes, view, l, y);
         if (is_even) {
-          halve_row(upper, upper + pitch, out_size.width, out);
+          halve_row(row_of(codes, view, l - 1, 2 * y), row_of(codes, view, l - 1, 2 * y + 1), out_size.width, out);
         } else {
           shrink_row(source, size, static_cast<std::int32_t>(y), out_size.width, out);
         }
         close_row(out, out_size.width);
       }
     });
+    close_level(codes, view, l);
   }
 }
 
-/// Fills the sizes and offsets of all levels; gives the number of texels.
+/// Fills the sizes and offsets of all levels; gives the number of texels, with those that are only read.
 std::size_t lay_out(int width, int height, TextureView& view) {
   std::int64_t texels = 0;
   for (std::int32_t w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
     view.width[view.levels] = w;
     view.height[view.levels] = h;
     view.offset[view.levels++] = static_cast<std::int32_t>(texels);
-    texels += (std::int64_t{w} + 1) * h;
+    texels += (std::int64_t{w} + 2) * (h + 2);
     if (w == 1 && h == 1) break;
   }
+  texels += 2;
   assert(texels < (std::int64_t{1} << 31));
   return static_cast<std::size_t>(texels);
 }
@@ -118,11 +133,32 @@ std::array<std::uint16_t, 256> linear_codes() {
   return table;
 }
 
+/// Half as wide, or as high: the rounded mean of two.
+Rgba8Image halved(const Rgba8Image& image, bool in_x) {
+  Rgba8Image half(in_x ? image.width() / 2 : image.width(), in_x ? image.height() : image.height() / 2);
+  for (int y = 0; y < half.height(); ++y)
+    for (int x = 0; x < half.width(); ++x) {
+      const Rgba8 p = in_x ? image(2 * x, y) : image(x, 2 * y), q = in_x ? image(2 * x + 1, y) : image(x, 2 * y + 1);
+      const auto mean = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>((a + b + 1) / 2); };
+      half(x, y) = {mean(p.r, q.r), mean(p.g, q.g), mean(p.b, q.b), mean(p.a, q.a)};
+    }
+  return half;
+}
+
+/// The image, halved along an axis until that fits.
+Rgba8Image fitted(Rgba8Image image) {
+  while (image.width() > TextureView::max_size) image = halved(image, true);
+  while (image.height() > TextureView::max_size) image = halved(image, false);
+  return image;
+}
+
 }  // namespace
 
 Texture::Texture(const Rgba8Image& image, TexelMeaning meaning) {
   const Rgba8Image white(1, 1, Rgba8{255, 255, 255, 255});
-  const Rgba8Image& source = image.empty() ? white : image;
+  const bool fits = std::max(image.width(), image.height()) <= TextureView::max_size;
+  const Rgba8Image smaller = fits ? Rgba8Image() : fitted(image);
+  const Rgba8Image& source = image.empty() ? white : fits ? image : smaller;
   const std::size_t codes = 4 * lay_out(source.width(), source.height(), view_);
   const std::size_t width = static_cast<std::size_t>(source.width());
   const std::size_t height = static_cast<std::size_t>(source.height());
@@ -133,12 +169,13 @@ Texture::Texture(const Rgba8Image& image, TexelMeaning meaning) {
       for (std::size_t y = begin; y < end; ++y) {
         const auto row = source.row(static_cast<int>(y));
         for (std::size_t x = 0; x < width; ++x) {
-          auto* out = target + 4 * (y * (width + 1) + x);
+          auto* out = row_of(target, view_, 0, y) + 4 * x;
           out[0] = decode(row[x].r), out[1] = decode(row[x].g), out[2] = decode(row[x].b), out[3] = widen(row[x].a);
         }
-        close_row(target + 4 * y * (width + 1), source.width());
+        close_row(row_of(target, view_, 0, y), source.width());
       }
     });
+    close_level(target, view_, 0);
   };
   if (meaning == TexelMeaning::Color) {
     codes15_.resize(codes);

@@ -24,13 +24,12 @@ Rgba8Image noise(int width, int height) {
   return image;
 }
 
-/// A level's codes, without the copies at the ends of its rows.
+/// A level's codes, without its border.
 std::vector<std::uint32_t> codes_of(const TextureView& view, int level) {
-  const auto width = static_cast<std::size_t>(view.width[level]), height = static_cast<std::size_t>(view.height[level]);
   std::vector<std::uint32_t> codes;
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t i = 0; i < 4 * width; ++i) {
-      const std::size_t at = 4 * (static_cast<std::size_t>(view.offset[level]) + y * (width + 1)) + i;
+  for (int y = 0; y < view.height[level]; ++y)
+    for (int i = 0; i < 4 * view.width[level]; ++i) {
+      const std::ptrdiff_t at = std::ptrdiff_t{4} * view.texel(level, 0, y) + i;
       codes.push_back(view.codes8 != nullptr ? std::uint32_t{view.codes8[at]} : view.codes15[at]);
     }
   return codes;
@@ -59,7 +58,7 @@ TEST(Texture, LevelsHalveDownToOneTexel) {
   const Texture texture(Rgba8Image(13, 4), TexelMeaning::Values);
   const TextureView& view = texture.view();
   ASSERT_EQ(view.levels, 4);
-  const int widths[] = {13, 6, 3, 1}, heights[] = {4, 2, 1, 1}, offsets[] = {0, 56, 70, 74};
+  const int widths[] = {13, 6, 3, 1}, heights[] = {4, 2, 1, 1}, offsets[] = {0, 90, 122, 137};
   for (int l = 0; l < 4; ++l) {
     EXPECT_EQ(view.width[l], widths[l]);
     EXPECT_EQ(view.height[l], heights[l]);
@@ -86,14 +85,25 @@ TEST(Texture, EachLevelIsTheRoundedMeanOfTheOneBefore) {
     }
 }
 
-TEST(Texture, RowsEndWithACopyOfTheirFirstTexel) {
+TEST(Texture, TheBorderRepeatsTheLevel) {
   const Texture texture(noise(12, 7), TexelMeaning::Values);
   const TextureView& view = texture.view();
-  for (int l = 0; l < view.levels; ++l)
-    for (int y = 0; y < view.height[l]; ++y) {
-      const std::uint8_t* row = view.codes8 + std::ptrdiff_t{4} * (view.offset[l] + y * (view.width[l] + 1));
-      EXPECT_EQ(std::memcmp(row, row + std::ptrdiff_t{4} * view.width[l], 4), 0);
-    }
+  for (int l = 0; l < view.levels; ++l) {
+    const int w = view.width[l], h = view.height[l];
+    const auto at = [&](int x, int y) { return view.codes8 + std::ptrdiff_t{4} * view.texel(l, x, y); };
+    for (int y = -1; y <= h; ++y)
+      for (int x = -1; x <= w; ++x)
+        EXPECT_EQ(std::memcmp(at(x, y), at((x + w) % w, (y + h) % h), 4), 0) << x << " " << y;
+  }
+}
+
+TEST(Texture, WhatIsTooLargeIsHalved) {
+  Rgba8Image wide(2 * TextureView::max_size + 2, 1, Rgba8{10, 20, 30, 40});
+  for (int x = 0; x < wide.width(); x += 2) wide(x, 0).r = 12;
+  const Texture texture(wide, TexelMeaning::Values);
+  EXPECT_EQ(texture.view().width[0], TextureView::max_size / 2);
+  const auto codes = codes_of(texture.view(), 0);
+  for (std::size_t i = 0; i < codes.size(); i += 4) ASSERT_TRUE(codes[i] == 11 && codes[i + 1] == 20);
 }
 
 TEST(Texture, OneColourStaysThatColour) {
@@ -117,8 +127,9 @@ TEST(Texture, ColoursAreDecodedAndAlphaIsNot) {
   for (int i = 0; i < 256; ++i) {
     const double code = i / 255.0;
     const double linear = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-    EXPECT_NEAR(texture.view().codes15[4 * i], 32767 * linear, 0.51);
-    EXPECT_NEAR(texture.view().codes15[4 * i + 3], 32767 * code, 0.51);
+    const std::uint16_t* const texel = texture.view().codes15 + std::ptrdiff_t{4} * texture.view().texel(0, i, 0);
+    EXPECT_NEAR(texel[0], 32767 * linear, 0.51);
+    EXPECT_NEAR(texel[3], 32767 * code, 0.51);
   }
 }
 

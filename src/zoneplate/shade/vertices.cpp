@@ -79,8 +79,18 @@ VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene))
     instances_.push_back(meshes_[static_cast<std::size_t>(instance.mesh)].data());
 }
 
+/// Records that stand in one array are asked for, and found when they are needed.
+static void find_corners_of_one(const float* first, std::size_t stride, const Batch& batch, Corners& out) {
+  out.first = first, out.stride = stride;
+  std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i)
+    for (const auto& vertex : batch.vertex) __builtin_prefetch(first + stride * vertex[i]);
+}
+
 void find_corners(const VertexRecords& records, const Batch& batch, Corners& out) {
   const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
+  if (batch.one_instance) return find_corners_of_one(records.of_instance(batch.instance[0]), stride, batch, out);
+  out.first = nullptr;
   const auto find = [&](std::size_t i) {
     const float* const first = records.of_instance(batch.instance[i]);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -91,7 +101,7 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
   for (std::size_t first = 0; first < static_cast<std::size_t>(batch.padded()); first += Batch::group) {
     const std::size_t g = first / Batch::group;
     out.one_instance[g] = true;
-    find(first);
+    if (batch.told(first) == first) find(first);
     if (batch.one_triangle[g]) continue;
     std::uint32_t difference = 0;
     for (std::size_t i = first + 1; i < first + Batch::group; ++i) {

@@ -1,0 +1,76 @@
+// The points of a tile that no row of eight pixels shares: listed, shaded a list at a time, and summed by pixel.
+#include <algorithm>
+#include <bit>
+
+#include "zoneplate/raster/tile.h"
+
+namespace zoneplate {
+
+bool TileRenderer::lists_points() const { return !has_layers() && pass_samples_ <= PointList::most_samples; }
+
+/// Lists the points of eight neighbouring pixels of a row.
+void TileRenderer::list_row(int x, int y) {
+  const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
+  const int first = std::max(left_ - x, 0), last = std::min(right_ - x, Batch::group);
+  if (first >= last) return;
+  point_lists_.list({.id = visibility_.id + pixel,
+                     .sample_count = pass_samples_,
+                     .sample_x = sample_places_.x.data() + first_sample_,
+                     .sample_y = sample_places_.y.data() + first_sample_,
+                     .pixel = pixel,
+                     .x = (tile_x_ + x) * 256,
+                     .y = (tile_y_ + y) * 256,
+                     .wanted = (1u << last) - (1u << first),
+                     .is_per_sample = target_.is_per_sample},
+                    list_);
+  listed_rows_.push_back(pixel);
+  if (list_.count >= PointList::enough) shade_list();
+}
+
+/// Shades what is listed, and gives its rows their colours.
+void TileRenderer::shade_list() {
+  // Where each pixel is one point, rows follow each other.
+  const bool are_whole_rows =
+      pass_samples_ == 1 && static_cast<std::size_t>(list_.count) == Batch::group * listed_rows_.size();
+  if (are_whole_rows) {
+    shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
+      for (std::size_t i = 0; i < count; i += Batch::group)
+        resolve_.resolve(colors, static_cast<int>(i), weight_sum_, color_[PointList::pixel(list_.at[first + i]) / 8]);
+    });
+  } else {
+    sum_list();
+  }
+  listed_rows_.clear();
+  list_.count = 0;
+}
+
+void TileRenderer::sum_list() {
+  for (const std::uint32_t pixel : listed_rows_) std::fill_n(&list_sums_[pixel], Batch::group, Linear{0, 0, 0, 0});
+  shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
+    const std::uint32_t* const at = list_.at + first;
+    float weight[Batch::capacity];
+    for (std::size_t i = 0; i < count; ++i) weight[i] = weight_of(PointList::samples(at[i]));
+    point_lists_.add(colors, at, weight, static_cast<int>(count), &list_sums_[0].r);
+  });
+  for (const std::uint32_t pixel : listed_rows_)
+    point_lists_.divide(&list_sums_[pixel].r, weight_sum_, color_[pixel / 8]);
+}
+
+/// The weight of those samples of the pass, added in their order.
+float TileRenderer::weight_of(std::uint32_t samples) const {
+  if (samples < samples_weight_.size()) return samples_weight_[samples];
+  float weight = 0;
+  for (; samples; samples &= samples - 1)
+    weight += weights_[static_cast<std::size_t>(first_sample_ + std::countr_zero(samples))];
+  return weight;
+}
+
+/// The weights of all sets of samples that are not too many.
+void TileRenderer::find_weights() {
+  constexpr std::size_t most_samples = 8;
+  std::vector<float> weights(std::size_t{1} << std::min(target_.samples.size(), most_samples));
+  for (std::uint32_t s = 0; s < weights.size(); ++s) weights[s] = weight_of(s);
+  samples_weight_.swap(weights);
+}
+
+}  // namespace zoneplate
