@@ -31,7 +31,7 @@ class Pixels {
   HWY_INLINE VI owner(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
   HWY_INLINE MI is_there(VI owner) const { return hn::AndNot(hn::Eq(owner, set(no_triangle)), wanted_); }
 
-  /// Adds those that are shaded for `samples`, the first of which is s.
+  /// Adds those whose first sample is s.
   HWY_INLINE void put(MI mask, int s, VI owner, VI samples, PointList& out) const {
     const VI all = set((1 << row_.sample_count) - 1);
     const MI is_centre = row_.is_per_sample ? hn::Ne(all, all) : hn::Eq(samples, all);
@@ -65,15 +65,12 @@ class Pixels {
 HWY_INLINE void list_first_at(const Pixels& pixels, const OwnerRow& row, int s, PointList& out) {
   const VI owner = pixels.owner(s);
   MI mask = pixels.is_there(owner);
-  for (int t = 0; t < s; ++t) mask = hn::AndNot(hn::Eq(owner, pixels.owner(t)), mask);
-  if (hn::AllFalse(i32, mask)) return;
   if (row.is_per_sample) {
-    for (int t = s; t < row.sample_count; ++t) {
-      const MI owned = hn::And(mask, hn::Eq(owner, pixels.owner(t)));
-      if (!hn::AllFalse(i32, owned)) pixels.put(owned, t, owner, set(1 << t), out);
-    }
+    if (!hn::AllFalse(i32, mask)) pixels.put(mask, s, owner, set(1 << s), out);
     return;
   }
+  for (int t = 0; t < s; ++t) mask = hn::AndNot(hn::Eq(owner, pixels.owner(t)), mask);
+  if (hn::AllFalse(i32, mask)) return;
   VI samples = set(1 << s);
   for (int t = s + 1; t < row.sample_count; ++t)
     samples = hn::Or(samples, hn::IfThenElseZero(hn::Eq(owner, pixels.owner(t)), set(1 << t)));

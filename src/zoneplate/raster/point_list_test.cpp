@@ -74,8 +74,9 @@ TEST(PointList, EverySampleThatIsOwnedColoursFromOnePoint) {
         const int first = std::countr_zero(own);
         int of_triangle = 0;
         while (row.id[of_triangle * tile_pixels + static_cast<int>(lane)] != id) ++of_triangle;
-        EXPECT_GT(16 * of_triangle + first, last[lane]) << "in the order of their triangles' first samples";
-        last[lane] = 16 * of_triangle + first;
+        const int place = row.is_per_sample ? first : 16 * of_triangle + first;
+        EXPECT_GT(place, last[lane]) << "in the order of samples, or of their triangles' first samples";
+        last[lane] = place;
         const bool is_centre = !row.is_per_sample && own == (1u << samples) - 1;
         EXPECT_EQ(x, row.x + static_cast<std::int32_t>(lane) * 256 + (is_centre ? 128 : row.sample_x[first]));
         EXPECT_EQ(y, row.y + (is_centre ? 128 : row.sample_y[first]));
