@@ -53,12 +53,12 @@ class Plan {
     return *stage_;
   }
 
-  // The same without images, whatever else was loaded.
-  Scene shape(double frame) {
+  // The scene's shape at another moment than the stage's: in `memory`, or the stage's own where nothing is animated.
+  const Scene& shape(double frame, Scene& memory) {
     if (!is_animated()) return stage_->scene();
     SceneChoice choice = choice_;
     choice.time = time_of(frame);
-    return source_.load_shape(choice);
+    return memory = source_.load_shape(choice);
   }
 
   // The camera that every frame is seen by, before the turntable turns it.
@@ -135,18 +135,19 @@ class Plan {
 // Frames before and after, where a data pass looks at them.
 class Neighbours {
  public:
-  Neighbours(RenderArgs& args, Plan& plan, const Camera& still, int frame) {
+  Neighbours(RenderArgs& args, Plan& plan, const Camera& still, int frame) : options_(args.options) {
     const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
     const auto look = [&](bool Planes::*plane, int at, std::optional<Seen>& seen, const Moment*& moment) {
       moment = nullptr;
       if (std::ranges::none_of(args.aovs, [&](const Aov* aov) { return aov->plane == plane; })) return;
-      seen.emplace().scene = plan.shape(at);
-      seen->moment = {&seen->scene, plan.camera(still, seen->scene, args.view, aspect, at)};
+      const Scene& scene = plan.shape(at, seen.emplace().scene);
+      seen->moment = {&scene, plan.camera(still, scene, args.view, aspect, at)};
       moment = &seen->moment;
     };
-    look(&Planes::motion, frame - args.sequence.jump, last_, args.options.last);
-    look(&Planes::flow, frame + args.sequence.jump, next_, args.options.next);
+    look(&Planes::motion, frame - args.sequence.jump, last_, options_.last);
+    look(&Planes::flow, frame + args.sequence.jump, next_, options_.next);
   }
+  ~Neighbours() { options_.last = options_.next = nullptr; }
   Neighbours(const Neighbours&) = delete;
   Neighbours& operator=(const Neighbours&) = delete;
 
@@ -155,6 +156,7 @@ class Neighbours {
     Scene scene;
     Moment moment;
   };
+  RenderOptions& options_;
   std::optional<Seen> last_, next_;
 };
 
