@@ -26,14 +26,12 @@ std::uint32_t samples_of(const OwnerRow& row, std::int32_t lane, std::int32_t id
 /// By first samples, and of those by pixels.
 void list(const OwnerRow& row, PointList& out) {
   for (int s = 0; s < row.sample_count; ++s)
-    for (int t = s; t < (row.is_per_sample ? row.sample_count : s + 1); ++t)
-      for (std::int32_t lane = 0; lane < Batch::group; ++lane) {
-        const std::int32_t id = row.id[s * tile_pixels + lane];
-        if ((row.wanted >> lane & 1) == 0 || id == no_triangle) continue;
-        const std::uint32_t samples = samples_of(row, lane, id);
-        if (std::countr_zero(samples) != s || (samples >> t & 1) == 0) continue;
-        put(row, lane, id, row.is_per_sample ? 1u << t : samples, out);
-      }
+    for (std::int32_t lane = 0; lane < Batch::group; ++lane) {
+      const std::int32_t id = row.id[s * tile_pixels + lane];
+      if ((row.wanted >> lane & 1) == 0 || id == no_triangle) continue;
+      const std::uint32_t samples = row.is_per_sample ? 1u << s : samples_of(row, lane, id);
+      if (std::countr_zero(samples) == s) put(row, lane, id, samples, out);
+    }
 }
 
 void add(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum) {

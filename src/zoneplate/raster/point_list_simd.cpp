@@ -65,15 +65,12 @@ class Pixels {
 HWY_INLINE void list_first_at(const Pixels& pixels, const OwnerRow& row, int s, PointList& out) {
   const VI owner = pixels.owner(s);
   MI mask = pixels.is_there(owner);
-  for (int t = 0; t < s; ++t) mask = hn::AndNot(hn::Eq(owner, pixels.owner(t)), mask);
-  if (hn::AllFalse(i32, mask)) return;
   if (row.is_per_sample) {
-    for (int t = s; t < row.sample_count; ++t) {
-      const MI owned = hn::And(mask, hn::Eq(owner, pixels.owner(t)));
-      if (!hn::AllFalse(i32, owned)) pixels.put(owned, t, owner, set(1 << t), out);
-    }
+    if (!hn::AllFalse(i32, mask)) pixels.put(mask, s, owner, set(1 << s), out);
     return;
   }
+  for (int t = 0; t < s; ++t) mask = hn::AndNot(hn::Eq(owner, pixels.owner(t)), mask);
+  if (hn::AllFalse(i32, mask)) return;
   VI samples = set(1 << s);
   for (int t = s + 1; t < row.sample_count; ++t)
     samples = hn::Or(samples, hn::IfThenElseZero(hn::Eq(owner, pixels.owner(t)), set(1 << t)));
