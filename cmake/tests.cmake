@@ -4,6 +4,7 @@ include(GoogleTest)
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
 target_link_libraries(zoneplate_tests PRIVATE zoneplate_cli GTest::gtest_main webpdemux)
+target_compile_options(zoneplate_tests PRIVATE ${built_quickly})
 target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
                            ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>")
 add_dependencies(zoneplate_tests zoneplate_program)

@@ -17,19 +17,19 @@ void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t 
   out.at[i] = row.pixel + static_cast<std::uint32_t>(lane) + (samples << 12);
 }
 
-std::uint32_t samples_of(const OwnerRow& row, std::int32_t lane, std::int32_t id) {
-  std::uint32_t samples = 0;
-  for (int s = 0; s < row.sample_count; ++s) samples |= row.id[s * tile_pixels + lane] == id ? 1u << s : 0;
-  return samples;
-}
-
 /// By first samples, and of those by pixels.
 void list(const OwnerRow& row, PointList& out) {
   for (int s = 0; s < row.sample_count; ++s)
     for (std::int32_t lane = 0; lane < Batch::group; ++lane) {
-      const std::int32_t id = row.id[s * tile_pixels + lane];
+      const auto id_of = [&](int sample) { return row.id[sample * tile_pixels + lane]; };
+      const std::int32_t id = id_of(s);
       if ((row.wanted >> lane & 1) == 0 || id == no_triangle) continue;
-      const std::uint32_t samples = row.is_per_sample ? 1u << s : samples_of(row, lane, id);
+      if (row.is_per_sample) {
+        put(row, lane, id, 1u << s, out);
+        continue;
+      }
+      std::uint32_t samples = 0;
+      for (int t = 0; t < row.sample_count; ++t) samples |= id_of(t) == id ? 1u << t : 0;
       if (std::countr_zero(samples) == s) put(row, lane, id, samples, out);
     }
 }

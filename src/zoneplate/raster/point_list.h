@@ -33,7 +33,7 @@ struct OwnerRow {
   std::uint32_t pixel;   ///< the first, within the tile
   std::int32_t x, y;     ///< its top-left corner, 1/256 pixel
   std::uint32_t wanted;  ///< a bit for each pixel that is drawn
-  bool is_per_sample;    ///< every sample is a point of its own
+  bool is_per_sample;    ///< every sample is a point of its own, in the order of the samples
 };
 
 struct PointListKernels {

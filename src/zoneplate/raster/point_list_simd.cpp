@@ -31,7 +31,7 @@ class Pixels {
   HWY_INLINE VI owner(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
   HWY_INLINE MI is_there(VI owner) const { return hn::AndNot(hn::Eq(owner, set(no_triangle)), wanted_); }
 
-  /// Adds those that are shaded for `samples`, the first of which is s.
+  /// Adds those whose first sample is s.
   HWY_INLINE void put(MI mask, int s, VI owner, VI samples, PointList& out) const {
     const VI all = set((1 << row_.sample_count) - 1);
     const MI is_centre = row_.is_per_sample ? hn::Ne(all, all) : hn::Eq(samples, all);

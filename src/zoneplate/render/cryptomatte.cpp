@@ -81,6 +81,44 @@ struct Part {
   int samples = 0;
 };
 
+/// Counts the things of one pixel's samples and ranks them.
+class PartCounter {
+ public:
+  PartCounter(const std::vector<Plane<std::uint32_t>>& samples, const Scene& scene, const Names& names)
+      : samples_(samples), instance_of_(scene), names_(names) {}
+
+  /// The parts, the greatest first; `parts` is memory to be used again.
+  void count(int x, int y, std::vector<Part>& parts) const {
+    parts.clear();
+    for (const Plane<std::uint32_t>& plane : samples_) {
+      if (plane(x, y) == Frame::no_id) continue;
+      const std::uint32_t name = names_.of_instance[instance_of_(plane(x, y))];
+      const auto found = std::ranges::find(parts, name, &Part::name);
+      if (found == parts.end())
+        parts.push_back({name, 1});
+      else
+        ++found->samples;
+    }
+    std::ranges::sort(parts, [](const Part& a, const Part& b) {
+      return a.samples != b.samples ? a.samples > b.samples : a.name < b.name;
+    });
+  }
+
+ private:
+  const std::vector<Plane<std::uint32_t>>& samples_;
+  InstanceOf instance_of_;
+  const Names& names_;
+};
+
+std::vector<std::pair<std::string, std::string>> attributes_of(const std::string& layer,
+                                                               std::span<const std::string> names) {
+  const std::string key = "cryptomatte/" + fmt::format("{:08x}", murmur3(layer)).substr(0, 7);
+  return {{key + "/name", layer},
+          {key + "/hash", "MurmurHash3_32"},
+          {key + "/conversion", "uint32_to_float32"},
+          {key + "/manifest", manifest_of(names)}};
+}
+
 }  // namespace
 
 std::uint32_t murmur3(std::string_view text) {
@@ -111,38 +149,22 @@ float cryptomatte_id(std::string_view name) {
 
 Cryptomatte make_cryptomatte(const Frame& frame, const Scene& scene, MatteKind kind) {
   const Names names = names_of(scene, kind);
-  const InstanceOf instance_of(scene);
   std::vector<float> ids;
   for (const std::string& name : names.list) ids.push_back(cryptomatte_id(name));
 
   Cryptomatte out;
   out.layer = kind == MatteKind::Object ? "CryptoObject" : "CryptoMaterial";
-  const std::string key = "cryptomatte/" + fmt::format("{:08x}", murmur3(out.layer)).substr(0, 7);
-  out.attributes = {{key + "/name", out.layer},
-                    {key + "/hash", "MurmurHash3_32"},
-                    {key + "/conversion", "uint32_to_float32"},
-                    {key + "/manifest", manifest_of(names.list)}};
+  out.attributes = attributes_of(out.layer, names.list);
   const auto& samples = frame.sample_triangle;
   const int width = samples.front().width(), height = samples.front().height();
   out.ranks.assign(Cryptomatte::levels / 2, Plane<float4>(width, height, float4{0, 0, 0, 0}));
 
+  const PartCounter counter(samples, scene, names);
   parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) {
     std::vector<Part> parts;
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
-      parts.clear();
-      for (const Plane<std::uint32_t>& plane : samples) {
-        if (plane(x, y) == Frame::no_id) continue;
-        const std::uint32_t name = names.of_instance[instance_of(plane(x, y))];
-        const auto found = std::ranges::find(parts, name, &Part::name);
-        if (found == parts.end())
-          parts.push_back({name, 1});
-        else
-          ++found->samples;
-      }
-      std::ranges::sort(parts, [](const Part& a, const Part& b) {
-        return a.samples != b.samples ? a.samples > b.samples : a.name < b.name;
-      });
+      counter.count(x, y, parts);
       const std::size_t ranks = std::min<std::size_t>(parts.size(), Cryptomatte::levels);
       for (std::size_t i = 0; i < ranks; ++i) {
         float4& pair = out.ranks[i / 2](x, y);
