@@ -110,9 +110,7 @@ DisplayStep make_step(const DisplayOptions& options) {
   return step;
 }
 
-const TonemapKernels& best_kernels() {
-  return pick(best_isa(), scalar::tonemap_kernels, N_SSE4::tonemap_kernels, N_AVX2::tonemap_kernels);
-}
+const TonemapKernels& best_kernels() { return pick(best_isa(), scalar::tonemap_kernels); }
 
 }  // namespace
 
@@ -135,8 +133,7 @@ Presenter::Presenter(const DisplayOptions& options) : step_(make_step(options)) 
 
 void Presenter::present(std::span<const Linear> run, Rgba8* out) const {
   const TonemapKernels& tonemap = best_kernels();
-  const TransferKernels& transfer =
-      pick(best_isa(), scalar::transfer_kernels, N_SSE4::transfer_kernels, N_AVX2::transfer_kernels);
+  const TransferKernels& transfer = pick(best_isa(), scalar::transfer_kernels);
   constexpr std::size_t step = 64;
   Display shown[step];
   for (std::size_t i = 0; i < run.size(); i += step) {

@@ -19,15 +19,11 @@ struct DisplayStep {
 struct TonemapKernels {
   /// n pixels of four floats: Linear in, Display out.
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
+
+  static const TonemapKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const TonemapKernels tonemap_kernels;
-}
-namespace N_SSE4 {
-extern const TonemapKernels tonemap_kernels;
-}
-namespace N_AVX2 {
 extern const TonemapKernels tonemap_kernels;
 }
 

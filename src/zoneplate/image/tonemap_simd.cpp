@@ -5,7 +5,7 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
-using Floats = hn::ScalableTag<float>;
+using Floats = hn::CappedTag<float, 8>;
 using V = hn::Vec<Floats>;
 constexpr Floats d;
 
@@ -135,8 +135,9 @@ void display_row(const DisplayStep& step, const float* linear, float* display, s
 
 }  // namespace
 
-extern const TonemapKernels tonemap_kernels;
-const TonemapKernels tonemap_kernels = {.display_row = display_row};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const TonemapKernels TonemapKernels::HWY_NAMESPACE = {.display_row = HWY_NAMESPACE::display_row};
+}  // namespace zoneplate

@@ -1,5 +1,6 @@
 #include <hwy/highway.h>
 
+#include "zoneplate/math/wasm_double_simd.h"
 #include "zoneplate/raster/interpolate.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -223,7 +224,7 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
 }
 
 void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
-  const hn::CappedTag<double, 8> d;
+  const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> df;
   const hn::Rebind<std::int32_t, decltype(d)> di;
   using V = hn::Vec<decltype(d)>;
@@ -257,8 +258,10 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
 
 }  // namespace
 
-extern const InterpolateKernels interpolate_kernels;
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate, .interpolate_clipped = interpolate_clipped};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const InterpolateKernels InterpolateKernels::HWY_NAMESPACE = {
+    .interpolate = HWY_NAMESPACE::interpolate, .interpolate_clipped = HWY_NAMESPACE::interpolate_clipped};
+}  // namespace zoneplate

@@ -20,19 +20,13 @@ struct ResolveKernels {
   void (*add)(const Shaded& color, int first, float weight, Linear* sum);
   /// out = sum / weight, for n pixels.
   void (*divide)(const Linear* sum, float weight, int n, Linear* out);
+
+  static const ResolveKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const ResolveKernels resolve_kernels;
 }
-namespace N_SSE4 {
-extern const ResolveKernels resolve_kernels;
-}
-namespace N_AVX2 {
-extern const ResolveKernels resolve_kernels;
-}
-inline const ResolveKernels& resolve_kernels(Isa isa) {
-  return pick(isa, scalar::resolve_kernels, N_SSE4::resolve_kernels, N_AVX2::resolve_kernels);
-}
+inline const ResolveKernels& resolve_kernels(Isa isa) { return pick(isa, scalar::resolve_kernels); }
 
 }  // namespace zoneplate

@@ -80,9 +80,13 @@ void divide(const Linear* sum, float weight, int n, Linear* out) {
 
 }  // namespace
 
-extern const ResolveKernels resolve_kernels;
-const ResolveKernels resolve_kernels = {
-    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const ResolveKernels ResolveKernels::HWY_NAMESPACE = {.resolve = HWY_NAMESPACE::resolve,
+                                                      .over = HWY_NAMESPACE::over,
+                                                      .resolve_samples = HWY_NAMESPACE::resolve_samples,
+                                                      .add = HWY_NAMESPACE::add,
+                                                      .divide = HWY_NAMESPACE::divide};
+}  // namespace zoneplate
