@@ -8,7 +8,7 @@ set(fuzzed_simd_sources ${simd_sources})
 list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|math|image|signal|scene)/")
 
 add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp)
-foreach(isa sse4 avx2)
+foreach(isa IN LISTS isas)
   add_library(zoneplate_fuzzed_${isa} OBJECT ${fuzzed_simd_sources})
   target_compile_options(zoneplate_fuzzed_${isa} PRIVATE ${flags_${isa}})
   target_compile_definitions(zoneplate_fuzzed_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
@@ -34,5 +34,6 @@ add_executable(fuzz_seeds fuzz/seeds.cpp)
 target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed)
 
 # Here nothing else is wanted.
-set_target_properties(zoneplate zoneplate_sse4 zoneplate_avx2 zoneplate_cli zoneplate_program
+list(TRANSFORM isas PREPEND zoneplate_ OUTPUT_VARIABLE kernels)
+set_target_properties(zoneplate ${kernels} zoneplate_cli zoneplate_program
                       PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -17,6 +17,6 @@ add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_
 
 # Kernels for newer processors must not reach programs on older ones through shared inline functions.
 if(NOT ZONEPLATE_SANITIZED AND simd_sources)
-  add_test(NAME simd_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/simd_symbols.sh
-           $<TARGET_OBJECTS:zoneplate_sse4> $<TARGET_OBJECTS:zoneplate_avx2> COMMAND_EXPAND_LISTS)
+  list(TRANSFORM isas REPLACE "(.+)" "$<TARGET_OBJECTS:zoneplate_\\1>" OUTPUT_VARIABLE objects)
+  add_test(NAME simd_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/simd_symbols.sh ${objects} COMMAND_EXPAND_LISTS)
 endif()

@@ -115,7 +115,7 @@ struct LumaTables {
 /// Finds the shapes around every pixel, and in bit x of a row of `corners` whether there is one.
 Shapes find_shapes(const Rgba8Image& image, const Cmaa2Options& options, Plane<std::uint64_t>& corners) {
   const int width = image.width(), height = image.height();
-  const Cmaa2Kernels& kernels = pick(options.isa, scalar::cmaa2_kernels, N_SSE4::cmaa2_kernels, N_AVX2::cmaa2_kernels);
+  const Cmaa2Kernels& kernels = pick(options.isa, scalar::cmaa2_kernels);
   const LumaTables tables;
   const float contrast = options.is_sharp ? sharp.contrast : usual.contrast;
   const auto n = static_cast<std::size_t>(width);

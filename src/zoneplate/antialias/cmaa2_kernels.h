@@ -19,15 +19,11 @@ struct Cmaa2Kernels {
   ///           after the n-th; `bits` has room for n rounded up to 64.
   void (*shape_row)(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_t* shapes, std::uint8_t* bits,
                     std::size_t n);
+
+  static const Cmaa2Kernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const Cmaa2Kernels cmaa2_kernels;
-}
-namespace N_SSE4 {
-extern const Cmaa2Kernels cmaa2_kernels;
-}
-namespace N_AVX2 {
 extern const Cmaa2Kernels cmaa2_kernels;
 }
 

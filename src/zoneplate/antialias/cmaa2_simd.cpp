@@ -28,7 +28,7 @@ HWY_INLINE void edge_some(D d, const float* const (&rows)[4], float threshold, f
 }
 
 void edge_row(const float* const (&rows)[4], float threshold, float contrast, std::uint8_t* edges, std::size_t n) {
-  const hn::ScalableTag<float> full;
+  const hn::CappedTag<float, 8> full;
   const hn::CappedTag<float, 1> one;
   std::size_t i = 0;
   for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) edge_some(full, rows, threshold, contrast, edges, i);
@@ -37,7 +37,7 @@ void edge_row(const float* const (&rows)[4], float threshold, float contrast, st
 
 void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_t* shapes, std::uint8_t* bits,
                std::size_t n) {
-  const hn::ScalableTag<std::uint8_t> d;
+  const hn::CappedTag<std::uint8_t, 32> d;
   const hn::Repartition<std::uint16_t, decltype(d)> wide;
   const auto one = hn::Set(d, std::uint8_t{1}), two = hn::Set(d, std::uint8_t{2});
   const auto level = hn::Set(d, std::uint8_t{5}), upright = hn::Set(d, std::uint8_t{10});
@@ -55,8 +55,10 @@ void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_
 
 }  // namespace
 
-extern const Cmaa2Kernels cmaa2_kernels;
-const Cmaa2Kernels cmaa2_kernels = {.edge_row = edge_row, .shape_row = shape_row};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const Cmaa2Kernels Cmaa2Kernels::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
+                                                  .shape_row = HWY_NAMESPACE::shape_row};
+}  // namespace zoneplate

@@ -32,7 +32,7 @@ TEST(Cmaa2, KernelsFindWhatTheirTwinsFind) {
   std::vector<std::uint8_t> edges(300), above(300);
   for (std::uint32_t i = 0; i < 300; ++i) edges[i] = hash(i) & 3, above[i] = hash(i + 1000) & 3;
   for (const Isa isa : supported_isas()) {
-    const Cmaa2Kernels& kernels = pick(isa, scalar::cmaa2_kernels, N_SSE4::cmaa2_kernels, N_AVX2::cmaa2_kernels);
+    const Cmaa2Kernels& kernels = pick(isa, scalar::cmaa2_kernels);
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found(n + 1, 9);
       scalar::cmaa2_kernels.edge_row(rows, 0.07f, 0.1f, expected.data(), n);

@@ -216,7 +216,7 @@ int fxaa_reach(const FxaaOptions& options) {
 
 Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
-  const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels, N_SSE4::fxaa_kernels, N_AVX2::fxaa_kernels);
+  const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels);
   const Luma luma = make_luma(image, options, kernels);
   Rgba8Image out = sized_like(image, std::move(memory));
   if (options.preset == FxaaOptions::console) {

@@ -46,15 +46,11 @@ struct FxaaKernels {
   /// below it.
   void (*mix_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                   const std::uint8_t* bits, const FxaaEnds& ends, std::uint8_t* out, std::size_t n);
+
+  static const FxaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const FxaaKernels fxaa_kernels;
-}
-namespace N_SSE4 {
-extern const FxaaKernels fxaa_kernels;
-}
-namespace N_AVX2 {
 extern const FxaaKernels fxaa_kernels;
 }
 

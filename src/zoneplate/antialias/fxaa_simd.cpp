@@ -25,7 +25,7 @@ HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, std::uint8_t* luma, std
 }
 
 void luma_row(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n) {
-  const hn::ScalableTag<float> full;
+  const hn::CappedTag<float, 8> full;
   const hn::CappedTag<float, 1> one;
   std::size_t i = 0;
   for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_some(full, rgba, luma, i);
@@ -34,7 +34,7 @@ void luma_row(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n) {
 
 void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast contrast, std::uint8_t* bits,
                   std::size_t n) {
-  const hn::ScalableTag<std::uint8_t> d;
+  const hn::CappedTag<std::uint8_t, 32> d;
   const hn::Repartition<std::uint16_t, decltype(d)> d16;
   const auto factor = hn::Set(d16, contrast.factor);
   const auto low = hn::Set(d16, std::uint16_t{255});
@@ -57,7 +57,7 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
   }
 }
 
-using Words = hn::ScalableTag<std::int16_t>;
+using Words = hn::CappedTag<std::int16_t, 16>;
 using W = hn::Vec<Words>;
 using WMask = hn::Mask<Words>;
 constexpr Words dw;
@@ -70,7 +70,7 @@ HWY_INLINE W load_luma(const std::uint8_t* p) {
   return hn::PromoteTo(dw, hn::LoadU(bytes, p));
 }
 
-using Floats = hn::ScalableTag<float>;
+using Floats = hn::CappedTag<float, 8>;
 using V = hn::Vec<Floats>;
 constexpr Floats df;
 
@@ -284,9 +284,12 @@ void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uin
 
 }  // namespace
 
-extern const FxaaKernels fxaa_kernels;
-const FxaaKernels fxaa_kernels = {
-    .luma_row = luma_row, .contrast_row = contrast_row, .ends_row = ends_row, .mix_row = mix_row};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const FxaaKernels FxaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
+                                                .contrast_row = HWY_NAMESPACE::contrast_row,
+                                                .ends_row = HWY_NAMESPACE::ends_row,
+                                                .mix_row = HWY_NAMESPACE::mix_row};
+}  // namespace zoneplate

@@ -90,7 +90,7 @@ TEST(Fxaa, LumaIsRec601Rounded) {
     p = {static_cast<std::uint8_t>(h), static_cast<std::uint8_t>(h >> 8), static_cast<std::uint8_t>(h >> 16)};
   }
   for (const Isa isa : supported_isas()) {
-    const FxaaKernels& kernels = pick(isa, scalar::fxaa_kernels, N_SSE4::fxaa_kernels, N_AVX2::fxaa_kernels);
+    const FxaaKernels& kernels = pick(isa, scalar::fxaa_kernels);
     for (std::size_t n = 0; n <= pixels.size(); ++n) {
       std::vector<std::uint8_t> luma(n + 1, 7);
       kernels.luma_row(&pixels[0].r, luma.data(), n);

@@ -47,7 +47,7 @@ EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int bo
   constexpr float white = 255 * 10000;
   const float threshold = std::round(static_cast<float>(options.threshold) * white);
   const auto width = static_cast<std::size_t>(image.width());
-  const SmaaKernels& kernels = pick(best_isa(), scalar::smaa_kernels, N_SSE4::smaa_kernels, N_AVX2::smaa_kernels);
+  const SmaaKernels& kernels = pick(best_isa(), scalar::smaa_kernels);
   EdgePlane edges(image.width(), image.height(), border);
   detect_edges<float>(
       edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },

@@ -82,7 +82,7 @@ void detect_depth_edges(const Plane<float>& depth, float threshold, EdgePlane& e
 }  // namespace
 
 EdgePlane smaa_edges(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options) {
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels, N_SSE4::smaa_kernels, N_AVX2::smaa_kernels);
+  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
   const auto width = static_cast<std::size_t>(image.width());
   EdgePlane edges(image.width(), image.height(), smaa_reach(options));
   if (options.edges == SmaaOptions::Edges::Depth) {

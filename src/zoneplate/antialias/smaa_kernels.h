@@ -20,15 +20,11 @@ struct SmaaKernels {
   void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
   /// The same by the greatest difference of red, green and blue codes.
   void (*color_edges)(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n);
+
+  static const SmaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const SmaaKernels smaa_kernels;
-}
-namespace N_SSE4 {
-extern const SmaaKernels smaa_kernels;
-}
-namespace N_AVX2 {
 extern const SmaaKernels smaa_kernels;
 }
 

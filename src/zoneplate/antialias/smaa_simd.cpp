@@ -22,7 +22,7 @@ HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_
 }
 
 void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
-  const hn::ScalableTag<float> full;
+  const hn::CappedTag<float, 8> full;
   const hn::CappedTag<float, 1> one;
   std::size_t i = 0;
   for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_some(full, rgba, luma, i);
@@ -58,7 +58,7 @@ HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, float threshol
 }
 
 void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  const hn::ScalableTag<float> full;
+  const hn::CappedTag<float, 8> full;
   const hn::CappedTag<float, 1> one;
   std::size_t i = 0;
   for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_edges_some(full, rows, threshold, edges, i);
@@ -95,7 +95,7 @@ HWY_INLINE void color_edges_some(D d, const EdgeRows<std::uint32_t>& rows, std::
 }
 
 void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n) {
-  const hn::ScalableTag<std::uint32_t> full;
+  const hn::CappedTag<std::uint32_t, 8> full;
   const hn::CappedTag<std::uint32_t, 1> one;
   std::size_t i = 0;
   for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) color_edges_some(full, rows, threshold, edges, i);
@@ -104,8 +104,11 @@ void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, s
 
 }  // namespace
 
-extern const SmaaKernels smaa_kernels;
-const SmaaKernels smaa_kernels = {.luma_row = luma_row, .luma_edges = luma_edges, .color_edges = color_edges};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const SmaaKernels SmaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
+                                                .luma_edges = HWY_NAMESPACE::luma_edges,
+                                                .color_edges = HWY_NAMESPACE::color_edges};
+}  // namespace zoneplate

@@ -23,6 +23,8 @@ struct LimitKernels {
   std::uint32_t (*sum)(const std::uint32_t* words, std::size_t n);
   /// The sum of table[index[i]] for n indices. Requires: n a multiple of 32.
   std::uint32_t (*gather)(const std::uint32_t* table, const std::int32_t* index, std::size_t n);
+
+  static const LimitKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 }  // namespace zoneplate::cli
@@ -30,15 +32,7 @@ struct LimitKernels {
 namespace zoneplate::scalar {
 extern const cli::LimitKernels limit_kernels;
 }
-namespace zoneplate::N_SSE4 {
-extern const cli::LimitKernels limit_kernels;
-}
-namespace zoneplate::N_AVX2 {
-extern const cli::LimitKernels limit_kernels;
-}
 
 namespace zoneplate::cli {
-inline const LimitKernels& limit_kernels(Isa isa) {
-  return pick(isa, scalar::limit_kernels, N_SSE4::limit_kernels, N_AVX2::limit_kernels);
-}
+inline const LimitKernels& limit_kernels(Isa isa) { return pick(isa, scalar::limit_kernels); }
 }  // namespace zoneplate::cli

@@ -44,8 +44,9 @@ std::uint32_t gather(const std::uint32_t* table, const std::int32_t* index, std:
 
 }  // namespace
 
-extern const cli::LimitKernels limit_kernels;
-const cli::LimitKernels limit_kernels = {.sum = sum, .gather = gather};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate::cli {
+const LimitKernels LimitKernels::HWY_NAMESPACE = {.sum = HWY_NAMESPACE::sum, .gather = HWY_NAMESPACE::gather};
+}  // namespace zoneplate::cli

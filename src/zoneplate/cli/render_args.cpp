@@ -85,8 +85,9 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
 }
 
 Isa parse_isa(const std::string& text) {
-  constexpr Isa isas[] = {Isa::Scalar, Isa::Sse4, Isa::Avx2};
-  const Isa isa = isas[parse_choice(text, {"scalar", "sse4", "avx2"})];
+  std::vector<std::string_view> names;
+  for (const Isa each : all_isas) names.push_back(name_of(each));
+  const Isa isa = all_isas[parse_choice(text, names)];
   const auto supported = supported_isas();
   if (std::find(supported.begin(), supported.end(), isa) == supported.end())
     throw Error(Trouble::Usage, fmt::format("this machine has no {}", text));
@@ -268,8 +269,8 @@ std::vector<Option> run_options(RenderArgs& a) {
   return {
       {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
-      {"--isa", "SET", "Instruction set: scalar, sse4 or avx2, all with the same bits; default the best", group, false,
-       [&](auto& text) { a.options.isa = parse_isa(text); }},
+      {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best but avx512", group,
+       false, [&](auto& text) { a.options.isa = parse_isa(text); }},
       {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
        [&](auto&) { a.wants_json = true; }},
       {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; default auto", group, false,

@@ -17,19 +17,13 @@ struct PngRowKernels {
   ///
   /// Source    RFC 1950.
   std::uint32_t (*adler)(const std::uint8_t* p, std::size_t n);
+
+  static const PngRowKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const PngRowKernels png_row_kernels;
 }
-namespace N_SSE4 {
-extern const PngRowKernels png_row_kernels;
-}
-namespace N_AVX2 {
-extern const PngRowKernels png_row_kernels;
-}
-inline const PngRowKernels& png_row_kernels(Isa isa) {
-  return pick(isa, scalar::png_row_kernels, N_SSE4::png_row_kernels, N_AVX2::png_row_kernels);
-}
+inline const PngRowKernels& png_row_kernels(Isa isa) { return pick(isa, scalar::png_row_kernels); }
 
 }  // namespace zoneplate

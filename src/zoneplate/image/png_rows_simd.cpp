@@ -8,7 +8,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 void up(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, std::uint8_t* out) {
-  const hn::ScalableTag<std::uint8_t> d;
+  const hn::CappedTag<std::uint8_t, 32> d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
   for (; i + lanes <= n; i += lanes) hn::StoreU(hn::Sub(hn::LoadU(d, row + i), hn::LoadU(d, above + i)), d, out + i);
@@ -41,7 +41,7 @@ HWY_INLINE std::uint64_t total(V v) {
 }
 
 std::uint32_t adler(const std::uint8_t* p, std::size_t n) {
-  const hn::ScalableTag<std::uint8_t> bytes;
+  const hn::CappedTag<std::uint8_t, 32> bytes;
   const hn::Half<decltype(bytes)> half;
   const hn::RepartitionToWide<decltype(bytes)> words;
   const hn::Rebind<std::int16_t, decltype(half)> i16;
@@ -78,8 +78,10 @@ std::uint32_t adler(const std::uint8_t* p, std::size_t n) {
 
 }  // namespace
 
-extern const PngRowKernels png_row_kernels;
-const PngRowKernels png_row_kernels = {.up = up, .up_rgb = up_rgb, .adler = adler};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const PngRowKernels PngRowKernels::HWY_NAMESPACE = {
+    .up = HWY_NAMESPACE::up, .up_rgb = HWY_NAMESPACE::up_rgb, .adler = HWY_NAMESPACE::adler};
+}  // namespace zoneplate

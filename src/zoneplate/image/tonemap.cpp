@@ -120,9 +120,7 @@ DisplayStep make_step(const DisplayOptions& options) {
   return step;
 }
 
-const TonemapKernels& best_kernels() {
-  return pick(best_isa(), scalar::tonemap_kernels, N_SSE4::tonemap_kernels, N_AVX2::tonemap_kernels);
-}
+const TonemapKernels& best_kernels() { return pick(best_isa(), scalar::tonemap_kernels); }
 
 }  // namespace
 

@@ -22,15 +22,11 @@ struct TonemapKernels {
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
   /// The same of n groups of eight pixels, and quantize8 of that.
   void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
+
+  static const TonemapKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const TonemapKernels tonemap_kernels;
-}
-namespace N_SSE4 {
-extern const TonemapKernels tonemap_kernels;
-}
-namespace N_AVX2 {
 extern const TonemapKernels tonemap_kernels;
 }
 

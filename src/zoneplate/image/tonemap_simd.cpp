@@ -173,8 +173,10 @@ void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, s
 
 }  // namespace
 
-extern const TonemapKernels tonemap_kernels;
-const TonemapKernels tonemap_kernels = {.display_row = display_row, .show_groups = show_groups};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const TonemapKernels TonemapKernels::HWY_NAMESPACE = {.display_row = HWY_NAMESPACE::display_row,
+                                                      .show_groups = HWY_NAMESPACE::show_groups};
+}  // namespace zoneplate

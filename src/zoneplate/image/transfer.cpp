@@ -122,9 +122,7 @@ Plane<Pixel> quantize(const DisplayImage& image, void (*row)(const float*, Code*
   return out;
 }
 
-const TransferKernels& best_kernels() {
-  return pick(best_isa(), scalar::transfer_kernels, N_SSE4::transfer_kernels, N_AVX2::transfer_kernels);
-}
+const TransferKernels& best_kernels() { return pick(best_isa(), scalar::transfer_kernels); }
 
 }  // namespace
 

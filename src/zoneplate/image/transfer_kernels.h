@@ -13,15 +13,11 @@ struct TransferKernels {
   /// floor(255 x + 0.5) and floor(65535 x + 0.5) with x clamped to [0, 1]; what is not a number counts as 0.
   void (*quantize8)(const float* values, std::uint8_t* codes, std::size_t n);
   void (*quantize16)(const float* values, std::uint16_t* codes, std::size_t n);
+
+  static const TransferKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const TransferKernels transfer_kernels;
-}
-namespace N_SSE4 {
-extern const TransferKernels transfer_kernels;
-}
-namespace N_AVX2 {
 extern const TransferKernels transfer_kernels;
 }
 

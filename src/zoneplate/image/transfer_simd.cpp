@@ -9,7 +9,7 @@ namespace {
 /// Calls step(d, i) for each whole vector, then for each value that is left.
 template <class Step>
 HWY_INLINE void for_vectors(std::size_t n, Step step) {
-  const hn::ScalableTag<float> wide;
+  const hn::CappedTag<float, 8> wide;
   const hn::CappedTag<float, 1> one;
   std::size_t i = 0;
   for (; i + hn::Lanes(wide) <= n; i += hn::Lanes(wide)) step(wide, i);
@@ -40,9 +40,12 @@ void quantize16(const float* values, std::uint16_t* codes, std::size_t n) { quan
 
 }  // namespace
 
-extern const TransferKernels transfer_kernels;
-const TransferKernels transfer_kernels = {
-    .encode = encode, .decode = decode, .quantize8 = quantize8, .quantize16 = quantize16};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const TransferKernels TransferKernels::HWY_NAMESPACE = {.encode = HWY_NAMESPACE::encode,
+                                                        .decode = HWY_NAMESPACE::decode,
+                                                        .quantize8 = HWY_NAMESPACE::quantize8,
+                                                        .quantize16 = HWY_NAMESPACE::quantize16};
+}  // namespace zoneplate

@@ -35,7 +35,7 @@ HWY_INLINE hn::Vec<D> evaluate_vector(D d, Elementary function, const float* a, 
 }
 
 void evaluate(Elementary function, const float* a, const float* b, float* out, std::size_t n) {
-  const hn::ScalableTag<float> wide;
+  const hn::CappedTag<float, 8> wide;
   const hn::CappedTag<float, 1> one;
   const std::size_t lanes = hn::Lanes(wide);
   const bool has_two = function == Elementary::Pow || function == Elementary::Atan2;
@@ -47,8 +47,9 @@ void evaluate(Elementary function, const float* a, const float* b, float* out, s
 
 }  // namespace
 
-extern const ElementaryKernels elementary_kernels;
-const ElementaryKernels elementary_kernels = {.evaluate = evaluate};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const ElementaryKernels ElementaryKernels::HWY_NAMESPACE = {.evaluate = HWY_NAMESPACE::evaluate};
+}  // namespace zoneplate

@@ -104,19 +104,13 @@ struct CoverageKernels {
   /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
   /// `many_triangles`; `no_triangle` where nothing is.
   void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
+
+  static const CoverageKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const CoverageKernels coverage_kernels;
 }
-namespace N_SSE4 {
-extern const CoverageKernels coverage_kernels;
-}
-namespace N_AVX2 {
-extern const CoverageKernels coverage_kernels;
-}
-inline const CoverageKernels& coverage_kernels(Isa isa) {
-  return pick(isa, scalar::coverage_kernels, N_SSE4::coverage_kernels, N_AVX2::coverage_kernels);
-}
+inline const CoverageKernels& coverage_kernels(Isa isa) { return pick(isa, scalar::coverage_kernels); }
 
 }  // namespace zoneplate

@@ -320,13 +320,14 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
 
 }  // namespace
 
-extern const CoverageKernels coverage_kernels;
-const CoverageKernels coverage_kernels = {.draw = draw,
-                                          .collect = collect,
-                                          .collect_rows = collect_rows,
-                                          .find_nearest = find_nearest,
-                                          .collect_blocks = collect_blocks,
-                                          .find_owners = find_owners};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const CoverageKernels CoverageKernels::HWY_NAMESPACE = {.draw = HWY_NAMESPACE::draw,
+                                                        .collect = HWY_NAMESPACE::collect,
+                                                        .collect_rows = HWY_NAMESPACE::collect_rows,
+                                                        .find_nearest = HWY_NAMESPACE::find_nearest,
+                                                        .collect_blocks = HWY_NAMESPACE::collect_blocks,
+                                                        .find_owners = HWY_NAMESPACE::find_owners};
+}  // namespace zoneplate

@@ -69,20 +69,14 @@ struct FrontKernels {
   ///
   /// The samples of small triangles and their depths are those of make_tile_triangle and depth_at, bit for bit.
   void (*run)(const FrontRun& run, FragmentSink& sink, FrontResult& result);
+
+  static const FrontKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const FrontKernels front_kernels;
 }
-namespace N_SSE4 {
-extern const FrontKernels front_kernels;
-}
-namespace N_AVX2 {
-extern const FrontKernels front_kernels;
-}
-inline const FrontKernels& front_kernels(Isa isa) {
-  return pick(isa, scalar::front_kernels, N_SSE4::front_kernels, N_AVX2::front_kernels);
-}
+inline const FrontKernels& front_kernels(Isa isa) { return pick(isa, scalar::front_kernels); }
 
 inline constexpr std::int32_t large_extent = 16383;  ///< 1/256 pixel; products of two differences stay within 28 bits
 

@@ -254,8 +254,9 @@ void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) { F
 
 }  // namespace
 
-extern const FrontKernels front_kernels;
-const FrontKernels front_kernels = {.run = run_front};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const FrontKernels FrontKernels::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
+}  // namespace zoneplate

@@ -53,19 +53,14 @@ struct InterpolateKernels {
   /// The same for the group of one such triangle whose first point is `first`: fills b, dbdx and dbdy.
   void (*interpolate_clipped_row)(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
                                   std::size_t first);
+
+  static const InterpolateKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
+      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const InterpolateKernels interpolate_kernels;
 }
-namespace N_SSE4 {
-extern const InterpolateKernels interpolate_kernels;
-}
-namespace N_AVX2 {
-extern const InterpolateKernels interpolate_kernels;
-}
-inline const InterpolateKernels& interpolate_kernels(Isa isa) {
-  return pick(isa, scalar::interpolate_kernels, N_SSE4::interpolate_kernels, N_AVX2::interpolate_kernels);
-}
+inline const InterpolateKernels& interpolate_kernels(Isa isa) { return pick(isa, scalar::interpolate_kernels); }
 
 }  // namespace zoneplate

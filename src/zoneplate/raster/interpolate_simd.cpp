@@ -1,5 +1,6 @@
 #include <hwy/highway.h>
 
+#include "zoneplate/math/wasm_double_simd.h"
 #include "zoneplate/raster/interpolate.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -338,10 +339,12 @@ void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport,
 
 }  // namespace
 
-extern const InterpolateKernels interpolate_kernels;
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate,
-                                                .interpolate_clipped = interpolate_clipped,
-                                                .interpolate_clipped_row = interpolate_clipped_row};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const InterpolateKernels InterpolateKernels::HWY_NAMESPACE = {
+    .interpolate = HWY_NAMESPACE::interpolate,
+    .interpolate_clipped = HWY_NAMESPACE::interpolate_clipped,
+    .interpolate_clipped_row = HWY_NAMESPACE::interpolate_clipped_row};
+}  // namespace zoneplate

@@ -44,19 +44,13 @@ struct PointListKernels {
   void (*add)(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum);
   /// out = sum / weight, of eight pixels.
   void (*divide)(const float* sum, float weight, Linear8& out);
+
+  static const PointListKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const PointListKernels point_list_kernels;
 }
-namespace N_SSE4 {
-extern const PointListKernels point_list_kernels;
-}
-namespace N_AVX2 {
-extern const PointListKernels point_list_kernels;
-}
-inline const PointListKernels& point_list_kernels(Isa isa) {
-  return pick(isa, scalar::point_list_kernels, N_SSE4::point_list_kernels, N_AVX2::point_list_kernels);
-}
+inline const PointListKernels& point_list_kernels(Isa isa) { return pick(isa, scalar::point_list_kernels); }
 
 }  // namespace zoneplate

@@ -127,8 +127,10 @@ void divide(const float* sum, float weight, Linear8& out) {
 
 }  // namespace
 
-extern const PointListKernels point_list_kernels;
-const PointListKernels point_list_kernels = {.list = list, .add = add, .divide = divide};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const PointListKernels PointListKernels::HWY_NAMESPACE = {
+    .list = HWY_NAMESPACE::list, .add = HWY_NAMESPACE::add, .divide = HWY_NAMESPACE::divide};
+}  // namespace zoneplate

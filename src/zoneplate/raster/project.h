@@ -39,19 +39,13 @@ struct ProjectKernels {
   /// project(clip_from_object * p) for n positions.
   void (*transform)(const float4x4& clip_from_object, const float3* p, std::size_t n, Viewport viewport,
                     ScreenVertex* out);
+
+  static const ProjectKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const ProjectKernels project_kernels;
 }
-namespace N_SSE4 {
-extern const ProjectKernels project_kernels;
-}
-namespace N_AVX2 {
-extern const ProjectKernels project_kernels;
-}
-inline const ProjectKernels& project_kernels(Isa isa) {
-  return pick(isa, scalar::project_kernels, N_SSE4::project_kernels, N_AVX2::project_kernels);
-}
+inline const ProjectKernels& project_kernels(Isa isa) { return pick(isa, scalar::project_kernels); }
 
 }  // namespace zoneplate

@@ -22,19 +22,13 @@ struct ResolveKernels {
   void (*divide)(const Linear8& sum, float weight, Linear8& out);
   /// The pixels one by one.
   void (*put)(const Linear8& color, Linear* out);
+
+  static const ResolveKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
 extern const ResolveKernels resolve_kernels;
 }
-namespace N_SSE4 {
-extern const ResolveKernels resolve_kernels;
-}
-namespace N_AVX2 {
-extern const ResolveKernels resolve_kernels;
-}
-inline const ResolveKernels& resolve_kernels(Isa isa) {
-  return pick(isa, scalar::resolve_kernels, N_SSE4::resolve_kernels, N_AVX2::resolve_kernels);
-}
+inline const ResolveKernels& resolve_kernels(Isa isa) { return pick(isa, scalar::resolve_kernels); }
 
 }  // namespace zoneplate

@@ -102,9 +102,14 @@ void put(const Linear8& color, Linear* out) {
 
 }  // namespace
 
-extern const ResolveKernels resolve_kernels;
-const ResolveKernels resolve_kernels = {
-    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide, .put = put};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const ResolveKernels ResolveKernels::HWY_NAMESPACE = {.resolve = HWY_NAMESPACE::resolve,
+                                                      .over = HWY_NAMESPACE::over,
+                                                      .resolve_samples = HWY_NAMESPACE::resolve_samples,
+                                                      .add = HWY_NAMESPACE::add,
+                                                      .divide = HWY_NAMESPACE::divide,
+                                                      .put = HWY_NAMESPACE::put};
+}  // namespace zoneplate

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "zoneplate/math/wasm_double_simd.h"
 #include "zoneplate/raster/setup.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,6 +1,7 @@
 #include "zoneplate/scene/finite.h"
 
 #include <algorithm>
+#include <span>
 
 #include "zoneplate/base/parallel.h"
 

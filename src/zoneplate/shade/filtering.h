@@ -67,15 +67,11 @@ struct FilteringKernels {
   /// Source    EXT_texture_filter_anisotropic (but for the last bound, which only spares probes nearer than a texel).
   void (*sample_anisotropic)(const TextureView& texture, const Filtering& filtering, const Footprint& footprint,
                              float* const out[4], int count);
+
+  static const FilteringKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const FilteringKernels filtering_kernels;
-}
-namespace N_SSE4 {
-extern const FilteringKernels filtering_kernels;
-}
-namespace N_AVX2 {
 extern const FilteringKernels filtering_kernels;
 }
 

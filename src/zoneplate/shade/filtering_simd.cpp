@@ -150,7 +150,10 @@ void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprin
 
 }  // namespace
 
-const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps, &sample_anisotropic};
-
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const FilteringKernels FilteringKernels::HWY_NAMESPACE = {&zoneplate::find_taps<HWY_NAMESPACE::Float, TextureView>,
+                                                          &HWY_NAMESPACE::mix_taps, &HWY_NAMESPACE::sample_anisotropic};
+}  // namespace zoneplate

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "zoneplate/shade/filtering.h"
 
 namespace zoneplate {

@@ -18,9 +18,7 @@ namespace {
 
 constexpr int capacity = Taps::capacity;
 
-const FilteringKernels& kernels(Isa isa) {
-  return pick(isa, scalar::filtering_kernels, N_SSE4::filtering_kernels, N_AVX2::filtering_kernels);
-}
+const FilteringKernels& kernels(Isa isa) { return pick(isa, scalar::filtering_kernels); }
 
 /// Places to look at, all with one footprint unless said otherwise.
 struct Points {

@@ -63,9 +63,8 @@ struct SurfaceShader::Data {
         placements(make_placements(scene_in.instances)),
         lights(prepare_all(scene_in.lights)),
         viewpoint(make_viewpoint(surroundings_in)),
-        kernels(pick(surroundings_in.isa, scalar::surface_kernels, N_SSE4::surface_kernels, N_AVX2::surface_kernels)),
-        filtering(pick(surroundings_in.isa, scalar::filtering_kernels, N_SSE4::filtering_kernels,
-                       N_AVX2::filtering_kernels)) {
+        kernels(pick(surroundings_in.isa, scalar::surface_kernels)),
+        filtering(pick(surroundings_in.isa, scalar::filtering_kernels)) {
     for (const MaterialPlan& plan : plans)
       illuminations.push_back(make_illumination(plan, lights, viewpoint, surroundings.environment));
   }

@@ -81,15 +81,11 @@ struct SurfaceKernels {
   /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.
   void (*light_metallic)(const Illumination& what, const Batch& batch, const Points& points, Shaded& out);
   void (*unlit)(bool is_blended, const Points& points, Shaded& out);
+
+  static const SurfaceKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const SurfaceKernels surface_kernels;
-}
-namespace N_SSE4 {
-extern const SurfaceKernels surface_kernels;
-}
-namespace N_AVX2 {
 extern const SurfaceKernels surface_kernels;
 }
 

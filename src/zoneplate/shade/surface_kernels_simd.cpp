@@ -3,8 +3,6 @@
 #include "zoneplate/shade/lanes_simd.h"
 #include "zoneplate/shade/surface_stages.h"
 
-namespace zoneplate::HWY_NAMESPACE {
-
-const SurfaceKernels surface_kernels = stages::all<Float>();
-
-}  // namespace zoneplate::HWY_NAMESPACE
+namespace zoneplate {
+const SurfaceKernels SurfaceKernels::HWY_NAMESPACE = stages::all<HWY_NAMESPACE::Float>();
+}  // namespace zoneplate

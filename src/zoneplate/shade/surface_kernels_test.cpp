@@ -15,9 +15,7 @@
 namespace zoneplate {
 namespace {
 
-const SurfaceKernels& kernels(Isa isa) {
-  return pick(isa, scalar::surface_kernels, N_SSE4::surface_kernels, N_AVX2::surface_kernels);
-}
+const SurfaceKernels& kernels(Isa isa) { return pick(isa, scalar::surface_kernels); }
 
 /// Everything the stages touch, filled with numbers: mostly usual ones, some zeros, some large.
 struct Bench {

@@ -12,9 +12,7 @@
 namespace zoneplate {
 namespace {
 
-const RowSumKernels& kernels_of(Isa isa) {
-  return pick(isa, scalar::row_sum_kernels, N_SSE4::row_sum_kernels, N_AVX2::row_sum_kernels);
-}
+const RowSumKernels& kernels_of(Isa isa) { return pick(isa, scalar::row_sum_kernels); }
 
 // The floats of a pixel follow one another, so that a row of pixels is a row of channels × width floats.
 template <class T>

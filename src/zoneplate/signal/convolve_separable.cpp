@@ -48,9 +48,7 @@ std::vector<float> as_floats(std::span<const double> taps) {
   return out;
 }
 
-const RowSumKernels& kernels_of(Isa isa) {
-  return pick(isa, scalar::row_sum_kernels, N_SSE4::row_sum_kernels, N_AVX2::row_sum_kernels);
-}
+const RowSumKernels& kernels_of(Isa isa) { return pick(isa, scalar::row_sum_kernels); }
 
 // The filter along x. Pixels [0, low) see the left border and [high, w) the right one: their source is copied out, with
 // its border, first. Those between read the plane itself.

@@ -19,15 +19,11 @@ struct RowSumKernels {
                  std::size_t n);
   void (*wide)(const float* const* rows, std::size_t first, const double* weights, std::size_t taps, float* out,
                std::size_t n);
+
+  static const RowSumKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const RowSumKernels row_sum_kernels;
-}
-namespace N_SSE4 {
-extern const RowSumKernels row_sum_kernels;
-}
-namespace N_AVX2 {
 extern const RowSumKernels row_sum_kernels;
 }
 

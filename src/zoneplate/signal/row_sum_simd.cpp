@@ -1,5 +1,6 @@
 #include <hwy/highway.h>
 
+#include "zoneplate/math/wasm_double_simd.h"
 #include "zoneplate/signal/row_sum.h"
 
 namespace zoneplate::HWY_NAMESPACE {
@@ -40,7 +41,7 @@ HWY_INLINE void narrow_one(D d, const float* const* rows, std::size_t first, con
 
 void narrow(const float* const* rows, std::size_t first, const float* weights, std::size_t taps, float* out,
             std::size_t n) {
-  const hn::ScalableTag<float> full;
+  const hn::CappedTag<float, 8> full;
   const hn::CappedTag<float, 1> one;
   const std::size_t lanes = hn::Lanes(full);
   std::size_t i = 0;
@@ -79,7 +80,7 @@ HWY_INLINE void wide_some(D d, const float* const* rows, std::size_t first, cons
 
 void wide(const float* const* rows, std::size_t first, const double* weights, std::size_t taps, float* out,
           std::size_t n) {
-  const hn::ScalableTag<double> full;
+  const hn::CappedTag<double, 4> full;
   const hn::CappedTag<double, 1> one;
   using Full = decltype(full);
   using One = decltype(one);
@@ -92,6 +93,8 @@ void wide(const float* const* rows, std::size_t first, const double* weights, st
 
 }  // namespace
 
-const RowSumKernels row_sum_kernels = {narrow, wide};
-
 }  // namespace zoneplate::HWY_NAMESPACE
+
+namespace zoneplate {
+const RowSumKernels RowSumKernels::HWY_NAMESPACE = {HWY_NAMESPACE::narrow, HWY_NAMESPACE::wide};
+}  // namespace zoneplate

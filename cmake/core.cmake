@@ -1,0 +1,43 @@
+# The renderer without what needs a library: no file formats, no command. So it can be built for processors for which
+# Debian has a compiler but no libraries, and its tests run in an emulator (./check --targets).
+include(CTest)
+include(GoogleTest)
+
+# Headers that hold all of their library are this machine's own; GoogleTest comes as source.
+foreach(header fmt/format.h hwy/highway.h)
+  get_filename_component(folder ${header} DIRECTORY)
+  find_path(${folder}_headers ${header} PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+  file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/headers)
+  file(CREATE_LINK ${${folder}_headers}/${folder} ${CMAKE_CURRENT_BINARY_DIR}/headers/${folder} SYMBOLIC)
+endforeach()
+target_include_directories(zoneplate_flags SYSTEM INTERFACE ${CMAKE_CURRENT_BINARY_DIR}/headers)
+target_compile_definitions(zoneplate_flags INTERFACE FMT_HEADER_ONLY)
+set(BUILD_GMOCK OFF)
+set(INSTALL_GTEST OFF)
+add_subdirectory(/usr/src/googletest googletest EXCLUDE_FROM_ALL SYSTEM)
+
+foreach(list library_sources simd_sources test_sources)
+  list(FILTER ${list} EXCLUDE REGEX "^src/zoneplate/(cli|metrics|report)/")
+  list(FILTER ${list} EXCLUDE REGEX "/(file|apng|deflate|jpeg|png|webp|exr|hdr|draco|assimp|import_child|limited_child|sandbox|scene_bytes|gltf|load|image_file|mtl|obj|ply|stl)(_[a-z]+)*\\.cpp$")
+endforeach()
+list(APPEND test_sources tests/pictures_test.cpp)
+
+make_table(antialias methods render/method.h Method)
+add_library(zoneplate STATIC ${library_sources} ${generated}/antialias_table.cpp)
+target_link_libraries(zoneplate PUBLIC zoneplate_flags)
+target_precompile_headers(zoneplate PRIVATE ${common_headers})
+add_kernels(zoneplate "${simd_sources}")
+
+# Of the tests, those that hold instruction sets or pictures to each other bit by bit; but not those that read files.
+list(FILTER test_sources EXCLUDE REGEX "/(fxaa|smaa)(_[a-z]+)*_test\\.cpp$")
+foreach(test IN LISTS test_sources)
+  file(STRINGS ${test} bits REGEX "supported_isas|0x[0-9a-f]+u\\);")
+  if(bits)
+    list(APPEND bit_tests ${test})
+  endif()
+endforeach()
+add_executable(zoneplate_tests ${bit_tests})
+target_link_libraries(zoneplate_tests PRIVATE zoneplate gtest_main)
+target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
+target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "*Bits:*NoTrace:*Twins*:*InstructionSet*")

@@ -1,0 +1,63 @@
+# The sources and how they are built, on every processor.
+
+# One scene, one image, on every compiler: no contraction of a * b + c, no fast-math (docs/architecture.md).
+add_library(zoneplate_flags INTERFACE)
+target_compile_options(zoneplate_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion
+                       -Wno-missing-field-initializers # designated initialisers leave out what keeps its default
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
+target_include_directories(zoneplate_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src ${generated})
+configure_file(cmake/version.h.in ${generated}/zoneplate/version.h)
+
+# Sources are found by their place and name: foo.cpp, foo_simd.cpp (once per instruction set), foo_test.cpp.
+file(GLOB_RECURSE all_sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/zoneplate/*.cpp)
+set(library_sources ${all_sources})
+list(FILTER library_sources EXCLUDE REGEX "^src/zoneplate/cli/|_test\\.cpp$|_simd\\.cpp$")
+set(simd_sources ${all_sources})
+list(FILTER simd_sources INCLUDE REGEX "_simd\\.cpp$")
+set(test_sources ${all_sources})
+list(FILTER test_sources INCLUDE REGEX "_test\\.cpp$")
+set(cli_sources ${all_sources})
+list(FILTER cli_sources INCLUDE REGEX "^src/zoneplate/cli/")
+list(FILTER cli_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/main\\.cpp$")
+file(GLOB whole_tests CONFIGURE_DEPENDS tests/*_test.cpp)
+
+# A catalogue is a list of names, one a line, in <folder>/<list>.txt; the table is made from it. `header` declares `type`.
+function(make_table folder list header type)
+  set(listed src/zoneplate/${folder}/${list}.txt)
+  file(STRINGS ${listed} names REGEX "^[a-z]")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${listed})
+  set(declarations "")
+  set(entries "")
+  foreach(name IN LISTS names)
+    string(APPEND declarations "${type} ${name}();\n")
+    string(APPEND entries "      ${name}(),\n")
+  endforeach()
+  configure_file(cmake/table.cpp.in generated/${folder}_table.cpp)
+endfunction()
+
+# Adds to a library the kernels, built once for each instruction set of the processor's architecture (base/isa.h).
+set(flags_sse4 -msse4.2)
+set(flags_avx2 -mavx2 -mbmi -mbmi2 -mfma -mf16c -mlzcnt)
+set(flags_neon -march=armv8-a+crypto) # what Highway asks for around each function, so that lambdas are like them
+set(flags_avx512 ${flags_avx2} -mavx512f -mavx512bw -mavx512dq -mavx512vl)
+if(EMSCRIPTEN)
+  set(isas wasm)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
+  set(isas neon)
+else()
+  set(isas sse4 avx2 avx512)
+endif()
+function(add_kernels library sources)
+  foreach(isa IN LISTS isas)
+    add_library(zoneplate_${isa} OBJECT ${sources})
+    target_compile_options(zoneplate_${isa} PRIVATE ${flags_${isa}} -O3)
+    target_compile_definitions(zoneplate_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
+    target_link_libraries(zoneplate_${isa} PRIVATE zoneplate_flags)
+    target_sources(${library} PRIVATE $<TARGET_OBJECTS:zoneplate_${isa}>)
+  endforeach()
+endfunction()
+
+# What nearly every source includes is parsed once; it halves the time of a build from nothing.
+set(common_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory> <optional> <span> <string> <vector>
+                   <fmt/format.h>)
