@@ -269,7 +269,8 @@ std::vector<Option> run_options(RenderArgs& a) {
   return {
       {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
-      {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best but avx512", group,
+      {"--isa", "SET",
+       "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best but avx512", group,
        false, [&](auto& text) { a.options.isa = parse_isa(text); }},
       {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
        [&](auto&) { a.wants_json = true; }},
