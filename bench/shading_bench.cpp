@@ -1,0 +1,148 @@
+// Speed of the shading kernels, with all that they read in the first cache: nanoseconds a group of eight points.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/math/random.h"
+#include "zoneplate/raster/interpolate.h"
+#include "zoneplate/shade/filtering.h"
+#include "zoneplate/shade/surface_kernels.h"
+#include "zoneplate/shade/texture.h"
+#include "zoneplate/shade/vertices.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr int points = Batch::capacity;
+
+template <class Work>
+void time_groups(benchmark::State& state, Work work) {
+  for (auto _ : state) {
+    work();
+    benchmark::ClobberMemory();
+  }
+  state.counters["groups"] = benchmark::Counter(
+      static_cast<double>(Batch::groups), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// A block of 16 × 8 points that looks at a texture with 1.3 texels a pixel, so that two levels are mixed.
+struct Looks {
+  static constexpr int size = 256;
+  alignas(64) float u[points], v[points], dudx[points], dvdx[points], dudy[points], dvdy[points];
+  alignas(64) float values[4][points];
+  float* const out[4] = {values[0], values[1], values[2], values[3]};
+  Texture texture;
+  Taps taps;
+  const FilteringKernels& kernels = pick(best_isa(), scalar::filtering_kernels);
+
+  /// `stretch`: how much longer than wide a footprint is.
+  explicit Looks(TexelMeaning meaning, float stretch = 1) : texture(noise(), meaning) {
+    constexpr float step = 1.3f / size;
+    for (int i = 0; i < points; ++i) {
+      u[i] = 0.1f + static_cast<float>(i % 8) * step, v[i] = 0.2f + static_cast<float>(i / 8) * step;
+      dudx[i] = step * stretch, dvdx[i] = 0.1f * step, dudy[i] = -0.1f * step, dvdy[i] = step;
+    }
+  }
+  Footprint footprint() const { return {u, v, dudx, dvdx, dudy, dvdy}; }
+
+ private:
+  static Rgba8Image noise() {
+    Rgba8Image image(size, size);
+    for (std::size_t i = 0; i < image.values().size(); ++i) {
+      const std::uint32_t word = hash(static_cast<std::uint32_t>(i));
+      image.values()[i] = {static_cast<std::uint8_t>(word), static_cast<std::uint8_t>(word >> 8),
+                           static_cast<std::uint8_t>(word >> 16), 255};
+    }
+    return image;
+  }
+};
+
+void find_taps(benchmark::State& state) {
+  Looks l(TexelMeaning::Values);
+  time_groups(state, [&] { l.kernels.find_taps(l.texture.view(), {}, l.footprint(), l.taps, points); });
+}
+
+void mix_taps(benchmark::State& state, TexelMeaning meaning) {
+  Looks l(meaning);
+  l.kernels.find_taps(l.texture.view(), {}, l.footprint(), l.taps, points);
+  time_groups(state, [&] { l.kernels.mix_taps(l.texture.view(), l.taps, l.out, points); });
+}
+
+void sample_anisotropic(benchmark::State& state) {
+  Looks l(TexelMeaning::Values, static_cast<float>(state.range(0)));
+  Filtering filtering;
+  filtering.anisotropy = static_cast<std::int32_t>(state.range(0));
+  time_groups(state, [&] { l.kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, points); });
+}
+
+/// A batch of one triangle's rows, or of points that are each told of by themselves.
+struct Surface {
+  ScreenVertex screen[3] = {{0, 0, 0.5f, 0.3f}, {200000, 1000, 0.4f, 0.31f}, {1000, 150000, 0.3f, 0.32f}};
+  float record[3][8] = {};
+  Placement placement{};
+  Batch batch;
+  BatchCorners screen_corners{};
+  Corners corners;
+  Points at;
+  Shaded shaded;
+  const SurfaceKernels& kernels = pick(best_isa(), scalar::surface_kernels);
+  const InterpolateKernels& weights = interpolate_kernels(best_isa());
+
+  explicit Surface(bool has_rows) {
+    batch.count = at.count = points;
+    placement.keeps_normals = 1;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      for (std::uint32_t c = 0; c < 8; ++c) record[k][c] = unit_float(hash(k, c)) + 0.1f;
+    for (int i = 0; i < points; ++i) {
+      batch.x[i] = 160000 + i % 8 * 256, batch.y[i] = 160000 + i / 8 * 256;
+      batch.is_front[i] = 1, batch.instance[i] = 0;
+      for (int k = 0; k < 3; ++k) screen_corners.vertex[k][i] = &screen[k], corners.record[k][i] = record[k];
+    }
+    std::fill(std::begin(batch.one_triangle), std::end(batch.one_triangle), has_rows);
+    std::fill(std::begin(corners.one_instance), std::end(corners.one_instance), true);
+    find_weights();
+  }
+  void find_weights() { weights.interpolate(screen_corners, {1000, 1000}, 1.0f, batch); }
+};
+
+void find_weights(benchmark::State& state, bool has_rows) {
+  Surface s(has_rows);
+  time_groups(state, [&] { s.find_weights(); });
+}
+
+void interpolate(benchmark::State& state, bool has_rows) {
+  Surface s(has_rows);
+  Attributes wanted;
+  wanted.uv[0] = wanted.normal = true;
+  const Interpolation what = interpolation({}, wanted, s.at);
+  time_groups(state, [&] { s.kernels.interpolate(s.batch, s.corners, what, points); });
+}
+
+void light_phong(benchmark::State& state) {
+  Surface s(true);
+  PreparedLight light;
+  light.radiance[0] = light.radiance[1] = light.radiance[2] = 1, light.towards[2] = 1;
+  Illumination what;
+  what.light = &light, what.lights = 1, what.has_specular = true, what.exponent = {40, 40};
+  what.viewpoint.has_rays = true, what.viewpoint.ray[2] = 1;
+  what.viewpoint.ray_dx[0] = what.viewpoint.ray_dy[1] = 1e-5f;
+  for (auto& base : s.at.base) std::fill(std::begin(base), std::end(base), 0.5f);
+  for (auto& normal : s.at.normal) std::fill(std::begin(normal), std::end(normal), 0.577f);
+  time_groups(state, [&] { s.kernels.light_phong(what, s.batch, s.at, s.shaded); });
+}
+
+BENCHMARK(find_taps);
+BENCHMARK_CAPTURE(mix_taps, codes_of_8_bits, TexelMeaning::Values);
+BENCHMARK_CAPTURE(mix_taps, codes_of_15_bits, TexelMeaning::Color);
+BENCHMARK(sample_anisotropic)->ArgName("probes")->Arg(2)->Arg(8);
+BENCHMARK_CAPTURE(find_weights, rows, true);
+BENCHMARK_CAPTURE(find_weights, points, false);
+BENCHMARK_CAPTURE(interpolate, rows, true);
+BENCHMARK_CAPTURE(interpolate, points, false);
+BENCHMARK(light_phong);
+
+}  // namespace
+}  // namespace zoneplate
+
+BENCHMARK_MAIN();
