@@ -65,7 +65,7 @@ constexpr Golden goldens[] = {
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
     {"sphere:triangles=5000", "msaa:n=16", 0x2b2a25ec5fff75b0u},
     {"city-trilinear", "msaa:n=4", 0x24ab0f0f3833c52fu},
-    {"fillblend", "msaa:n=4", 0xaa910cfc11e611e5u},
+    {"fillblend", "msaa:n=4", 0xe98a2fed0c160e8au},
 };
 
 TEST(Pictures, TenPicturesHaveTheirBits) {

@@ -15,7 +15,7 @@ namespace zoneplate {
 ///           weights of the second and the third vertex, the first has what is left of one; dbdx, dbdy: their change
 ///           per pixel (per sample spacing at rate *sample*), set where the shader needs them.
 struct Batch {
-  static constexpr int capacity = 128;
+  static constexpr int capacity = 256;
   static constexpr int group = 8;
   static constexpr int groups = capacity / group;
 
@@ -28,6 +28,9 @@ struct Batch {
   /// the triangle.
   bool one_triangle[groups] = {};
   std::uint8_t told_group[groups] = {};
+
+  /// dbdx and dbdy of all of the group's points are those of the point before it.
+  bool repeats_slopes[groups] = {};
 
   // By triangle.
   alignas(64) std::uint32_t triangle[capacity];   ///< triangle id, in draw order over the whole frame

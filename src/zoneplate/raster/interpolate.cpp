@@ -48,6 +48,9 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
       inv_w[k] = v.inv_w;
       if (v.needs_clipping()) clipped |= 1u << (i / Batch::group);
     }
+    const bool is_affine = inv_w[0] == inv_w[1] && inv_w[1] == inv_w[2] && inv_w[0] != 0;
+    if (is_affine) inv_w[0] = inv_w[1] = inv_w[2] = 1;
+    batch.repeats_slopes[i / Batch::group] = is_affine && told < static_cast<std::size_t>(first);
     double edge[3];
     float q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
@@ -57,14 +60,16 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
       gx[k] = static_cast<float>(dy[m] - dy[n]) * inv_w[k];
       gy[k] = static_cast<float>(dx[n] - dx[m]) * inv_w[k];
     }
-    const std::int32_t is_clockwise = (edge[0] + edge[1]) + edge[2] > 0 ? 1 : 0;
+    const double area = (edge[0] + edge[1]) + edge[2];
+    const std::int32_t is_clockwise = area > 0 ? 1 : 0;
     if (told == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == corners.is_mirrored[i] ? 1 : 0;
-    const float sum = (q[0] + q[1]) + q[2];
+    const float sum = is_affine ? static_cast<float>(area) : (q[0] + q[1]) + q[2];
     const float inverse = 1.0f / (sum == 0 ? 1.0f : sum);
     const float b1 = clamped(q[1] * inverse, 1.0f), b2 = clamped(q[2] * inverse, 1.0f - b1);
     batch.b[0][i] = b1, batch.b[1][i] = b2;
     if (spacing == 0) continue;
-    const float sum_x = (gx[0] + gx[1]) + gx[2], sum_y = (gy[0] + gy[1]) + gy[2], by = inverse * step;
+    const float sum_x = is_affine ? 0 : (gx[0] + gx[1]) + gx[2], sum_y = is_affine ? 0 : (gy[0] + gy[1]) + gy[2];
+    const float by = inverse * step;
     batch.dbdx[0][i] = (gx[1] - b1 * sum_x) * by, batch.dbdx[1][i] = (gx[2] - b2 * sum_x) * by;
     batch.dbdy[0][i] = (gy[1] - b1 * sum_y) * by, batch.dbdy[1][i] = (gy[2] - b2 * sum_y) * by;
   }

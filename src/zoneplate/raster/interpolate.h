@@ -39,11 +39,12 @@ struct ClippedGroup {
 
 /// b_k = q_k / (q_0 + q_1 + q_2) with q_k = E_k / w_k, where E_k is the edge function opposite to vertex k; and the
 /// change of b_k per `spacing` pixels, but only if `spacing` is not 0. Weights are clamped: no attribute is
-/// extrapolated.
+/// extrapolated. Where a triangle's corners have one w, as all have of an orthographic camera, w is left out: the sum
+/// of the q_k = E_k is then the same at all points, and so is the change of b_k.
 struct InterpolateKernels {
-  /// Fills b, dbdx, dbdy and is_front of all padded() entries from the snapped vertices, and x and y of groups that
-  /// share their triangle from those of their first points. Gives the groups in which a
-  /// triangle needs clipping, a bit each; for its points the result says nothing.
+  /// Fills b, dbdx, dbdy, repeats_slopes and is_front of all padded() entries from the snapped vertices, and x and y of
+  /// groups that share their triangle from those of their first points. Gives the groups in which a triangle needs
+  /// clipping, a bit each; for its points the result says nothing.
   ///
   /// Exact     E_k is an exact integer, and so is the sign of their sum, the side that is seen.
   std::uint32_t (*interpolate)(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch);

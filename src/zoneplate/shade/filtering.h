@@ -24,6 +24,9 @@ Filtering make_filtering(const Sampler& sampler, int anisotropy = 1);
 struct Footprint {
   const float *u, *v;
   const float *dudx, *dvdx, *dudy, *dvdy;
+
+  /// By group of eight points, or null: the changes of all of its points are those of the point before it.
+  const bool* repeats = nullptr;
 };
 
 /// The texels that points need, and how to weigh them: of two levels the upper left and the lower left texel of four.
@@ -32,7 +35,7 @@ struct Footprint {
 ///
 /// Units     weights in 1/32768.
 struct Taps {
-  static constexpr int capacity = 128;
+  static constexpr int capacity = 256;
   alignas(64) std::int32_t upper[2][capacity], lower[2][capacity];
   alignas(64) std::int16_t right[2][capacity], down[2][capacity];  ///< weights of the right and lower texels
   alignas(64) std::int16_t blend[capacity];                        ///< weight of the second level

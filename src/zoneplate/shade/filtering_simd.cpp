@@ -1,3 +1,4 @@
+#include "zoneplate/math/halves_simd.h"
 #include "zoneplate/shade/filtering.h"
 #include "zoneplate/shade/filtering_stages.h"
 #include "zoneplate/shade/lanes_simd.h"
@@ -8,7 +9,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
 // Two neighbouring texels are the eight 16-bit lanes of a block of 128 bits. Where vectors have two blocks, the second
-// is of the point two further on; so four points, or two, are mixed at once.
+// is of the point four further on; so four points, or two, are mixed at once.
 using Fixed = hn::CappedTag<std::int16_t, 16>;
 using V = hn::Vec<Fixed>;
 constexpr int blocks = static_cast<int>(hn::MaxLanes(Fixed())) / 8;
@@ -21,7 +22,7 @@ HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint8_t* first, [[maybe_unused]
   const hn::FixedTag<std::int16_t, 8> block;
   const auto at = [&](const std::uint8_t* p) HWY_ATTR { return hn::PromoteTo(block, hn::LoadU(codes, p)); };
   if constexpr (blocks == 2) {
-    return hn::ShiftLeft<7>(hn::Combine(d, at(second), at(first)));
+    return hn::ShiftLeft<7>(combined(d, at(second), at(first)));
   } else {
     return hn::ShiftLeft<7>(at(first));
   }
@@ -33,7 +34,7 @@ HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint16_t* first, [[maybe_unused
   const auto at = [&](const std::uint16_t* p)
                       HWY_ATTR { return hn::LoadU(block, reinterpret_cast<const std::int16_t*>(p)); };
   if constexpr (blocks == 2) {
-    return hn::Combine(d, at(second), at(first));
+    return combined(d, at(second), at(first));
   } else {
     return at(first);
   }
@@ -50,8 +51,8 @@ struct TexelCodes {
 
 HWY_INLINE V mix(V a, V b, V weight) { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), weight)); }
 
-/// Which bytes of eight weights go into which lanes, by the first point of `points`: that of each block for eight
-/// lanes (`odd`: of the point after it), or of both points for four each.
+/// Which bytes of eight weights go into which lanes, by the two points 2 n and 2 n + 1 that the first block has: that
+/// of the first for eight lanes (`odd`: of the second), or of both for four each.
 struct Spread {
   alignas(32) std::uint8_t even[8 / points][32], odd[8 / points][32], both[8 / points][32];
 };
@@ -60,7 +61,7 @@ constexpr Spread make_spread() {
   Spread s{};
   for (int n = 0; n < 8 / points; ++n)
     for (int byte = 0; byte < 32; ++byte) {
-      const int first = n * points + byte / 16 * 2, half = byte % 2;
+      const int first = 2 * n + byte / 16 * 4, half = byte % 2;
       s.even[n][byte] = static_cast<std::uint8_t>(2 * first + half);
       s.odd[n][byte] = static_cast<std::uint8_t>(2 * (first + 1) + half);
       s.both[n][byte] = static_cast<std::uint8_t>(2 * (first + byte % 16 / 8) + half);
@@ -86,27 +87,34 @@ HWY_INLINE V upper_halves(V a, V b) {
   return hn::BitCast(Fixed(), hn::InterleaveUpper(d, hn::BitCast(d, a), hn::BitCast(d, b)));
 }
 
-/// A level of the points from i + n × `points` on: a point is four lanes.
+/// The weights of eight points' taps into one level.
+struct LevelWeights {
+  V right, down;
+  LevelWeights(const Taps& taps, int level, int i)
+      : right(load_weights(taps.right[level] + i)), down(load_weights(taps.down[level] + i)) {}
+};
+
+/// A level of the points i + 2 n and i + 2 n + 1, and of those four on: a point is four lanes.
 template <class Codes>
-HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, V right, V down, int i, int n) {
-  const std::int32_t* const upper = taps.upper[level] + i + n * points;
-  const std::int32_t* const lower = taps.lower[level] + i + n * points;
-  constexpr int other = blocks == 2 ? 2 : 0;
+HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, const LevelWeights& weights, int i, int n) {
+  const std::int32_t* const upper = taps.upper[level] + i + 2 * n;
+  const std::int32_t* const lower = taps.lower[level] + i + 2 * n;
+  constexpr int other = blocks == 2 ? 4 : 0;
   // Left and right texels.
   const auto rows = [&](int p, const std::uint8_t* bytes) HWY_ATTR {
     const V up = codes.pair(upper[p], upper[p + other]), low = codes.pair(lower[p], lower[p + other]);
-    return mix(up, low, spread_weights(down, bytes));
+    return mix(up, low, spread_weights(weights.down, bytes));
   };
   const V even = rows(0, spread.even[n]), odd = rows(1, spread.odd[n]);
-  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(right, spread.both[n]));
+  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(weights.right, spread.both[n]));
 }
 
-/// Points of four lanes each in two vectors, to channels.
+/// What mix_level gives of points that follow each other, to channels from point i on.
 HWY_INLINE void store_channels(V first, V second, float unit, float* const out[4], int i) {
   const hn::Repartition<std::int32_t, Fixed> di;
   const hn::RebindToFloat<decltype(di)> df;
   const auto a = hn::BitCast(di, first), b = hn::BitCast(di, second);
-  const auto rg = hn::ConcatEven(di, b, a), ba = hn::ConcatOdd(di, b, a);
+  const auto rg = even_words(b, a), ba = odd_words(b, a);
   const auto low = hn::Set(di, 0xffff);
   const auto scale = hn::Set(df, unit);
   const auto store = [&](auto codes, float* to)
@@ -122,18 +130,18 @@ void mix_codes(const Code* of, const Taps& taps, float* const out[4], int count)
   const TexelCodes<Code> codes{of};
   const hn::FixedTag<std::int16_t, 8> eight;
   for (int i = 0; i < count; i += 8) {
-    const V right = load_weights(taps.right[0] + i), down = load_weights(taps.down[0] + i);
-    V mixed[8 / points];
-    for (int n = 0; n < 8 / points; ++n) mixed[n] = mix_level(codes, taps, 0, right, down, i, n);
-    const auto blends = hn::Load(eight, taps.blend + i);
-    if (!hn::AllTrue(eight, hn::Eq(blends, hn::Zero(eight)))) {
-      const V right1 = load_weights(taps.right[1] + i), down1 = load_weights(taps.down[1] + i);
-      const V blend = load_weights(taps.blend + i);
-      for (int n = 0; n < 8 / points; ++n)
-        mixed[n] = mix(mixed[n], mix_level(codes, taps, 1, right1, down1, i, n), spread_weights(blend, spread.both[n]));
+    const LevelWeights weights(taps, 0, i);
+    const bool has_second = !hn::AllTrue(eight, hn::Eq(hn::Load(eight, taps.blend + i), hn::Zero(eight)));
+    for (int n = 0; n < 8 / points; n += 2) {
+      V first = mix_level(codes, taps, 0, weights, i, n), second = mix_level(codes, taps, 0, weights, i, n + 1);
+      if (has_second) {
+        const LevelWeights weights1(taps, 1, i);
+        const V blend = load_weights(taps.blend + i);
+        first = mix(first, mix_level(codes, taps, 1, weights1, i, n), spread_weights(blend, spread.both[n]));
+        second = mix(second, mix_level(codes, taps, 1, weights1, i, n + 1), spread_weights(blend, spread.both[n + 1]));
+      }
+      store_channels(first, second, TexelCodes<Code>::unit, out, i + 2 * n);
     }
-    for (int n = 0; n < 8 / points; n += 2)
-      store_channels(mixed[n], mixed[n + 1], TexelCodes<Code>::unit, out, i + n * points);
   }
 }
 

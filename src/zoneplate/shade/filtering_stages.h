@@ -13,15 +13,19 @@ struct LevelPlace {
   typename F::Int columns, rows, pitch, offset;
 };
 
-/// Points near each other mostly share a level, which then is looked up once.
+/// The level of all points.
 template <class F, class View>
-[[gnu::always_inline]] inline LevelPlace<F> find_level(const View& t, typename F::Int level) {
+[[gnu::always_inline]] inline LevelPlace<F> place_level(const View& t, std::int32_t level) {
   using Int = typename F::Int;
-  if (level.is_uniform()) {
-    const std::int32_t l = level.first(), w = t.width[l], h = t.height[l];
-    const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
-    return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[l])};
-  }
+  const std::int32_t w = t.width[level], h = t.height[level];
+  const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
+  return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[level])};
+}
+
+/// The level of each point.
+template <class F, class View>
+[[gnu::always_inline]] inline LevelPlace<F> place_levels(const View& t, typename F::Int level) {
+  using Int = typename F::Int;
   const Int w = Int::gather(t.width, level), h = Int::gather(t.height, level);
   return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::gather(t.offset, level)};
 }
@@ -127,23 +131,46 @@ template <class F, class View, class Filter>
   return {truncate(fine), blend, detail > F(0.0f)};
 }
 
-/// What points that look at the same levels have in common.
+/// Where points look: the levels, and how to weigh them.
 template <class F>
 struct Lookup {
   LevelPlace<F> place[2];
+  typename F::Int first;  ///< the first level
   typename F::Int blend;  ///< weight of the second level, in 1/32768
   typename F::Bool is_nearest;
 };
 
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline Lookup<F> find_lookup(const View& t, const Filter& f, F detail) {
+[[gnu::always_inline]] inline void place_lookup(const View& t, const Filter& f, typename F::Int first, Lookup<F>& at) {
+  using Int = typename F::Int;
+  const bool has_second = f.has_levels && f.blends_levels;
+  at.first = first;
+  if (first.is_uniform()) {
+    at.place[0] = place_level<F>(t, first.first());
+    if (has_second) at.place[1] = place_level<F>(t, first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1);
+  } else {
+    at.place[0] = place_levels<F>(t, first);
+    if (has_second) at.place[1] = place_levels<F>(t, min(first + Int(1), Int(t.levels - 1)));
+  }
+}
+
+/// `at`: of the points before, which mostly look at the same levels; these then need not be known before the texels'
+/// addresses are on their way.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F detail, Lookup<F>& at) {
   using Int = typename F::Int;
   const Levels<F> levels = find_levels<F>(t, f, detail);
   const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
-  Lookup<F> at{{find_level<F>(t, levels.first), {}},
-               min(truncate(levels.blend * F(32768.0f) + F(0.5f)), Int(32767)),
-               select(levels.is_minified, minify, magnify) > F(0.5f)};
-  if (f.has_levels && f.blends_levels) at.place[1] = find_level<F>(t, min(levels.first + Int(1), Int(t.levels - 1)));
+  if (!levels.first.equals(at.first)) place_lookup(t, f, levels.first, at);
+  at.blend = min(truncate(levels.blend * F(32768.0f) + F(0.5f)), Int(32767));
+  at.is_nearest = select(levels.is_minified, minify, magnify) > F(0.5f);
+}
+
+/// That of points at the first level.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline Lookup<F> begin_lookup(const View& t, const Filter& f) {
+  Lookup<F> at;
+  place_lookup(t, f, typename F::Int(0), at);
   return at;
 }
 
@@ -178,9 +205,14 @@ template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint& at, Taps& out,
                                                  int count) {
   // Apart from the addresses, because both are long chains of operations that wait for each other.
-  for (int i = 0; i < count; i += F::lanes) footprint_level<F>(t, at, i).store(out.detail + i);
+  const auto repeats = [&](int i) { return at.repeats != nullptr && at.repeats[i / 8]; };
   for (int i = 0; i < count; i += F::lanes)
-    store_taps<F>(t, f, find_lookup<F>(t, f, F::load(out.detail + i)), F::load(at.u + i), F::load(at.v + i), out, i);
+    if (!repeats(i)) footprint_level<F>(t, at, i).store(out.detail + i);
+  Lookup<F> lookup = begin_lookup<F>(t, f);
+  for (int i = 0; i < count; i += F::lanes) {
+    if (!repeats(i)) find_lookup<F>(t, f, F::load(out.detail + i), lookup);
+    store_taps<F>(t, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
+  }
 }
 
 /// The stage `find_taps` of shade/filtering.h.
@@ -217,7 +249,7 @@ template <class F, class View>
 /// which all are given.
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline int store_probes(const View& t, const Filter& f, int anisotropy, const Footprint& at,
-                                               int first, Taps& out, float (&counts)[8]) {
+                                               int first, Lookup<F>& lookup, Taps& out, float (&counts)[8]) {
   constexpr int vectors = 8 / F::lanes;
   Probes<F> probes[vectors];
   for (int k = 0; k < vectors; ++k) {
@@ -228,7 +260,7 @@ template <class F, class View, class Filter>
   for (const float n : counts) most = most < n ? n : most;
   for (int k = 0; k < vectors; ++k) {
     const int i = first + k * F::lanes;
-    const Lookup<F> lookup = find_lookup<F>(t, f, probes[k].detail);
+    find_lookup<F>(t, f, probes[k].detail, lookup);
     const F u = F::load(at.u + i), v = F::load(at.v + i), all = probes[k].count, step = F(1.0f) / (all + F(1.0f));
     for (int n = 0; n < static_cast<int>(most); ++n) {
       const F along = min(F(static_cast<float>(n + 1)), all) * step - F(0.5f);
@@ -246,9 +278,10 @@ template <class F, class View, class Mix>
   Taps taps;
   alignas(64) float mixed[4][Taps::capacity], counts[8];
   float* const probe[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
+  Lookup<F> lookup = begin_lookup<F>(t, f);
   for (int first = 0; first < count; first += 8) {
-    const int most = is_usual(f) ? store_probes<F>(t, UsualFiltering{}, f.anisotropy, at, first, taps, counts)
-                                 : store_probes<F>(t, f, f.anisotropy, at, first, taps, counts);
+    const int most = is_usual(f) ? store_probes<F>(t, UsualFiltering{}, f.anisotropy, at, first, lookup, taps, counts)
+                                 : store_probes<F>(t, f, f.anisotropy, at, first, lookup, taps, counts);
     mix(taps, probe, 8 * most);
     for (int k = 0; k < 8; k += F::lanes) {
       const F all = F::load(counts + k), share = F(1.0f) / all;

@@ -32,15 +32,22 @@ void saturate(float* values, int count) {
 template <class F>
 struct Linear {
   F first, second, third;
+
+  [[gnu::always_inline]] F at(const Batch& batch, int i) const { return first + along(batch.b, i); }
+  /// Its change, with that of the weights.
+  [[gnu::always_inline]] F along(const float (&change)[2][Batch::capacity], int i) const {
+    return second * F::load(change[0] + i) + third * F::load(change[1] + i);
+  }
 };
 
+/// Float c of a quad at the points from i on.
 template <class F>
 [[gnu::always_inline]] inline void store_float(const Batch& batch, const Linear<F>& a, const Interpolation::Quad& quad,
-                                               int c, int i) {
-  (a.first + (a.second * F::load(batch.b[0] + i) + a.third * F::load(batch.b[1] + i))).store(quad.value[c] + i);
-  if (quad.dx[c] == nullptr) return;
-  (a.second * F::load(batch.dbdx[0] + i) + a.third * F::load(batch.dbdx[1] + i)).store(quad.dx[c] + i);
-  (a.second * F::load(batch.dbdy[0] + i) + a.third * F::load(batch.dbdy[1] + i)).store(quad.dy[c] + i);
+                                               int c, int i, Points& p) {
+  a.at(batch, i).store(quad.value[c].of(p) + i);
+  if (quad.dx[c].is_none()) return;
+  a.along(batch.dbdx, i).store(quad.dx[c].of(p) + i);
+  a.along(batch.dbdy, i).store(quad.dy[c].of(p) + i);
 }
 
 template <class F>
@@ -59,34 +66,49 @@ template <class F>
   return g * Batch::group;
 }
 
-/// Points i to `end`, of one triangle.
+/// The same for points i to `end`, of one triangle.
+template <class F>
+[[gnu::always_inline]] inline void store_float_of_run(const Batch& batch, const Linear<F>& a,
+                                                      const Interpolation::Quad& quad, int c, int i, int end,
+                                                      Points& p) {
+  const bool repeats_slopes = i + Batch::group < end && batch.repeats_slopes[i / Batch::group + 1];
+  if (quad.dx[c].is_none() || !repeats_slopes) {
+    for (int k = i; k < end; k += F::lanes) store_float(batch, a, quad, c, k, p);
+    return;
+  }
+  const F dx = a.along(batch.dbdx, i), dy = a.along(batch.dbdy, i);
+  for (int k = i; k < end; k += F::lanes) {
+    a.at(batch, k).store(quad.value[c].of(p) + k);
+    dx.store(quad.dx[c].of(p) + k), dy.store(quad.dy[c].of(p) + k);
+  }
+}
+
 template <class F>
 [[gnu::always_inline]] inline void interpolate_run(const Batch& batch, const Corners& corners,
-                                                   const Interpolation::Quad& quad, int i, int end) {
+                                                   const Interpolation::Quad& quad, int i, int end, Points& p) {
   const std::size_t told = batch.told(static_cast<std::size_t>(i));
   const float* const v0 = corners.record[0][told] + quad.place;
   const float* const v1 = corners.record[1][told] + quad.place;
   const float* const v2 = corners.record[2][told] + quad.place;
   for (int c = 0; c < 4; ++c) {
-    if (quad.value[c] == nullptr) continue;
+    if (quad.value[c].is_none()) continue;
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
-    if (second == 0 && third == 0 && quad.dx[c] == nullptr) {
-      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(quad.value[c] + k);
+    if (second == 0 && third == 0 && quad.dx[c].is_none()) {
+      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(quad.value[c].of(p) + k);
       continue;
     }
-    const Linear<F> line{F(v0[c]), F(second), F(third)};
-    for (int k = i; k < end; k += F::lanes) store_float(batch, line, quad, c, k);
+    store_float_of_run(batch, Linear<F>{F(v0[c]), F(second), F(third)}, quad, c, i, end, p);
   }
 }
 
 template <class F>
-void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, int count) {
+void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
-    for (int i = 0; i < count;) {
+    for (int i = 0; i < p.count;) {
       if (batch.one_triangle[i / Batch::group]) {
-        const int end = run_end(batch, i, count);
-        interpolate_run<F>(batch, corners, quad, i, end);
+        const int end = run_end(batch, i, p.count);
+        interpolate_run<F>(batch, corners, quad, i, end, p);
         i = end;
         continue;
       }
@@ -95,7 +117,7 @@ void interpolate(const Batch& batch, const Corners& corners, const Interpolation
       load_corner(batch, corners, 1, i, quad.place, v1);
       load_corner(batch, corners, 2, i, quad.place, v2);
       for (int c = 0; c < 4; ++c)
-        if (quad.value[c] != nullptr) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i);
+        if (!quad.value[c].is_none()) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i, p);
       i += F::lanes;
     }
   }

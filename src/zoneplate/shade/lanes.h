@@ -31,6 +31,7 @@ struct Int {
   void store_narrow(std::int16_t* p) const { *p = static_cast<std::int16_t>(v); }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
+  bool equals(Int other) const { return v == other.v; }
   bool is_uniform() const { return true; }
   friend Int operator+(Int a, Int b) { return a.v + b.v; }
   friend Int operator-(Int a, Int b) { return a.v - b.v; }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "zoneplate/math/elementary_simd.h"
+#include "zoneplate/math/halves_simd.h"
 
 /// The vector twin of shade/lanes.h, of at most 8 lanes, for the instruction set of the file that includes it.
 HWY_BEFORE_NAMESPACE();
@@ -34,6 +35,7 @@ struct Int {
   }
   static HWY_INLINE Int gather(const std::int32_t* table, Int i) { return Int(hn::GatherIndex(IntTag(), table, i.v)); }
   HWY_INLINE std::int32_t first() const { return hn::GetLane(v); }
+  HWY_INLINE bool equals(Int other) const { return hn::AllTrue(IntTag(), hn::Eq(v, other.v)); }
   HWY_INLINE bool is_uniform() const { return hn::AllTrue(IntTag(), hn::Eq(v, hn::Set(IntTag(), hn::GetLane(v)))); }
   friend HWY_INLINE Int operator+(Int a, Int b) { return Int(hn::Add(a.v, b.v)); }
   friend HWY_INLINE Int operator-(Int a, Int b) { return Int(hn::Sub(a.v, b.v)); }
@@ -58,7 +60,7 @@ HWY_INLINE hn::Vec<D> load_two_quads(D d, const float* const* record, int place)
   const hn::FixedTag<float, 4> quad;
   const auto first = hn::LoadU(quad, record[0] + place);
   if constexpr (hn::MaxLanes(D()) == 8) {
-    return hn::Combine(d, hn::LoadU(quad, record[4] + place), first);
+    return combined(d, hn::LoadU(quad, record[4] + place), first);
   } else {
     return first;
   }

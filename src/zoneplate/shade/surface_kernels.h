@@ -59,7 +59,7 @@ struct SurfaceKernels {
   void (*saturate)(float* values, int count);
 
   /// value = a0 + ((a1 - a0) b1 + (a2 - a0) b2), and the same without the first term with dbdx and dbdy.
-  void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, int count);
+  void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, Points& points);
   void (*map_coordinates)(const CoordinateMap& map, const Points& points, int set, Coordinates& out);
 
   // From object to world space, by each point's own placement; normals and tangents are not normalised.
