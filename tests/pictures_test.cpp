@@ -63,8 +63,8 @@ constexpr Golden goldens[] = {
     {"checkerboard", "ssaa:pattern=halton,samples=24", 0xc60082d4c0c6a3eu},
     {"triangles", "msaa:grid=4", 0x3eb3916ef6c22d66u},
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
-    {"sphere:triangles=5000", "msaa:n=16", 0x2b2a25ec5fff75b0u},
-    {"city-trilinear", "msaa:n=4", 0x24ab0f0f3833c52fu},
+    {"sphere:triangles=5000", "msaa:n=16", 0x4261133c47ed6cf1u},
+    {"city-trilinear", "msaa:n=4", 0x172c96cac8be0f8fu},
     {"fillblend", "msaa:n=4", 0xe98a2fed0c160e8au},
 };
 

@@ -105,15 +105,18 @@ struct WrappedPoint {
 };
 
 /// Asks for texels that will be mixed some stages later.
-template <class View>
-[[gnu::always_inline]] inline void fetch_ahead(const View& t, std::int32_t texel) {
-  const std::ptrdiff_t code = std::ptrdiff_t{4} * texel;
-  if (t.codes8 != nullptr) {
-    __builtin_prefetch(t.codes8 + code);
-  } else {
-    __builtin_prefetch(t.codes15 + code);
+struct TexelFetch {
+  const unsigned char* codes;
+  int shift;  ///< log2 of a texel's bytes
+
+  template <class View>
+  explicit TexelFetch(const View& t)
+      : codes(t.codes8 != nullptr ? t.codes8 : reinterpret_cast<const unsigned char*>(t.codes15)),
+        shift(t.codes8 != nullptr ? 2 : 3) {}
+  [[gnu::always_inline]] void ask_for(std::int32_t texel) const {
+    __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
   }
-}
+};
 
 /// The levels to look at.
 template <class F>
@@ -185,19 +188,18 @@ template <class F, class Filter>
   const Int below = repeats_v && !nearest ? place.pitch : select(y.is_same, Int(0), place.pitch);
   upper.store(out.upper[which] + i);
   (upper + below).store(out.lower[which] + i);
-  x.weight.store_narrow(out.right[which] + i);
-  y.weight.store_narrow(out.down[which] + i);
+  x.weight.store_by_fours(y.weight, out.side[which], i);
 }
 
 /// The taps of points at (u, v), the i-th of `out` and on.
-template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void store_taps(const View& t, const Filter& f, const Lookup<F>& at, F u, F v, Taps& out,
-                                              int i) {
-  at.blend.store_narrow(out.blend + i);
+template <class F, class Filter>
+[[gnu::always_inline]] inline void store_taps(const TexelFetch& fetch, const Filter& f, const Lookup<F>& at, F u, F v,
+                                              Taps& out, int i) {
+  at.blend.store_by_fours(at.blend, out.blend, i);
   const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
   for (int which = 0; which < (f.has_levels && f.blends_levels ? 2 : 1); ++which) {
     store_level<F>(f, p, at.place[which], out, which, i);
-    for (const int end : {0, F::lanes - 1}) fetch_ahead(t, out.lower[which][i + end]);
+    for (const int end : {0, F::lanes - 1}) fetch.ask_for(out.lower[which][i + end]);
   }
 }
 
@@ -208,10 +210,11 @@ template <class F, class View, class Filter>
   const auto repeats = [&](int i) { return at.repeats != nullptr && at.repeats[i / 8]; };
   for (int i = 0; i < count; i += F::lanes)
     if (!repeats(i)) footprint_level<F>(t, at, i).store(out.detail + i);
+  const TexelFetch fetch(t);
   Lookup<F> lookup = begin_lookup<F>(t, f);
   for (int i = 0; i < count; i += F::lanes) {
     if (!repeats(i)) find_lookup<F>(t, f, F::load(out.detail + i), lookup);
-    store_taps<F>(t, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
+    store_taps<F>(fetch, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
   }
 }
 
@@ -261,10 +264,11 @@ template <class F, class View, class Filter>
   for (int k = 0; k < vectors; ++k) {
     const int i = first + k * F::lanes;
     find_lookup<F>(t, f, probes[k].detail, lookup);
+    const TexelFetch fetch(t);
     const F u = F::load(at.u + i), v = F::load(at.v + i), all = probes[k].count, step = F(1.0f) / (all + F(1.0f));
     for (int n = 0; n < static_cast<int>(most); ++n) {
       const F along = min(F(static_cast<float>(n + 1)), all) * step - F(0.5f);
-      store_taps<F>(t, f, lookup, u + probes[k].du * along, v + probes[k].dv * along, out, 8 * n + k * F::lanes);
+      store_taps<F>(fetch, f, lookup, u + probes[k].du * along, v + probes[k].dv * along, out, 8 * n + k * F::lanes);
     }
   }
   return static_cast<int>(most);

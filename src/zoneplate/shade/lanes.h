@@ -28,7 +28,11 @@ struct Int {
   Int(std::int32_t x) : v(x) {}
   static Int load(const std::int32_t* p) { return *p; }
   void store(std::int32_t* p) const { *p = v; }
-  void store_narrow(std::int16_t* p) const { *p = static_cast<std::int16_t>(v); }
+  /// Numbers i and on of a list by fours: of four lanes this, then what `second` has there.
+  void store_by_fours(Int second, std::int16_t* list, int i) const {
+    const int first = i / 4 * 8 + i % 4;
+    list[first] = static_cast<std::int16_t>(v), list[first + 4] = static_cast<std::int16_t>(second.v);
+  }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
   bool equals(Int other) const { return v == other.v; }

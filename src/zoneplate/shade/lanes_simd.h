@@ -29,9 +29,9 @@ struct Int {
   HWY_INLINE explicit Int(hn::Vec<IntTag> x) : v(x) {}
   static HWY_INLINE Int load(const std::int32_t* p) { return Int(hn::LoadU(IntTag(), p)); }
   HWY_INLINE void store(std::int32_t* p) const { hn::StoreU(v, IntTag(), p); }
-  HWY_INLINE void store_narrow(std::int16_t* p) const {
-    const hn::Rebind<std::int16_t, IntTag> narrow;
-    hn::StoreU(hn::DemoteTo(narrow, v), narrow, p);
+  HWY_INLINE void store_by_fours(Int second, std::int16_t* list, int i) const {
+    const hn::Repartition<std::int16_t, IntTag> narrow;
+    hn::StoreU(hn::ReorderDemote2To(narrow, v, second.v), narrow, list + 2 * i);
   }
   static HWY_INLINE Int gather(const std::int32_t* table, Int i) { return Int(hn::GatherIndex(IntTag(), table, i.v)); }
   HWY_INLINE std::int32_t first() const { return hn::GetLane(v); }
