@@ -280,7 +280,7 @@ template <class F, class View, class Mix>
                                                       float* const out[4], int count, Mix mix) {
   static_assert(Taps::capacity >= 8 * Filtering::most_anisotropy);
   Taps taps;
-  alignas(64) float mixed[4][Taps::capacity], counts[8];
+  alignas(64) float mixed[4][Taps::room], counts[8];
   float* const probe[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
   Lookup<F> lookup = begin_lookup<F>(t, f);
   for (int first = 0; first < count; first += 8) {

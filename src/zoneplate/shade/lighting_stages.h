@@ -102,8 +102,8 @@ template <class F>
 
 /// What of a batch's points a light needs.
 struct Cosines {
-  alignas(64) float diffuse[Points::capacity];
-  alignas(64) float highlight[Points::capacity];  ///< the cosine's power
+  alignas(64) float diffuse[Batch::room];
+  alignas(64) float highlight[Batch::room];  ///< the cosine's power
 };
 
 /// The cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in shade/brdf.h.

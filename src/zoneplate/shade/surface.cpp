@@ -111,7 +111,7 @@ struct SurfaceShader::Data::Walk {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot for which `taps` stands
-  alignas(64) float texel_values[4][Points::capacity];
+  alignas(64) float texel_values[4][Batch::room];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
   Walk(const Data& data, const Batch& of)
