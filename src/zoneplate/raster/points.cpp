@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace zoneplate {
 
@@ -132,10 +133,34 @@ bool PointBatcher::are_of_one_draw(const PointList& list) {
   return others == 0;
 }
 
-/// Points of the draw that is known. Indices and vertices, which lie anywhere in memory, are asked for before they are
-/// needed.
+/// Finds the vertices of the batch that begins at point `first` of the list, whose draw is known. They lie anywhere in
+/// memory, as their indices do: both are asked for about a batch before they are needed.
+void PointBatcher::find_vertices(const PointList& list, std::size_t first) {
+  constexpr std::size_t ahead = 160;
+  const Draw& draw = *known_.draw;
+  if (first == 0) vertex_memory_ = shader_.vertex_memory(draw.instance, draw.material);
+  const std::uint32_t* const index = draw.index.data() - 3 * static_cast<std::size_t>(known_.begin);
+  const auto ask_for_index = [&](std::size_t i) { __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[i]}); };
+  const ScreenVertex* const screen = known_.screen;
+  const auto [memory, stride] = vertex_memory_;
+  const auto total = static_cast<std::size_t>(list.count);
+  if (first == 0)
+    for (std::size_t i = 0; i < std::min(ahead, total); ++i) ask_for_index(i);
+  const std::size_t count = std::min<std::size_t>(Batch::capacity, total - first);
+  for (std::size_t i = 0; i < count; ++i) {
+    // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
+    if (i % 2 == 0 && first + i + ahead < total) ask_for_index(first + i + ahead);
+    const std::uint32_t* const v = index + 3 * std::ptrdiff_t{list.id[first + i]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      next_vertex_[k][i] = v[k];
+      __builtin_prefetch(screen + v[k]);
+      __builtin_prefetch(memory + v[k] * stride);
+    }
+  }
+}
+
+/// Points of the draw that is known, whose vertices are found. Finds those of the next batch.
 void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t count) {
-  constexpr std::size_t ahead = 32;
   const Draw& draw = *known_.draw;
   batch_.count = static_cast<int>(count);
   batch_.material = draw.material;
@@ -145,27 +170,15 @@ void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t co
   std::fill_n(batch_.one_triangle, padded / Batch::group, false);
   std::fill_n(batch_.instance, padded, draw.instance);
   std::fill_n(corners_.is_mirrored, padded, draw.is_mirrored ? 1 : 0);
-  std::copy_n(list.x + first, count, batch_.x);
-  std::copy_n(list.y + first, count, batch_.y);
-  std::copy_n(list.id + first, count, reinterpret_cast<std::int32_t*>(batch_.triangle));
-  for (std::size_t i = count; i < padded; ++i) {
-    batch_.x[i] = batch_.x[count - 1], batch_.y[i] = batch_.y[count - 1];
-    batch_.triangle[i] = batch_.triangle[count - 1];
-  }
-  const std::uint32_t* const index = draw.index.data() - 3 * static_cast<std::size_t>(known_.begin);
-  const auto total = static_cast<std::size_t>(list.count);
-  if (first == 0)
-    for (std::size_t i = 0; i < std::min(ahead, total); ++i) __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[i]});
-  for (std::size_t i = 0; i < padded; ++i) {
-    // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
-    if (i % 2 == 0 && first + i + ahead < total)
-      __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[first + i + ahead]});
-    const std::uint32_t* const v = index + 3 * std::size_t{batch_.triangle[i]};
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch_.vertex[k][i] = v[k];
-      __builtin_prefetch(&known_.screen[v[k]]);
-    }
-  }
+  const auto copy = [&](const auto* from, auto* to) {
+    std::memcpy(to, from, count * sizeof(*to));
+    std::fill(to + count, to + padded, to[count - 1]);
+  };
+  copy(list.x + first, batch_.x);
+  copy(list.y + first, batch_.y);
+  copy(list.id + first, batch_.triangle);
+  for (std::size_t k = 0; k < 3; ++k) copy(next_vertex_[k], batch_.vertex[k]);
+  if (first + count < static_cast<std::size_t>(list.count)) find_vertices(list, first + count);
   interpolate();
 }
 

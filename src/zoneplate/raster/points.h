@@ -86,6 +86,7 @@ class PointBatcher {
   void fetch_ahead(std::int32_t id) const;
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
+  void find_vertices(const PointList& list, std::size_t first);
   void fill(const PointList& list, std::size_t first, std::size_t count);
   void put_triangle(std::size_t i, std::int32_t id);
   void interpolate();
@@ -109,6 +110,8 @@ class PointBatcher {
   int one_material_ = 0;                         ///< of a list of one
   Known known_;
   KnownClipped known_clipped_;
+  PointShader::VertexMemory vertex_memory_;                    ///< of the list's draw
+  alignas(64) std::uint32_t next_vertex_[3][Batch::capacity];  ///< of the list's next batch
   Batch batch_;
   BatchCorners corners_{};
   ClippedGroup clipped_{};
@@ -137,6 +140,7 @@ void PointBatcher::shade(const PointList& list, Use use) {
   const auto total = static_cast<std::size_t>(list.count);
   shaded_ += total;
   if (are_of_one_draw(list)) {
+    if (total > 0) find_vertices(list, 0);
     for (std::size_t first = 0; first < total; first += capacity) {
       const std::size_t count = std::min(capacity, total - first);
       fill(list, first, count);

@@ -272,6 +272,10 @@ bool SurfaceShader::wants_slopes(int material) const {
   return a.uv[0] || a.uv[1];
 }
 
+std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
+  return {data_->records.of_instance(instance), static_cast<std::size_t>(data_->records.layout(material).floats)};
+}
+
 void SurfaceShader::alpha(const Batch& batch, float* out) const {
   if (batch.count == 0) return;
   Data::Walk walk(*data_, batch);
