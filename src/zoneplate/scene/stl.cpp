@@ -18,7 +18,7 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/finite.h"
 #include "zoneplate/scene/import_budget.h"
-#include "zoneplate/scene/large_array.h"
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/scene/mtl_material.h"
 #include "zoneplate/scene/stl_text.h"
 #include "zoneplate/scene/triangulate.h"

@@ -70,13 +70,13 @@ VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene))
     const Mesh& mesh = scene.meshes[m];
     const RecordLayout& layout = layouts_[static_cast<std::size_t>(mesh.material)];
     const auto stride = static_cast<std::size_t>(layout.floats);
-    meshes_[m].resize(mesh.position.size() * stride);
+    meshes_[m] = std::make_unique_for_overwrite<float[]>(mesh.position.size() * stride);
     parallel_ranges(mesh.position.size(), vertices_per_range, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, meshes_[m].data() + v * stride);
+      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, meshes_[m].get() + v * stride);
     });
   }
   for (const Instance& instance : scene.instances)
-    instances_.push_back(meshes_[static_cast<std::size_t>(instance.mesh)].data());
+    instances_.push_back(meshes_[static_cast<std::size_t>(instance.mesh)].get());
 }
 
 /// Records that stand in one array are asked for, and found when they are needed.

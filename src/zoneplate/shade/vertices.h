@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ class VertexRecords {
 
  private:
   std::vector<RecordLayout> layouts_;  ///< by material
-  std::vector<std::vector<float>> meshes_;
+  std::vector<std::unique_ptr<float[]>> meshes_;
   std::vector<const float*> instances_;
 };
 
