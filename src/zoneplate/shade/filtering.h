@@ -36,6 +36,7 @@ struct Footprint {
 /// Units     weights in 1/32768.
 struct Taps {
   static constexpr int capacity = 256;
+  static constexpr int groups = capacity / 8;
   static constexpr int room = capacity + 16;  ///< as Batch::room
   alignas(64) std::int32_t upper[2][room], lower[2][room];
   alignas(64) std::int16_t side[2][2 * room];  ///< weights of the right texels, of the lower texels: by fours

@@ -77,6 +77,7 @@ struct Lane {
   friend Lane min(Lane a, Lane b) { return a.v < b.v ? a : b; }
   friend Lane max(Lane a, Lane b) { return a.v > b.v ? a : b; }
   friend Lane select(Bool m, Lane a, Lane b) { return m.v ? a : b; }
+  friend T greatest(Lane a) { return a.v; }
   friend Lane sqrt(Lane a) { return std::sqrt(a.v); }
   friend Lane floor(Lane a) { return std::floor(a.v); }
   friend Int truncate(Lane a) { return static_cast<std::int32_t>(a.v); }

@@ -96,6 +96,7 @@ struct Float {
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::Max(a.v, b.v)); }
   friend HWY_INLINE Float select(Bool m, Float a, Float b) { return Float(hn::IfThenElse(m.v, a.v, b.v)); }
+  friend HWY_INLINE float greatest(Float a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.v)); }
   friend HWY_INLINE Float sqrt(Float a) { return Float(hn::Sqrt(a.v)); }
   friend HWY_INLINE Float floor(Float a) { return Float(hn::Floor(a.v)); }
   friend HWY_INLINE Int truncate(Float a) { return Int(truncated(FloatTag(), a.v)); }
