@@ -45,7 +45,8 @@ class PointBatcher {
   template <class Use>
   void shade(std::span<const PointRow> rows, Use use);
 
-  /// The same, row after row in the order of the list.
+  /// The colours of rows in the order of the list: `use(shaded, first, count)` is called for consecutive parts of it,
+  /// which begin at row `first` and whose colours stand at the beginning of `shaded`.
   template <class Use>
   void shade_in_order(std::span<const PointRow> rows, Use use);
 
@@ -169,7 +170,7 @@ void PointBatcher::shade_in_order(std::span<const PointRow> rows, Use use) {
     while (first + count < rows.size() && count < most && is_alike(first + count)) ++count;
     fill(rows, std::span<const std::uint32_t>(as_is_).subspan(first, count));
     shader_.shade(batch_, {}, shaded_batch_);
-    for (std::size_t i = 0; i < count; ++i) use(rows[first + i], shaded_batch_, static_cast<int>(i) * Batch::group);
+    use(shaded_batch_, first, count);
     first += count;
   }
 }

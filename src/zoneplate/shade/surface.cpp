@@ -176,7 +176,9 @@ void SurfaceShader::Data::Walk::find_base() {
     }
     if (plan.attributes.color) kernels.multiply(p.base[c], p.color[c], p.count);
   }
-  if (plan.alpha_mode != AlphaMode::Opaque) kernels.saturate(p.base[3], p.count);
+  // A texture's alpha lies in [0, 1] by itself.
+  const bool may_leave = plan.attributes.color || !(plan.factor[3] >= 0 && plan.factor[3] <= 1);
+  if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
 void SurfaceShader::Data::Walk::find_normals() {
