@@ -40,7 +40,7 @@ template <class F>
     w = F(2.0f) * (half - floor(half));
     w = select(w > one, F(2.0f) - w, w);
   } else if (!clamps) {
-    w = u - floor(u);
+    return max(u - floor(u), zero);
   }
   return min(max(w, zero), one);
 }
