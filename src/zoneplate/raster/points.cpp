@@ -215,8 +215,16 @@ void PointBatcher::shade_mixed(const PointList& list) {
 void PointBatcher::interpolate() {
   const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
   std::uint32_t clipped = interpolate_.interpolate(corners_, target_.viewport, spacing, batch_);
-  for (; clipped; clipped &= clipped - 1)
-    interpolate_clipped(static_cast<std::size_t>(std::countr_zero(clipped)), spacing);
+  while (clipped) {
+    const int group = std::countr_zero(clipped);
+    int last = group + 1;
+    if (batch_.one_triangle[group]) {
+      last = interpolate_clipped_rows(group, spacing);
+    } else {
+      interpolate_clipped(static_cast<std::size_t>(group), spacing);
+    }
+    clipped &= last == 32 ? 0 : ~0u << last;
+  }
   if (has_ends_) weigh_ends();
 }
 
@@ -234,18 +242,26 @@ void PointBatcher::put_planes(std::size_t i, const BarycentricPlanes& planes) {
     clipped_.x[k][i] = planes.x[k], clipped_.y[k][i] = planes.y[k], clipped_.one[k][i] = planes.one[k];
 }
 
+std::int32_t PointBatcher::is_front(std::size_t told, const TriangleFacing& facing) const {
+  return facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
+}
+
+/// The points of the rows from a group on of one triangle, which needs clipping. Gives the group after them.
+int PointBatcher::interpolate_clipped_rows(int group, float spacing) {
+  const int groups = batch_.padded() / Batch::group;
+  int last = group + 1;
+  while (last < groups && batch_.one_triangle[last] && batch_.told_group[last] == batch_.told_group[group]) ++last;
+  const std::size_t told = batch_.told(static_cast<std::size_t>(group) * Batch::group);
+  const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
+  batch_.is_front[told] = is_front(told, facing);
+  interpolate_.interpolate_clipped_rows(facing.planes, target_.viewport, spacing, batch_, group * Batch::group,
+                                        last * Batch::group);
+  return last;
+}
+
 /// Does those of the group's points again whose triangles need clipping.
 void PointBatcher::interpolate_clipped(std::size_t group, float spacing) {
   const std::size_t first = group * Batch::group;
-  const auto is_front = [&](std::size_t told, const TriangleFacing& facing) {
-    return facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
-  };
-  if (batch_.one_triangle[group]) {
-    const std::size_t told = batch_.told(first);
-    const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
-    batch_.is_front[told] = is_front(told, facing);
-    return interpolate_.interpolate_clipped_row(facing.planes, target_.viewport, spacing, batch_, first);
-  }
   bool is_clipped[Batch::group] = {};
   for (std::size_t i = 0; i < Batch::group; ++i) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -275,7 +291,7 @@ void PointBatcher::weigh_ends() {
     if (d.ends.empty()) continue;
     const std::uint32_t* v = &d.index[3 * static_cast<std::size_t>(id - known_.begin)];
     const float share[3] = {d.share[v[0]], d.share[v[1]], d.share[v[2]]};
-    const auto weigh = [&](float(&b)[2][Batch::capacity], float whole) {
+    const auto weigh = [&](float(&b)[2][Batch::room], float whole) {
       const float first = whole - b[0][i] - b[1][i];
       b[0][i] = (first * share[0] + b[0][i] * share[1]) + b[1][i] * share[2];
       b[1][i] = 0;
@@ -309,7 +325,7 @@ void PointBatcher::test_alpha(std::span<const Point> points, std::vector<std::ui
   shaded_ += points.size();
   is_there.resize(points.size());
   for_batches(points, [&](std::span<const std::uint32_t> numbers) {
-    alignas(64) float alpha[Batch::capacity];
+    alignas(64) float alpha[Batch::room];
     const float cutoff = shader_.alpha(batch_, alpha);
     for (std::size_t i = 0; i < numbers.size(); ++i) is_there[numbers[i]] = alpha[i] >= cutoff;
   });

@@ -92,6 +92,9 @@ class PointBatcher {
   void interpolate();
   const TriangleFacing& know_clipped(std::int32_t id);
   void put_planes(std::size_t i, const BarycentricPlanes& planes);
+  static_assert(Batch::groups <= 32);  // a bit each
+  std::int32_t is_front(std::size_t told, const TriangleFacing& facing) const;
+  int interpolate_clipped_rows(int group, float spacing);
   void interpolate_clipped(std::size_t group, float spacing);
   void weigh_ends();
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "zoneplate/math/halves_simd.h"
 #include "zoneplate/math/wasm_double_simd.h"
 #include "zoneplate/raster/setup.h"
 
@@ -54,7 +55,7 @@ template <class V>
 HWY_INLINE void load_row(const ScreenVertex* screen, const std::uint32_t* index, std::int32_t i, V& row) {
   const hn::DFromV<V> d;
   if constexpr (hn::MaxLanes(d) == 8)
-    row = hn::Combine(d, vertex(screen, index[3 * i + 12]), vertex(screen, index[3 * i]));
+    row = combined(d, vertex(screen, index[3 * i + 12]), vertex(screen, index[3 * i]));
   else
     row = vertex(screen, index[3 * i]);
 }
@@ -114,7 +115,7 @@ HWY_INLINE VD widened(V v) {
 
 HWY_INLINE VF narrowed(VD lower, VD upper) {
   const H h;
-  return hn::Combine(f, hn::DemoteTo(h, upper), hn::DemoteTo(h, lower));
+  return combined(f, hn::DemoteTo(h, upper), hn::DemoteTo(h, lower));
 }
 
 /// The gradients of make_triangle, in its order of operations.

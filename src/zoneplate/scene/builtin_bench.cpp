@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/scene/large_array.h"
 
 namespace zoneplate {
 namespace {

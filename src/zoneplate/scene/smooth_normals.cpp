@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/scene/large_array.h"
 
 namespace zoneplate {
 namespace {

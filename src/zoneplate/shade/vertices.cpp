@@ -110,32 +110,45 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
   }
 }
 
-Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes, Points& p) {
+namespace {
+
+/// Array i of those that begin at a member of Points.
+PointsArray array(std::size_t member, std::size_t i = 0) {
+  return {static_cast<std::int32_t>(member + i * sizeof(Points::Array))};
+}
+
+}  // namespace
+
+Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes) {
+  constexpr std::size_t position = offsetof(Points, position), normal = offsetof(Points, normal);
+  constexpr std::size_t tangent = offsetof(Points, tangent), color = offsetof(Points, color);
   Interpolation what;
   const auto quad = [&](bool is_wanted, int place) -> Interpolation::Quad* {
     if (!is_wanted || place < 0) return nullptr;
     what.quad[what.quads].place = place;
     return &what.quad[what.quads++];
   };
-  const auto wants = [&](Interpolation::Quad& q, int c, float* value, float* dx = nullptr, float* dy = nullptr) {
-    q.value[c] = value, q.dx[c] = dx, q.dy[c] = dy;
+  const auto want_coordinates = [&](Interpolation::Quad& q, std::size_t first, std::size_t set) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      q.value[first + c] = array(offsetof(Points, uv), 2 * set + c);
+      q.dx[first + c] = array(offsetof(Points, uv_dx), 2 * set + c);
+      q.dy[first + c] = array(offsetof(Points, uv_dy), 2 * set + c);
+    }
   };
   if (auto* q = quad(attributes.normal || attributes.position, 0)) {
     if (attributes.normal)
-      for (int c = 0; c < 3; ++c) wants(*q, c, p.normal[c]);
-    if (attributes.position) wants(*q, 3, p.position[0]);
+      for (std::size_t c = 0; c < 3; ++c) q->value[c] = array(normal, c);
+    if (attributes.position) q->value[3] = array(position, 0);
   }
   if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
-    if (attributes.position) wants(*q, 0, p.position[1]), wants(*q, 1, p.position[2]);
-    if (attributes.uv[0])
-      for (int c = 0; c < 2; ++c) wants(*q, 2 + c, p.uv[0][c], p.uv_dx[0][c], p.uv_dy[0][c]);
+    if (attributes.position) q->value[0] = array(position, 1), q->value[1] = array(position, 2);
+    if (attributes.uv[0]) want_coordinates(*q, 2, 0);
   }
   if (auto* q = quad(attributes.tangent, layout.tangent))
-    for (int c = 0; c < 4; ++c) wants(*q, c, p.tangent[c]);
+    for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(tangent, c);
   if (auto* q = quad(attributes.color, layout.color))
-    for (int c = 0; c < 4; ++c) wants(*q, c, p.color[c]);
-  if (auto* q = quad(attributes.uv[1], layout.uv1))
-    for (int c = 0; c < 2; ++c) wants(*q, c, p.uv[1][c], p.uv_dx[1][c], p.uv_dy[1][c]);
+    for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(color, c);
+  if (auto* q = quad(attributes.uv[1], layout.uv1)) want_coordinates(*q, 0, 1);
   return what;
 }
 

@@ -46,7 +46,7 @@ class VertexRecords {
 void find_corners(const VertexRecords& records, const Batch& batch, Corners& out);
 
 /// Which float of the records goes where in the points.
-Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes, Points& points);
+Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes);
 
 /// Gives the points of meshes without tangents the direction of growing u over their triangle (zero where the triangle
 /// has no area in u, v; w: the sign of that area).
