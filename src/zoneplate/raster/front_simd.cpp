@@ -31,7 +31,10 @@ HWY_INLINE MI meets_rectangle(const Extent& e, const FrontRun& run) {
 /// The work on one run, a vector of triangles at a time.
 class Front {
  public:
-  Front(const FrontRun& run, FragmentSink& sink, FrontResult& result) : run_(run), sink_(sink), result_(result) {}
+  Front(const FrontRun& run, FragmentSink& sink, FrontResult& result) : run_(run), sink_(sink), result_(result) {
+    for (std::int32_t s = 0; s < run.sample_count && s < SampleFragments::most_samples; ++s)
+      sample_x_[s] = run.sample_x[s], sample_y_[s] = run.sample_y[s];
+  }
 
   HWY_INLINE void run() {
     result_.general_count = result_.kept_count = 0, result_.drawn = 0;
@@ -102,33 +105,55 @@ class Front {
   // nothing. False where that may be many.
   HWY_INLINE bool cover(const Corners& c, const Extent& e, VI width, VI height, VI area, MI small) {
     const VI to_x = up_to(run_.sample_x[0], e.low_x), to_y = up_to(run_.sample_y[0], e.low_y);
-    const VI more_x = hn::Sub(width, to_x), more_y = hn::Sub(height, to_y);
-    if (!hn::AllFalse(i32, hn::And(small, hn::Gt(hn::Max(more_x, more_y), set(511))))) return false;
+    const VI more = hn::IfThenElseZero(small, hn::Max(hn::Sub(width, to_x), hn::Sub(height, to_y)));
+    if (!hn::AllFalse(i32, hn::Gt(more, set(767)))) return false;
     SetUp t;
     set_up_edges(c, run_.is_top_left, t);
     const VI px = hn::Add(e.low_x, to_x), py = hn::Add(e.low_y, to_y);
-    const VI e1 = edge_at<1>(c, t, px, py), e2 = edge_at<2>(c, t, px, py);
-    const Edges row{hn::Add(hn::Sub(hn::Sub(area, e1), e2), t.bias[0]), hn::Add(e1, t.bias[1]), hn::Add(e2, t.bias[2])};
-    // What lies beyond the bounds is outside. A bit for each candidate; mostly none or one is covered.
+    t.area = area;
+    const Edges first = edges_at(c, t, px, py);
     const VI dead = hn::VecFromMask(i32, hn::Not(small));
-    const Edges below = row.down(t);
-    VI left = hn::Or(hn::Or(bit_of<1>(row, dead), bit_of<2>(row.right(t), dead)),
-                     hn::Or(bit_of<4>(below, dead), bit_of<8>(below.right(t), dead)));
-    const VI zero = hn::Zero(i32), pixel = set(256);
-    for (MI mask = hn::Gt(left, zero); !hn::AllFalse(i32, mask); mask = hn::Gt(left, zero)) {
-      const VI rest = hn::And(left, hn::Sub(left, set(1))), first = hn::Xor(left, rest);
-      const VI x = hn::Add(px, hn::And(hn::Or(hn::ShiftLeft<7>(first), hn::ShiftLeft<5>(first)), pixel));
-      const VI y = hn::Add(py, hn::And(hn::Or(hn::ShiftLeft<6>(first), hn::ShiftLeft<5>(first)), pixel));
-      samples_.add(c, x, y, Packing(mask));
-      left = rest;
-    }
+    const MI is_wide = hn::Gt(more, set(511));
+    add_samples(c, px, py, hn::AllFalse(i32, is_wide) ? covered<2>(t, first, dead) : covered<3>(t, first, dead));
     if (samples_.count >= Waiting::enough) draw_samples(false);
     return true;
   }
 
-  template <int bit>
-  static HWY_INLINE VI bit_of(const Edges& e, VI dead) {
-    return hn::AndNot(hn::BroadcastSignBit(e.outside(dead)), set(bit));
+  static HWY_INLINE Edges edges_at(const Corners& c, const SetUp& t, VI px, VI py) {
+    const VI e1 = edge_at<1>(c, t, px, py), e2 = edge_at<2>(c, t, px, py);
+    return {hn::Add(hn::Sub(hn::Sub(t.area, e1), e2), t.bias[0]), hn::Add(e1, t.bias[1]), hn::Add(e2, t.bias[2])};
+  }
+
+  // A bit (4 j + i) << shift for each of the first pixels (i, j) whose sample is covered. What lies beyond the bounds
+  // is outside.
+  template <int n, int shift = 0>
+  static HWY_INLINE VI covered(const SetUp& t, const Edges& first, VI dead) {
+    VI bits = hn::Zero(i32);
+    Edges row = first;
+    for (int j = 0; j < n; ++j, row = row.down(t)) {
+      Edges at = row;
+      for (int i = 0; i < n; ++i, at = at.right(t))
+        bits = hn::Or(bits, hn::AndNot(hn::BroadcastSignBit(at.outside(dead)), set(1 << ((4 * j + i) << shift))));
+    }
+    return bits;
+  }
+
+  // The exponent of a power of two.
+  static HWY_INLINE VI exponent_of(VI power) {
+    return hn::Sub(hn::ShiftRight<23>(hn::BitCast(i32, hn::ConvertTo(f, power))), set(127));
+  }
+
+  // Mostly none or one a triangle.
+  HWY_INLINE void add_samples(const Corners& c, VI px, VI py, VI bits) {
+    const VI zero = hn::Zero(i32), step = set(0x300);
+    for (MI mask = hn::Gt(bits, zero); !hn::AllFalse(i32, mask); mask = hn::Gt(bits, zero)) {
+      const VI rest = hn::And(bits, hn::Sub(bits, set(1)));
+      const VI place = exponent_of(hn::Xor(bits, rest));
+      const VI x = hn::Add(px, hn::And(hn::ShiftLeft<8>(place), step));
+      const VI y = hn::Add(py, hn::And(hn::ShiftLeft<6>(place), step));
+      samples_.add(c, x, y, Packing(mask));
+      bits = rest;
+    }
   }
 
   HWY_NOINLINE void draw_samples(bool is_end) {
@@ -142,14 +167,11 @@ class Front {
     SetUp t;
     t.dx[2] = hn::Sub(c.x[1], c.x[0]), t.dy[2] = hn::Sub(c.y[1], c.y[0]);
     set_up_plane(c, hn::Min(hn::Min(c.x[0], c.x[1]), c.x[2]), hn::Min(hn::Min(c.y[0], c.y[1]), c.y[2]), t);
-    const Way way(c, t);
-    const VD sx = hn::Set(f64, static_cast<double>(run_.sample_x[0]));
-    const VD sy = hn::Set(f64, static_cast<double>(run_.sample_y[0]));
-    const VF first = narrowed(way.depth<0>(t, sx, sy), way.depth<1>(t, sx, sy));
-    const VF row = hn::Add(first, hn::Mul(t.step_y, hn::ConvertTo(f, hn::Sub(pixel_y, t.origin_y))));
-    const VF z = hn::Add(row, hn::Mul(t.step_x, hn::ConvertTo(f, hn::Sub(pixel_x, t.origin_x))));
-    put_by_tile(run_, sink_, alive, pixel_x, pixel_y, hn::Min(hn::Max(z, t.z_low), t.z_high),
-                what_at(c.id, pixel_x, pixel_y));
+    const VI way_x = hn::Sub(hn::ShiftLeft<8>(t.origin_x), c.x[0]),
+             way_y = hn::Sub(hn::ShiftLeft<8>(t.origin_y), c.y[0]);
+    const VF z =
+        depth_of(t, hn::Add(way_x, set(run_.sample_x[0])), hn::Add(way_y, set(run_.sample_y[0])), pixel_x, pixel_y);
+    put_by_tile(run_, sink_, alive, pixel_x, pixel_y, z, what_at(c.id, pixel_x, pixel_y));
   }
 
   HWY_NOINLINE void draw_waiting(bool is_end) {
@@ -180,19 +202,16 @@ class Front {
     const VI dead = hn::VecFromMask(i32, hn::Not(alive));
     const VI width = hn::AndNot(dead, hn::Sub(e.high_x, e.low_x));
     const VI height = hn::AndNot(dead, hn::Sub(e.high_y, e.low_y));
-    const Work work{c, e, t, Way(c, t), dead, hn::ShiftLeft<16>(c.id)};
+    const Work work{c, e, t, Way(c, t), dead};
     const std::int32_t tile = tile_of_all(e, dead);
+    const VI size = hn::Max(width, height);
+    if (hn::AllFalse(i32, hn::Gt(size, set(511)))) return draw_few<2, 2>(work, tile);
+    if (hn::AllFalse(i32, hn::Gt(size, set(767)))) return draw_few<3, 1>(work, tile);
     // A sample of one kind has at most a candidate more in each direction than there are whole pixels.
     if (tile < 0) {
       scatter(work, candidates(width), candidates(height));
-    } else if (!hn::AllFalse(i32, hn::Gt(hn::Max(width, height), set(511)))) {
-      append_many(work, tile, candidates(width), candidates(height));
-    } else if (!hn::AllFalse(i32, hn::Gt(width, set(255)))) {
-      append<2, 2>(work, tile);
-    } else if (!hn::AllFalse(i32, hn::Gt(height, set(255)))) {
-      append<1, 2>(work, tile);
     } else {
-      append<1, 1>(work, tile);
+      append_many(work, tile, candidates(width), candidates(height));
     }
   }
 
@@ -205,16 +224,61 @@ class Front {
     const SetUp& t;
     Way way;
     VI dead;
-    VI number;  ///< as what is said of fragments has it
   };
 
-  /// Where the candidates lie in no more columns and rows than that.
-  template <int columns, int rows>
-  HWY_INLINE void append(const Work& w, std::int32_t tile) {
-    for (std::int32_t s = 0; s < run_.sample_count; ++s) {
-      const Candidates n = candidates_of(w.c, w.e, w.t, w.way, run_.sample_x[s], run_.sample_y[s]);
-      cover_few<columns, rows>(w.t, n, w.dead, append_at(w, n, s, tile, columns * rows));
+  // Where no more than n × n pixels hold all candidates: what is covered of some samples is found first, a bit a lane
+  // for each, and then drawn, the first of each triangle together, then the second.
+  template <int n, int shift>
+  HWY_INLINE void draw_few(const Work& w, std::int32_t tile) {
+    constexpr std::int32_t group = 1 << shift;
+    for (std::int32_t first = 0; first < run_.sample_count; first += group) {
+      VI bits = hn::Zero(i32);
+      for (std::int32_t k = 0; k < group && first + k < run_.sample_count; ++k) {
+        const VI px = hn::Add(w.e.low_x, up_to(run_.sample_x[first + k], w.e.low_x));
+        const VI py = hn::Add(w.e.low_y, up_to(run_.sample_y[first + k], w.e.low_y));
+        bits = hn::Or(bits, hn::ShiftLeftSame(covered<n, shift>(w.t, edges_at(w.c, w.t, px, py), w.dead), k));
+      }
+      draw_covered<shift>(w, tile, first, bits);
     }
+  }
+
+  template <int shift>
+  HWY_INLINE void draw_covered(const Work& w, std::int32_t tile, std::int32_t first, VI bits) {
+    const VI sample_x = hn::LoadU(i32, sample_x_ + first), sample_y = hn::LoadU(i32, sample_y_ + first);
+    const VI way_x = hn::Sub(hn::ShiftLeft<8>(w.t.origin_x), w.c.x[0]),
+             way_y = hn::Sub(hn::ShiftLeft<8>(w.t.origin_y), w.c.y[0]);
+    const VI zero = hn::Zero(i32), pixels = set(0x300), fraction = set(255);
+    for (MI mask = hn::Gt(bits, zero); !hn::AllFalse(i32, mask); mask = hn::Gt(bits, zero)) {
+      const VI rest = hn::And(bits, hn::Sub(bits, set(1)));
+      const VI place = exponent_of(hn::Xor(bits, rest));
+      bits = rest;
+      const VI k = hn::And(place, set((1 << shift) - 1));
+      const auto lane = hn::IndicesFromVec(i32, k);
+      const VI sx = hn::TableLookupLanes(sample_x, lane), sy = hn::TableLookupLanes(sample_y, lane);
+      const VI to_x =
+          hn::Add(hn::And(hn::Sub(sx, w.e.low_x), fraction), hn::And(hn::ShiftLeft<8 - shift>(place), pixels));
+      const VI to_y =
+          hn::Add(hn::And(hn::Sub(sy, w.e.low_y), fraction), hn::And(hn::ShiftLeft<6 - shift>(place), pixels));
+      const VI pixel_x = hn::ShiftRight<8>(hn::Add(w.e.low_x, to_x)),
+               pixel_y = hn::ShiftRight<8>(hn::Add(w.e.low_y, to_y));
+      const VF z = depth_of(w.t, hn::Add(way_x, sx), hn::Add(way_y, sy), pixel_x, pixel_y);
+      const VI what = hn::Add(what_at(w.c.id, pixel_x, pixel_y), hn::ShiftLeft<12>(hn::Add(k, set(first))));
+      if (tile >= 0)
+        put_in_tile(run_, sink_, tile, mask, z, what);
+      else
+        put_by_tile(run_, sink_, mask, pixel_x, pixel_y, z, what);
+    }
+  }
+
+  // Depth of a sample of each triangle, which lies that far from corner 0 in the triangle's first pixel.
+  static HWY_INLINE VF depth_of(const SetUp& t, VI x, VI y, VI pixel_x, VI pixel_y) {
+    const auto at = [&](VD z0, VD dzdx, VD dzdy, VD dx, VD dy)
+                        HWY_ATTR { return hn::Add(hn::Add(z0, hn::Mul(dzdx, dx)), hn::Mul(dzdy, dy)); };
+    const VF first = narrowed(at(t.z0[0], t.dzdx[0], t.dzdy[0], widened<0>(x), widened<0>(y)),
+                              at(t.z0[1], t.dzdx[1], t.dzdy[1], widened<1>(x), widened<1>(y)));
+    const VF row = hn::Add(first, hn::Mul(t.step_y, hn::ConvertTo(f, hn::Sub(pixel_y, t.origin_y))));
+    const VF z = hn::Add(row, hn::Mul(t.step_x, hn::ConvertTo(f, hn::Sub(pixel_x, t.origin_x))));
+    return hn::Min(hn::Max(z, t.z_low), t.z_high);
   }
 
   HWY_NOINLINE void append_many(const Work& w, std::int32_t tile, int columns, int rows) {
@@ -228,10 +292,8 @@ class Front {
 
   HWY_INLINE Append append_at(const Work& w, const Candidates& n, std::int32_t s, std::int32_t tile, int places) {
     SampleFragments* const part = part_with_room(run_, sink_, tile, places * lanes);
-    const VI in_tile = set(63);
-    const VI place = hn::Add(hn::ShiftLeft<6>(hn::And(n.pixel_y, in_tile)), hn::And(n.pixel_x, in_tile));
     const auto rest = (static_cast<std::uint32_t>(s) << 12) - (static_cast<std::uint32_t>(part->first_id) << 16);
-    return {part, hn::Add(hn::Add(place, w.number), set(static_cast<std::int32_t>(rest)))};
+    return {part, hn::Add(what_at(w.c.id, n.pixel_x, n.pixel_y), set(static_cast<std::int32_t>(rest)))};
   }
 
   HWY_NOINLINE void scatter(const Work& w, int columns, int rows) {
@@ -258,6 +320,7 @@ class Front {
   const FrontRun& run_;
   FragmentSink& sink_;
   FrontResult& result_;
+  std::int32_t sample_x_[SampleFragments::most_samples + lanes], sample_y_[SampleFragments::most_samples + lanes];
   Waiting waiting_;  ///< triangles
   Waiting samples_;  ///< samples that are covered
 };

@@ -108,19 +108,6 @@ HWY_INLINE void cover_row(const SetUp& t, const Candidates& c, Edges e, VI dead,
   for (int i = 0; i < columns; i += 2) e = cover_pair(t, c, e, dead, i, j, emit).right(t);
 }
 
-/// The same for all pixels where few columns and rows hold all candidates: most triangles of a dense mesh.
-template <int columns, int rows, class Emit>
-HWY_INLINE void cover_few(const SetUp& t, const Candidates& c, VI dead, const Emit& emit) {
-  const Edges first{c.e[0], c.e[1], c.e[2]};
-  if constexpr (columns == 1) {
-    cover_pixel(t, c, first.outside(dead), row_depth(t, c, 0), 0, 0, emit);
-    if constexpr (rows == 2) cover_pixel(t, c, first.down(t).outside(dead), row_depth(t, c, 1), 0, 1, emit);
-  } else {
-    cover_pair(t, c, first, dead, 0, 0, emit);
-    cover_pair(t, c, first.down(t), dead, 0, 1, emit);
-  }
-}
-
 /// The last part of a tile's list, with room for so many more fragments of the run's triangles.
 HWY_INLINE SampleFragments* part_with_room(const FrontRun& run, FragmentSink& sink, std::int32_t tile,
                                            std::int32_t room) {
@@ -145,6 +132,17 @@ struct Append {
   }
 };
 
+/// Puts lanes into the list of a tile. `what`: without the list's first id.
+HWY_INLINE void put_in_tile(const FrontRun& run, FragmentSink& sink, std::int32_t tile, MI mask, VF z, VI what) {
+  SampleFragments* const part = part_with_room(run, sink, tile, lanes);
+  const Packing packing(mask);
+  const std::int32_t at = part->count;
+  packing.store(z, part->depth + at);
+  packing.store(hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part->first_id) << 16))),
+                reinterpret_cast<std::int32_t*>(part->what) + at);
+  part->count = at + packing.count();
+}
+
 /// Puts lanes into the lists of their tiles, as far as these are drawn. `what`: without the list's first id.
 HWY_INLINE void put_by_tile(const FrontRun& run, FragmentSink& sink, MI mask, VI pixel_x, VI pixel_y, VF z, VI what) {
   const VI column = hn::ShiftRight<6>(pixel_x), row = hn::ShiftRight<6>(pixel_y);
@@ -168,12 +166,7 @@ HWY_INLINE void put_by_tile(const FrontRun& run, FragmentSink& sink, MI mask, VI
   hn::Store(tile, i32, tiles);
   for (auto first = hn::FindFirstTrue(i32, mask); first >= 0; first = hn::FindFirstTrue(i32, mask)) {
     const MI here = hn::And(mask, hn::Eq(tile, set(tiles[first])));
-    SampleFragments* const part = part_with_room(run, sink, tiles[first], lanes);
-    const Packing packing(here);
-    const std::int32_t at = part->count;
-    packing.store(z, part->depth + at);
-    packing.store(in_list(*part), reinterpret_cast<std::int32_t*>(part->what) + at);
-    part->count = at + packing.count();
+    put_in_tile(run, sink, tiles[first], here, z, what);
     mask = hn::AndNot(here, mask);
   }
 }
@@ -202,7 +195,7 @@ struct Scatter {
 /// Small triangles, or samples of theirs, that wait until they fill vectors. Several vectors' worth, so that what is
 /// read was written long before: a vector that was just written in parts stalls the processor.
 struct Waiting {
-  static constexpr std::int32_t enough = 128, room = enough + 5 * lanes;
+  static constexpr std::int32_t enough = 128, room = enough + 10 * lanes;
   std::int32_t count = 0;
   alignas(64) std::int32_t x[3][room], y[3][room], id[room];
   alignas(64) std::int32_t sample_x[room], sample_y[room];  ///< 1/256 pixel; of samples only
