@@ -9,6 +9,7 @@
 #include "zoneplate/scene/assimp.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/gltf.h"
+#include "zoneplate/scene/gltf_meshopt.h"
 #include "zoneplate/scene/import_child.h"
 #include "zoneplate/scene/obj.h"
 #include "zoneplate/scene/ply.h"
@@ -94,7 +95,10 @@ Scene read_in_child(const std::string& name, const LoadOptions& options) {
         const Scene scene = read_file(name, options);
         write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
-      open_exr_library);
+      [] {
+        open_exr_library();
+        open_meshopt_library();
+      });
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }
 
