@@ -1,5 +1,6 @@
 #include "zoneplate/scene/smooth_normals.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -33,23 +34,45 @@ struct Face {
   std::array<double, 3> weight;
 };
 
-Face measure(float3 a, float3 b, float3 c) {
-  const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
-  const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
-  const double wx = double{c.x} - b.x, wy = double{c.y} - b.y, wz = double{c.z} - b.z;
-  const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-  const double square = x * x + y * y + z * z;
-  if (!(square > 0 && square < 1e300)) return {{0, 1, 0}, {}};
-  const double area = std::sqrt(square), scale = 1 / area;
-  const double u = ux * ux + uy * uy + uz * uz, v = vx * vx + vy * vy + vz * vz, w = wx * wx + wy * wy + wz * wz;
-  return {{static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)},
-          {area / (u * v), area / (u * w), area / (v * w)}};
-}
+/// Some triangles, measured side by side.
+class Faces {
+ public:
+  static constexpr std::size_t most = 64;
 
-Face measure(const Mesh& mesh, std::size_t triangle) {
-  const std::uint32_t* const v = &mesh.index[3 * triangle];
-  return measure(mesh.position[v[0]], mesh.position[v[1]], mesh.position[v[2]]);
-}
+  void set(std::size_t i, float3 a, float3 b, float3 c) {
+    u_[0][i] = double{b.x} - a.x, u_[1][i] = double{b.y} - a.y, u_[2][i] = double{b.z} - a.z;
+    v_[0][i] = double{c.x} - a.x, v_[1][i] = double{c.y} - a.y, v_[2][i] = double{c.z} - a.z;
+    w_[0][i] = double{c.x} - b.x, w_[1][i] = double{c.y} - b.y, w_[2][i] = double{c.z} - b.z;
+  }
+
+  /// Measures the first `count`, rounded up to whole vectors of any width.
+  void measure(std::size_t count) {
+    constexpr std::size_t width = 8;
+    for (std::size_t first = 0; first < count; first += width)
+      for (std::size_t i = first; i < first + width; ++i) {
+        const double x = u_[1][i] * v_[2][i] - u_[2][i] * v_[1][i], y = u_[2][i] * v_[0][i] - u_[0][i] * v_[2][i],
+                     z = u_[0][i] * v_[1][i] - u_[1][i] * v_[0][i];
+        const double square = x * x + y * y + z * z, area = std::sqrt(square), scale = 1 / area;
+        const double u = u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i];
+        const double v = v_[0][i] * v_[0][i] + v_[1][i] * v_[1][i] + v_[2][i] * v_[2][i];
+        const double w = w_[0][i] * w_[0][i] + w_[1][i] * w_[1][i] + w_[2][i] * w_[2][i];
+        square_[i] = square;
+        normal_[0][i] = x * scale, normal_[1][i] = y * scale, normal_[2][i] = z * scale;
+        weight_[0][i] = area / (u * v), weight_[1][i] = area / (u * w), weight_[2][i] = area / (v * w);
+      }
+  }
+
+  Face operator[](std::size_t i) const {
+    if (!(square_[i] > 0 && square_[i] < 1e300)) return {{0, 1, 0}, {}};
+    return {{static_cast<float>(normal_[0][i]), static_cast<float>(normal_[1][i]), static_cast<float>(normal_[2][i])},
+            {weight_[0][i], weight_[1][i], weight_[2][i]}};
+  }
+
+ private:
+  using Lane = std::array<double, most>;
+  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; what is found
+  Lane square_{};
+};
 
 Sum weighted(const Face& f, std::size_t corner) {
   const double w = f.weight[corner];
@@ -64,22 +87,49 @@ struct Sums {
 };
 
 /// Adds all triangles to those of their vertices that lie in [begin, end).
-void add_triangles(Mesh& mesh, std::uint32_t begin, std::uint32_t end, Sums& sums) {
-  for (std::size_t t = 0; t < mesh.index.size() / 3; ++t) {
-    const std::uint32_t* const v = &mesh.index[3 * t];
-    const bool is_here[3] = {v[0] - begin < end - begin, v[1] - begin < end - begin, v[2] - begin < end - begin};
-    if (!is_here[0] && !is_here[1] && !is_here[2]) continue;
-    const Face face = measure(mesh, t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!is_here[k]) continue;
-      std::uint16_t& count = sums.count[v[k]];
-      if (count == 0) mesh.normal[v[k]] = face.normal;
-      if (count <= most_compared) ++count;
-      if (!(dot(mesh.normal[v[k]], face.normal) > cos_25)) sums.bends[v[k]] = 1;
-      sums.sum[v[k]].add(weighted(face, k));
+class Adder {
+ public:
+  Adder(Mesh& mesh, std::uint32_t begin, std::uint32_t end, Sums& sums)
+      : mesh_(mesh), begin_(begin), size_(end - begin), sums_(sums) {}
+
+  void add_all() {
+    for (std::uint32_t t = 0; t < mesh_.index.size() / 3; ++t) {
+      const std::uint32_t* const v = &mesh_.index[std::size_t{3} * t];
+      if (!is_here(v[0]) && !is_here(v[1]) && !is_here(v[2])) continue;
+      faces_.set(count_, mesh_.position[v[0]], mesh_.position[v[1]], mesh_.position[v[2]]);
+      triangles_[count_++] = t;
+      if (count_ == Faces::most) add();
     }
+    add();
   }
-}
+
+ private:
+  bool is_here(std::uint32_t v) const { return v - begin_ < size_; }
+
+  void add() {
+    faces_.measure(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Face face = faces_[i];
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const std::uint32_t v = mesh_.index[std::size_t{3} * triangles_[i] + k]; is_here(v)) add(v, face, k);
+    }
+    count_ = 0;
+  }
+  void add(std::uint32_t v, const Face& face, std::size_t corner) {
+    std::uint16_t& count = sums_.count[v];
+    if (count == 0) mesh_.normal[v] = face.normal;
+    if (count <= most_compared) ++count;
+    if (!(dot(mesh_.normal[v], face.normal) > cos_25)) sums_.bends[v] = 1;
+    sums_.sum[v].add(weighted(face, corner));
+  }
+
+  Mesh& mesh_;
+  std::uint32_t begin_, size_;
+  Sums& sums_;
+  Faces faces_;
+  std::array<std::uint32_t, Faces::most> triangles_;
+  std::size_t count_ = 0;
+};
 
 /// Corners about vertices that need a closer look, in the order of the triangles.
 struct Corners {
@@ -126,9 +176,15 @@ class BentVertex {
 
   void smooth(std::uint32_t v, std::span<const std::uint32_t> corners) {
     own_.clear(), shares_.clear();
-    for (const std::uint32_t c : corners) {
-      const Face face = measure(mesh_, c / 3);
-      own_.push_back(face.normal), shares_.push_back(weighted(face, c % 3));
+    for (std::size_t first = 0; first < corners.size(); first += Faces::most) {
+      const std::span<const std::uint32_t> some = corners.subspan(first, std::min(Faces::most, corners.size() - first));
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        const std::uint32_t* const t = &mesh_.index[some[i] / 3 * 3];
+        faces_.set(i, mesh_.position[t[0]], mesh_.position[t[1]], mesh_.position[t[2]]);
+      }
+      faces_.measure(some.size());
+      for (std::size_t i = 0; i < some.size(); ++i)
+        own_.push_back(faces_[i].normal), shares_.push_back(weighted(faces_[i], some[i] % 3));
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
       Sum sum;
@@ -143,6 +199,7 @@ class BentVertex {
  private:
   Mesh& mesh_;
   std::vector<Other>& others_;
+  Faces faces_;
   std::vector<float3> own_;
   std::vector<Sum> shares_;
 };
@@ -200,7 +257,7 @@ void make_smooth_normals(Mesh& mesh) {
   // Every thread goes through all triangles for vertices of its own: a vertex meets its triangles in their order.
   const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
   parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
-    add_triangles(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), sums);
+    Adder(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), sums).add_all();
   });
   smooth_even(mesh, sums);
 
