@@ -115,8 +115,8 @@ void interpolate(benchmark::State& state, bool has_rows) {
   Surface s(has_rows);
   Attributes wanted;
   wanted.uv[0] = wanted.normal = true;
-  const Interpolation what = interpolation({}, wanted, s.at);
-  time_groups(state, [&] { s.kernels.interpolate(s.batch, s.corners, what, points); });
+  const Interpolation what = interpolation({}, wanted);
+  time_groups(state, [&] { s.kernels.interpolate(s.batch, s.corners, what, s.at); });
 }
 
 void light_phong(benchmark::State& state) {

@@ -8,17 +8,14 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-/// Lanes with a sample of the pattern within the bounds.
-HWY_INLINE MI may_cover_a_sample(const Extent& e, const FrontRun& run) {
+/// Of those lanes the ones with a sample of the pattern within bounds of that size.
+HWY_INLINE MI may_cover_a_sample(const Extent& e, VI width, VI height, const FrontRun& run, MI asked) {
   MI found = hn::MaskFromVec(hn::Zero(i32));
   for (std::int32_t s = 0; s < run.sample_count; ++s) {
-    const VI sx = set(run.sample_x[s]), sy = set(run.sample_y[s]), up = set(255);
-    const VI first_x = hn::ShiftRight<8>(hn::Add(hn::Sub(e.low_x, sx), up));
-    const VI first_y = hn::ShiftRight<8>(hn::Add(hn::Sub(e.low_y, sy), up));
-    const MI none = hn::Or(hn::Gt(first_x, hn::ShiftRight<8>(hn::Sub(e.high_x, sx))),
-                           hn::Gt(first_y, hn::ShiftRight<8>(hn::Sub(e.high_y, sy))));
-    found = hn::Or(found, hn::Not(none));
-    if (hn::AllTrue(i32, found)) break;
+    const MI none =
+        hn::Or(hn::Gt(up_to(run.sample_x[s], e.low_x), width), hn::Gt(up_to(run.sample_y[s], e.low_y), height));
+    found = hn::Or(found, hn::AndNot(none, asked));
+    if (hn::AllFalse(i32, hn::AndNot(found, asked))) break;
   }
   return found;
 }
@@ -47,7 +44,8 @@ class Front {
         index[k] = run_.index[3 * t + (3 * t + k < 3 * run_.count ? k : k % 3)];
       select(index, t, hn::FirstN(i32, static_cast<std::size_t>(run_.count - t)));
     }
-    if (queued_ > 0) draw_queued(queued_);
+    draw_waiting(true);
+    draw_samples(true);
   }
 
  private:
@@ -61,7 +59,7 @@ class Front {
     Corners c;
     const MI clipped = load(run_.screen, index, run_.viewport, c);
     const Extent e = extent_of(c);
-    const VI size = hn::Max(hn::Sub(e.high_x, e.low_x), hn::Sub(e.high_y, e.low_y));
+    const VI width = hn::Sub(e.high_x, e.low_x), height = hn::Sub(e.high_y, e.low_y), size = hn::Max(width, height);
     const VI number = hn::Add(hn::Iota(i32, 0), set(t));
     const MI general = hn::And(asked, hn::Or(clipped, hn::Gt(size, set(large_extent))));
     if (!hn::AllFalse(i32, general)) list(general, number, result_.general, result_.general_count);
@@ -73,7 +71,8 @@ class Front {
     const MI facing = run_.facing > 0 ? forward : run_.facing < 0 ? backward : hn::Or(forward, backward);
     MI kept = hn::And(hn::AndNot(general, asked), facing);
     if (hn::AllFalse(i32, kept)) return;
-    kept = hn::And(hn::And(kept, meets_rectangle(e, run_)), may_cover_a_sample(e, run_));
+    kept = may_cover_a_sample(e, width, height, run_, hn::And(kept, meets_rectangle(e, run_)));
+    if (hn::AllFalse(i32, kept)) return;
     const MI small = hn::AndNot(hn::Gt(size, set(run_.small_extent)), kept);
 
     // Corners are taken clockwise.
@@ -84,7 +83,11 @@ class Front {
     }
     c.id = hn::Add(number, set(run_.first_id));
     keep(c, e, number, hn::AndNot(small, kept));
-    draw_or_wait(c, e, small);
+    if (hn::AllFalse(i32, small)) return;
+    result_.drawn += hn::CountTrue(i32, small);
+    if (run_.sample_count == 1 && cover(c, e, width, height, hn::Abs(area), small)) return;
+    waiting_.add(c, Packing(small));
+    if (waiting_.count >= Waiting::enough) draw_waiting(false);
   }
 
   HWY_INLINE void keep(const Corners& c, const Extent& e, VI number, MI mask) {
@@ -95,59 +98,69 @@ class Front {
       list(mask, number, result_.kept, result_.kept_count);
   }
 
-  HWY_INLINE void draw_or_wait(const Corners& c, const Extent& e, MI small) {
-    const auto count = static_cast<std::int32_t>(hn::CountTrue(i32, small));
-    result_.drawn += static_cast<std::uint64_t>(count);
-    if (8 * count >= 5 * lanes)
-      draw(c, e, small);
-    else if (count > 0)
-      enqueue(c, small);
-  }
-
-  // Few survivors of a vector wait until they are enough for one.
-  HWY_INLINE void enqueue(const Corners& c, MI mask) {
-    const Packing packing(mask);
-    store_corner<0>(c, packing);
-    store_corner<1>(c, packing);
-    store_corner<2>(c, packing);
-    packing.store(c.id, queue_id_ + queued_);
-    queued_ += packing.count();
-    if (queued_ < lanes) return;
-    draw_queued(lanes);
-    for (int k = 0; k < 3; ++k) {
-      hn::Store(hn::Load(i32, queue_x_[k] + lanes), i32, queue_x_[k]);
-      hn::Store(hn::Load(i32, queue_y_[k] + lanes), i32, queue_y_[k]);
-      hn::Store(hn::Load(f, queue_z_[k] + lanes), f, queue_z_[k]);
+  // Of one sample a pixel: finds what the triangles cover before they are set up, for half of the tiny ones cover
+  // nothing. False where that may be many.
+  HWY_INLINE bool cover(const Corners& c, const Extent& e, VI width, VI height, VI area, MI small) {
+    const VI to_x = up_to(run_.sample_x[0], e.low_x), to_y = up_to(run_.sample_y[0], e.low_y);
+    const VI more_x = hn::Sub(width, to_x), more_y = hn::Sub(height, to_y);
+    if (!hn::AllFalse(i32, hn::And(small, hn::Gt(hn::Max(more_x, more_y), set(511))))) return false;
+    SetUp t;
+    set_up_edges(c, run_.is_top_left, t);
+    const VI px = hn::Add(e.low_x, to_x), py = hn::Add(e.low_y, to_y);
+    const VI e1 = edge_at<1>(c, t, px, py), e2 = edge_at<2>(c, t, px, py);
+    const Edges row{hn::Add(hn::Sub(hn::Sub(area, e1), e2), t.bias[0]), hn::Add(e1, t.bias[1]), hn::Add(e2, t.bias[2])};
+    // What lies beyond the bounds is outside. A bit for each candidate; mostly none or one is covered.
+    const VI dead = hn::VecFromMask(i32, hn::Not(small));
+    const Edges below = row.down(t);
+    VI left = hn::Or(hn::Or(bit_of<1>(row, dead), bit_of<2>(row.right(t), dead)),
+                     hn::Or(bit_of<4>(below, dead), bit_of<8>(below.right(t), dead)));
+    const VI zero = hn::Zero(i32), pixel = set(256);
+    for (MI mask = hn::Gt(left, zero); !hn::AllFalse(i32, mask); mask = hn::Gt(left, zero)) {
+      const VI rest = hn::And(left, hn::Sub(left, set(1))), first = hn::Xor(left, rest);
+      const VI x = hn::Add(px, hn::And(hn::Or(hn::ShiftLeft<7>(first), hn::ShiftLeft<5>(first)), pixel));
+      const VI y = hn::Add(py, hn::And(hn::Or(hn::ShiftLeft<6>(first), hn::ShiftLeft<5>(first)), pixel));
+      samples_.add(c, x, y, Packing(mask));
+      left = rest;
     }
-    hn::Store(hn::Load(i32, queue_id_ + lanes), i32, queue_id_);
-    queued_ -= lanes;
+    if (samples_.count >= Waiting::enough) draw_samples(false);
+    return true;
   }
 
-  template <int k>
-  HWY_INLINE void store_corner(const Corners& c, const Packing& packing) {
-    packing.store(c.x[k], queue_x_[k] + queued_);
-    packing.store(c.y[k], queue_y_[k] + queued_);
-    packing.store(c.z[k], queue_z_[k] + queued_);
+  template <int bit>
+  static HWY_INLINE VI bit_of(const Edges& e, VI dead) {
+    return hn::AndNot(hn::BroadcastSignBit(e.outside(dead)), set(bit));
   }
 
-  template <int k>
-  HWY_INLINE void load_corner(Corners& c) {
-    c.x[k] = hn::Load(i32, queue_x_[k]);
-    c.y[k] = hn::Load(i32, queue_y_[k]);
-    c.z[k] = hn::Load(f, queue_z_[k]);
+  HWY_NOINLINE void draw_samples(bool is_end) {
+    samples_.take(is_end, [&](std::int32_t i, MI alive) HWY_ATTR { draw_samples_at(i, alive); });
   }
 
-  HWY_INLINE void draw_queued(std::int32_t count) {
-    Corners c;
-    load_corner<0>(c);
-    load_corner<1>(c);
-    load_corner<2>(c);
-    c.id = hn::Load(i32, queue_id_);
-    draw(c, extent_of(c), hn::FirstN(i32, static_cast<std::size_t>(count)));
+  HWY_INLINE void draw_samples_at(std::int32_t i, MI alive) {
+    const Corners c = samples_.get(i);
+    const VI px = hn::Load(i32, samples_.sample_x + i), py = hn::Load(i32, samples_.sample_y + i);
+    const VI pixel_x = hn::ShiftRight<8>(px), pixel_y = hn::ShiftRight<8>(py);
+    SetUp t;
+    t.dx[2] = hn::Sub(c.x[1], c.x[0]), t.dy[2] = hn::Sub(c.y[1], c.y[0]);
+    set_up_plane(c, hn::Min(hn::Min(c.x[0], c.x[1]), c.x[2]), hn::Min(hn::Min(c.y[0], c.y[1]), c.y[2]), t);
+    const Way way(c, t);
+    const VD sx = hn::Set(f64, static_cast<double>(run_.sample_x[0]));
+    const VD sy = hn::Set(f64, static_cast<double>(run_.sample_y[0]));
+    const VF first = narrowed(way.depth<0>(t, sx, sy), way.depth<1>(t, sx, sy));
+    const VF row = hn::Add(first, hn::Mul(t.step_y, hn::ConvertTo(f, hn::Sub(pixel_y, t.origin_y))));
+    const VF z = hn::Add(row, hn::Mul(t.step_x, hn::ConvertTo(f, hn::Sub(pixel_x, t.origin_x))));
+    put_by_tile(run_, sink_, alive, pixel_x, pixel_y, hn::Min(hn::Max(z, t.z_low), t.z_high),
+                what_at(c.id, pixel_x, pixel_y));
+  }
+
+  HWY_NOINLINE void draw_waiting(bool is_end) {
+    waiting_.take(is_end, [&](std::int32_t i, MI alive) HWY_ATTR {
+      const Corners c = waiting_.get(i);
+      draw(c, extent_of(c), alive);
+    });
   }
 
   // What make_triangle does.
-  HWY_NOINLINE void record(const Corners& c, const Extent& e, MI mask) {
+  HWY_NOINLINE void record(Corners c, Extent e, MI mask) {
     SetUp t;
     set_up(c, e, run_.is_top_left, t);
     RecordLanes r;
@@ -245,9 +258,8 @@ class Front {
   const FrontRun& run_;
   FragmentSink& sink_;
   FrontResult& result_;
-  std::int32_t queued_ = 0;
-  alignas(64) std::int32_t queue_x_[3][3 * lanes], queue_y_[3][3 * lanes], queue_id_[3 * lanes];
-  alignas(64) float queue_z_[3][3 * lanes];
+  Waiting waiting_;  ///< triangles
+  Waiting samples_;  ///< samples that are covered
 };
 
 void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) { Front(run, sink, result).run(); }

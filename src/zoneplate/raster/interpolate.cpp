@@ -28,10 +28,7 @@ namespace scalar {
 namespace {
 
 /// A weight in [0, limit]. Adding +0 makes one of -0 the +0 that every instruction set agrees on.
-template <class T>
-T clamped(T b, T limit) {
-  return std::min(std::max(b, T{0}), limit) + T{0};
-}
+float clamped(float b, float limit) { return std::min(std::max(b, 0.0f), limit) + 0.0f; }
 
 std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
   const float step = 256.0f * spacing;
@@ -48,6 +45,9 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
       inv_w[k] = v.inv_w;
       if (v.needs_clipping()) clipped |= 1u << (i / Batch::group);
     }
+    const bool is_affine = inv_w[0] == inv_w[1] && inv_w[1] == inv_w[2] && inv_w[0] != 0;
+    if (is_affine) inv_w[0] = inv_w[1] = inv_w[2] = 1;
+    batch.repeats_slopes[i / Batch::group] = is_affine && told < static_cast<std::size_t>(first);
     double edge[3];
     float q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
@@ -57,14 +57,16 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
       gx[k] = static_cast<float>(dy[m] - dy[n]) * inv_w[k];
       gy[k] = static_cast<float>(dx[n] - dx[m]) * inv_w[k];
     }
-    const std::int32_t is_clockwise = (edge[0] + edge[1]) + edge[2] > 0 ? 1 : 0;
+    const double area = (edge[0] + edge[1]) + edge[2];
+    const std::int32_t is_clockwise = area > 0 ? 1 : 0;
     if (told == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == corners.is_mirrored[i] ? 1 : 0;
-    const float sum = (q[0] + q[1]) + q[2];
+    const float sum = is_affine ? static_cast<float>(area) : (q[0] + q[1]) + q[2];
     const float inverse = 1.0f / (sum == 0 ? 1.0f : sum);
     const float b1 = clamped(q[1] * inverse, 1.0f), b2 = clamped(q[2] * inverse, 1.0f - b1);
     batch.b[0][i] = b1, batch.b[1][i] = b2;
     if (spacing == 0) continue;
-    const float sum_x = (gx[0] + gx[1]) + gx[2], sum_y = (gy[0] + gy[1]) + gy[2], by = inverse * step;
+    const float sum_x = is_affine ? 0 : (gx[0] + gx[1]) + gx[2], sum_y = is_affine ? 0 : (gy[0] + gy[1]) + gy[2];
+    const float by = inverse * step;
     batch.dbdx[0][i] = (gx[1] - b1 * sum_x) * by, batch.dbdx[1][i] = (gx[2] - b2 * sum_x) * by;
     batch.dbdy[0][i] = (gy[1] - b1 * sum_y) * by, batch.dbdy[1][i] = (gy[2] - b2 * sum_y) * by;
   }
@@ -77,20 +79,20 @@ struct ClippedPoint {
 };
 
 ClippedPoint interpolate_point(const BarycentricPlanes& t, double px, double py, float spacing) {
-  const double step = 256.0 * static_cast<double>(spacing);
-  double q[3];
-  for (int k = 0; k < 3; ++k) q[k] = (t.x[k] * px + t.y[k] * py) + t.one[k];
-  const double sum = (q[0] + q[1]) + q[2];
-  const double inverse = 1.0 / (sum == 0 ? 1.0 : sum);
-  const double sum_x = (t.x[0] + t.x[1]) + t.x[2], sum_y = (t.y[0] + t.y[1]) + t.y[2];
-  double limit = 1;
+  float q[3], gx[3], gy[3];
+  for (int k = 0; k < 3; ++k) {
+    q[k] = static_cast<float>(t.x[k] * px + (t.y[k] * py + t.one[k]));
+    gx[k] = static_cast<float>(t.x[k]), gy[k] = static_cast<float>(t.y[k]);
+  }
+  const float sum = (q[0] + q[1]) + q[2], inverse = 1.0f / (sum == 0 ? 1.0f : sum);
+  const float sum_x = (gx[0] + gx[1]) + gx[2], sum_y = (gy[0] + gy[1]) + gy[2], by = inverse * (256.0f * spacing);
+  float limit = 1;
   ClippedPoint p;
   for (int k = 0; k < 2; ++k) {
-    const double b = clamped(q[k + 1] * inverse, limit);
-    limit = limit - b;
-    p.b[k] = static_cast<float>(b);
-    p.dbdx[k] = static_cast<float>((t.x[k + 1] - b * sum_x) * inverse * step);
-    p.dbdy[k] = static_cast<float>((t.y[k + 1] - b * sum_y) * inverse * step);
+    p.b[k] = clamped(q[k + 1] * inverse, limit);
+    limit = limit - p.b[k];
+    p.dbdx[k] = (gx[k + 1] - p.b[k] * sum_x) * by;
+    p.dbdy[k] = (gy[k + 1] - p.b[k] * sum_y) * by;
   }
   return p;
 }
@@ -108,9 +110,9 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   }
 }
 
-void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
-                             std::size_t first) {
-  for (std::size_t i = first; i < first + Batch::group; ++i) {
+void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                              int first, int last) {
+  for (int i = first; i < last; ++i) {
     const ClippedPoint p =
         interpolate_point(planes, batch.x[i] - viewport.width * 128, batch.y[i] - viewport.height * 128, spacing);
     for (int k = 0; k < 2; ++k) {
@@ -124,7 +126,7 @@ void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport,
 
 const InterpolateKernels interpolate_kernels = {.interpolate = interpolate,
                                                 .interpolate_clipped = interpolate_clipped,
-                                                .interpolate_clipped_row = interpolate_clipped_row};
+                                                .interpolate_clipped_rows = interpolate_clipped_rows};
 
 }  // namespace scalar
 }  // namespace zoneplate

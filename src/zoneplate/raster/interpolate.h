@@ -21,8 +21,8 @@ BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport view
 struct BatchCorners {
   /// Not null: all are screen[batch.vertex], and `vertex` says nothing. Requires: no group shares its triangle.
   const ScreenVertex* screen = nullptr;
-  const ScreenVertex* vertex[3][Batch::capacity];
-  alignas(64) std::int32_t is_mirrored[Batch::capacity];  ///< 1: front faces are clockwise; else 0
+  const ScreenVertex* vertex[3][Batch::room];
+  alignas(64) std::int32_t is_mirrored[Batch::room];  ///< 1: front faces are clockwise; else 0
 
   /// Corner k of what is told at point i.
   const ScreenVertex& of(std::size_t k, std::size_t i, const Batch& batch) const {
@@ -39,20 +39,22 @@ struct ClippedGroup {
 
 /// b_k = q_k / (q_0 + q_1 + q_2) with q_k = E_k / w_k, where E_k is the edge function opposite to vertex k; and the
 /// change of b_k per `spacing` pixels, but only if `spacing` is not 0. Weights are clamped: no attribute is
-/// extrapolated.
+/// extrapolated. Where a triangle's corners have one w, as all have of an orthographic camera, w is left out: the sum
+/// of the q_k = E_k is then the same at all points, and so is the change of b_k.
 struct InterpolateKernels {
-  /// Fills b, dbdx, dbdy and is_front of all padded() entries from the snapped vertices, and x and y of groups that
-  /// share their triangle from those of their first points. Gives the groups in which a
-  /// triangle needs clipping, a bit each; for its points the result says nothing.
+  /// Fills b, dbdx, dbdy, repeats_slopes and is_front of all padded() entries from the snapped vertices, and x and y of
+  /// groups that share their triangle from those of their first points. Gives the groups in which a triangle needs
+  /// clipping, a bit each; for its points the result says nothing.
   ///
   /// Exact     E_k is an exact integer, and so is the sign of their sum, the side that is seen.
   std::uint32_t (*interpolate)(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch);
 
   /// The same for points of triangles that cross the eye's plane.
   void (*interpolate_clipped)(Viewport viewport, float spacing, ClippedGroup& group);
-  /// The same for the group of one such triangle whose first point is `first`: fills b, dbdx and dbdy.
-  void (*interpolate_clipped_row)(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
-                                  std::size_t first);
+  /// The same for points [first, last) of one such triangle, in whole groups whose x and y are set: fills b, dbdx and
+  /// dbdy.
+  void (*interpolate_clipped_rows)(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                                   int first, int last);
 
   static const InterpolateKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
       N_WASM;  ///< one for each instruction set (base/isa.h)

@@ -1,3 +1,4 @@
+#include "zoneplate/math/halves_simd.h"
 #include "zoneplate/shade/filtering.h"
 #include "zoneplate/shade/filtering_stages.h"
 #include "zoneplate/shade/lanes_simd.h"
@@ -8,7 +9,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
 // Two neighbouring texels are the eight 16-bit lanes of a block of 128 bits. Where vectors have two blocks, the second
-// is of the point two further on; so four points, or two, are mixed at once.
+// is of the point four further on; so four points, or two, are mixed at once.
 using Fixed = hn::CappedTag<std::int16_t, 16>;
 using V = hn::Vec<Fixed>;
 constexpr int blocks = static_cast<int>(hn::MaxLanes(Fixed())) / 8;
@@ -21,7 +22,7 @@ HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint8_t* first, [[maybe_unused]
   const hn::FixedTag<std::int16_t, 8> block;
   const auto at = [&](const std::uint8_t* p) HWY_ATTR { return hn::PromoteTo(block, hn::LoadU(codes, p)); };
   if constexpr (blocks == 2) {
-    return hn::ShiftLeft<7>(hn::Combine(d, at(second), at(first)));
+    return hn::ShiftLeft<7>(combined(d, at(second), at(first)));
   } else {
     return hn::ShiftLeft<7>(at(first));
   }
@@ -33,7 +34,7 @@ HWY_INLINE hn::Vec<D> load_pairs(D d, const std::uint16_t* first, [[maybe_unused
   const auto at = [&](const std::uint16_t* p)
                       HWY_ATTR { return hn::LoadU(block, reinterpret_cast<const std::int16_t*>(p)); };
   if constexpr (blocks == 2) {
-    return hn::Combine(d, at(second), at(first));
+    return combined(d, at(second), at(first));
   } else {
     return at(first);
   }
@@ -50,27 +51,29 @@ struct TexelCodes {
 
 HWY_INLINE V mix(V a, V b, V weight) { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), weight)); }
 
-/// Which bytes of eight weights go into which lanes, by the first point of `points`: that of each block for eight
-/// lanes (`odd`: of the point after it), or of both points for four each.
+/// Which bytes of the weights by fours go into which lanes of a block, by the points p and p + 1 of the four that the
+/// block has: of the lower texels' weights that of the first for eight lanes, or of the second; of the right ones' that
+/// of each for four.
 struct Spread {
-  alignas(32) std::uint8_t even[8 / points][32], odd[8 / points][32], both[8 / points][32];
+  alignas(32) std::uint8_t down[4][32], right[2][32];
 };
 
 constexpr Spread make_spread() {
   Spread s{};
-  for (int n = 0; n < 8 / points; ++n)
-    for (int byte = 0; byte < 32; ++byte) {
-      const int first = n * points + byte / 16 * 2, half = byte % 2;
-      s.even[n][byte] = static_cast<std::uint8_t>(2 * first + half);
-      s.odd[n][byte] = static_cast<std::uint8_t>(2 * (first + 1) + half);
-      s.both[n][byte] = static_cast<std::uint8_t>(2 * (first + byte % 16 / 8) + half);
-    }
+  for (int byte = 0; byte < 32; ++byte) {
+    const int half = byte % 2, lane = byte % 16 / 2;
+    for (int p = 0; p < 4; ++p) s.down[p][byte] = static_cast<std::uint8_t>(8 + 2 * p + half);
+    for (int pair = 0; pair < 2; ++pair)
+      s.right[pair][byte] = static_cast<std::uint8_t>(2 * (2 * pair + lane / 4) + half);
+  }
   return s;
 }
 constexpr Spread spread = make_spread();
 
-/// The weights of eight points from `weights` on, in every block.
-HWY_INLINE V load_weights(const std::int16_t* weights) { return hn::LoadDup128(Fixed(), weights); }
+/// The weights by fours of the points i + 2 n and i + 2 n + 1, and of those four on if vectors have two blocks.
+HWY_INLINE V load_weights(const std::int16_t* weights, int i, int n) {
+  return hn::Load(Fixed(), weights + 2 * i + (blocks == 2 ? 0 : n / 2 * 8));
+}
 
 HWY_INLINE V spread_weights(V weights, const std::uint8_t* bytes) {
   const hn::Repartition<std::uint8_t, Fixed> d;
@@ -86,27 +89,37 @@ HWY_INLINE V upper_halves(V a, V b) {
   return hn::BitCast(Fixed(), hn::InterleaveUpper(d, hn::BitCast(d, a), hn::BitCast(d, b)));
 }
 
-/// A level of the points from i + n × `points` on: a point is four lanes.
+/// A level of the points i + 2 n and i + 2 n + 1, and of those four on: a point is four lanes.
 template <class Codes>
-HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, V right, V down, int i, int n) {
-  const std::int32_t* const upper = taps.upper[level] + i + n * points;
-  const std::int32_t* const lower = taps.lower[level] + i + n * points;
-  constexpr int other = blocks == 2 ? 2 : 0;
+HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, int n) {
+  const std::int32_t* const upper = taps.upper[level] + i + 2 * n;
+  const std::int32_t* const lower = taps.lower[level] + i + 2 * n;
+  const V weights = load_weights(taps.side[level], i, n);
+  constexpr int other = blocks == 2 ? 4 : 0;
   // Left and right texels.
-  const auto rows = [&](int p, const std::uint8_t* bytes) HWY_ATTR {
+  const auto rows = [&](int p) HWY_ATTR {
     const V up = codes.pair(upper[p], upper[p + other]), low = codes.pair(lower[p], lower[p + other]);
-    return mix(up, low, spread_weights(down, bytes));
+    return mix(up, low, spread_weights(weights, spread.down[n % 2 * 2 + p]));
   };
-  const V even = rows(0, spread.even[n]), odd = rows(1, spread.odd[n]);
-  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(right, spread.both[n]));
+  const V even = rows(0), odd = rows(1);
+  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(weights, spread.right[n % 2]));
 }
 
-/// Points of four lanes each in two vectors, to channels.
+/// Both levels.
+template <class Codes>
+HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, int i, int n) {
+  const V first = mix_level(codes, taps, 0, i, n);
+  if (!has_second) return first;
+  const V blend = spread_weights(load_weights(taps.blend, i, n), spread.right[n % 2]);
+  return mix(first, mix_level(codes, taps, 1, i, n), blend);
+}
+
+/// What mix_level gives of points that follow each other, to channels from point i on.
 HWY_INLINE void store_channels(V first, V second, float unit, float* const out[4], int i) {
   const hn::Repartition<std::int32_t, Fixed> di;
   const hn::RebindToFloat<decltype(di)> df;
   const auto a = hn::BitCast(di, first), b = hn::BitCast(di, second);
-  const auto rg = hn::ConcatEven(di, b, a), ba = hn::ConcatOdd(di, b, a);
+  const auto rg = even_words(b, a), ba = odd_words(b, a);
   const auto low = hn::Set(di, 0xffff);
   const auto scale = hn::Set(df, unit);
   const auto store = [&](auto codes, float* to)
@@ -117,23 +130,23 @@ HWY_INLINE void store_channels(V first, V second, float unit, float* const out[4
   store(hn::ShiftRight<16>(ba), out[3]);
 }
 
+/// True if one of eight points from i on needs its second level.
+HWY_INLINE bool blends(const Taps& taps, int i) {
+  const V zero = hn::Zero(Fixed());
+  V any = zero;
+  for (int n = 0; n < 4; n += points) any = hn::Or(any, load_weights(taps.blend, i, n));
+  return !hn::AllTrue(Fixed(), hn::Eq(any, zero));
+}
+
 template <class Code>
 void mix_codes(const Code* of, const Taps& taps, float* const out[4], int count) {
   const TexelCodes<Code> codes{of};
-  const hn::FixedTag<std::int16_t, 8> eight;
   for (int i = 0; i < count; i += 8) {
-    const V right = load_weights(taps.right[0] + i), down = load_weights(taps.down[0] + i);
-    V mixed[8 / points];
-    for (int n = 0; n < 8 / points; ++n) mixed[n] = mix_level(codes, taps, 0, right, down, i, n);
-    const auto blends = hn::Load(eight, taps.blend + i);
-    if (!hn::AllTrue(eight, hn::Eq(blends, hn::Zero(eight)))) {
-      const V right1 = load_weights(taps.right[1] + i), down1 = load_weights(taps.down[1] + i);
-      const V blend = load_weights(taps.blend + i);
-      for (int n = 0; n < 8 / points; ++n)
-        mixed[n] = mix(mixed[n], mix_level(codes, taps, 1, right1, down1, i, n), spread_weights(blend, spread.both[n]));
+    const bool has_second = blends(taps, i);
+    for (int n = 0; n < 8 / points; n += 2) {
+      const V first = mix_levels(codes, taps, has_second, i, n);
+      store_channels(first, mix_levels(codes, taps, has_second, i, n + 1), TexelCodes<Code>::unit, out, i + 2 * n);
     }
-    for (int n = 0; n < 8 / points; n += 2)
-      store_channels(mixed[n], mixed[n + 1], TexelCodes<Code>::unit, out, i + n * points);
   }
 }
 

@@ -32,23 +32,42 @@ void saturate(float* values, int count) {
 template <class F>
 struct Linear {
   F first, second, third;
+
+  [[gnu::always_inline]] F at(const Batch& batch, int i) const { return first + along(batch.b, i); }
+  /// Its change, with that of the weights.
+  [[gnu::always_inline]] F along(const float (&change)[2][Batch::room], int i) const {
+    return second * F::load(change[0] + i) + third * F::load(change[1] + i);
+  }
 };
 
+/// Float c of a quad at points [i, end).
 template <class F>
 [[gnu::always_inline]] inline void store_float(const Batch& batch, const Linear<F>& a, const Interpolation::Quad& quad,
-                                               int c, int i) {
-  (a.first + (a.second * F::load(batch.b[0] + i) + a.third * F::load(batch.b[1] + i))).store(quad.value[c] + i);
-  if (quad.dx[c] == nullptr) return;
-  (a.second * F::load(batch.dbdx[0] + i) + a.third * F::load(batch.dbdx[1] + i)).store(quad.dx[c] + i);
-  (a.second * F::load(batch.dbdy[0] + i) + a.third * F::load(batch.dbdy[1] + i)).store(quad.dy[c] + i);
+                                               int c, int i, int end, Points& p) {
+  float* const value = quad.value[c].of(p);
+  if (quad.dx[c].is_none()) {
+    for (int k = i; k < end; k += F::lanes) a.at(batch, k).store(value + k);
+    return;
+  }
+  float *const dx = quad.dx[c].of(p), *const dy = quad.dy[c].of(p);
+  for (int k = i; k < end; k += F::lanes) {
+    a.at(batch, k).store(value + k);
+    a.along(batch.dbdx, k).store(dx + k);
+    a.along(batch.dbdy, k).store(dy + k);
+  }
 }
 
+/// The same of one triangle, with slopes that are those of point i everywhere.
 template <class F>
-[[gnu::always_inline]] inline void load_corner(const Batch& batch, const Corners& corners, int k, int i, int place,
-                                               F (&out)[4]) {
-  const float* record[F::lanes];
-  corners.find(batch, k, i, record);
-  F::load_quads(record, place, out);
+[[gnu::always_inline]] inline void store_affine_float(const Batch& batch, const Linear<F>& a,
+                                                      const Interpolation::Quad& quad, int c, int i, int end,
+                                                      Points& p) {
+  const F change_x = a.along(batch.dbdx, i), change_y = a.along(batch.dbdy, i);
+  float *const value = quad.value[c].of(p), *const dx = quad.dx[c].of(p), *const dy = quad.dy[c].of(p);
+  for (int k = i; k < end; k += F::lanes) {
+    a.at(batch, k).store(value + k);
+    change_x.store(dx + k), change_y.store(dy + k);
+  }
 }
 
 /// The end of the groups from point i on that share a triangle.
@@ -59,43 +78,59 @@ template <class F>
   return g * Batch::group;
 }
 
-/// Points i to `end`, of one triangle.
+/// A quad at points [i, end), of one triangle.
 template <class F>
 [[gnu::always_inline]] inline void interpolate_run(const Batch& batch, const Corners& corners,
-                                                   const Interpolation::Quad& quad, int i, int end) {
+                                                   const Interpolation::Quad& quad, int i, int end, Points& p) {
   const std::size_t told = batch.told(static_cast<std::size_t>(i));
   const float* const v0 = corners.record[0][told] + quad.place;
   const float* const v1 = corners.record[1][told] + quad.place;
   const float* const v2 = corners.record[2][told] + quad.place;
+  const bool repeats_slopes = i + Batch::group < end && batch.repeats_slopes[i / Batch::group + 1];
   for (int c = 0; c < 4; ++c) {
-    if (quad.value[c] == nullptr) continue;
+    if (quad.value[c].is_none()) continue;
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
-    if (second == 0 && third == 0 && quad.dx[c] == nullptr) {
-      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(quad.value[c] + k);
+    if (second == 0 && third == 0 && quad.dx[c].is_none()) {
+      float* const value = quad.value[c].of(p);
+      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(value + k);
       continue;
     }
     const Linear<F> line{F(v0[c]), F(second), F(third)};
-    for (int k = i; k < end; k += F::lanes) store_float(batch, line, quad, c, k);
+    if (repeats_slopes && !quad.dx[c].is_none()) {
+      store_affine_float(batch, line, quad, c, i, end, p);
+    } else {
+      store_float(batch, line, quad, c, i, end, p);
+    }
+  }
+}
+
+/// All quads of a vector of points of any triangles.
+template <class F>
+[[gnu::always_inline]] inline void interpolate_points(const Batch& batch, const Corners& corners,
+                                                      const Interpolation& what, int i, Points& p) {
+  const float* record[3][F::lanes];
+  for (int k = 0; k < 3; ++k) corners.find(batch, k, i, record[k]);
+  for (int n = 0; n < what.quads; ++n) {
+    const Interpolation::Quad& quad = what.quad[n];
+    F v0[4], v1[4], v2[4];
+    F::load_quads(record[0], quad.place, v0);
+    F::load_quads(record[1], quad.place, v1);
+    F::load_quads(record[2], quad.place, v2);
+    for (int c = 0; c < 4; ++c)
+      if (!quad.value[c].is_none())
+        store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i, i + F::lanes, p);
   }
 }
 
 template <class F>
-void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, int count) {
-  for (int n = 0; n < what.quads; ++n) {
-    const Interpolation::Quad& quad = what.quad[n];
-    for (int i = 0; i < count;) {
-      if (batch.one_triangle[i / Batch::group]) {
-        const int end = run_end(batch, i, count);
-        interpolate_run<F>(batch, corners, quad, i, end);
-        i = end;
-        continue;
-      }
-      F v0[4], v1[4], v2[4];
-      load_corner(batch, corners, 0, i, quad.place, v0);
-      load_corner(batch, corners, 1, i, quad.place, v1);
-      load_corner(batch, corners, 2, i, quad.place, v2);
-      for (int c = 0; c < 4; ++c)
-        if (quad.value[c] != nullptr) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i);
+void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
+  for (int i = 0; i < p.count;) {
+    if (batch.one_triangle[i / Batch::group]) {
+      const int end = run_end(batch, i, p.count);
+      for (int n = 0; n < what.quads; ++n) interpolate_run<F>(batch, corners, what.quad[n], i, end, p);
+      i = end;
+    } else {
+      interpolate_points<F>(batch, corners, what, i, p);
       i += F::lanes;
     }
   }

@@ -13,7 +13,7 @@ namespace zoneplate {
 /// unit length, or zero where there is none.
 struct Points {
   static constexpr int capacity = Batch::capacity;
-  using Array = float[capacity];
+  using Array = float[Batch::room];
 
   int count = 0;  ///< a multiple of Batch::group
 
@@ -35,7 +35,7 @@ struct Corners {
   /// groups of several triangles.
   const float* first = nullptr;
   std::size_t stride = 0;
-  const float* record[3][Batch::capacity];
+  const float* record[3][Batch::room];
   bool one_instance[Batch::groups];
 
   template <int lanes>
@@ -57,13 +57,18 @@ struct Placement {
   float unused;
 };
 
-/// Where the floats of the records go, four at a time; null where a value or its derivatives are not wanted.
+/// An array of Points, which it may not belong to yet; none by itself.
+struct PointsArray {
+  std::int32_t offset = 0;  ///< from the beginning of Points, in bytes
+  bool is_none() const { return offset == 0; }
+  float* of(Points& p) const { return reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(&p) + offset); }
+};
+
+/// Where the floats of the records go, four at a time; none where a value or its derivatives are not wanted.
 struct Interpolation {
   struct Quad {
     int place = 0;  ///< first float in the record
-    float* value[4] = {};
-    float* dx[4] = {};
-    float* dy[4] = {};
+    PointsArray value[4], dx[4], dy[4];
   };
   int quads = 0;
   Quad quad[5];

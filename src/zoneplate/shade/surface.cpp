@@ -65,8 +65,22 @@ struct SurfaceShader::Data {
         viewpoint(make_viewpoint(surroundings_in)),
         kernels(pick(surroundings_in.isa, scalar::surface_kernels)),
         filtering(pick(surroundings_in.isa, scalar::filtering_kernels)) {
-    for (const MaterialPlan& plan : plans)
-      illuminations.push_back(make_illumination(plan, lights, viewpoint, surroundings.environment));
+    for (std::size_t m = 0; m < plans.size(); ++m) {
+      illuminations.push_back(make_illumination(plans[m], lights, viewpoint, surroundings.environment));
+      needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
+    }
+  }
+
+  /// What points need of their triangles' corners, and where it goes.
+  struct Needs {
+    Attributes attributes;
+    Interpolation interpolation;
+  };
+
+  /// To know the way to the viewer may ask for the points' places.
+  Needs make_needs(int material, Attributes attributes, bool needs_viewer) const {
+    if (needs_viewer && !viewpoint.is_orthographic && !viewpoint.has_rays) attributes.position = true;
+    return {attributes, interpolation(records.layout(material), attributes)};
   }
 
   const Scene& scene;
@@ -81,6 +95,7 @@ struct SurfaceShader::Data {
   const SurfaceKernels& kernels;
   const FilteringKernels& filtering;
   std::vector<Illumination> illuminations;  ///< by material
+  std::vector<Needs> needs_of_color;        ///< by material
 
   struct Walk;
 };
@@ -96,7 +111,7 @@ struct SurfaceShader::Data::Walk {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot for which `taps` stands
-  alignas(64) float texel_values[4][Points::capacity];
+  alignas(64) float texel_values[4][Batch::room];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
   Walk(const Data& data, const Batch& of)
@@ -104,7 +119,7 @@ struct SurfaceShader::Data::Walk {
     p.count = batch.padded();
   }
 
-  void interpolate(const Attributes& attributes);
+  void interpolate(const Needs& needs);
   Footprint footprint(const TextureSlot& slot);
   void sample(const TextureSlot& slot, float* const out[4]);
   void find_base();
@@ -116,10 +131,10 @@ struct SurfaceShader::Data::Walk {
 };
 
 /// Vertices to points: positions and tangents in world space, normals as the mesh has them.
-void SurfaceShader::Data::Walk::interpolate(const Attributes& attributes) {
+void SurfaceShader::Data::Walk::interpolate(const Needs& needs) {
+  const Attributes& attributes = needs.attributes;
   find_corners(d.records, batch, corners);
-  const Interpolation what = interpolation(d.records.layout(batch.material), attributes, p);
-  if (what.quads > 0) kernels.interpolate(batch, corners, what, p.count);
+  if (needs.interpolation.quads > 0) kernels.interpolate(batch, corners, needs.interpolation, p);
   if (attributes.position) kernels.place_positions(batch, corners, d.placements.data(), p);
   if (!attributes.tangent) return;
   if (plan.has_meshes_without_tangents) make_missing_tangents(d.scene, batch, attributes.tangent_uv_set, p);
@@ -130,11 +145,11 @@ void SurfaceShader::Data::Walk::interpolate(const Attributes& attributes) {
 Footprint SurfaceShader::Data::Walk::footprint(const TextureSlot& slot) {
   const auto s = slot.uv_set;
   if (!slot.is_mapped) {
-    return {p.uv[s][0], p.uv[s][1], p.uv_dx[s][0], p.uv_dx[s][1], p.uv_dy[s][0], p.uv_dy[s][1]};
+    return {p.uv[s][0], p.uv[s][1], p.uv_dx[s][0], p.uv_dx[s][1], p.uv_dy[s][0], p.uv_dy[s][1], batch.repeats_slopes};
   }
   kernels.map_coordinates(slot.map, p, s, coordinates);
   const Coordinates& c = coordinates;
-  return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1]};
+  return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.repeats_slopes};
 }
 
 /// The slot's texture at the points. Slots of one size and one sampler share their taps.
@@ -161,7 +176,9 @@ void SurfaceShader::Data::Walk::find_base() {
     }
     if (plan.attributes.color) kernels.multiply(p.base[c], p.color[c], p.count);
   }
-  if (plan.alpha_mode != AlphaMode::Opaque) kernels.saturate(p.base[3], p.count);
+  // A texture's alpha lies in [0, 1] by itself.
+  const bool may_leave = plan.attributes.color || !(plan.factor[3] >= 0 && plan.factor[3] <= 1);
+  if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
 void SurfaceShader::Data::Walk::find_normals() {
@@ -220,16 +237,19 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
   Points& p = walk.p;
 
   // What was asked for beside the colour may need more of the vertices.
-  Attributes attributes = plan.attributes;
-  const bool needs_viewer = plan.needs_viewer || (wanted.normal && plan.has_bare_meshes);
-  if (wanted.normal) attributes.normal = true;
-  const Viewpoint& viewpoint = data_->viewpoint;
-  if (needs_viewer && !viewpoint.is_orthographic && !viewpoint.has_rays) attributes.position = true;
-  if (wanted.uv) attributes.uv[plan.base_color.uv_set] = true;
+  const Data::Needs* needs = &data_->needs_of_color[static_cast<std::size_t>(batch.material)];
+  Data::Needs more;
+  if (wanted.normal || wanted.uv) {
+    Attributes attributes = plan.attributes;
+    if (wanted.normal) attributes.normal = true;
+    if (wanted.uv) attributes.uv[plan.base_color.uv_set] = true;
+    more = data_->make_needs(batch.material, attributes, plan.needs_viewer || (wanted.normal && plan.has_bare_meshes));
+    needs = &more;
+  }
 
-  walk.interpolate(attributes);
+  walk.interpolate(*needs);
   walk.find_base();
-  if (attributes.normal) walk.find_normals();
+  if (needs->attributes.normal) walk.find_normals();
   if (plan.is_lit) {
     walk.light(out);
   } else {
@@ -238,7 +258,7 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
 
   const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
   if (wanted.normal) {
-    if (plan.has_bare_meshes) walk.kernels.default_normals(viewpoint, batch, p);
+    if (plan.has_bare_meshes) walk.kernels.default_normals(data_->viewpoint, batch, p);
     for (int c = 0; c < 3; ++c) copy(p.normal[c], out.normal[c]);
   }
   if (wanted.albedo)
@@ -254,13 +274,17 @@ bool SurfaceShader::wants_slopes(int material) const {
   return a.uv[0] || a.uv[1];
 }
 
+std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
+  return {data_->records.of_instance(instance), static_cast<std::size_t>(data_->records.layout(material).floats)};
+}
+
 void SurfaceShader::alpha(const Batch& batch, float* out) const {
   if (batch.count == 0) return;
   Data::Walk walk(*data_, batch);
   Attributes attributes;
   attributes.color = walk.plan.attributes.color;
   if (walk.plan.base_color.texture != nullptr) attributes.uv[walk.plan.base_color.uv_set] = true;
-  walk.interpolate(attributes);
+  walk.interpolate(data_->make_needs(batch.material, attributes, false));
   walk.find_base();
   std::copy_n(walk.p.base[3], walk.p.count, out);
 }

@@ -45,7 +45,7 @@ struct CoordinateMap {
 
 /// A use of texture coordinates and their derivatives: u, v; du/dx, dv/dx; du/dy, dv/dy.
 struct Coordinates {
-  alignas(64) float uv[2][Points::capacity], dx[2][Points::capacity], dy[2][Points::capacity];
+  alignas(64) float uv[2][Batch::room], dx[2][Batch::room], dy[2][Batch::room];
 };
 
 /// The stages between the vertices and the colour; each acts on all of a batch's points, entry by entry.
@@ -59,7 +59,7 @@ struct SurfaceKernels {
   void (*saturate)(float* values, int count);
 
   /// value = a0 + ((a1 - a0) b1 + (a2 - a0) b2), and the same without the first term with dbdx and dbdy.
-  void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, int count);
+  void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, Points& points);
   void (*map_coordinates)(const CoordinateMap& map, const Points& points, int set, Coordinates& out);
 
   // From object to world space, by each point's own placement; normals and tangents are not normalised.

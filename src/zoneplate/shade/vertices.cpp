@@ -66,30 +66,28 @@ void write_record(const Mesh& mesh, const RecordLayout& layout, std::size_t v, f
 
 VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene)), meshes_(scene.meshes.size()) {
   constexpr std::size_t vertices_per_range = 8192;
+  std::vector<const float*> first(meshes_.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
     const RecordLayout& layout = layouts_[static_cast<std::size_t>(mesh.material)];
     const auto stride = static_cast<std::size_t>(layout.floats);
-    meshes_[m] = std::make_unique_for_overwrite<float[]>(mesh.position.size() * stride);
+    auto* const records = reinterpret_cast<float*>(meshes_[m].room(mesh.position.size() * stride * sizeof(float)));
+    first[m] = records;
     parallel_ranges(mesh.position.size(), vertices_per_range, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, meshes_[m].get() + v * stride);
+      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, records + v * stride);
     });
   }
-  for (const Instance& instance : scene.instances)
-    instances_.push_back(meshes_[static_cast<std::size_t>(instance.mesh)].get());
-}
-
-/// Records that stand in one array are asked for, and found when they are needed.
-static void find_corners_of_one(const float* first, std::size_t stride, const Batch& batch, Corners& out) {
-  out.first = first, out.stride = stride;
-  std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i)
-    for (const auto& vertex : batch.vertex) __builtin_prefetch(first + stride * vertex[i]);
+  for (const Instance& instance : scene.instances) instances_.push_back(first[static_cast<std::size_t>(instance.mesh)]);
 }
 
 void find_corners(const VertexRecords& records, const Batch& batch, Corners& out) {
   const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
-  if (batch.one_instance) return find_corners_of_one(records.of_instance(batch.instance[0]), stride, batch, out);
+  if (batch.one_instance) {
+    // Records that stand in one array are found when they are needed.
+    out.first = records.of_instance(batch.instance[0]), out.stride = stride;
+    std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
+    return;
+  }
   out.first = nullptr;
   const auto find = [&](std::size_t i) {
     const float* const first = records.of_instance(batch.instance[i]);
@@ -112,32 +110,45 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
   }
 }
 
-Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes, Points& p) {
+namespace {
+
+/// Array i of those that begin at a member of Points.
+PointsArray array(std::size_t member, std::size_t i = 0) {
+  return {static_cast<std::int32_t>(member + i * sizeof(Points::Array))};
+}
+
+}  // namespace
+
+Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes) {
+  constexpr std::size_t position = offsetof(Points, position), normal = offsetof(Points, normal);
+  constexpr std::size_t tangent = offsetof(Points, tangent), color = offsetof(Points, color);
   Interpolation what;
   const auto quad = [&](bool is_wanted, int place) -> Interpolation::Quad* {
     if (!is_wanted || place < 0) return nullptr;
     what.quad[what.quads].place = place;
     return &what.quad[what.quads++];
   };
-  const auto wants = [&](Interpolation::Quad& q, int c, float* value, float* dx = nullptr, float* dy = nullptr) {
-    q.value[c] = value, q.dx[c] = dx, q.dy[c] = dy;
+  const auto want_coordinates = [&](Interpolation::Quad& q, std::size_t first, std::size_t set) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      q.value[first + c] = array(offsetof(Points, uv), 2 * set + c);
+      q.dx[first + c] = array(offsetof(Points, uv_dx), 2 * set + c);
+      q.dy[first + c] = array(offsetof(Points, uv_dy), 2 * set + c);
+    }
   };
   if (auto* q = quad(attributes.normal || attributes.position, 0)) {
     if (attributes.normal)
-      for (int c = 0; c < 3; ++c) wants(*q, c, p.normal[c]);
-    if (attributes.position) wants(*q, 3, p.position[0]);
+      for (std::size_t c = 0; c < 3; ++c) q->value[c] = array(normal, c);
+    if (attributes.position) q->value[3] = array(position, 0);
   }
   if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
-    if (attributes.position) wants(*q, 0, p.position[1]), wants(*q, 1, p.position[2]);
-    if (attributes.uv[0])
-      for (int c = 0; c < 2; ++c) wants(*q, 2 + c, p.uv[0][c], p.uv_dx[0][c], p.uv_dy[0][c]);
+    if (attributes.position) q->value[0] = array(position, 1), q->value[1] = array(position, 2);
+    if (attributes.uv[0]) want_coordinates(*q, 2, 0);
   }
   if (auto* q = quad(attributes.tangent, layout.tangent))
-    for (int c = 0; c < 4; ++c) wants(*q, c, p.tangent[c]);
+    for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(tangent, c);
   if (auto* q = quad(attributes.color, layout.color))
-    for (int c = 0; c < 4; ++c) wants(*q, c, p.color[c]);
-  if (auto* q = quad(attributes.uv[1], layout.uv1))
-    for (int c = 0; c < 2; ++c) wants(*q, c, p.uv[1][c], p.uv_dx[1][c], p.uv_dy[1][c]);
+    for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(color, c);
+  if (auto* q = quad(attributes.uv[1], layout.uv1)) want_coordinates(*q, 0, 1);
   return what;
 }
 

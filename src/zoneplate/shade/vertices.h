@@ -1,9 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "zoneplate/raster/arena.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/shade/points.h"
 
@@ -26,7 +26,8 @@ struct RecordLayout {
 
 /// The attributes of a scene's vertices, one vertex after the other: what shading reads of a vertex lies together.
 ///
-/// What a mesh lacks and others of its material have is 0, its colour (1, 1, 1, 1).
+/// What a mesh lacks and others of its material have is 0, its colour (1, 1, 1, 1). A record of eight floats lies
+/// within one cache line, and large meshes in large pages: shading reads vertices from anywhere.
 class VertexRecords {
  public:
   /// Made in parallel. A material without a normal map has no tangents.
@@ -37,7 +38,7 @@ class VertexRecords {
 
  private:
   std::vector<RecordLayout> layouts_;  ///< by material
-  std::vector<std::unique_ptr<float[]>> meshes_;
+  std::vector<RawMemory> meshes_;
   std::vector<const float*> instances_;
 };
 
@@ -45,7 +46,7 @@ class VertexRecords {
 void find_corners(const VertexRecords& records, const Batch& batch, Corners& out);
 
 /// Which float of the records goes where in the points.
-Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes, Points& points);
+Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes);
 
 /// Gives the points of meshes without tangents the direction of growing u over their triangle (zero where the triangle
 /// has no area in u, v; w: the sign of that area).

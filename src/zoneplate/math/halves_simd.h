@@ -1,0 +1,57 @@
+#pragma once
+
+#include <hwy/highway.h>
+
+/// Vectors made of two halves, for the instruction set of the file that includes this.
+HWY_BEFORE_NAMESPACE();
+namespace zoneplate::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// hn::Combine; of 256 bits in one instruction, where that clears the upper half first.
+template <class D, class Half>
+HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  using T = hn::TFromD<D>;
+  if constexpr (sizeof(hn::Vec<D>) == 32) {
+    if constexpr (hwy::IsSame<T, float>()) {
+      return hn::Vec<D>{_mm256_insertf128_ps(_mm256_castps128_ps256(lower.raw), upper.raw, 1)};
+    } else if constexpr (!hwy::IsFloat<T>()) {
+      return hn::Vec<D>{_mm256_inserti128_si256(_mm256_castsi128_si256(lower.raw), upper.raw, 1)};
+    }
+  }
+#endif
+  return hn::Combine(d, upper, lower);
+}
+
+/// Words 0 and 2 of each block of 128 bits, of `lower` and then of `upper`.
+template <class V>
+HWY_INLINE V even_words(V upper, V lower) {
+  const hn::DFromV<V> d;
+  static_assert(sizeof(hn::TFromD<decltype(d)>) == 4);
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  if constexpr (sizeof(V) == 32) {
+    const hn::RebindToFloat<decltype(d)> f;
+    return hn::BitCast(
+        d, hn::Vec<decltype(f)>{_mm256_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, 0x88)});
+  }
+#endif
+  return hn::ConcatEven(d, upper, lower);
+}
+
+/// Words 1 and 3.
+template <class V>
+HWY_INLINE V odd_words(V upper, V lower) {
+  const hn::DFromV<V> d;
+  static_assert(sizeof(hn::TFromD<decltype(d)>) == 4);
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  if constexpr (sizeof(V) == 32) {
+    const hn::RebindToFloat<decltype(d)> f;
+    return hn::BitCast(
+        d, hn::Vec<decltype(f)>{_mm256_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, 0xdd)});
+  }
+#endif
+  return hn::ConcatOdd(d, upper, lower);
+}
+
+}  // namespace zoneplate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
