@@ -110,12 +110,16 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
   batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
   batch_.one_instance = false;
   corners_.screen = nullptr;
+  std::fill_n(batch_.one_triangle, numbers.size(), true);
+  std::int32_t told = -1;  // no triangle
+  std::uint8_t told_group = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const PointRow& row = rows[numbers[i]];
-    batch_.one_triangle[i] = true;
-    const bool is_told = i > 0 && row.id == rows[numbers[i - 1]].id;
-    batch_.told_group[i] = is_told ? batch_.told_group[i - 1] : static_cast<std::uint8_t>(i);
-    if (!is_told) put_triangle(i * Batch::group, row.id);
+    if (row.id != told) {
+      put_triangle(i * Batch::group, row.id);
+      told = row.id, told_group = static_cast<std::uint8_t>(i);
+    }
+    batch_.told_group[i] = told_group;
     batch_.x[i * Batch::group] = row.x, batch_.y[i * Batch::group] = row.y;
   }
   interpolate();

@@ -25,7 +25,8 @@ struct Footprint {
   const float *u, *v;
   const float *dudx, *dvdx, *dudy, *dvdy;
 
-  /// By group of eight points, or null: the changes of all of its points are those of the point before it.
+  /// By group of eight points, or null: the changes of all of its points are those of the point before it, and not
+  /// told.
   const bool* repeats = nullptr;
 };
 

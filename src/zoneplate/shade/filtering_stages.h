@@ -249,6 +249,12 @@ template <class F, class View>
   (F(0.5f) * coarse_log2(longer / (count * count))).store(out.detail + i);
 }
 
+/// The same from i on as before i, where all points are alike.
+template <class F>
+[[gnu::always_inline]] inline void repeat_probes(Probes& p, int i) {
+  for (float* const of : {p.du, p.dv, p.count, p.detail}) F::load(of + i - F::lanes).store(of + i);
+}
+
 /// Some groups' probes in one list of taps: of a group the first of all points before the second of any, as many as the
 /// point has that has most.
 struct ProbeTaps {
@@ -306,7 +312,13 @@ template <class F, class View, class Mix>
 [[gnu::always_inline]] inline void sample_anisotropic(const View& t, const Filtering& f, const Footprint& at,
                                                       float* const out[4], int count, Mix mix) {
   Probes probes;
-  for (int i = 0; i < count; i += F::lanes) find_probes<F>(t, f.anisotropy, at, i, probes);
+  for (int i = 0; i < count; i += F::lanes) {
+    if (at.repeats != nullptr && at.repeats[i / 8]) {
+      repeat_probes<F>(probes, i);
+    } else {
+      find_probes<F>(t, f.anisotropy, at, i, probes);
+    }
+  }
   ProbeTaps taps;
   alignas(64) float mixed[4][Taps::room];
   float* const means[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};

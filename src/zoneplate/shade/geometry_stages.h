@@ -57,17 +57,14 @@ template <class F>
   }
 }
 
-/// The same of one triangle, with slopes that are those of point i everywhere.
+/// The same of one triangle, with slopes that are those of point i everywhere: told of in its group only.
 template <class F>
 [[gnu::always_inline]] inline void store_affine_float(const Batch& batch, const Linear<F>& a,
                                                       const Interpolation::Quad& quad, int c, int i, int end,
                                                       Points& p) {
-  const F change_x = a.along(batch.dbdx, i), change_y = a.along(batch.dbdy, i);
-  float *const value = quad.value[c].of(p), *const dx = quad.dx[c].of(p), *const dy = quad.dy[c].of(p);
-  for (int k = i; k < end; k += F::lanes) {
-    a.at(batch, k).store(value + k);
-    change_x.store(dx + k), change_y.store(dy + k);
-  }
+  store_float(batch, a, quad, c, i, i + Batch::group, p);
+  float* const value = quad.value[c].of(p);
+  for (int k = i + Batch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
 }
 
 /// The end of the groups from point i on that share a triangle.
@@ -137,12 +134,13 @@ void interpolate(const Batch& batch, const Corners& corners, const Interpolation
 }
 
 template <class F>
-void map_coordinates(const CoordinateMap& map, const Points& p, int set, Coordinates& out) {
+void map_coordinates(const CoordinateMap& map, const Batch& batch, const Points& p, int set, Coordinates& out) {
   const F m0(map.m[0]), m1(map.m[1]), m2(map.m[2]), m3(map.m[3]), m4(map.m[4]), m5(map.m[5]);
   for (int i = 0; i < p.count; i += F::lanes) {
     const F u = F::load(p.uv[set][0] + i), v = F::load(p.uv[set][1] + i);
     (u * m0 + v * m1 + m2).store(out.uv[0] + i);
     (u * m3 + v * m4 + m5).store(out.uv[1] + i);
+    if (batch.repeats_slopes[i / Batch::group]) continue;
     const F ux = F::load(p.uv_dx[set][0] + i), vx = F::load(p.uv_dx[set][1] + i);
     (ux * m0 + vx * m1).store(out.dx[0] + i);
     (ux * m3 + vx * m4).store(out.dx[1] + i);

@@ -19,7 +19,7 @@ struct Points {
 
   // Interpolated from the vertices; world space once placed.
   alignas(64) Array position[3], normal[3], tangent[4], color[4];
-  alignas(64) Array uv[2][2], uv_dx[2][2], uv_dy[2][2];  ///< by set
+  alignas(64) Array uv[2][2], uv_dx[2][2], uv_dy[2][2];  ///< by set; changes not where the batch repeats its slopes
   alignas(64) Array is_lit;                              ///< 1, or 0 for points of meshes without normals
 
   // The material at the points.

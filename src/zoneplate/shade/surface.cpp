@@ -147,7 +147,7 @@ Footprint SurfaceShader::Data::Walk::footprint(const TextureSlot& slot) {
   if (!slot.is_mapped) {
     return {p.uv[s][0], p.uv[s][1], p.uv_dx[s][0], p.uv_dx[s][1], p.uv_dy[s][0], p.uv_dy[s][1], batch.repeats_slopes};
   }
-  kernels.map_coordinates(slot.map, p, s, coordinates);
+  kernels.map_coordinates(slot.map, batch, p, s, coordinates);
   const Coordinates& c = coordinates;
   return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.repeats_slopes};
 }

@@ -43,7 +43,8 @@ struct CoordinateMap {
   bool operator==(const CoordinateMap&) const = default;
 };
 
-/// A use of texture coordinates and their derivatives: u, v; du/dx, dv/dx; du/dy, dv/dy.
+/// A use of texture coordinates and their derivatives: u, v; du/dx, dv/dx; du/dy, dv/dy. The derivatives of groups that
+/// repeat their slopes (Batch) are not set.
 struct Coordinates {
   alignas(64) float uv[2][Batch::room], dx[2][Batch::room], dy[2][Batch::room];
 };
@@ -58,9 +59,11 @@ struct SurfaceKernels {
   void (*fill)(float* out, float value, int count);
   void (*saturate)(float* values, int count);
 
+  // Changes of coordinates are left out where the batch repeats its slopes.
   /// value = a0 + ((a1 - a0) b1 + (a2 - a0) b2), and the same without the first term with dbdx and dbdy.
   void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, Points& points);
-  void (*map_coordinates)(const CoordinateMap& map, const Points& points, int set, Coordinates& out);
+  void (*map_coordinates)(const CoordinateMap& map, const Batch& batch, const Points& points, int set,
+                          Coordinates& out);
 
   // From object to world space, by each point's own placement; normals and tangents are not normalised.
   void (*place_positions)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);

@@ -130,7 +130,7 @@ std::vector<Stage> stages() {
        }},
       {"map_coordinates",
        [](K k, B b) {
-         k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.points, 1, b.coordinates);
+         k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.batch, b.points, 1, b.coordinates);
        }},
       {"place_positions", [](K k, B b) { k.place_positions(b.batch, b.corners, b.placements, b.points); }},
       {"place_normals", [](K k, B b) { k.place_normals(b.batch, b.corners, b.placements, b.points); }},

@@ -96,13 +96,16 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
       __builtin_prefetch(out.record[k][i]);
     }
   };
-  for (std::size_t first = 0; first < static_cast<std::size_t>(batch.padded()); first += Batch::group) {
-    const std::size_t g = first / Batch::group;
-    out.one_instance[g] = true;
-    if (batch.told(first) == first) find(first);
-    if (batch.one_triangle[g]) continue;
+  std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
+  const auto groups = static_cast<std::size_t>(batch.padded() / Batch::group);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::size_t first = g * Batch::group;
+    if (batch.one_triangle[g]) {
+      if (batch.told_group[g] == g) find(first);
+      continue;
+    }
     std::uint32_t difference = 0;
-    for (std::size_t i = first + 1; i < first + Batch::group; ++i) {
+    for (std::size_t i = first; i < first + Batch::group; ++i) {
       find(i);
       difference |= batch.instance[i] ^ batch.instance[first];
     }
