@@ -133,11 +133,15 @@ ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::functi
   }
   if (corners >= 0xffffffffu) throw Error(Trouble::Input, budget.file() + ": more than 2^32 corners");
   const ObjCounts& all = before.back();
-  parallel_for(3, [&](std::size_t i) {
+  const auto join_kind = [&](std::size_t i) {
     if (i == 0) join(parts, &ObjVertices::positions, all.positions, file.positions);
     if (i == 1) join(parts, &ObjVertices::uvs, all.uvs, file.uvs);
     if (i == 2) join(parts, &ObjVertices::normals, all.normals, file.normals);
-  });
+  };
+  if (parts.size() > 1)
+    parallel_for(3, join_kind);
+  else
+    for (std::size_t i = 0; i < 3; ++i) join_kind(i);
   join_colors(parts, before, budget, file);
   for (ObjPart& part : parts) file.chunks.push_back(std::move(part.chunk));
   return file;
