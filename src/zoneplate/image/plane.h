@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "zoneplate/base/large_array.h"
+
 namespace zoneplate {
 
 /// A rectangle of values of one type, row 0 at the top, rows one after the other without padding.
@@ -13,11 +15,11 @@ template <class T>
 class Plane {
  public:
   Plane() = default;
-  Plane(int width, int height, T value = T{})
-      : width_(width),
-        height_(height),
-        values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value) {
+  Plane(int width, int height, T value = T{}) : width_(width), height_(height) {
     assert(width >= 0 && height >= 0);
+    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    reserve_large(values_, count);
+    values_.assign(count, value);
   }
 
   int width() const { return width_; }
