@@ -1,6 +1,7 @@
 # The fuzz targets of libFuzzer, fuzz_<format>, and the program that writes their seeds. They need clang.
 #
-# They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers.
+# They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR
+# pictures that leaves the header.
 set(fuzzed_sources ${all_sources})
 list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|math|image|scene)/")
 list(FILTER fuzzed_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|scene/draco\\.cpp$")
@@ -16,13 +17,13 @@ foreach(isa IN LISTS isas)
   target_sources(zoneplate_fuzzed PRIVATE $<TARGET_OBJECTS:zoneplate_fuzzed_${isa}>)
 endforeach()
 target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library}
-                      ${webp_library} PNG::PNG ${meshoptimizer_library} z)
+                      ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp)
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
-  if(format MATCHES "png|jpeg|webp|hdr")
+  if(format MATCHES "png|jpeg|webp|hdr|exr")
     set(kind image)
   endif()
   add_executable(fuzz_${format} fuzz/${kind}_fuzz.cpp)

@@ -3,7 +3,8 @@ find_package(GTest REQUIRED)
 include(GoogleTest)
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
-target_link_libraries(zoneplate_tests PRIVATE zoneplate_cli GTest::gtest_main webpdemux)
+find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests unpack
+target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate_cli GTest::gtest_main webpdemux)
 target_compile_options(zoneplate_tests PRIVATE ${built_quickly})
 target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
                            ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>")

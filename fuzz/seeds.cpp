@@ -3,6 +3,7 @@
 #include <string>
 
 #include "zoneplate/base/file.h"
+#include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/jpeg_encode.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/image/webp_still.h"
@@ -82,6 +83,27 @@ void write_images(const std::string& root) {
   write(root + "/webp", "rgb.webp", encode_webp(image, false));
 }
 
+/// A Radiance picture of these bytes.
+Bytes radiance(const std::string& lines, const std::string& scan, const Bytes& pixels) {
+  Bytes out = bytes_of("#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + scan + "\n");
+  out.insert(out.end(), pixels.begin(), pixels.end());
+  return out;
+}
+
+void write_light(const std::string& root) {
+  write(root + "/hdr", "plain.hdr",
+        radiance("", "-Y 2 +X 2", {128, 64, 255, 129, 7, 7, 7, 0, 255, 0, 1, 255, 1, 2, 3, 1}));
+  write(root + "/hdr", "turned.hdr", radiance("EXPOSURE=2\n# made\n", "+X 1 -Y 2", {9, 8, 7, 130, 6, 5, 4, 131}));
+  write(root + "/hdr", "old.hdr", radiance("", "-Y 1 +X 9", {9, 8, 7, 130, 1, 1, 1, 3, 9, 9, 9, 128, 1, 1, 1, 4}));
+  // Each channel of a row by itself: a run of ten, of six and four others, ...
+  const Bytes run = {2, 2, 0, 10, 138, 77, 134, 5, 4, 1, 2, 3, 4, 10, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 138, 129};
+  write(root + "/hdr", "new.hdr", radiance("", "-Y 1 +X 10", run));
+  const std::vector<float> values(12, 0.5f);
+  write(root + "/exr", "light.exr",
+        encode_exr(4, 3, {{"R", ExrType::Half, values.data()}, {"Z", ExrType::Float, values.data()}},
+                   {{"note", "text"}}));
+}
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -98,4 +120,5 @@ int main(int, char** argv) {
   write(root + "/stl", "ascii.stl", bytes_of(ascii_stl));
   write(root + "/stl", "binary.stl", binary_stl());
   write_images(root);
+  write_light(root);
 }

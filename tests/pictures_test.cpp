@@ -59,12 +59,12 @@ constexpr Golden goldens[] = {
     {"teapot", "none", 0xa7edffd26adfc1d8u},
     {"teapot", "msaa:n=4", 0xa1c07e8df17daadcu},
     {"teapot", "ssaa:n=3", 0x6534e48a0d58f03u},
-    {"checkerboard", "msaa:n=8", 0x28c641a0712ae1bdu},
-    {"checkerboard", "ssaa:pattern=halton,samples=24", 0xc60082d4c0c6a3eu},
+    {"checkerboard", "msaa:n=8", 0xbe709cfcdb838ad6u},
+    {"checkerboard", "ssaa:pattern=halton,samples=24", 0x64eae5f80bdf9b89u},
     {"triangles", "msaa:grid=4", 0x3eb3916ef6c22d66u},
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
-    {"sphere:triangles=5000", "msaa:n=16", 0x2b2a25ec5fff75b0u},
-    {"city-trilinear", "msaa:n=4", 0x24ab0f0f3833c52fu},
+    {"sphere:triangles=5000", "msaa:n=16", 0x4261133c47ed6cf1u},
+    {"city-trilinear", "msaa:n=4", 0x2d58cb34d17d8ea5u},
     {"fillblend", "msaa:n=4", 0xe98a2fed0c160e8au},
 };
 

@@ -125,6 +125,13 @@ FileBytes::~FileBytes() {
   }
 }
 
+void FileBytes::forget(const void* part, std::size_t size) const {
+  constexpr std::uintptr_t page = 4096;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(part) + page - 1) / page * page;
+  const auto end = (reinterpret_cast<std::uintptr_t>(part) + size) / page * page;
+  if (mapped_ && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+}
+
 FileBytes::FileBytes(FileBytes&& other) noexcept
     : bytes_(std::exchange(other.bytes_, {})), mapped_(std::exchange(other.mapped_, false)) {}
 

@@ -21,6 +21,9 @@ class FileBytes {
 
   std::span<const std::uint8_t> bytes() const { return bytes_; }
 
+  /// Lets the system take back the memory of a part until it is looked at again, where the file can be read anew.
+  void forget(const void* part, std::size_t size) const;
+
  private:
   std::span<const std::uint8_t> bytes_;
   bool mapped_ = false;

@@ -84,6 +84,15 @@ TEST_F(File, HoldsWhatWasSaved) {
   EXPECT_EQ(names(), std::vector<std::string>{"a.bin"});
 }
 
+TEST_F(File, HasTheSameBytesAfterItForgotThem) {
+  save_bytes(path("a.bin"), made(100001));
+  const FileBytes file(path("a.bin"));
+  file.forget(file.bytes().data(), file.bytes().size());
+  file.forget(file.bytes().data() + 5000, 20000);
+  file.forget(file.bytes().data(), 10);
+  EXPECT_EQ(Bytes(file.bytes().begin(), file.bytes().end()), made(100001));
+}
+
 TEST_F(File, MovesWithItsBytes) {
   save_bytes(path("a"), made(10));
   FileBytes first(path("a"));

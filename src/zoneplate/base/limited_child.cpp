@@ -2,23 +2,31 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <exception>
+#include <utility>
 
+#include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/base/sandbox.h"
 
 namespace zoneplate {
 namespace {
 
-/// Writes to the parent; a parent that is gone ends the child.
-void write_all(int pipe, const void* data, std::size_t size) {
+/// A fact of the process, as its number is: written once, before the child has a second thread.
+bool is_child = false;
+
+/// The first byte of an answer: this, or the kind of trouble that the rest, a text, tells of.
+constexpr std::uint8_t good = 255;
+
+void write_whole(int pipe, const void* data, std::size_t size) {
   const auto* at = static_cast<const char*>(data);
   while (size > 0) {
     const ssize_t n = ::write(pipe, at, size);
@@ -28,97 +36,143 @@ void write_all(int pipe, const void* data, std::size_t size) {
   }
 }
 
-/// So much more memory than the process has now, and so much time.
-void set_limits(const LimitedChild::Limits& limits) {
-  unsigned long pages = 0;
-  if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(statm, "%lu", &pages) != 1) pages = 0;
-    std::fclose(statm);
-  }
-  constexpr rlim_t of_the_library = rlim_t{64} << 20;
-  const rlim_t memory = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + limits.memory + of_the_library;
-  const auto time = static_cast<rlim_t>(limits.seconds) + 1;
-  const auto limit = [](auto what, rlim_t most) {
-    const rlimit both{most, most};
-    ::setrlimit(what, &both);
-  };
-  limit(RLIMIT_AS, memory);
-  limit(RLIMIT_CPU, time);
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, 0);
+[[noreturn]] void tell(int pipe, Trouble trouble, const std::string& cause) {
+  const auto kind = static_cast<std::uint8_t>(trouble);
+  write_whole(pipe, &kind, 1);
+  write_whole(pipe, cause.data(), cause.size());
+  ::_exit(0);
 }
 
-[[noreturn]] void be_child(int answer, int refusal, const LimitedChild::Limits& limits,
-                           const std::function<void(const LimitedChild::Send&)>& work) {
+struct Task {
+  const std::string& place;
+  const LimitedChild::Limits& limits;
+  const std::function<void(ChildAnswer&)>& work;
+  const std::function<void()>& open;
+};
+
+std::string with_options(const std::string& text, const LimitedChild::Limits& limits) {
+  return text + (limits.options.empty() ? "" : " (" + limits.options + ")");
+}
+
+[[noreturn]] void be_child(int pipe, pid_t parent, int threads, const Task& task) {
+  is_child = true;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   std::signal(SIGPIPE, SIG_IGN);
-  set_limits(limits);
-  std::string cause;
+  ChildAnswer answer(pipe);
   try {
-    work([answer](std::span<const std::uint8_t> bytes) { write_all(answer, bytes.data(), bytes.size()); });
+    if (task.open) task.open();
+    limit_resources(task.limits.memory, task.limits.seconds * threads);
+    if (!enter_sandbox()) throw Error(Trouble::Failed, task.place + ": the system has no filter for system calls");
+    with_threads(threads, [&] { task.work(answer); });
     ::_exit(0);
-  } catch (const LimitedChild::Refusal& refused) {
-    cause = refused.cause;
+  } catch (const Error& error) {
+    if (!answer.is_begun()) tell(pipe, error.trouble(), error.what());
   } catch (const std::exception&) {
-    cause = "needs more memory than the limit";
+    if (!answer.is_begun())
+      tell(pipe, Trouble::Input, with_options(task.place + ": needs more memory than the limit", task.limits));
   }
-  write_all(refusal, cause.data(), cause.size());
-  ::_exit(0);
+  ::_exit(1);
+}
+
+std::string cause_of(int status, const LimitedChild::Limits& limits) {
+  if (WIFEXITED(status)) return "its reader gave no answer";
+  switch (WTERMSIG(status)) {
+    case SIGSYS:
+      return "its reader asked the system for what no reader needs, and was ended";
+    case SIGXCPU:
+    case SIGKILL:
+      return with_options("its reader ran out of time or memory", limits);
+    default:
+      return "its reader crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+  }
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return text;
 }
 
 }  // namespace
 
-LimitedChild::LimitedChild(const Limits& limits, const std::function<void(const Send&)>& work)
-    : deadline_ms_(limits.seconds * 1000) {
-  int answer[2], refusal[2];
-  const auto fail = [] { throw Error(Trouble::Failed, std::string("a child process: ") + std::strerror(errno)); };
-  if (::pipe2(answer, O_CLOEXEC) != 0) fail();
-  if (::pipe2(refusal, O_CLOEXEC) != 0) ::close(answer[0]), ::close(answer[1]), fail();
+bool is_limited_child() { return is_child; }
+
+void ChildAnswer::write(const void* data, std::size_t size) {
+  if (!is_begun_) write_whole(pipe_, &good, 1);
+  is_begun_ = true;
+  write_whole(pipe_, data, size);
+}
+
+LimitedChild::LimitedChild(std::string place, Limits limits, const std::function<void(ChildAnswer&)>& work,
+                           const std::function<void()>& open)
+    : place_(std::move(place)), limits_(std::move(limits)) {
+  const auto no = [&](int error) {
+    throw Error(Trouble::Failed, place_ + ": no process for it: " + std::strerror(error));
+  };
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) no(errno);
+  constexpr int pipe_bytes = 1 << 20;
+  ::fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
+  const pid_t parent = ::getpid();
+  const int threads = thread_limit();
   id_ = ::fork();
   if (id_ == 0) {
-    ::close(answer[0]), ::close(refusal[0]);
-    be_child(answer[1], refusal[1], limits, work);
+    ::close(ends[0]);
+    be_child(ends[1], parent, threads, {place_, limits_, work, open});
   }
-  ::close(answer[1]), ::close(refusal[1]);
-  if (id_ < 0) ::close(answer[0]), ::close(refusal[0]), fail();
-  answer_ = answer[0], refusal_ = refusal[0];
+  const int error = errno;
+  ::close(ends[1]);
+  pipe_ = ends[0];
+  if (id_ < 0) ::close(pipe_), no(error);
 }
 
 LimitedChild::~LimitedChild() {
-  ::close(answer_), ::close(refusal_);
+  ::close(pipe_);
+  if (id_ < 0) return;
   ::kill(id_, SIGKILL);
-  ::waitpid(id_, nullptr, 0);
+  while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-bool LimitedChild::wait_for_more(int pipe) {
-  pollfd waiting{pipe, POLLIN, 0};
-  while (clock_.ms() < deadline_ms_)
-    if (::poll(&waiting, 1, 50) > 0) return true;
-  is_late_ = true;
-  return false;
-}
-
-bool LimitedChild::read(std::span<std::uint8_t> out) {
-  while (!out.empty()) {
-    if (!wait_for_more(answer_)) return false;
-    const ssize_t n = ::read(answer_, out.data(), out.size());
-    if (n == 0) return false;
-    if (n > 0) out = out.subspan(static_cast<std::size_t>(n));
+std::size_t LimitedChild::read_some(void* out, std::size_t size) {
+  std::size_t done = 0;
+  while (done < size) {
+    if (limits_.check_time) limits_.check_time();
+    pollfd waiting{pipe_, POLLIN, 0};
+    if (::poll(&waiting, 1, 50) <= 0) continue;
+    const ssize_t n = ::read(pipe_, static_cast<char*>(out) + done, size - done);
+    if (n == 0) break;
+    if (n > 0) done += static_cast<std::size_t>(n);
   }
-  return true;
+  return done;
 }
 
-std::string LimitedChild::cause() {
-  std::string text;
-  char part[200];
-  while (!is_late_ && text.size() < sizeof part && wait_for_more(refusal_)) {
-    const ssize_t n = ::read(refusal_, part, sizeof part - text.size());
-    if (n <= 0) break;
-    text.append(part, static_cast<std::size_t>(n));
+/// The child has closed its end of the pipe: it has ended, is about to, or means harm.
+void LimitedChild::fail() {
+  int status = 0;
+  const Stopwatch patience;
+  while (::waitpid(id_, &status, WNOHANG) != id_) {
+    ::usleep(500);
+    if (patience.ms() > 1000) ::kill(id_, SIGKILL);
   }
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  return is_late_ ? "takes longer than the limit" : text.empty() ? "crashed its reader" : text;
+  id_ = -1;
+  throw Error(Trouble::Input, place_ + ": " + cause_of(status, limits_));
+}
+
+void LimitedChild::begin() {
+  is_begun_ = true;
+  std::uint8_t kind = 0;
+  if (read_some(&kind, 1) == 0) fail();
+  if (kind == good) return;
+  std::string cause(4000, ' ');
+  cause.resize(read_some(cause.data(), cause.size()));
+  throw Error(kind == 0 || kind == 1 || kind == 3 ? static_cast<Trouble>(kind) : Trouble::Input, one_line(cause));
+}
+
+void LimitedChild::read(void* out, std::size_t size) {
+  if (!is_begun_) begin();
+  if (read_some(out, size) < size) fail();
 }
 
 }  // namespace zoneplate

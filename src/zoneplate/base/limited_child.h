@@ -3,50 +3,60 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
-
-#include "zoneplate/base/clock.h"
 
 namespace zoneplate {
 
-/// Work in a child process that is a copy of this one with limits on memory and time: what a library does with a
-/// hostile file ends the child alone. It is killed with this object.
+/// Where a child process writes its answer.
+class ChildAnswer {
+ public:
+  explicit ChildAnswer(int pipe) : pipe_(pipe) {}
+  /// Never returns where nobody reads any more.
+  void write(const void* data, std::size_t size);
+  bool is_begun() const { return is_begun_; }
+
+ private:
+  int pipe_;
+  bool is_begun_ = false;
+};
+
+/// True in the process of a LimitedChild: what would be put into one can be done here.
+bool is_limited_child();
+
+/// Work on data that may be hostile, in a process of its own, a copy of this one, that may be lost.
+///
+/// The child has limits on memory and time and the filter of sandbox.h; it ends with its parent, and is killed with
+/// this object. `work` makes its result first and writes it then: an Error that it throws before it writes is thrown
+/// here again, by the first `read`.
+/// Errors    Trouble::Input with `place` in front where the child crashes, runs out of memory or time, or asks the
+///           system for what a reader does not need; Trouble::Failed where no process can be started.
 class LimitedChild {
  public:
   struct Limits {
     std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes beyond what the process has now
-    double seconds = 60;                            ///< of processor time, and of waiting for an answer
-  };
-  /// Hands bytes to the parent.
-  using Send = std::function<void(std::span<const std::uint8_t>)>;
-
-  /// A cause why the work cannot be done; for `work` to throw.
-  struct Refusal {
-    std::string cause;
+    double seconds = 60;                            ///< of each thread's processor
+    std::string options;                            ///< that raise the limits, as errors name them; may be empty
+    std::function<void()> check_time;  ///< called while the parent waits; throws when it has waited too long
   };
 
-  /// Starts `work`, which sends its answer. It may throw Refusal; another exception counts as want of memory.
-  ///
-  /// Errors    Trouble::Failed where no process can be started.
-  LimitedChild(const Limits& limits, const std::function<void(const Send&)>& work);
+  /// `open` runs in the child before its rights are taken, to open libraries.
+  LimitedChild(std::string place, Limits limits, const std::function<void(ChildAnswer&)>& work,
+               const std::function<void()>& open = {});
   ~LimitedChild();
   LimitedChild(const LimitedChild&) = delete;
   LimitedChild& operator=(const LimitedChild&) = delete;
 
-  /// Waits for as many bytes of the answer; false where the child ended before, or was too slow.
-  bool read(std::span<std::uint8_t> out);
-
-  /// Why the answer is cut off, after `read` was false: "needs more memory than the limit", the refusal, ...
-  std::string cause();
+  void read(void* out, std::size_t size);
 
  private:
-  bool wait_for_more(int pipe);
-  int id_ = -1;
-  int answer_ = -1, refusal_ = -1;
-  double deadline_ms_;  ///< after which nothing is waited for
-  Stopwatch clock_;
-  bool is_late_ = false;
+  std::size_t read_some(void* out, std::size_t size);
+  void begin();
+  [[noreturn]] void fail();
+
+  std::string place_;
+  Limits limits_;
+  int id_ = -1, pipe_ = -1;
+  bool is_begun_ = false;
 };
 
 }  // namespace zoneplate

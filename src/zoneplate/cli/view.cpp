@@ -82,13 +82,13 @@ Camera base_camera(const Scene& scene, const View& view, float aspect) {
 }  // namespace
 
 Camera choose_camera(const Scene& scene, const View& view, float aspect) {
-  const Box box = scene.bounds();
-  const float3 centre = box.empty() ? float3{} : box.centre();
   Camera camera = base_camera(scene, view, aspect);
   const bool turns = (view.azimuth || view.elevation) && (view.index || view.position);
   const bool changes_lens = view.index && (view.view_angle || view.is_orthographic);
   if (!view.position && !view.focal_point && !view.view_up && !turns && !changes_lens) return camera;
 
+  const Box box = scene.bounds();
+  const float3 centre = box.empty() ? float3{} : box.centre();
   Pose pose = pose_of(camera, centre);
   if (view.position) pose = {*view.position, centre, view.up};
   if (view.focal_point) pose.target = *view.focal_point;

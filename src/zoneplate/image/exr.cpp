@@ -11,13 +11,19 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/limited_child.h"
 
 namespace zoneplate {
 namespace {
 
-using Refusal = LimitedChild::Refusal;
+/// Why a picture is not decoded.
+struct Refusal {
+  std::string cause;
+};
+
+constexpr const char* library_name = "libOpenEXRCore-3_1.so.30";
 
 /// A rectangle of pixels, both corners in it.
 struct Window {
@@ -88,13 +94,13 @@ struct Library {
   decltype(&exr_decoding_destroy) end_decoding = nullptr;
 
   explicit Library(const std::string& file) {
-    constexpr const char* name = "libOpenEXRCore-3_1.so.30";
-    void* const opened = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
+    void* const opened = ::dlopen(library_name, RTLD_NOW | RTLD_LOCAL);
     if (!opened)
-      throw Error(Trouble::Failed, file + ": an EXR picture wants the package libopenexr-3-1-30 (" + name + ")");
+      throw Error(Trouble::Failed,
+                  file + ": an EXR picture wants the package libopenexr-3-1-30 (" + library_name + ")");
     const auto find = [&](auto& function, const char* symbol) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(opened, symbol));
-      if (!function) throw Error(Trouble::Failed, std::string(name) + " has no " + symbol);
+      if (!function) throw Error(Trouble::Failed, std::string(library_name) + " has no " + symbol);
     };
     find(start_read, "exr_start_read");
     find(finish, "exr_finish");
@@ -260,8 +266,9 @@ class ExrReader {
   std::array<Plane<float>, 4> planes_;  ///< red or grey, green, blue, alpha
 };
 
-/// The rows of the display window, with what the data window has of them.
-void send_rows(const ExrReader& reader, const Windows& windows, const LimitedChild::Send& send) {
+/// Gives the rows of the display window, with what the data window has of them, to `send(data, size)`.
+template <class Send>
+void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
   const Window &data = windows.data, &display = windows.display;
   std::vector<Linear> row(static_cast<std::size_t>(display.width()));
   const std::int64_t left = std::max(data.left, display.left), right = std::min(data.right, display.right);
@@ -271,7 +278,7 @@ void send_rows(const ExrReader& reader, const Windows& windows, const LimitedChi
       reader.copy_row(static_cast<int>(y - data.top), static_cast<int>(left - data.left),
                       std::span(row).subspan(static_cast<std::size_t>(left - display.left),
                                              static_cast<std::size_t>(right - left + 1)));
-    send({reinterpret_cast<const std::uint8_t*>(row.data()), row.size() * sizeof(Linear)});
+    send(row.data(), row.size() * sizeof(Linear));
   }
 }
 
@@ -297,19 +304,45 @@ LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& n
       throw fail(std::to_string(window.width()) + " x " + std::to_string(window.height()) + " pixels, at most " +
                  std::to_string(max_pixels) + " are allowed");
 
-  const Library library(name);
   const Window& display = windows->display;
   LinearImage image(static_cast<int>(display.width()), static_cast<int>(display.height()));
+  auto* const values = reinterpret_cast<std::uint8_t*>(image.values().data());
+  const auto decode = [&](const Library& library, auto send) {
+    try {
+      ExrReader reader(library, bytes, windows->data);
+      reader.read();
+      send_rows(reader, *windows, send);
+    } catch (const Refusal& refused) {
+      throw fail(refused.cause);
+    }
+  };
+  if (is_limited_child()) {
+    decode(Library(name), [at = values](const void* data, std::size_t size) mutable {
+      std::memcpy(at, data, size);
+      at += size;
+    });
+    return image;
+  }
+
   // The picture, and as much again for what is being unpacked of it.
-  const std::uint64_t memory = 2 * sizeof(Linear) * windows->data.pixels() + 2 * bytes.size();
-  LimitedChild child({.memory = memory}, [&](const LimitedChild::Send& send) {
-    ExrReader reader(library, bytes, windows->data);
-    reader.read();
-    send_rows(reader, *windows, send);
-  });
-  const auto values = image.values();
-  if (!child.read({reinterpret_cast<std::uint8_t*>(values.data()), values.size_bytes()})) throw fail(child.cause());
+  constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
+  const Stopwatch clock;
+  LimitedChild::Limits limits;
+  limits.memory = 2 * sizeof(Linear) * windows->data.pixels() + 2 * bytes.size() + of_the_library;
+  limits.check_time = [&] {
+    if (clock.ms() > limits.seconds * 1000) throw fail("takes longer than the limit");
+  };
+  std::optional<Library> library;
+  LimitedChild child(
+      name + ": EXR", limits,
+      [&](ChildAnswer& answer) {
+        decode(*library, [&](const void* data, std::size_t size) { answer.write(data, size); });
+      },
+      [&] { library.emplace(name); });
+  child.read(values, image.values().size_bytes());
   return image;
 }
+
+void open_exr_library() { static_cast<void>(::dlopen(library_name, RTLD_NOW | RTLD_LOCAL)); }
 
 }  // namespace zoneplate

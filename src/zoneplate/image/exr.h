@@ -19,7 +19,8 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 /// Decodes the colour of an OpenEXR picture: the channels R, G, B and A, or Y as grey, of its first part; scanlines or
 /// the finest tiles, any compression but DWA.
 ///
-/// The library is opened when this is called, and works in a child process with limits.
+/// The library is opened when this is called, and works in a child process with limits; in a LimitedChild, which has
+/// them already, at once.
 /// Shape     the display window; black and transparent where the data window does not reach.
 /// Units     as stored, premultiplied; what is not a number becomes 0, infinity 65504. Without A, alpha is 1.
 /// Errors    Trouble::Input with `name` in front: not such a picture, deep, without these channels or with fewer
@@ -27,5 +28,8 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 ///           not installed.
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
+/// Opens the library, where it is installed, for a process that may not open it later.
+void open_exr_library();
 
 }  // namespace zoneplate

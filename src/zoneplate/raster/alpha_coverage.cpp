@@ -10,7 +10,7 @@ namespace {
 constexpr float least_slope = 1e-4f;
 
 /// The batch's points moved by a pixel (or sample) along one direction.
-Batch moved(const Batch& batch, const float (&change)[2][Batch::capacity]) {
+Batch moved(const Batch& batch, const float (&change)[2][Batch::room]) {
   Batch out = batch;
   for (int k = 0; k < 2; ++k)
     for (int i = 0; i < batch.padded(); ++i) out.b[k][i] += change[k][i];
@@ -23,7 +23,7 @@ int AlphaDigits::digits() const { return std::bit_width(static_cast<unsigned>(sa
 
 float AlphaDigits::alpha(const Batch& batch, float* out) const {
   const float cutoff = inner_.alpha(batch, out);
-  alignas(64) float right[Batch::capacity], below[Batch::capacity];
+  alignas(64) float right[Batch::room], below[Batch::room];
   if (is_sharp_) {
     inner_.alpha(moved(batch, batch.dbdx), right);
     inner_.alpha(moved(batch, batch.dbdy), below);

@@ -19,6 +19,10 @@ struct Batch {
   static constexpr int group = 8;
   static constexpr int groups = capacity / group;
 
+  /// The length of arrays by point: a cache line more, so that what stands at one place in many of them does not crowd
+  /// into the same few lines of the first cache.
+  static constexpr int room = capacity + 16;
+
   int count = 0;
   int material = 0;           ///< index into Scene::materials
   bool one_instance = false;  ///< all points are known to be of instance[0]
@@ -33,15 +37,15 @@ struct Batch {
   bool repeats_slopes[groups] = {};
 
   // By triangle.
-  alignas(64) std::uint32_t triangle[capacity];   ///< triangle id, in draw order over the whole frame
-  alignas(64) std::uint32_t instance[capacity];   ///< index into Scene::instances
-  alignas(64) std::uint32_t vertex[3][capacity];  ///< the mesh's vertices to which b belongs (lines: a, b, b)
-  alignas(64) std::int32_t is_front[capacity];    ///< 1 if the front face is seen, else 0
+  alignas(64) std::uint32_t triangle[room];   ///< triangle id, in draw order over the whole frame
+  alignas(64) std::uint32_t instance[room];   ///< index into Scene::instances
+  alignas(64) std::uint32_t vertex[3][room];  ///< the mesh's vertices to which b belongs (lines: a, b, b)
+  alignas(64) std::int32_t is_front[room];    ///< 1 if the front face is seen, else 0
 
   // By point.
-  alignas(64) std::int32_t x[capacity], y[capacity];
-  alignas(64) float b[2][capacity];
-  alignas(64) float dbdx[2][capacity], dbdy[2][capacity];
+  alignas(64) std::int32_t x[room], y[room];
+  alignas(64) float b[2][room];
+  alignas(64) float dbdx[2][room], dbdy[2][room];
 
   int padded() const { return (count + group - 1) / group * group; }
   /// Where point i's triangle is told of.
@@ -52,10 +56,10 @@ struct Batch {
 
 /// What shading gives for a batch. Colour is linear and premultiplied. The rest is filled when asked for.
 struct Shaded {
-  alignas(64) float r[Batch::capacity], g[Batch::capacity], b[Batch::capacity], a[Batch::capacity];
-  alignas(64) float normal[3][Batch::capacity];  ///< world space, unit length, towards the viewer's side
-  alignas(64) float uv[2][Batch::capacity];      ///< the base colour's texture coordinate
-  alignas(64) float albedo[3][Batch::capacity];  ///< linear base colour
+  alignas(64) float r[Batch::room], g[Batch::room], b[Batch::room], a[Batch::room];
+  alignas(64) float normal[3][Batch::room];  ///< world space, unit length, towards the viewer's side
+  alignas(64) float uv[2][Batch::room];      ///< the base colour's texture coordinate
+  alignas(64) float albedo[3][Batch::room];  ///< linear base colour
 };
 
 }  // namespace zoneplate

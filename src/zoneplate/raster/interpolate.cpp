@@ -28,10 +28,7 @@ namespace scalar {
 namespace {
 
 /// A weight in [0, limit]. Adding +0 makes one of -0 the +0 that every instruction set agrees on.
-template <class T>
-T clamped(T b, T limit) {
-  return std::min(std::max(b, T{0}), limit) + T{0};
-}
+float clamped(float b, float limit) { return std::min(std::max(b, 0.0f), limit) + 0.0f; }
 
 std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
   const float step = 256.0f * spacing;
@@ -82,20 +79,20 @@ struct ClippedPoint {
 };
 
 ClippedPoint interpolate_point(const BarycentricPlanes& t, double px, double py, float spacing) {
-  const double step = 256.0 * static_cast<double>(spacing);
-  double q[3];
-  for (int k = 0; k < 3; ++k) q[k] = (t.x[k] * px + t.y[k] * py) + t.one[k];
-  const double sum = (q[0] + q[1]) + q[2];
-  const double inverse = 1.0 / (sum == 0 ? 1.0 : sum);
-  const double sum_x = (t.x[0] + t.x[1]) + t.x[2], sum_y = (t.y[0] + t.y[1]) + t.y[2];
-  double limit = 1;
+  float q[3], gx[3], gy[3];
+  for (int k = 0; k < 3; ++k) {
+    q[k] = static_cast<float>(t.x[k] * px + (t.y[k] * py + t.one[k]));
+    gx[k] = static_cast<float>(t.x[k]), gy[k] = static_cast<float>(t.y[k]);
+  }
+  const float sum = (q[0] + q[1]) + q[2], inverse = 1.0f / (sum == 0 ? 1.0f : sum);
+  const float sum_x = (gx[0] + gx[1]) + gx[2], sum_y = (gy[0] + gy[1]) + gy[2], by = inverse * (256.0f * spacing);
+  float limit = 1;
   ClippedPoint p;
   for (int k = 0; k < 2; ++k) {
-    const double b = clamped(q[k + 1] * inverse, limit);
-    limit = limit - b;
-    p.b[k] = static_cast<float>(b);
-    p.dbdx[k] = static_cast<float>((t.x[k + 1] - b * sum_x) * inverse * step);
-    p.dbdy[k] = static_cast<float>((t.y[k + 1] - b * sum_y) * inverse * step);
+    p.b[k] = clamped(q[k + 1] * inverse, limit);
+    limit = limit - p.b[k];
+    p.dbdx[k] = (gx[k + 1] - p.b[k] * sum_x) * by;
+    p.dbdy[k] = (gy[k + 1] - p.b[k] * sum_y) * by;
   }
   return p;
 }
@@ -113,9 +110,9 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   }
 }
 
-void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
-                             std::size_t first) {
-  for (std::size_t i = first; i < first + Batch::group; ++i) {
+void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                              int first, int last) {
+  for (int i = first; i < last; ++i) {
     const ClippedPoint p =
         interpolate_point(planes, batch.x[i] - viewport.width * 128, batch.y[i] - viewport.height * 128, spacing);
     for (int k = 0; k < 2; ++k) {
@@ -129,7 +126,7 @@ void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport,
 
 const InterpolateKernels interpolate_kernels = {.interpolate = interpolate,
                                                 .interpolate_clipped = interpolate_clipped,
-                                                .interpolate_clipped_row = interpolate_clipped_row};
+                                                .interpolate_clipped_rows = interpolate_clipped_rows};
 
 }  // namespace scalar
 }  // namespace zoneplate

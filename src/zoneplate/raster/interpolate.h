@@ -21,8 +21,8 @@ BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport view
 struct BatchCorners {
   /// Not null: all are screen[batch.vertex], and `vertex` says nothing. Requires: no group shares its triangle.
   const ScreenVertex* screen = nullptr;
-  const ScreenVertex* vertex[3][Batch::capacity];
-  alignas(64) std::int32_t is_mirrored[Batch::capacity];  ///< 1: front faces are clockwise; else 0
+  const ScreenVertex* vertex[3][Batch::room];
+  alignas(64) std::int32_t is_mirrored[Batch::room];  ///< 1: front faces are clockwise; else 0
 
   /// Corner k of what is told at point i.
   const ScreenVertex& of(std::size_t k, std::size_t i, const Batch& batch) const {
@@ -51,9 +51,10 @@ struct InterpolateKernels {
 
   /// The same for points of triangles that cross the eye's plane.
   void (*interpolate_clipped)(Viewport viewport, float spacing, ClippedGroup& group);
-  /// The same for the group of one such triangle whose first point is `first`: fills b, dbdx and dbdy.
-  void (*interpolate_clipped_row)(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
-                                  std::size_t first);
+  /// The same for points [first, last) of one such triangle, in whole groups whose x and y are set: fills b, dbdx and
+  /// dbdy.
+  void (*interpolate_clipped_rows)(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                                   int first, int last);
 
   static const InterpolateKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
       N_WASM;  ///< one for each instruction set (base/isa.h)

@@ -125,6 +125,11 @@ struct Screen {
   I centre_x, centre_y;
   F step;
   bool has_slopes;
+  Screen(Viewport viewport, float spacing)
+      : centre_x(hn::Set(IntTag(), viewport.width * 128)),
+        centre_y(hn::Set(IntTag(), viewport.height * 128)),
+        step(hn::Set(FloatTag(), 256.0f * spacing)),
+        has_slopes(spacing != 0) {}
 };
 
 /// The weights of points, from their edge functions.
@@ -132,12 +137,12 @@ struct Weights {
   F b1, b2, inverse;
 };
 
-HWY_INLINE Weights store_weights(F q1, F q2, F inverse, Batch& batch, int i) {
+HWY_INLINE Weights store_weights(F q1, F q2, F inverse, float* b1_out, float* b2_out) {
   const FloatTag d;
   const F one = hn::Set(d, 1.0f);
   const F b1 = clamped(hn::Mul(q1, inverse), one), b2 = clamped(hn::Mul(q2, inverse), hn::Sub(one, b1));
-  hn::Store(b1, d, batch.b[0] + i);
-  hn::Store(b2, d, batch.b[1] + i);
+  hn::Store(b1, d, b1_out);
+  hn::Store(b2, d, b2_out);
   return {b1, b2, inverse};
 }
 
@@ -148,10 +153,10 @@ HWY_INLINE F inverse_of(F sum) {
 }
 
 /// Slopes: those of q_1, q_2 and of the sum of all three.
-HWY_INLINE void store_slopes(const Weights& w, F by, F g1, F g2, F all, float (&out)[2][Batch::capacity], int i) {
+HWY_INLINE void store_slopes(const Weights& w, F by, F g1, F g2, F all, float* out1, float* out2) {
   const FloatTag d;
-  hn::Store(hn::Mul(hn::Sub(g1, hn::Mul(w.b1, all)), by), d, out[0] + i);
-  hn::Store(hn::Mul(hn::Sub(g2, hn::Mul(w.b2, all)), by), d, out[1] + i);
+  hn::Store(hn::Mul(hn::Sub(g1, hn::Mul(w.b1, all)), by), d, out1);
+  hn::Store(hn::Mul(hn::Sub(g2, hn::Mul(w.b2, all)), by), d, out2);
 }
 
 /// Points of several triangles, from i on; true if one of these needs clipping.
@@ -173,14 +178,14 @@ HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const
   const F q[3] = {hn::Mul(edges.e[0], inv_w[0]), hn::Mul(edges.e[1], inv_w[1]), hn::Mul(edges.e[2], inv_w[2])};
   F sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
   if (has_affine) sum = hn::IfThenElse(is_affine, edges.sum, sum);
-  const Weights w = store_weights(q[1], q[2], inverse_of(sum), batch, i);
+  const Weights w = store_weights(q[1], q[2], inverse_of(sum), batch.b[0] + i, batch.b[1] + i);
   if (screen.has_slopes) {
     const auto slope = [&](const I(&at)[3], int m, int n, int k)
                            HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), inv_w[k]); };
-    const auto store = [&](F g0, F g1, F g2, float(&out)[2][Batch::capacity]) HWY_ATTR {
+    const auto store = [&](F g0, F g1, F g2, float(&out)[2][Batch::room]) HWY_ATTR {
       F all = hn::Add(hn::Add(g0, g1), g2);
       if (has_affine) all = hn::IfThenZeroElse(is_affine, all);
-      store_slopes(w, hn::Mul(w.inverse, screen.step), g1, g2, all, out, i);
+      store_slopes(w, hn::Mul(w.inverse, screen.step), g1, g2, all, out[0] + i, out[1] + i);
     };
     store(slope(dy, 1, 2, 0), slope(dy, 2, 0, 1), slope(dy, 0, 1, 2), batch.dbdx);
     store(slope(dx, 2, 1, 0), slope(dx, 0, 2, 1), slope(dx, 1, 0, 2), batch.dbdy);
@@ -246,11 +251,30 @@ HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& scree
   for (int group = first; group < last; group += Batch::group)
     for (int i = group; i < group + Batch::group; i += lanes) {
       store_weights(edge_of_row(t, 1, viewport, batch, group, i), edge_of_row(t, 2, viewport, batch, group, i), inverse,
-                    batch, i);
+                    batch.b[0] + i, batch.b[1] + i);
       if (!screen.has_slopes) continue;
       hn::Store(dx1, d, batch.dbdx[0] + i), hn::Store(dx2, d, batch.dbdx[1] + i);
       hn::Store(dy1, d, batch.dbdy[0] + i), hn::Store(dy2, d, batch.dbdy[1] + i);
     }
+}
+
+/// The slopes of q_1, q_2 and of all three, the same at all points.
+struct RunSlopes {
+  F gx[2], gy[2], all_x, all_y;
+};
+
+/// Points [first, last) from their q_1 and q_2, which stand in b, and their sum.
+HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float* sum, Batch& batch, int first,
+                           int last) {
+  const FloatTag d;
+  for (int i = first; i < last; i += lanes) {
+    float *const b1 = batch.b[0] + i, *const b2 = batch.b[1] + i;
+    const Weights w = store_weights(hn::Load(d, b1), hn::Load(d, b2), inverse_of(hn::Load(d, sum + i)), b1, b2);
+    if (!screen.has_slopes) continue;
+    const F by = hn::Mul(w.inverse, screen.step);
+    store_slopes(w, by, t.gx[0], t.gx[1], t.all_x, batch.dbdx[0] + i, batch.dbdx[1] + i);
+    store_slopes(w, by, t.gy[0], t.gy[1], t.all_y, batch.dbdy[0] + i, batch.dbdy[1] + i);
+  }
 }
 
 /// The same of another. In two steps, because both are long chains of operations that wait for each other.
@@ -258,7 +282,7 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
                                 int last) {
   const FloatTag d;
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
-  alignas(64) float sum[Batch::capacity];
+  alignas(64) float sum[Batch::room];
   for (int group = first; group < last; group += Batch::group)
     for (int i = group; i < group + Batch::group; i += lanes) {
       F q[3];
@@ -266,14 +290,8 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
       hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
       hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
     }
-  for (int i = first; i < last; i += lanes) {
-    const F q1 = hn::Load(d, batch.b[0] + i), q2 = hn::Load(d, batch.b[1] + i);
-    const Weights w = store_weights(q1, q2, inverse_of(hn::Load(d, sum + i)), batch, i);
-    if (!screen.has_slopes) continue;
-    const F by = hn::Mul(w.inverse, screen.step);
-    store_slopes(w, by, same(t.gx[1]), same(t.gx[2]), same(t.sum_x), batch.dbdx, i);
-    store_slopes(w, by, same(t.gy[1]), same(t.gy[2]), same(t.sum_y), batch.dbdy, i);
-  }
+  finish_run({{same(t.gx[1]), same(t.gx[2])}, {same(t.gy[1]), same(t.gy[2])}, same(t.sum_x), same(t.sum_y)}, screen,
+             sum, batch, first, last);
 }
 
 /// x and y of the group's points from those of the first.
@@ -320,8 +338,7 @@ bool interpolate_points(const BatchCorners& corners, const Screen& screen, Batch
 }
 
 std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
-  const Screen screen{hn::Set(IntTag(), viewport.width * 128), hn::Set(IntTag(), viewport.height * 128),
-                      hn::Set(FloatTag(), 256.0f * spacing), spacing != 0};
+  const Screen screen(viewport, spacing);
   std::uint32_t clipped = 0;
   const int groups = batch.padded() / Batch::group;
   for (int g = 0; g < groups;) {
@@ -339,71 +356,62 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   return clipped;
 }
 
-using ClippedTag = hn::CappedTag<double, 8>;
-using ClippedV = hn::Vec<ClippedTag>;
-
-/// The planes of as many points as a vector of doubles holds.
-struct Planes {
-  ClippedV x[3], y[3], one[3];
-};
-
-struct Place {
-  std::int32_t centre_x, centre_y;
-  double step;
-  explicit Place(Viewport viewport, float spacing)
-      : centre_x(viewport.width * 128), centre_y(viewport.height * 128), step(256.0 * static_cast<double>(spacing)) {}
-};
-
-/// The points at (x, y) and on. Slopes are left out where the step is 0.
-HWY_INLINE void interpolate_planes(const Planes& t, const Place& place, const std::int32_t* x, const std::int32_t* y,
-                                   float* const (&b_out)[2], float* const (&dbdx)[2], float* const (&dbdy)[2]) {
-  const ClippedTag d;
-  const hn::Rebind<float, ClippedTag> df;
-  const hn::Rebind<std::int32_t, ClippedTag> di;
-  const ClippedV zero = hn::Zero(d), one = hn::Set(d, 1.0), step = hn::Set(d, place.step);
-  const ClippedV px = hn::PromoteTo(d, hn::Sub(hn::Load(di, x), hn::Set(di, place.centre_x)));
-  const ClippedV py = hn::PromoteTo(d, hn::Sub(hn::Load(di, y), hn::Set(di, place.centre_y)));
-  ClippedV q[3];
-  for (int k = 0; k < 3; ++k) q[k] = hn::Add(hn::Add(hn::Mul(t.x[k], px), hn::Mul(t.y[k], py)), t.one[k]);
-  const ClippedV sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
-  const ClippedV inverse = hn::Div(one, hn::IfThenElse(hn::Eq(sum, zero), one, sum));
-  const ClippedV sum_x = hn::Add(hn::Add(t.x[0], t.x[1]), t.x[2]), sum_y = hn::Add(hn::Add(t.y[0], t.y[1]), t.y[2]);
-  ClippedV limit = one;
-  for (int k = 0; k < 2; ++k) {
-    const ClippedV b = hn::Add(hn::Min(hn::Max(hn::Mul(q[k + 1], inverse), zero), limit), zero);
-    limit = hn::Sub(limit, b);
-    hn::Store(hn::DemoteTo(df, b), df, b_out[k]);
-    if (place.step == 0) continue;
-    const auto slope = [&](ClippedV plane, ClippedV total) HWY_ATTR {
-      return hn::DemoteTo(df, hn::Mul(hn::Mul(hn::Sub(plane, hn::Mul(b, total)), inverse), step));
-    };
-    hn::Store(slope(t.x[k + 1], sum_x), df, dbdx[k]);
-    hn::Store(slope(t.y[k + 1], sum_y), df, dbdy[k]);
-  }
+/// x px + (y py + one), rounded once. The planes of eight points, or of all.
+HWY_INLINE F plane_at(D x_low, D x_high, D y_low, D y_high, D one_low, D one_high, I px, I py) {
+  const D l = hn::Add(hn::Mul(x_low, low(px)), hn::Add(hn::Mul(y_low, low(py)), one_low));
+  const D h = hn::Add(hn::Mul(x_high, high(px)), hn::Add(hn::Mul(y_high, high(py)), one_high));
+  return to_floats(l, h);
 }
 
 void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
-  const ClippedTag d;
-  const Place place(viewport, spacing);
-  for (std::size_t i = 0; i < Batch::group; i += hn::Lanes(d)) {
-    Planes t;
-    for (int k = 0; k < 3; ++k)
-      t.x[k] = hn::Load(d, g.x[k] + i), t.y[k] = hn::Load(d, g.y[k] + i), t.one[k] = hn::Load(d, g.one[k] + i);
-    interpolate_planes(t, place, g.px + i, g.py + i, {g.b[0] + i, g.b[1] + i}, {g.dbdx[0] + i, g.dbdx[1] + i},
-                       {g.dbdy[0] + i, g.dbdy[1] + i});
+  const DoubleTag dd;
+  const IntTag di;
+  const Screen screen(viewport, spacing);
+  constexpr int half = lanes / 2;
+  for (int i = 0; i < Batch::group; i += lanes) {
+    const I px = hn::Sub(hn::Load(di, g.px + i), screen.centre_x),
+            py = hn::Sub(hn::Load(di, g.py + i), screen.centre_y);
+    const auto both = [&](const double* p)
+                          HWY_ATTR { return to_floats(hn::Load(dd, p + i), hn::Load(dd, p + i + half)); };
+    F q[3], gx[3], gy[3];
+    for (int k = 0; k < 3; ++k) {
+      q[k] = plane_at(hn::Load(dd, g.x[k] + i), hn::Load(dd, g.x[k] + i + half), hn::Load(dd, g.y[k] + i),
+                      hn::Load(dd, g.y[k] + i + half), hn::Load(dd, g.one[k] + i), hn::Load(dd, g.one[k] + i + half),
+                      px, py);
+      gx[k] = both(g.x[k]), gy[k] = both(g.y[k]);
+    }
+    const F inverse = inverse_of(hn::Add(hn::Add(q[0], q[1]), q[2]));
+    const Weights w = store_weights(q[1], q[2], inverse, g.b[0] + i, g.b[1] + i);
+    if (!screen.has_slopes) continue;
+    const F by = hn::Mul(inverse, screen.step);
+    store_slopes(w, by, gx[1], gx[2], hn::Add(hn::Add(gx[0], gx[1]), gx[2]), g.dbdx[0] + i, g.dbdx[1] + i);
+    store_slopes(w, by, gy[1], gy[2], hn::Add(hn::Add(gy[0], gy[1]), gy[2]), g.dbdy[0] + i, g.dbdy[1] + i);
   }
 }
 
-void interpolate_clipped_row(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
-                             std::size_t first) {
-  const ClippedTag d;
-  const Place place(viewport, spacing);
-  Planes t;
-  for (int k = 0; k < 3; ++k)
-    t.x[k] = hn::Set(d, planes.x[k]), t.y[k] = hn::Set(d, planes.y[k]), t.one[k] = hn::Set(d, planes.one[k]);
-  for (std::size_t i = first; i < first + Batch::group; i += hn::Lanes(d))
-    interpolate_planes(t, place, batch.x + i, batch.y + i, {batch.b[0] + i, batch.b[1] + i},
-                       {batch.dbdx[0] + i, batch.dbdx[1] + i}, {batch.dbdy[0] + i, batch.dbdy[1] + i});
+void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+                              int first, int last) {
+  const FloatTag d;
+  const DoubleTag dd;
+  const IntTag di;
+  const Screen screen(viewport, spacing);
+  D x[3], y[3], one[3];
+  F gx[3], gy[3];
+  for (int k = 0; k < 3; ++k) {
+    x[k] = hn::Set(dd, planes.x[k]), y[k] = hn::Set(dd, planes.y[k]), one[k] = hn::Set(dd, planes.one[k]);
+    gx[k] = to_floats(x[k], x[k]), gy[k] = to_floats(y[k], y[k]);
+  }
+  alignas(64) float sum[Batch::room];
+  for (int i = first; i < last; i += lanes) {
+    const I px = hn::Sub(hn::Load(di, batch.x + i), screen.centre_x);
+    const I py = hn::Sub(hn::Load(di, batch.y + i), screen.centre_y);
+    F q[3];
+    for (int k = 0; k < 3; ++k) q[k] = plane_at(x[k], x[k], y[k], y[k], one[k], one[k], px, py);
+    hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
+    hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
+  }
+  const auto all = [&](const F(&g)[3]) HWY_ATTR { return hn::Add(hn::Add(g[0], g[1]), g[2]); };
+  finish_run({{gx[1], gx[2]}, {gy[1], gy[2]}, all(gx), all(gy)}, screen, sum, batch, first, last);
 }
 
 }  // namespace
@@ -415,5 +423,5 @@ namespace zoneplate {
 const InterpolateKernels InterpolateKernels::HWY_NAMESPACE = {
     .interpolate = HWY_NAMESPACE::interpolate,
     .interpolate_clipped = HWY_NAMESPACE::interpolate_clipped,
-    .interpolate_clipped_row = HWY_NAMESPACE::interpolate_clipped_row};
+    .interpolate_clipped_rows = HWY_NAMESPACE::interpolate_clipped_rows};
 }  // namespace zoneplate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace zoneplate {
 
@@ -132,10 +133,35 @@ bool PointBatcher::are_of_one_draw(const PointList& list) {
   return others == 0;
 }
 
-/// Points of the draw that is known. Indices and vertices, which lie anywhere in memory, are asked for before they are
-/// needed.
+/// Finds the vertices of the batch that begins at point `first` of the list, whose draw is known. They lie anywhere in
+/// memory, as their indices do: both are asked for about a batch before they are needed.
+void PointBatcher::find_vertices(const PointList& list, std::size_t first) {
+  constexpr std::size_t ahead = 160;
+  const Draw& draw = *known_.draw;
+  if (first == 0) vertex_memory_ = shader_.vertex_memory(draw.instance, draw.material);
+  const std::uint32_t* const index = draw.index.data() - 3 * static_cast<std::size_t>(known_.begin);
+  const auto ask_for_index = [&](std::size_t i) { __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[i]}); };
+  const ScreenVertex* const screen = known_.screen;
+  const auto [memory, stride] = vertex_memory_;
+  const auto total = static_cast<std::size_t>(list.count);
+  if (first == 0)
+    for (std::size_t i = 0; i < std::min(ahead, total); ++i) ask_for_index(i);
+  const std::size_t count = std::min<std::size_t>(Batch::capacity, total - first);
+  for (std::size_t i = 0; i < count; ++i) {
+    // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
+    if (i % 2 == 0 && first + i + ahead < total) ask_for_index(first + i + ahead);
+    const std::uint32_t* const v = index + 3 * std::ptrdiff_t{list.id[first + i]};
+    // The second vertex mostly lies beside one of the others.
+    for (std::size_t k = 0; k < 3; ++k) next_vertex_[k][i] = v[k];
+    for (const std::uint32_t vertex : {v[0], v[2]}) {
+      __builtin_prefetch(screen + vertex);
+      __builtin_prefetch(memory + vertex * stride);
+    }
+  }
+}
+
+/// Points of the draw that is known, whose vertices are found. Finds those of the next batch.
 void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t count) {
-  constexpr std::size_t ahead = 32;
   const Draw& draw = *known_.draw;
   batch_.count = static_cast<int>(count);
   batch_.material = draw.material;
@@ -145,27 +171,15 @@ void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t co
   std::fill_n(batch_.one_triangle, padded / Batch::group, false);
   std::fill_n(batch_.instance, padded, draw.instance);
   std::fill_n(corners_.is_mirrored, padded, draw.is_mirrored ? 1 : 0);
-  std::copy_n(list.x + first, count, batch_.x);
-  std::copy_n(list.y + first, count, batch_.y);
-  std::copy_n(list.id + first, count, reinterpret_cast<std::int32_t*>(batch_.triangle));
-  for (std::size_t i = count; i < padded; ++i) {
-    batch_.x[i] = batch_.x[count - 1], batch_.y[i] = batch_.y[count - 1];
-    batch_.triangle[i] = batch_.triangle[count - 1];
-  }
-  const std::uint32_t* const index = draw.index.data() - 3 * static_cast<std::size_t>(known_.begin);
-  const auto total = static_cast<std::size_t>(list.count);
-  if (first == 0)
-    for (std::size_t i = 0; i < std::min(ahead, total); ++i) __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[i]});
-  for (std::size_t i = 0; i < padded; ++i) {
-    // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
-    if (i % 2 == 0 && first + i + ahead < total)
-      __builtin_prefetch(index + 3 * std::ptrdiff_t{list.id[first + i + ahead]});
-    const std::uint32_t* const v = index + 3 * std::size_t{batch_.triangle[i]};
-    for (std::size_t k = 0; k < 3; ++k) {
-      batch_.vertex[k][i] = v[k];
-      __builtin_prefetch(&known_.screen[v[k]]);
-    }
-  }
+  const auto copy = [&](const auto* from, auto* to) {
+    std::memcpy(to, from, count * sizeof(*to));
+    std::fill(to + count, to + padded, to[count - 1]);
+  };
+  copy(list.x + first, batch_.x);
+  copy(list.y + first, batch_.y);
+  copy(list.id + first, batch_.triangle);
+  for (std::size_t k = 0; k < 3; ++k) copy(next_vertex_[k], batch_.vertex[k]);
+  if (first + count < static_cast<std::size_t>(list.count)) find_vertices(list, first + count);
   interpolate();
 }
 
@@ -201,8 +215,16 @@ void PointBatcher::shade_mixed(const PointList& list) {
 void PointBatcher::interpolate() {
   const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
   std::uint32_t clipped = interpolate_.interpolate(corners_, target_.viewport, spacing, batch_);
-  for (; clipped; clipped &= clipped - 1)
-    interpolate_clipped(static_cast<std::size_t>(std::countr_zero(clipped)), spacing);
+  while (clipped) {
+    const int group = std::countr_zero(clipped);
+    int last = group + 1;
+    if (batch_.one_triangle[group]) {
+      last = interpolate_clipped_rows(group, spacing);
+    } else {
+      interpolate_clipped(static_cast<std::size_t>(group), spacing);
+    }
+    clipped &= last == 32 ? 0 : ~0u << last;
+  }
   if (has_ends_) weigh_ends();
 }
 
@@ -220,18 +242,26 @@ void PointBatcher::put_planes(std::size_t i, const BarycentricPlanes& planes) {
     clipped_.x[k][i] = planes.x[k], clipped_.y[k][i] = planes.y[k], clipped_.one[k][i] = planes.one[k];
 }
 
+std::int32_t PointBatcher::is_front(std::size_t told, const TriangleFacing& facing) const {
+  return facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
+}
+
+/// The points of the rows from a group on of one triangle, which needs clipping. Gives the group after them.
+int PointBatcher::interpolate_clipped_rows(int group, float spacing) {
+  const int groups = batch_.padded() / Batch::group;
+  int last = group + 1;
+  while (last < groups && batch_.one_triangle[last] && batch_.told_group[last] == batch_.told_group[group]) ++last;
+  const std::size_t told = batch_.told(static_cast<std::size_t>(group) * Batch::group);
+  const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
+  batch_.is_front[told] = is_front(told, facing);
+  interpolate_.interpolate_clipped_rows(facing.planes, target_.viewport, spacing, batch_, group * Batch::group,
+                                        last * Batch::group);
+  return last;
+}
+
 /// Does those of the group's points again whose triangles need clipping.
 void PointBatcher::interpolate_clipped(std::size_t group, float spacing) {
   const std::size_t first = group * Batch::group;
-  const auto is_front = [&](std::size_t told, const TriangleFacing& facing) {
-    return facing.is_clockwise == (corners_.is_mirrored[told] != 0) ? 1 : 0;
-  };
-  if (batch_.one_triangle[group]) {
-    const std::size_t told = batch_.told(first);
-    const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
-    batch_.is_front[told] = is_front(told, facing);
-    return interpolate_.interpolate_clipped_row(facing.planes, target_.viewport, spacing, batch_, first);
-  }
   bool is_clipped[Batch::group] = {};
   for (std::size_t i = 0; i < Batch::group; ++i) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -261,7 +291,7 @@ void PointBatcher::weigh_ends() {
     if (d.ends.empty()) continue;
     const std::uint32_t* v = &d.index[3 * static_cast<std::size_t>(id - known_.begin)];
     const float share[3] = {d.share[v[0]], d.share[v[1]], d.share[v[2]]};
-    const auto weigh = [&](float(&b)[2][Batch::capacity], float whole) {
+    const auto weigh = [&](float(&b)[2][Batch::room], float whole) {
       const float first = whole - b[0][i] - b[1][i];
       b[0][i] = (first * share[0] + b[0][i] * share[1]) + b[1][i] * share[2];
       b[1][i] = 0;
@@ -295,7 +325,7 @@ void PointBatcher::test_alpha(std::span<const Point> points, std::vector<std::ui
   shaded_ += points.size();
   is_there.resize(points.size());
   for_batches(points, [&](std::span<const std::uint32_t> numbers) {
-    alignas(64) float alpha[Batch::capacity];
+    alignas(64) float alpha[Batch::room];
     const float cutoff = shader_.alpha(batch_, alpha);
     for (std::size_t i = 0; i < numbers.size(); ++i) is_there[numbers[i]] = alpha[i] >= cutoff;
   });

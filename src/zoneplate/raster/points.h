@@ -45,7 +45,8 @@ class PointBatcher {
   template <class Use>
   void shade(std::span<const PointRow> rows, Use use);
 
-  /// The same, row after row in the order of the list.
+  /// The colours of rows in the order of the list: `use(shaded, first, count)` is called for consecutive parts of it,
+  /// which begin at row `first` and whose colours stand at the beginning of `shaded`.
   template <class Use>
   void shade_in_order(std::span<const PointRow> rows, Use use);
 
@@ -86,11 +87,15 @@ class PointBatcher {
   void fetch_ahead(std::int32_t id) const;
   void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
+  void find_vertices(const PointList& list, std::size_t first);
   void fill(const PointList& list, std::size_t first, std::size_t count);
   void put_triangle(std::size_t i, std::int32_t id);
   void interpolate();
   const TriangleFacing& know_clipped(std::int32_t id);
   void put_planes(std::size_t i, const BarycentricPlanes& planes);
+  static_assert(Batch::groups <= 32);  // a bit each
+  std::int32_t is_front(std::size_t told, const TriangleFacing& facing) const;
+  int interpolate_clipped_rows(int group, float spacing);
   void interpolate_clipped(std::size_t group, float spacing);
   void weigh_ends();
 
@@ -106,6 +111,8 @@ class PointBatcher {
   int one_material_ = 0;                         ///< of a list of one
   Known known_;
   KnownClipped known_clipped_;
+  PointShader::VertexMemory vertex_memory_;                    ///< of the list's draw
+  alignas(64) std::uint32_t next_vertex_[3][Batch::capacity];  ///< of the list's next batch
   Batch batch_;
   BatchCorners corners_{};
   ClippedGroup clipped_{};
@@ -134,6 +141,7 @@ void PointBatcher::shade(const PointList& list, Use use) {
   const auto total = static_cast<std::size_t>(list.count);
   shaded_ += total;
   if (are_of_one_draw(list)) {
+    if (total > 0) find_vertices(list, 0);
     for (std::size_t first = 0; first < total; first += capacity) {
       const std::size_t count = std::min(capacity, total - first);
       fill(list, first, count);
@@ -162,7 +170,7 @@ void PointBatcher::shade_in_order(std::span<const PointRow> rows, Use use) {
     while (first + count < rows.size() && count < most && is_alike(first + count)) ++count;
     fill(rows, std::span<const std::uint32_t>(as_is_).subspan(first, count));
     shader_.shade(batch_, {}, shaded_batch_);
-    for (std::size_t i = 0; i < count; ++i) use(rows[first + i], shaded_batch_, static_cast<int>(i) * Batch::group);
+    use(shaded_batch_, first, count);
     first += count;
   }
 }

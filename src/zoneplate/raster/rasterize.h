@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "zoneplate/raster/bin.h"
@@ -22,6 +24,15 @@ class PointShader {
   virtual float alpha(const Batch& batch, float* out) const = 0;
   /// Whether a material's batches need dbdx and dbdy.
   virtual bool wants_slopes([[maybe_unused]] int material) const { return true; }
+  /// Where shading reads of an instance's vertices: vertex v at first + v × stride, so that it may be asked for before
+  /// it is needed; null: nowhere.
+  struct VertexMemory {
+    const std::byte* first = nullptr;
+    std::size_t stride = 0;
+  };
+  virtual VertexMemory vertex_memory([[maybe_unused]] std::uint32_t instance, [[maybe_unused]] int material) const {
+    return {};
+  }
 };
 
 struct RasterRules {

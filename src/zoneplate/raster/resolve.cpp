@@ -22,6 +22,10 @@ void over(const Shaded& color, int first, Linear8& behind) {
   }
 }
 
+void over_rows(const Shaded& color, int rows, Linear8* const* behind) {
+  for (int row = 0; row < rows; ++row) over(color, row * Batch::group, *behind[row]);
+}
+
 void resolve_samples(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out) {
   for (std::size_t i = 0; i < size; ++i) {
     Linear sum{0, 0, 0, 0};
@@ -44,7 +48,12 @@ void put(const Linear8& color, Linear* out) {
 
 }  // namespace
 
-const ResolveKernels resolve_kernels = {
-    .resolve = resolve, .over = over, .resolve_samples = resolve_samples, .add = add, .divide = divide, .put = put};
+const ResolveKernels resolve_kernels = {.resolve = resolve,
+                                        .over = over,
+                                        .over_rows = over_rows,
+                                        .resolve_samples = resolve_samples,
+                                        .add = add,
+                                        .divide = divide,
+                                        .put = put};
 
 }  // namespace zoneplate::scalar

@@ -14,6 +14,8 @@ struct ResolveKernels {
   void (*resolve)(const Shaded& color, int first, float weight, Linear8& out);
   /// behind = color + behind × (1 - alpha of color).
   void (*over)(const Shaded& color, int first, Linear8& behind);
+  /// The same for rows whose points follow each other from the first on.
+  void (*over_rows)(const Shaded& color, int rows, Linear8* const* behind);
   /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum.
   void (*resolve_samples)(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out);
   /// sum += color × weight.

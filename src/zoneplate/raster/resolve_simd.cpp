@@ -56,12 +56,18 @@ void resolve(const Shaded& color, int first, float weight, Linear8& out) {
   });
 }
 
-void over(const Shaded& color, int first, Linear8& behind) {
+HWY_INLINE void lay_over(const Shaded& color, int first, Linear8& behind) {
   const float* const alpha = color.a + first;
   each_channel(color, first, behind, [&](V c, float* to, std::size_t i) HWY_ATTR {
     const V rest = hn::Sub(hn::Set(d, 1.0f), hn::Load(d, alpha + i));
     hn::Store(hn::Add(c, hn::Mul(hn::Load(d, to), rest)), d, to);
   });
+}
+
+void over(const Shaded& color, int first, Linear8& behind) { lay_over(color, first, behind); }
+
+void over_rows(const Shaded& color, int rows, Linear8* const* behind) {
+  for (int row = 0; row < rows; ++row) lay_over(color, row * Batch::group, *behind[row]);
 }
 
 void resolve_samples(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out) {
@@ -108,6 +114,7 @@ HWY_AFTER_NAMESPACE();
 namespace zoneplate {
 const ResolveKernels ResolveKernels::HWY_NAMESPACE = {.resolve = HWY_NAMESPACE::resolve,
                                                       .over = HWY_NAMESPACE::over,
+                                                      .over_rows = HWY_NAMESPACE::over_rows,
                                                       .resolve_samples = HWY_NAMESPACE::resolve_samples,
                                                       .add = HWY_NAMESPACE::add,
                                                       .divide = HWY_NAMESPACE::divide,

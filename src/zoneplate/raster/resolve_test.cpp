@@ -32,6 +32,12 @@ TEST(Resolve, KernelsGiveTheScalarTwinsBits) {
     EXPECT_EQ(a, b) << name_of(isa);
     one.over(color, 40, a), other.over(color, 40, b);
     EXPECT_EQ(a, b) << name_of(isa);
+    Linear8 rows[3] = {a, points, a}, layered[3] = {a, points, a};
+    Linear8* const each[] = {&rows[2], &rows[0], &rows[1]};
+    Linear8* const expected[] = {&layered[2], &layered[0], &layered[1]};
+    other.over_rows(color, 3, each);
+    for (int i = 0; i < 3; ++i) one.over(color, i * Batch::group, *expected[i]);
+    EXPECT_TRUE(std::equal(rows, rows + 3, layered)) << name_of(isa);
     Linear p[8], q[8];
     one.put(a, p), other.put(b, q);
     EXPECT_TRUE(std::equal(p, p + 8, q)) << name_of(isa);

@@ -143,13 +143,17 @@ HWY_INLINE void set_up_edge(const Corners& c, bool is_top_left, SetUp& t) {
   t.bias[k] = is_top_left ? hn::Not(hn::BroadcastSignBit(order)) : hn::Zero(i32);
 }
 
-HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, SetUp& t) {
+HWY_INLINE void set_up_edges(const Corners& c, bool is_top_left, SetUp& t) {
   set_up_edge<0>(c, is_top_left, t);
   set_up_edge<1>(c, is_top_left, t);
   set_up_edge<2>(c, is_top_left, t);
-  t.area = hn::Sub(hn::Mul(t.dx[1], t.dy[2]), hn::Mul(t.dy[1], t.dx[2]));
-  t.origin_x = hn::ShiftRight<8>(e.low_x);
-  t.origin_y = hn::ShiftRight<8>(e.low_y);
+}
+
+/// The rest, which needs no more of the edges than the one from corner 0 to 1.
+HWY_INLINE void set_up_plane(const Corners& c, VI low_x, VI low_y, SetUp& t) {
+  t.area = hn::Sub(hn::Mul(t.dx[2], hn::Sub(c.y[2], c.y[0])), hn::Mul(t.dy[2], hn::Sub(c.x[2], c.x[0])));
+  t.origin_x = hn::ShiftRight<8>(low_x);
+  t.origin_y = hn::ShiftRight<8>(low_y);
   set_up_depth<0>(c, t);
   set_up_depth<1>(c, t);
   const VD pixel = hn::Set(f64, 256.0);
@@ -157,6 +161,11 @@ HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, SetU
   t.step_y = narrowed(hn::Mul(t.dzdy[0], pixel), hn::Mul(t.dzdy[1], pixel));
   t.z_low = hn::Min(hn::Min(c.z[0], c.z[1]), c.z[2]);
   t.z_high = hn::Max(hn::Max(c.z[0], c.z[1]), c.z[2]);
+}
+
+HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, SetUp& t) {
+  set_up_edges(c, is_top_left, t);
+  set_up_plane(c, e.low_x, e.low_y, t);
 }
 
 /// The members of a vector of Triangles, structure of arrays.

@@ -30,6 +30,9 @@ struct Way {
   }
 };
 
+/// From there to the first sample whose place within its pixel is s, in [0, 255].
+HWY_INLINE VI up_to(std::int32_t s, VI from) { return hn::And(hn::Sub(set(s), from), set(255)); }
+
 /// The candidates of one sample: the edges at the first pixel where the bounds hold it, and their steps.
 struct Candidates {
   VI pixel_x, pixel_y;
@@ -47,9 +50,9 @@ HWY_INLINE VI edge_at(const Corners& c, const SetUp& t, VI px, VI py) {
 HWY_INLINE Candidates candidates_of(const Corners& c, const Extent& e, const SetUp& t, const Way& way, std::int32_t sx,
                                     std::int32_t sy) {
   Candidates out;
-  out.pixel_x = hn::ShiftRight<8>(hn::Add(e.low_x, set(255 - sx)));
-  out.pixel_y = hn::ShiftRight<8>(hn::Add(e.low_y, set(255 - sy)));
-  const VI px = hn::Add(hn::ShiftLeft<8>(out.pixel_x), set(sx)), py = hn::Add(hn::ShiftLeft<8>(out.pixel_y), set(sy));
+  const VI px = hn::Add(e.low_x, up_to(sx, e.low_x)), py = hn::Add(e.low_y, up_to(sy, e.low_y));
+  out.pixel_x = hn::ShiftRight<8>(px);
+  out.pixel_y = hn::ShiftRight<8>(py);
   const VI e1 = edge_at<1>(c, t, px, py), e2 = edge_at<2>(c, t, px, py);
   out.e[0] = hn::Add(hn::Sub(hn::Sub(t.area, e1), e2), t.bias[0]);
   out.e[1] = hn::Add(e1, t.bias[1]);
@@ -105,19 +108,6 @@ HWY_INLINE void cover_row(const SetUp& t, const Candidates& c, Edges e, VI dead,
   for (int i = 0; i < columns; i += 2) e = cover_pair(t, c, e, dead, i, j, emit).right(t);
 }
 
-/// The same for all pixels where few columns and rows hold all candidates: most triangles of a dense mesh.
-template <int columns, int rows, class Emit>
-HWY_INLINE void cover_few(const SetUp& t, const Candidates& c, VI dead, const Emit& emit) {
-  const Edges first{c.e[0], c.e[1], c.e[2]};
-  if constexpr (columns == 1) {
-    cover_pixel(t, c, first.outside(dead), row_depth(t, c, 0), 0, 0, emit);
-    if constexpr (rows == 2) cover_pixel(t, c, first.down(t).outside(dead), row_depth(t, c, 1), 0, 1, emit);
-  } else {
-    cover_pair(t, c, first, dead, 0, 0, emit);
-    cover_pair(t, c, first.down(t), dead, 0, 1, emit);
-  }
-}
-
 /// The last part of a tile's list, with room for so many more fragments of the run's triangles.
 HWY_INLINE SampleFragments* part_with_room(const FrontRun& run, FragmentSink& sink, std::int32_t tile,
                                            std::int32_t room) {
@@ -142,7 +132,53 @@ struct Append {
   }
 };
 
-/// Puts lanes one by one into the lists of their tiles, as far as these are drawn.
+/// Puts lanes into the list of a tile. `what`: without the list's first id.
+HWY_INLINE void put_in_tile(const FrontRun& run, FragmentSink& sink, std::int32_t tile, MI mask, VF z, VI what) {
+  SampleFragments* const part = part_with_room(run, sink, tile, lanes);
+  const Packing packing(mask);
+  const std::int32_t at = part->count;
+  packing.store(z, part->depth + at);
+  packing.store(hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part->first_id) << 16))),
+                reinterpret_cast<std::int32_t*>(part->what) + at);
+  part->count = at + packing.count();
+}
+
+/// Puts lanes into the lists of their tiles, as far as these are drawn. `what`: without the list's first id.
+HWY_INLINE void put_by_tile(const FrontRun& run, FragmentSink& sink, MI mask, VI pixel_x, VI pixel_y, VF z, VI what) {
+  const VI column = hn::ShiftRight<6>(pixel_x), row = hn::ShiftRight<6>(pixel_y);
+  const VI beyond = hn::Or(hn::Or(hn::Sub(column, set(run.left >> 6)), hn::Sub(set(run.right >> 6), column)),
+                           hn::Or(hn::Sub(row, set(run.top >> 6)), hn::Sub(set(run.bottom >> 6), row)));
+  mask = hn::AndNot(hn::MaskFromVec(hn::BroadcastSignBit(beyond)), mask);
+  const VI tile =
+      hn::Add(hn::Mul(hn::Sub(row, set(sink.first_row)), set(sink.columns)), hn::Sub(column, set(sink.first_column)));
+  const auto in_list = [&](const SampleFragments& part) HWY_ATTR {
+    return hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part.first_id) << 16)));
+  };
+  if (const std::int32_t first = hn::GetLane(tile); hn::AllTrue(i32, hn::And(mask, hn::Eq(tile, set(first))))) {
+    SampleFragments* const part = part_with_room(run, sink, first, lanes);
+    const std::int32_t at = part->count;
+    hn::StoreU(z, f, part->depth + at);
+    hn::StoreU(in_list(*part), i32, reinterpret_cast<std::int32_t*>(part->what) + at);
+    part->count = at + lanes;
+    return;
+  }
+  alignas(64) std::int32_t tiles[lanes];
+  hn::Store(tile, i32, tiles);
+  for (auto first = hn::FindFirstTrue(i32, mask); first >= 0; first = hn::FindFirstTrue(i32, mask)) {
+    const MI here = hn::And(mask, hn::Eq(tile, set(tiles[first])));
+    put_in_tile(run, sink, tiles[first], here, z, what);
+    mask = hn::AndNot(here, mask);
+  }
+}
+
+/// What is said of a fragment, without its sample and its list's first id.
+HWY_INLINE VI what_at(VI id, VI pixel_x, VI pixel_y) {
+  const VI in_tile = set(63);
+  return hn::Add(hn::ShiftLeft<16>(id),
+                 hn::Add(hn::ShiftLeft<6>(hn::And(pixel_y, in_tile)), hn::And(pixel_x, in_tile)));
+}
+
+/// Puts samples of one kind into the lists of their tiles.
 struct Scatter {
   const FrontRun& run;
   FragmentSink& sink;
@@ -151,24 +187,55 @@ struct Scatter {
   std::int32_t sample;
 
   HWY_NOINLINE void operator()(MI mask, int i, int j, VF z) const {
-    alignas(64) std::int32_t x[lanes], y[lanes], ids[lanes];
-    alignas(64) float depth[lanes];
-    hn::Store(hn::Add(candidates.pixel_x, set(i)), i32, x);
-    hn::Store(hn::Add(candidates.pixel_y, set(j)), i32, y);
-    hn::Store(id, i32, ids);
-    hn::Store(z, f, depth);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(i32, mask, bits);
-    for (std::uint32_t left = bits[0]; left; left &= left - 1) {
-      const int lane = __builtin_ctz(left);
-      const std::int32_t px = x[lane], py = y[lane];
-      if (px < (run.left & ~63) || px > (run.right | 63) || py < (run.top & ~63) || py > (run.bottom | 63)) continue;
-      const std::int32_t tile = ((py >> 6) - sink.first_row) * sink.columns + (px >> 6) - sink.first_column;
-      SampleFragments* const part = part_with_room(run, sink, tile, 1);
-      part->depth[part->count] = depth[lane];
-      part->what[part->count++] = static_cast<std::uint32_t>(((ids[lane] - part->first_id) << 16) + (sample << 12) +
-                                                             ((py & 63) << 6) + (px & 63));
-    }
+    const VI x = hn::Add(candidates.pixel_x, set(i)), y = hn::Add(candidates.pixel_y, set(j));
+    put_by_tile(run, sink, mask, x, y, z, hn::Add(what_at(id, x, y), set(sample << 12)));
+  }
+};
+
+/// Small triangles, or samples of theirs, that wait until they fill vectors. Several vectors' worth, so that what is
+/// read was written long before: a vector that was just written in parts stalls the processor.
+struct Waiting {
+  static constexpr std::int32_t enough = 128, room = enough + 10 * lanes;
+  std::int32_t count = 0;
+  alignas(64) std::int32_t x[3][room], y[3][room], id[room];
+  alignas(64) std::int32_t sample_x[room], sample_y[room];  ///< 1/256 pixel; of samples only
+  alignas(64) float z[3][room];
+
+  HWY_INLINE void add(const Corners& c, const Packing& packing) {
+    const std::int32_t at = count;
+    packing.store(c.x[0], x[0] + at), packing.store(c.y[0], y[0] + at), packing.store(c.z[0], z[0] + at);
+    packing.store(c.x[1], x[1] + at), packing.store(c.y[1], y[1] + at), packing.store(c.z[1], z[1] + at);
+    packing.store(c.x[2], x[2] + at), packing.store(c.y[2], y[2] + at), packing.store(c.z[2], z[2] + at);
+    packing.store(c.id, id + at);
+    count = at + packing.count();
+  }
+  HWY_INLINE void add(const Corners& c, VI px, VI py, const Packing& packing) {
+    packing.store(px, sample_x + count), packing.store(py, sample_y + count);
+    add(c, packing);
+  }
+  HWY_INLINE Corners get(std::int32_t i) const {
+    return {{hn::Load(i32, x[0] + i), hn::Load(i32, x[1] + i), hn::Load(i32, x[2] + i)},
+            {hn::Load(i32, y[0] + i), hn::Load(i32, y[1] + i), hn::Load(i32, y[2] + i)},
+            {hn::Load(f, z[0] + i), hn::Load(f, z[1] + i), hn::Load(f, z[2] + i)},
+            hn::Load(i32, id + i)};
+  }
+  /// Calls draw(i, mask) for whole vectors, and in the end for what is left.
+  template <class Draw>
+  HWY_INLINE void take(bool is_end, const Draw& draw) {
+    std::int32_t i = 0;
+    for (; i + lanes <= count; i += lanes) draw(i, hn::FirstN(i32, lanes));
+    if (is_end && i < count) draw(i, hn::FirstN(i32, static_cast<std::size_t>(count - i)));
+    count = is_end ? 0 : count - i;
+    if (count == 0) return;
+    for (int k = 0; k < 3; ++k) to_front(x[k], i), to_front(y[k], i), to_front(z[k], i);
+    to_front(id, i), to_front(sample_x, i), to_front(sample_y, i);
+  }
+
+ private:
+  template <class T>
+  static HWY_INLINE void to_front(T* values, std::int32_t i) {
+    const hn::CappedTag<T, 8> d;
+    hn::Store(hn::Load(d, values + i), d, values);
   }
 };
 

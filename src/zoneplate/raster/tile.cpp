@@ -127,7 +127,6 @@ void TileRenderer::render_plain() {
   draw_opaque();
   draw_masked();
   times_.visibility += watch_.lap_ms();
-  begin_colors();
   find_rows();
   shade_rows();
   shade_list();
@@ -143,26 +142,21 @@ void TileRenderer::render_plain() {
   times_.output += watch_.lap_ms();
 }
 
-/// Where nothing may be seen the colours begin as nothing.
-void TileRenderer::begin_colors() {
-  for (int block = 0; block < TileVisibility::blocks; ++block) {
-    if (block_owner_[block] != many_triangles && block_owner_[block] != no_triangle) continue;
-    for (int y = 0; y < 8; ++y) color_[static_cast<std::size_t>((block / 8 * 8 + y) * 8 + block % 8)] = {};
-  }
-}
-
-/// Eight pixels that one triangle owns go on together, the others one by one; what nothing owns stays as it is.
+/// Eight pixels that one triangle owns go on together, the others one by one; where nothing is seen colours begin as
+/// nothing.
 void TileRenderer::find_rows() {
   rows_.clear();
   points_.clear();
   coverage_.find_owners(visibility_, row_owner_);
   for (int block = 0; block < TileVisibility::blocks; ++block) {
-    if (block_owner_[block] == no_triangle) continue;
     const int x = block % 8 * 8;
     const bool is_whole = is_whole_row(block % 8);
     for (int y = std::max(block / 8 * 8, top_); y < std::min(block / 8 * 8 + 8, bottom_); ++y) {
       const std::int32_t owner = row_owner_[y * 8 + block % 8];
-      if (owner == no_triangle) continue;
+      if (owner == no_triangle) {
+        color_[static_cast<std::size_t>(y * 8 + block % 8)] = {};
+        continue;
+      }
       if (owner != many_triangles && is_whole) {
         const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
         if (target_.is_per_sample) {
@@ -176,6 +170,7 @@ void TileRenderer::find_rows() {
         list_row(x, y);
         continue;
       }
+      color_[static_cast<std::size_t>(y * 8 + block % 8)] = {};
       for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
         add_pixel(static_cast<std::uint32_t>(y * tile_size + i));
     }

@@ -92,7 +92,6 @@ class TileRenderer {
   bool sort_row(std::size_t first, std::size_t last);
   void blend_rows();
   void layer_slow_rows(int top, int bottom);
-  void begin_colors();
   void write_colors();
   template <class Pixel, class Make>
   void write_row(Plane<Pixel>& plane, int y, Make make);

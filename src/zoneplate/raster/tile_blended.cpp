@@ -73,26 +73,32 @@ bool TileRenderer::sort_block(std::span<BlockLayer> layers) {
 
 /// `strip`: its first block; `layers`: of its blocks, none where these are not to be drawn here.
 void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer> (&layers)[8]) {
+  static constexpr Linear8 nothing{};
   const std::uint32_t first_row = strip * 8;
   std::size_t deepest = 0;
   for (std::uint32_t column = 0; column < 8; ++column) {
     if (layers[column].empty()) continue;
     deepest = std::max(deepest, layers[column].size());
     for (std::uint32_t row = first_row + column; row < first_row + 64; row += 8)
-      behind_[row - first_row] = row_owner_[row] == no_triangle ? Linear8{} : base_[row];
+      behind_[row - first_row] = row_owner_[row] == no_triangle ? nothing : base_[row];
   }
+  PointRow rows[64];
+  Linear8* behind[64];
   for (std::size_t layer = 0; layer < deepest; ++layer) {
-    rows_.clear();
+    std::size_t count = 0;
     for (std::uint32_t column = 0; column < 8; ++column) {
       if (layer >= layers[column].size()) continue;
-      const std::int32_t id = layers[column][layer].id;
-      Point centre = point_at((first_row + column) * 8, id, all_samples_);
-      for (std::uint32_t i = 0; i < 8; ++i, centre.y += 256, centre.pixel += tile_size)
-        rows_.push_back({centre.x, centre.y, id, centre.pixel});
+      const Point centre = point_at((first_row + column) * 8, layers[column][layer].id, all_samples_);
+      for (std::uint32_t i = 0; i < 8; ++i, ++count) {
+        rows[count] = {centre.x, centre.y + 256 * static_cast<std::int32_t>(i), centre.id,
+                       centre.pixel + i * tile_size};
+        behind[count] = &behind_[i * 8 + column];
+      }
     }
-    shader_.shade_in_order(rows_, [&](const PointRow& row, const Shaded& color, int first) {
-      resolve_.over(color, first, behind_[row.pixel / 8 - first_row]);
-    });
+    shader_.shade_in_order(std::span(rows).first(count),
+                           [&](const Shaded& color, std::size_t first, std::size_t shaded) {
+                             resolve_.over_rows(color, static_cast<int>(shaded), behind + first);
+                           });
   }
   for (std::uint32_t row = 0; row < 64; ++row)
     if (!layers[row % 8].empty())
@@ -168,14 +174,16 @@ bool TileRenderer::sort_row(std::size_t first, std::size_t last) {
 void TileRenderer::blend_rows() {
   Linear8 behind{};
   std::size_t layer = 0, first_layer = 0, row = 0;
-  shader_.shade_in_order(rows_, [&](const PointRow&, const Shaded& color, int first) {
-    const BlendedRow& blended = blended_rows_[row];
-    if (layer == first_layer) behind = row_owner_[blended.row] == no_triangle ? Linear8{} : base_[blended.row];
-    resolve_.over(color, first, behind);
-    if (++layer < blended.end) return;
-    resolve_.resolve_samples(behind, weights_.data(), pass_samples_, weight_sum_, color_[blended.row]);
-    first_layer = layer;
-    ++row;
+  shader_.shade_in_order(rows_, [&](const Shaded& color, std::size_t, std::size_t shaded) {
+    for (int i = 0; i < static_cast<int>(shaded); ++i) {
+      const BlendedRow& blended = blended_rows_[row];
+      if (layer == first_layer) behind = row_owner_[blended.row] == no_triangle ? Linear8{} : base_[blended.row];
+      resolve_.over(color, i * Batch::group, behind);
+      if (++layer < blended.end) continue;
+      resolve_.resolve_samples(behind, weights_.data(), pass_samples_, weight_sum_, color_[blended.row]);
+      first_layer = layer;
+      ++row;
+    }
   });
   rows_.clear();
   blended_rows_.clear();

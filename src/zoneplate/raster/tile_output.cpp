@@ -1,6 +1,7 @@
 // The last steps of a tile: data planes and the resolved colour, written to the target.
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "zoneplate/raster/tile.h"
 
@@ -80,9 +81,11 @@ void TileRenderer::write_row(Plane<Pixel>& plane, int y, Make make) {
 
 void TileRenderer::write_background() {
   if (!target_.shown) return;
+  Rgba8 row[tile_size];
+  const auto count = static_cast<std::size_t>(right_ - left_);
+  std::fill_n(row, count, target_.presenter->background());
   for (int y = top_; y < bottom_; ++y)
-    std::fill_n(&(*target_.shown)(tile_x_ + left_ - target_.x, tile_y_ + y - target_.y), right_ - left_,
-                target_.presenter->background());
+    std::memcpy(&(*target_.shown)(tile_x_ + left_ - target_.x, tile_y_ + y - target_.y), row, count * sizeof(Rgba8));
 }
 
 void TileRenderer::finish() {

@@ -5,6 +5,11 @@
 #include "zoneplate/raster/tile.h"
 
 namespace zoneplate {
+namespace {
+
+constexpr int most_known_samples = 8;  ///< of whose sets the weights are found before
+
+}  // namespace
 
 bool TileRenderer::lists_points() const { return !has_layers() && pass_samples_ <= PointList::most_samples; }
 
@@ -49,7 +54,10 @@ void TileRenderer::sum_list() {
   shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
     const std::uint32_t* const at = list_.at + first;
     float weight[Batch::capacity];
-    for (std::size_t i = 0; i < count; ++i) weight[i] = weight_of(PointList::samples(at[i]));
+    if (const float* const known = samples_weight_.data(); pass_samples_ <= most_known_samples)
+      for (std::size_t i = 0; i < count; ++i) weight[i] = known[PointList::samples(at[i])];
+    else
+      for (std::size_t i = 0; i < count; ++i) weight[i] = weight_of(PointList::samples(at[i]));
     point_lists_.add(colors, at, weight, static_cast<int>(count), &list_sums_[0].r);
   });
   for (const std::uint32_t pixel : listed_rows_)
@@ -58,7 +66,6 @@ void TileRenderer::sum_list() {
 
 /// The weight of those samples of the pass, added in their order.
 float TileRenderer::weight_of(std::uint32_t samples) const {
-  if (samples < samples_weight_.size()) return samples_weight_[samples];
   float weight = 0;
   for (; samples; samples &= samples - 1)
     weight += weights_[static_cast<std::size_t>(first_sample_ + std::countr_zero(samples))];
@@ -67,10 +74,8 @@ float TileRenderer::weight_of(std::uint32_t samples) const {
 
 /// The weights of all sets of samples that are not too many.
 void TileRenderer::find_weights() {
-  constexpr std::size_t most_samples = 8;
-  std::vector<float> weights(std::size_t{1} << std::min(target_.samples.size(), most_samples));
-  for (std::uint32_t s = 0; s < weights.size(); ++s) weights[s] = weight_of(s);
-  samples_weight_.swap(weights);
+  samples_weight_.resize(std::size_t{1} << std::min<std::size_t>(target_.samples.size(), most_known_samples));
+  for (std::uint32_t s = 0; s < samples_weight_.size(); ++s) samples_weight_[s] = weight_of(s);
 }
 
 }  // namespace zoneplate

@@ -51,7 +51,7 @@ class ShaderPoints : public PointShader {
   }
 
   /// first + ((v1 - v0) b[0] + (v2 - v0) b[1]).
-  static Varyings weighted(const Floats& first, const Floats (&v)[3], const float (&b)[2][Batch::capacity], int i) {
+  static Varyings weighted(const Floats& first, const Floats (&v)[3], const float (&b)[2][Batch::room], int i) {
     Floats sum;
     for (std::size_t f = 0; f < floats; ++f)
       sum[f] = first[f] + ((v[1][f] - v[0][f]) * b[0][i] + (v[2][f] - v[0][f]) * b[1][i]);

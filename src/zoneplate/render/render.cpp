@@ -29,6 +29,10 @@ class ScenePoints : public PointShader {
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
   bool wants_slopes(int material) const override { return surfaces_.wants_slopes(material); }
+  VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
+    const std::span<const float> record = surfaces_.vertex_record(instance, material);
+    return {reinterpret_cast<const std::byte*>(record.data()), record.size_bytes()};
+  }
 
  private:
   const Scene& scene_;

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/exr.h"
 #include "zoneplate/scene/assimp_files.h"
 #include "zoneplate/scene/assimp_scene.h"
 #include "zoneplate/scene/import_child.h"
@@ -93,14 +94,17 @@ std::span<const SceneFormat> assimp_formats() { return formats; }
 Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits) {
   ImportBudget budget(path == "-" ? "standard input" : path, limits);
   Library library;
-  const auto prepare = [&] { library = open_library(budget.file()); };
-  ImportChild child(
-      budget.file(), budget,
-      [&](ImportAnswer& answer) {
+  const auto open = [&] {
+    library = open_library(budget.file());
+    open_exr_library();
+  };
+  LimitedChild child(
+      budget.file(), child_limits(budget),
+      [&](ChildAnswer& answer) {
         const Scene scene = import(library, path, extension, budget);
         write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
-      prepare);
+      open);
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }
 

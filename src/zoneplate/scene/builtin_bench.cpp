@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
@@ -67,10 +68,10 @@ TextureImage brick_texture() {
 }
 
 BenchMesh::BenchMesh(std::size_t vertices, std::size_t indices) {
-  mesh.position.resize(vertices);
-  mesh.normal.resize(vertices);
-  mesh.uv0.resize(vertices);
-  mesh.index.resize(indices);
+  make_large(mesh.position, vertices);
+  make_large(mesh.normal, vertices);
+  make_large(mesh.uv0, vertices);
+  make_large(mesh.index, indices);
 }
 
 void BenchMesh::add_quad(const float3 (&corner)[4], float3 normal, const float2 (&uv)[4]) {

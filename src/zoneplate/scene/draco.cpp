@@ -90,12 +90,12 @@ DracoMesh decode_draco(std::span<const std::uint8_t> packed, std::uint64_t index
   std::vector<std::uint64_t> sizes{index_count * sizeof(std::uint32_t)};
   for (const DracoWish& wish : wishes)
     sizes.push_back(wish.count * wish.components * size_of_type(wish.component_type));
-  if (is_import_child()) {
+  if (is_limited_child()) {
     for (const std::uint64_t size : sizes) budget.take(size);
     return decode(request);
   }
 
-  ImportChild child(place, budget, [&](ImportAnswer& answer) {
+  LimitedChild child(place, child_limits(budget), [&](ChildAnswer& answer) {
     const DracoMesh mesh = decode(request);
     answer.write(mesh.indices.data(), mesh.indices.size());
     for (const Bytes& attribute : mesh.attributes) answer.write(attribute.data(), attribute.size());

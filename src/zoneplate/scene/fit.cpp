@@ -1,82 +1,117 @@
 #include "zoneplate/scene/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <utility>
+#include <optional>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/angle.h"
+#include "zoneplate/scene/used_vertices.h"
 
 namespace zoneplate {
 namespace {
 
+constexpr std::size_t direction_count = 22, block = 4096;
+using Directions = std::array<float3, direction_count>;
+using Reach = std::array<float, direction_count>;
+
 // The point that lies farthest in each direction.
 struct Farthest {
-  std::vector<float> reach;
-  std::vector<float3> point;
-
-  explicit Farthest(std::size_t directions)
-      : reach(directions, -std::numeric_limits<float>::infinity()), point(directions) {}
-  void add(std::size_t direction, float value, float3 p) {
-    if (value > reach[direction]) reach[direction] = value, point[direction] = p;
-  }
+  Reach reach;
+  std::array<float3, direction_count> point{};
 };
 
 // Directions across the planes that bound the view at fractions of its slopes, and along the view axis.
-std::vector<float3> view_directions(const Camera& camera, float picture_aspect, float margin) {
+Directions view_directions(const Camera& camera, float picture_aspect, float margin) {
   const auto& axes = camera.world_from_camera.column;
   const float3 right = xyz(axes[0]), above = xyz(axes[1]), back = xyz(axes[2]);
   const SineCosine half_fov = sine_cosine(static_cast<double>(camera.vertical_fov) / 2);
   const float slope = static_cast<float>(half_fov.sine / half_fov.cosine) * (1 - 2 * margin);
-  std::vector<float3> directions = {back, -back};
+  Directions directions = {back, -back};
+  std::size_t at = 2;
   for (const float share : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f})
     for (const float side : {-1.0f, 1.0f}) {
-      directions.push_back(right * side + back * (share * slope * picture_aspect));
-      directions.push_back(above * side + back * (share * slope));
+      directions[at++] = right * side + back * (share * slope * picture_aspect);
+      directions[at++] = above * side + back * (share * slope);
     }
   return directions;
 }
 
-// The vertices that primitives use, each once (a mesh has some six indices a vertex), in the order of their first use,
-// which decides between points that lie equally far.
-std::vector<std::uint32_t> used_vertices(const Mesh& mesh) {
-  std::vector<std::uint8_t> is_known(mesh.position.size());
-  std::vector<std::uint32_t> used;
-  used.reserve(mesh.position.size());
-  for (const std::uint32_t v : mesh.index)
-    if (!std::exchange(is_known[v], std::uint8_t{1})) used.push_back(v);
-  return used;
+// The vertices of one mesh in the world.
+struct Placed {
+  const Mesh& mesh;
+  std::span<const std::uint8_t> is_used;
+  const float4x4& world_from_object;
+
+  std::size_t size() const { return mesh.position.size(); }
+  float3 point(std::size_t v) const { return transform_point(world_from_object, mesh.position[v]); }
+};
+
+// How far the used vertices of a block reach in each direction.
+Reach reach_of(const Placed& placed, std::size_t begin, std::size_t end, const Directions& directions) {
+  constexpr std::size_t lanes = 24;  // whole vectors of any width up to eight
+  std::array<float, lanes> x{}, y{}, z{}, reach;
+  for (std::size_t d = 0; d < direction_count; ++d)
+    x[d] = directions[d].x, y[d] = directions[d].y, z[d] = directions[d].z;
+  reach.fill(-std::numeric_limits<float>::infinity());
+  for (std::size_t v = begin; v < end; ++v) {
+    if (placed.is_used[v] == 0) continue;
+    const float3 p = placed.point(v);
+    for (std::size_t d = 0; d < lanes; ++d) {
+      const float value = x[d] * p.x + y[d] * p.y + z[d] * p.z;
+      reach[d] = value > reach[d] ? value : reach[d];
+    }
+  }
+  Reach out;
+  std::copy_n(reach.begin(), direction_count, out.begin());
+  return out;
 }
 
-// Blocks of vertices are searched apart and compared in their order, so that ties do not depend on threads.
-void add_instance(const Mesh& mesh, std::span<const std::uint32_t> vertices, const float4x4& world_from_object,
-                  std::span<const float3> directions, Farthest& all) {
-  constexpr std::size_t block = 16384;
-  std::vector<Farthest> found((vertices.size() + block - 1) / block, Farthest(directions.size()));
-  parallel_ranges(vertices.size(), block, [&](std::size_t begin, std::size_t end) {
-    Farthest& mine = found[begin / block];
-    for (std::size_t i = begin; i < end; ++i) {
-      const float3 p = transform_point(world_from_object, mesh.position[vertices[i]]);
-      for (std::size_t d = 0; d < directions.size(); ++d) mine.add(d, dot(directions[d], p), p);
+// Of the vertices that reach so far, the one that a primitive uses first. They are seldom more than one place.
+float3 first_used_at(const Placed& placed, float3 direction, float reach, const std::vector<std::size_t>& blocks) {
+  std::optional<float3> found;
+  bool is_one = true;
+  for (const std::size_t b : blocks)
+    for (std::size_t v = b * block; v < std::min((b + 1) * block, placed.size()); ++v) {
+      const float3 p = placed.point(v);
+      if (placed.is_used[v] == 0 || dot(direction, p) != reach) continue;
+      is_one = is_one && found.value_or(p) == p;
+      found = found.value_or(p);
     }
+  for (std::size_t i = 0; !is_one; ++i)
+    if (const float3 p = placed.point(placed.mesh.index[i]); dot(direction, p) == reach) return p;
+  return found.value_or(float3{});
+}
+
+void add_instance(const Placed& placed, const Directions& directions, Farthest& all) {
+  std::vector<Reach> found((placed.size() + block - 1) / block);
+  parallel_ranges(placed.size(), block, [&](std::size_t begin, std::size_t end) {
+    found[begin / block] = reach_of(placed, begin, end, directions);
   });
-  for (const Farthest& part : found)
-    for (std::size_t d = 0; d < directions.size(); ++d) all.add(d, part.reach[d], part.point[d]);
+  for (std::size_t d = 0; d < direction_count; ++d) {
+    float reach = -std::numeric_limits<float>::infinity();
+    for (const Reach& r : found) reach = std::max(reach, r[d]);
+    if (!(reach > all.reach[d])) continue;
+    std::vector<std::size_t> blocks;
+    for (std::size_t b = 0; b < found.size(); ++b)
+      if (found[b][d] == reach) blocks.push_back(b);
+    all.reach[d] = reach, all.point[d] = first_used_at(placed, directions[d], reach, blocks);
+  }
 }
 
 }  // namespace
 
 Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) {
-  const Camera rough = fit_camera(scene.bounds(), picture_aspect, fit);
-  const std::vector<float3> directions = view_directions(rough, picture_aspect, fit.margin);
-  Farthest all(directions.size());
-  std::vector<std::vector<std::uint32_t>> vertices(scene.meshes.size());
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    std::vector<std::uint32_t>& used = vertices[static_cast<std::size_t>(instance.mesh)];
-    if (used.empty()) used = used_vertices(mesh);
-    add_instance(mesh, used, instance.world_from_object, directions, all);
-  }
+  UsedVertices used(scene);
+  const Camera rough = fit_camera(used.bounds(), picture_aspect, fit);
+  const Directions directions = view_directions(rough, picture_aspect, fit.margin);
+  Farthest all;
+  all.reach.fill(-std::numeric_limits<float>::infinity());
+  for (const Instance& instance : scene.instances)
+    add_instance(
+        {scene.meshes[static_cast<std::size_t>(instance.mesh)], used.of(instance.mesh), instance.world_from_object},
+        directions, all);
   if (!(all.reach[0] > -std::numeric_limits<float>::infinity())) return rough;
   return fit_camera(std::span<const float3>(all.point), picture_aspect, fit);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/gltf_accessor.h"
 #include "zoneplate/scene/gltf_animation.h"
 #include "zoneplate/scene/gltf_file.h"
@@ -174,6 +175,27 @@ std::vector<float4x4> SceneReader::read_placements(const GltfNode& node) {
   return out;
 }
 
+Box bounds_of(const std::vector<float3>& positions) {
+  constexpr std::size_t block = 1 << 15;
+  std::vector<Box> parts((positions.size() + block - 1) / block);
+  parallel_ranges(positions.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) parts[begin / block].add(positions[i]);
+  });
+  Box all;
+  for (const Box& part : parts) all.add(part);
+  return all;
+}
+
+/// Whether all of a box is so near to the origin that squares of distances fit into a float.
+bool is_near(const Box& box, const float4x4& world_from_object) {
+  constexpr float farthest = 1e18f;
+  for (int i = 0; i < 8; ++i) {
+    const float3 p = transform_point(world_from_object, box.corner(i));
+    if (!(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest)) return false;
+  }
+  return true;
+}
+
 /// The scene's meshes for a mesh of the file, [first, end); read at their first use, or for a pose of their own.
 std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh, bool is_skinned) {
   GltfPose pose{.weights = nodes_.weights(node), .joints = {}, .variant = variant_};
@@ -183,9 +205,7 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
 
   const std::size_t first = scene_.meshes.size();
   for (Mesh& m : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
-    Box box;
-    for (const std::uint32_t i : m.index) box.add(m.position[i]);
-    boxes_.push_back(box);
+    boxes_.push_back(bounds_of(m.position));
     scene_.meshes.push_back(std::move(m));
   }
   const std::pair range(first, scene_.meshes.size());
@@ -194,11 +214,13 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
 }
 
 void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
-  // Squares of what is farther away would not fit into a float.
-  constexpr float farthest = 1e18f;
-  for (int i = 0; i < 8; ++i) {
-    const float3 p = transform_point(world_from_object, boxes_[mesh].corner(i));
-    if (std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest) continue;
+  // What no primitive uses may lie where it wants: that is looked at only where it matters.
+  if (!is_near(boxes_[mesh], world_from_object)) {
+    Box used;
+    for (const std::uint32_t i : scene_.meshes[mesh].index) used.add(scene_.meshes[mesh].position[i]);
+    boxes_[mesh] = used;
+  }
+  if (!is_near(boxes_[mesh], world_from_object)) {
     file_.warn(node.json.place() + ": lies farther than 1e18 from the origin or nowhere, dropped");
     return;
   }

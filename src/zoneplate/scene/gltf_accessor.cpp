@@ -6,6 +6,8 @@
 #include <string>
 #include <type_traits>
 
+#include "zoneplate/base/large_array.h"
+
 namespace zoneplate {
 namespace {
 
@@ -91,6 +93,14 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
   return a;
 }
 
+/// The elements as a list of T, where they stand in memory as one; else null.
+template <class T>
+const T* list_of(const Layout& from) {
+  const bool is_list = !from.bytes.empty() && from.stride == sizeof(T) && from.element_size() == sizeof(T) &&
+                       reinterpret_cast<std::uintptr_t>(from.bytes.data()) % alignof(T) == 0;
+  return is_list ? reinterpret_cast<const T*>(from.bytes.data()) : nullptr;
+}
+
 /// One component as a float: plain, or as KHR_mesh_quantization and the core specification normalise it.
 template <class T>
 float to_float(T value, bool is_normalized) {
@@ -116,10 +126,6 @@ void convert_as(const Layout& from, std::uint64_t first, std::size_t count, floa
 
 /// Elements [first, first + count) as floats, `to_stride` floats from one to the next.
 void convert(const Layout& from, std::uint64_t first, std::size_t count, float* to, std::size_t to_stride) {
-  if (from.type == Float && from.components == to_stride && from.stride == from.element_size()) {
-    if (count > 0) std::memcpy(to, from.bytes.data() + first * from.stride, count * from.stride);
-    return;
-  }
   if (from.type == Int8) convert_as<std::int8_t>(from, first, count, to, to_stride);
   if (from.type == Uint8) convert_as<std::uint8_t>(from, first, count, to, to_stride);
   if (from.type == Int16) convert_as<std::int16_t>(from, first, count, to, to_stride);
@@ -129,7 +135,12 @@ void convert(const Layout& from, std::uint64_t first, std::size_t count, float* 
 }
 
 template <class T>
-void widen_as(const Layout& from, std::uint32_t* to) {
+void widen_as(const Layout& from, std::vector<std::uint32_t>& to) {
+  if (const T* const list = list_of<T>(from)) {
+    to.assign(list, list + from.count);
+    return;
+  }
+  to.resize(static_cast<std::size_t>(from.count));
   for (std::size_t i = 0; i < from.count; ++i) {
     T value;
     std::memcpy(&value, from.bytes.data() + i * from.stride, sizeof(T));
@@ -142,11 +153,15 @@ std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, c
   if (from.type != Uint8 && from.type != Uint16 && from.type != Uint32)
     json.fail("componentType is " + std::to_string(from.type) + ", wants 5121, 5123 or 5125");
   file.budget().take(from.count * sizeof(std::uint32_t));
-  std::vector<std::uint32_t> out(static_cast<std::size_t>(from.count));
-  if (from.bytes.empty()) return out;
-  if (from.type == Uint8) widen_as<std::uint8_t>(from, out.data());
-  if (from.type == Uint16) widen_as<std::uint16_t>(from, out.data());
-  if (from.type == Uint32) widen_as<std::uint32_t>(from, out.data());
+  std::vector<std::uint32_t> out;
+  reserve_large(out, static_cast<std::size_t>(from.count));
+  if (from.bytes.empty()) {
+    out.resize(static_cast<std::size_t>(from.count));
+    return out;
+  }
+  if (from.type == Uint8) widen_as<std::uint8_t>(from, out);
+  if (from.type == Uint16) widen_as<std::uint16_t>(from, out);
+  if (from.type == Uint32) widen_as<std::uint32_t>(from, out);
   return out;
 }
 
@@ -182,9 +197,15 @@ std::vector<V> read_vectors(GltfFile& file, const Accessor& a, ElementRange rang
   const std::uint64_t first = std::min(range.first, a.layout.count);
   const std::uint64_t count = std::min(range.count, a.layout.count - first);
   file.budget().take(count * sizeof(V));
-  std::vector<V> out(static_cast<std::size_t>(count), a.layout.components < floats ? filler : V{});
+  std::vector<V> out;
+  reserve_large(out, static_cast<std::size_t>(count));
+  const V* const list = a.layout.type == Float ? list_of<V>(a.layout) : nullptr;
+  if (list)
+    out.assign(list + first, list + first + count);
+  else
+    out.resize(static_cast<std::size_t>(count), a.layout.components < floats ? filler : V{});
   float* data = reinterpret_cast<float*>(out.data());
-  if (!a.layout.bytes.empty()) convert(a.layout, first, out.size(), data, floats);
+  if (!list && !a.layout.bytes.empty()) convert(a.layout, first, out.size(), data, floats);
 
   if (a.json.has("sparse")) {
     const Sparse sparse = read_sparse(file, a);

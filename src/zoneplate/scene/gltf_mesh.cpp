@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/finite.h"
 #include "zoneplate/scene/gltf_accessor.h"
 #include "zoneplate/scene/gltf_draco.h"
@@ -34,6 +36,25 @@ auto read_attribute(const Primitive& p, const char* key, Read read) -> decltype(
   return read(p.file, owner, key, p.range);
 }
 
+/// The least and the greatest of a list.
+struct Span {
+  std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
+  void add(const Span& other) { low = std::min(low, other.low), high = std::max(high, other.high); }
+};
+
+Span span_of(const std::vector<std::uint32_t>& values) {
+  constexpr std::size_t block = 1 << 16;
+  std::vector<Span> parts((values.size() + block - 1) / block);
+  parallel_ranges(values.size(), block, [&](std::size_t begin, std::size_t end) {
+    Span mine;
+    for (std::size_t i = begin; i < end; ++i) mine.add({values[i], values[i]});
+    parts[begin / block] = mine;
+  });
+  Span all;
+  for (const Span& part : parts) all.add(part);
+  return all;
+}
+
 /// Reads the indices of the primitive (0, 1, 2, ... without them) and leaves in `range` the vertices they span.
 std::vector<std::uint32_t> read_order(Primitive& p) {
   const std::uint64_t vertices = count_elements(p.file, p.attributes.renamed(p.json.place()), "POSITION");
@@ -48,13 +69,12 @@ std::vector<std::uint32_t> read_order(Primitive& p) {
   }
   order = read_indices(p.file, p.json, "indices");
   if (order.empty()) return order;
-  const auto [low, high] = std::minmax_element(order.begin(), order.end());
-  if (*high >= vertices)
-    p.json.fail("index " + std::to_string(high - order.begin()) + " is " + std::to_string(*high) +
-                ", but POSITION has " + std::to_string(vertices) + " elements");
-  p.range = {*low, std::uint64_t{*high} - *low + 1};
-  const std::uint32_t first = *low;
-  for (std::uint32_t& i : order) i -= first;
+  const Span span = span_of(order);
+  if (span.high >= vertices)
+    p.json.fail("index " + std::to_string(std::find(order.begin(), order.end(), span.high) - order.begin()) + " is " +
+                std::to_string(span.high) + ", but POSITION has " + std::to_string(vertices) + " elements");
+  p.range = {span.low, std::uint64_t{span.high} - span.low + 1};
+  for (std::size_t i = 0; span.low != 0 && i < order.size(); ++i) order[i] -= span.low;
   return order;
 }
 
@@ -140,11 +160,15 @@ float3 direction(float3 v) {
 
 /// Gives every normal unit length; one of no length becomes that of the triangles around its vertex.
 void normalize_normals(Mesh& m) {
-  bool has_zero = false;
-  for (float3& n : m.normal) {
-    n = direction(n);
-    has_zero = has_zero || n == float3{};
-  }
+  std::atomic<bool> has_zero = false;
+  parallel_ranges(m.normal.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    bool is_here = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      m.normal[i] = direction(m.normal[i]);
+      is_here = is_here || m.normal[i] == float3{};
+    }
+    if (is_here) has_zero = true;
+  });
   if (!has_zero) return;
   std::vector<float3> sum(m.normal.size());
   for (std::size_t k = 0; m.topology == Topology::Triangles && k + 2 < m.index.size(); k += 3) {
@@ -226,10 +250,11 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   const TextureUse* normal_texture = material ? &materials[*material].normal_texture : nullptr;
   if (normal_texture && normal_texture->image < 0) normal_texture = nullptr;
 
-  const std::vector<std::uint32_t> order = read_order(p);
-  file.budget().take(order.size() * 3 * sizeof(std::uint32_t));
-  m.index = list_primitives(order, static_cast<int>(mode));
-  file.budget().give_back((order.size() * 4 - m.index.size()) * sizeof(std::uint32_t));
+  std::vector<std::uint32_t> order = read_order(p);
+  const std::size_t count = order.size();
+  file.budget().take(count * 3 * sizeof(std::uint32_t));
+  m.index = list_primitives(std::move(order), static_cast<int>(mode));
+  file.budget().give_back((count * 4 - m.index.size()) * sizeof(std::uint32_t));
   m.position = read_attribute(p, "POSITION", read_float3);
   m.normal = read_attribute(p, "NORMAL", read_float3);
   if (normal_texture) m.tangent = read_attribute(p, "TANGENT", read_float4);

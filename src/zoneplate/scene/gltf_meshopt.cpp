@@ -1,11 +1,39 @@
 #include "zoneplate/scene/gltf_meshopt.h"
 
+#include <dlfcn.h>
 #include <meshoptimizer.h>
 
 #include <string>
+#include <type_traits>
 
 namespace zoneplate {
 namespace {
+
+constexpr const char* library_name = "libmeshoptimizer.so.2d";
+
+/// The library's functions. It is opened by the first file that wants it: to open it with the program would take as
+/// long as a small picture.
+struct Library {
+  decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;
+  decltype(&meshopt_decodeFilterOct) octahedral = nullptr;
+  decltype(&meshopt_decodeFilterQuat) quaternion = nullptr;
+  decltype(&meshopt_decodeFilterExp) exponential = nullptr;
+
+  explicit Library(const JsonView& json) {
+    void* const opened = ::dlopen(library_name, RTLD_NOW | RTLD_LOCAL);
+    if (!opened) json.fail(std::string("wants the package libmeshoptimizer2d (") + library_name + ")");
+    const auto find = [&](auto& function, const char* symbol) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(opened, symbol));
+      if (!function) json.fail(std::string(library_name) + " has no " + symbol);
+    };
+    find(attributes, "meshopt_decodeVertexBuffer");
+    find(triangles, "meshopt_decodeIndexBuffer");
+    find(indices, "meshopt_decodeIndexSequence");
+    find(octahedral, "meshopt_decodeFilterOct");
+    find(quaternion, "meshopt_decodeFilterQuat");
+    find(exponential, "meshopt_decodeFilterExp");
+  }
+};
 
 void check_stride(const JsonView& json, const std::string& mode, const std::string& filter, std::uint64_t stride) {
   const bool fits_mode =
@@ -35,15 +63,17 @@ std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const s
   budget.take(count * stride);
   std::vector<std::uint8_t> out(static_cast<std::size_t>(count * stride));
   const auto n = static_cast<std::size_t>(count), size = static_cast<std::size_t>(stride);
-  const auto decode = mode == "ATTRIBUTES" ? meshopt_decodeVertexBuffer
-                      : mode == "TRIANGLES"
-                          ? static_cast<decltype(&meshopt_decodeVertexBuffer)>(meshopt_decodeIndexBuffer)
-                          : static_cast<decltype(&meshopt_decodeVertexBuffer)>(meshopt_decodeIndexSequence);
+  const Library library(json);
+  const auto decode = mode == "ATTRIBUTES"  ? library.attributes
+                      : mode == "TRIANGLES" ? library.triangles
+                                            : library.indices;
   if (n > 0 && decode(out.data(), n, size, packed.data(), packed.size()) != 0) json.fail("its data are corrupt");
-  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), n, size);
-  if (filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), n, size);
-  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), n, size);
+  if (filter == "OCTAHEDRAL") library.octahedral(out.data(), n, size);
+  if (filter == "QUATERNION") library.quaternion(out.data(), n, size);
+  if (filter == "EXPONENTIAL") library.exponential(out.data(), n, size);
   return out;
 }
+
+void open_meshopt_library() { static_cast<void>(::dlopen(library_name, RTLD_NOW | RTLD_LOCAL)); }
 
 }  // namespace zoneplate

@@ -11,8 +11,12 @@ namespace zoneplate {
 ///
 /// Errors    Trouble::Input naming the place: a mode, filter or size that the extension does not have, corrupt data,
 ///           more memory than the budget.
+///           Also where libmeshoptimizer, which this opens, is not installed.
 /// Source    EXT_meshopt_compression; decoded by meshoptimizer.
 std::vector<std::uint8_t> decode_meshopt(const JsonView& extension, std::span<const std::uint8_t> packed,
                                          ImportBudget& budget);
+
+/// Opens the library, where it is installed, for a process that may not open it later.
+void open_meshopt_library();
 
 }  // namespace zoneplate

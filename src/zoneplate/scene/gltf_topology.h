@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "zoneplate/scene/mesh.h"
@@ -17,6 +16,6 @@ Topology gltf_topology(int mode);
 ///
 /// Every triangle keeps its winding: the strip's i-th is (i, i + 1 + i % 2, i + 2 - i % 2), the fan's
 /// (i + 1, i + 2, 0). Vertices left over at the end are passed over.
-std::vector<std::uint32_t> list_primitives(std::span<const std::uint32_t> order, int mode);
+std::vector<std::uint32_t> list_primitives(std::vector<std::uint32_t> order, int mode);
 
 }  // namespace zoneplate

@@ -1,18 +1,13 @@
 #include "zoneplate/scene/import_child.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/mman.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
-#include <cstdlib>
-#include <numeric>
+#include <filesystem>
 #include <vector>
 
-#include "zoneplate/base/parallel.h"
+#include "zoneplate/base/file.h"
+#include "zoneplate/image/exr_encode.h"
 #include "zoneplate/scene/damage_for_test.h"
 #include "zoneplate/scene/load.h"
 #include "zoneplate/scene/mesh_samples_for_test.h"
@@ -20,104 +15,6 @@
 
 namespace zoneplate {
 namespace {
-
-/// What the parent says of a child that does this.
-std::string complaint_about(const std::function<void(ImportAnswer&)>& work, const LoadLimits& limits = {}) {
-  ImportBudget budget("model.xyz", limits);
-  try {
-    ImportChild child("model.xyz", budget, work);
-    std::uint8_t byte = 0;
-    child.read(&byte, 1);
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
-void answer_one(ImportAnswer& answer) {
-  const std::uint8_t byte = 1;
-  answer.write(&byte, 1);
-}
-
-TEST(ImportChild, AnswersFromManyThreads) {
-  std::vector<std::uint32_t> wanted(1 << 20);
-  std::iota(wanted.begin(), wanted.end(), 7u);
-  ImportBudget budget("model.xyz", {});
-  with_threads(3, [&] {
-    ImportChild child("model.xyz", budget, [](ImportAnswer& answer) {
-      std::vector<std::uint32_t> values(1 << 20);
-      parallel_ranges(values.size(), 1000, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) values[i] = static_cast<std::uint32_t>(i + 7);
-      });
-      answer.write(values.data(), values.size() * 4);
-    });
-    std::vector<std::uint32_t> values(1 << 20);
-    child.read(values.data(), values.size() * 4);
-    EXPECT_EQ(values, wanted);
-  });
-}
-
-TEST(ImportChild, PassesErrorsOn) {
-  ImportBudget budget("model.xyz", {});
-  try {
-    ImportChild child("model.xyz", budget, [](ImportAnswer&) { throw Error(Trouble::Usage, "two\nlines"); });
-    std::uint8_t byte = 0;
-    child.read(&byte, 1);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Usage);
-    EXPECT_STREQ(error.what(), "two lines");
-  }
-}
-
-TEST(ImportChild, MayBeLost) {
-  EXPECT_EQ(complaint_about(answer_one), "");
-  EXPECT_EQ(complaint_about([](ImportAnswer&) { std::abort(); }), "model.xyz: its reader crashed (signal 6)");
-  EXPECT_EQ(complaint_about([](ImportAnswer&) { ::_exit(3); }), "model.xyz: its reader gave no answer");
-  EXPECT_NE(complaint_about([](ImportAnswer&) { ::pause(); }).find("model.xyz: its reader asked"), std::string::npos);
-  const auto loop = [](ImportAnswer&) {
-    for (std::atomic<int> i = 0;; ++i) continue;
-  };
-  EXPECT_EQ(complaint_about(loop, {.seconds = 0.2}), "model.xyz: takes longer to load than the limit of 200 ms");
-}
-
-TEST(ImportChild, HasSoMuchMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer's allocator ends the process by itself";
-#endif
-  const auto eat = [](ImportAnswer& answer) {
-    std::vector<std::vector<char>> eaten;
-    for (int i = 0; i < 64; ++i) eaten.emplace_back(std::size_t{32} << 20, 'x');
-    answer_one(answer);
-  };
-  EXPECT_EQ(complaint_about(eat, {.memory = 1 << 20}), "model.xyz: needs more memory than the limit (--max-memory)");
-}
-
-TEST(ImportChild, IsEndedByWhatNoReaderNeeds) {
-  const std::string file = testing::TempDir() + "zoneplate_sandbox_" + std::to_string(::getpid());
-  const pid_t parent = ::getpid();
-  const std::vector<std::pair<const char*, std::function<void()>>> deeds = {
-      {"a file to write", [&] { ::open(file.c_str(), O_WRONLY | O_CREAT, 0600); }},
-      {"a file to read and write", [&] { ::open("/dev/null", O_RDWR); }},
-      {"a file to remove", [&] { ::unlink(file.c_str()); }},
-      {"a network", [] { ::socket(AF_INET, SOCK_STREAM, 0); }},
-      {"a process", [] { static_cast<void>(::fork()); }},
-      {"a program", [] { ::execl("/bin/true", "true", nullptr); }},
-      {"a signal to the parent", [&] { ::kill(parent, 0); }},
-      {"code", [] { ::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0); }},
-      {"memory of others", [] { ::mmap(nullptr, 4096, PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1, 0); }}};
-  for (const auto& [name, deed] : deeds) {
-    const auto work = [&, act = deed](ImportAnswer& answer) { act(), answer_one(answer); };
-    EXPECT_EQ(complaint_about(work), "model.xyz: its reader asked the system for what no reader needs, and was ended")
-        << name;
-  }
-  EXPECT_NE(::access(file.c_str(), F_OK), 0);
-  const auto read = [](ImportAnswer& answer) {
-    if (::open("/dev/null", O_RDONLY) < 0) std::abort();
-    answer_one(answer);
-  };
-  EXPECT_EQ(complaint_about(read), "");
-}
 
 std::vector<std::uint8_t> bytes_of(const Scene& scene) {
   std::vector<std::uint8_t> out;
@@ -148,6 +45,40 @@ TEST(Sandbox, GivesTheSameScenesAndErrors) {
       }
     EXPECT_EQ(said[0], said[1]);
   }
+}
+
+TEST(Sandbox, KeepsToTheLimitsOfTheImport) {
+  const MemoryFile file;
+  const std::string path = file.write(mesh_samples::binary_ply(true));
+  const LoadOptions hurried{.limits = {.seconds = -1}, .format = "ply", .choice = {}, .is_sandboxed = true};
+  try {
+    load_scene(path, hurried);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("takes longer to load than the limit"), std::string::npos);
+  }
+}
+
+/// A square with a texture beside it.
+TEST(Sandbox, ReadsExrTextures) {
+  const std::filesystem::path folder = testing::TempDir() + "zoneplate_boxed_" + std::to_string(::getpid());
+  std::filesystem::create_directory(folder);
+  const auto write = [&](const char* name, std::span<const std::uint8_t> bytes) {
+    save_bytes((folder / name).string(), bytes);
+  };
+  const auto write_text = [&](const char* name, std::string_view text) {
+    write(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  };
+  const std::vector<float> values = {0.25f, 0.5f, 0.75f, 1};
+  write("a.exr", encode_exr(2, 2, {{"Y", ExrType::Float, values.data()}}));
+  write_text("a.mtl", "newmtl m\nmap_Kd a.exr\n");
+  write_text("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+  const std::string model = (folder / "a.obj").string();
+  const Scene plain = load_scene(model), boxed = load_scene(model, {.is_sandboxed = true});
+  ASSERT_EQ(boxed.images.size(), 1u);
+  EXPECT_EQ(bytes_of(boxed), bytes_of(plain));
+  EXPECT_EQ(boxed.warnings, std::vector<std::string>{});
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/exr.h"
 #include "zoneplate/scene/assimp.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/gltf.h"
+#include "zoneplate/scene/gltf_meshopt.h"
 #include "zoneplate/scene/import_child.h"
 #include "zoneplate/scene/obj.h"
 #include "zoneplate/scene/ply.h"
@@ -87,10 +89,16 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
 /// The same in a child process, as the libraries are that open one for themselves.
 Scene read_in_child(const std::string& name, const LoadOptions& options) {
   ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
-  ImportChild child(budget.file(), budget, [&](ImportAnswer& answer) {
-    const Scene scene = read_file(name, options);
-    write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
-  });
+  LimitedChild child(
+      budget.file(), child_limits(budget),
+      [&](ChildAnswer& answer) {
+        const Scene scene = read_file(name, options);
+        write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
+      },
+      [] {
+        open_exr_library();
+        open_meshopt_library();
+      });
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }
 

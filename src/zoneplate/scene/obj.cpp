@@ -129,7 +129,8 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   const FileBytes bytes(path, limits.memory);
   ImportBudget budget(name, limits);
   Scene scene;
-  ObjFile file = parse_obj(text_of(bytes), budget);
+  ObjFile file =
+      parse_obj(text_of(bytes), budget, [&](std::string_view part) { bytes.forget(part.data(), part.size()); });
   report_notes(file, name, scene.warnings);
   if (!has_elements(file) && scene.warnings.empty()) make_points(file);
 
@@ -137,6 +138,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   const ObjLayout layout = lay_out(file, is_stream ? "object" : place.stem().string());
   const std::vector<std::vector<float3>> normals = missing_normals(file, layout.runs, budget);
   ObjMeshes found = make_meshes(file, layout, normals, budget);
+  file = {};
   report_losses(found, name, scene.warnings);
   if (found.meshes.empty())
     throw Error(Trouble::Input, scene.warnings.empty()

@@ -3,79 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <map>
 #include <tuple>
 #include <utility>
 
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/scene/large_array.h"
+#include "zoneplate/scene/obj_vertex_table.h"
 #include "zoneplate/scene/triangulate.h"
 
 namespace zoneplate {
 namespace {
-
-/// What makes a vertex one: the corner's indices, and its normal where that was made.
-struct Key {
-  ObjCorner corner;
-  float3 made;
-  bool operator==(const Key&) const = default;
-};
-
-/// Numbers keys in the order in which they come.
-///
-/// Keys hang in chains. Their places are first near each other when the indices are, as in most files, which is kind
-/// to the cache; when a chain grows long for that, all are placed anew by a hash that scatters.
-class VertexTable {
- public:
-  std::uint32_t number(const Key& key) {
-    int steps = 0;
-    for (std::uint32_t i = heads_[place(key)]; i != none; i = next_[i], ++steps)
-      if (keys_[i] == key) return i;
-    const auto fresh = static_cast<std::uint32_t>(keys_.size());
-    keys_.push_back(key);
-    next_.push_back(none);
-    const bool is_crowded = steps > 24 && !scattered_;
-    if (is_crowded || keys_.size() > heads_.size()) {
-      scattered_ = scattered_ || is_crowded;
-      place_all(std::max(heads_.size(), std::bit_ceil(2 * keys_.size())));
-    } else {
-      hang(fresh);
-    }
-    return fresh;
-  }
-
-  const std::vector<Key>& keys() const { return keys_; }
-  std::size_t bytes() const { return keys_.capacity() * (sizeof(Key) + sizeof(next_[0])) + heads_.size() * 4; }
-
- private:
-  static constexpr std::uint32_t none = 0xffffffffu;
-
-  std::size_t place(const Key& key) const {
-    const auto v = static_cast<std::uint32_t>(key.corner.position), t = static_cast<std::uint32_t>(key.corner.uv),
-               n = static_cast<std::uint32_t>(key.corner.normal);
-    const std::uint32_t h =
-        scattered_ ? hash(v, t, n,
-                          std::bit_cast<std::uint32_t>(key.made.x) ^ std::bit_cast<std::uint32_t>(key.made.y) * 5 ^
-                              std::bit_cast<std::uint32_t>(key.made.z) * 9)
-                   : v + 3 * t + 5 * n;
-    return h & (heads_.size() - 1);
-  }
-  void hang(std::uint32_t i) {
-    std::uint32_t& head = heads_[place(keys_[i])];
-    next_[i] = std::exchange(head, i);
-  }
-  void place_all(std::size_t size) {
-    heads_.assign(size, none);
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) hang(i);
-  }
-
-  std::vector<Key> keys_;
-  std::vector<std::uint32_t> next_, heads_ = std::vector<std::uint32_t>(64, none);
-  bool scattered_ = false;
-};
 
 /// The runs that make one mesh.
 struct Plan {
@@ -89,8 +29,11 @@ std::vector<Plan> plan_meshes(const ObjFile& file, const ObjLayout& layout) {
   std::map<std::tuple<int, int, ObjKind>, std::size_t> numbers;
   for (const ObjRun& run : layout.runs) {
     std::array<bool, 3> seen{};
-    for (std::uint32_t e = run.begin; e < run.end; ++e) {
-      const ObjKind kind = file.chunks[run.chunk].elements[e].kind;
+    // Triangles need no second look.
+    const ObjElements& elements = file.chunks[run.chunk].elements;
+    const std::uint32_t end = elements.are_triangles() ? std::min(run.begin + 1, run.end) : run.end;
+    for (std::uint32_t e = run.begin; e < end; ++e) {
+      const ObjKind kind = elements[e].kind;
       if (std::exchange(seen[static_cast<std::size_t>(kind)], true)) continue;
       const auto [found, is_new] = numbers.try_emplace({run.object, run.material, kind}, plans.size());
       if (is_new) plans.push_back({run.object, run.material, kind, {}});
@@ -106,85 +49,122 @@ float linear(float code) { return decode_srgb(std::clamp(code, 0.0f, 1.0f)); }
 class Builder {
  public:
   Builder(const ObjFile& file, const std::vector<std::vector<float3>>& normals, const Plan& plan)
-      : file_(file), normals_(normals), plan_(plan) {}
+      : file_(file), normals_(normals), plan_(plan), size_(size_of(file, plan)), table_(size_.vertices) {
+    reserve_large(index_, size_.indices);
+  }
 
   std::uint64_t not_finite = 0, too_concave = 0;
 
   /// Adds the elements; gives up between some of them when `may_go_on(bytes so far)` says no.
   template <class Check>
   void add_all(const Check& may_go_on) {
-    std::uint32_t since = 0;
-    for (const ObjRun& run : plan_.runs)
-      for (std::uint32_t e = run.begin; e < run.end; ++e) {
-        const ObjChunk& chunk = file_.chunks[run.chunk];
-        if (chunk.elements[e].kind != plan_.kind) continue;
-        if (++since % 4096 == 0 && !may_go_on(bytes())) return;
-        add(run.chunk, chunk, chunk.elements[e]);
+    for (const ObjRun& run : plan_.runs) {
+      const ObjChunk& chunk = file_.chunks[run.chunk];
+      constexpr std::uint32_t block = 4096;
+      for (std::uint32_t begin = run.begin; begin < run.end; begin += block) {
+        if (!may_go_on(bytes())) return;
+        const std::uint32_t end = std::min(run.end, begin + block);
+        if (are_plain_triangles(chunk))
+          add_triangles(chunk, begin, end);
+        else
+          for (std::uint32_t e = begin; e < end; ++e)
+            if (chunk.elements[e].kind == plan_.kind) add(run.chunk, chunk, chunk.elements[e]);
       }
+    }
     may_go_on(bytes());
   }
 
   Mesh take() {
-    const std::vector<Key>& keys = table_.keys();
-    const bool has_uvs = std::any_of(keys.begin(), keys.end(), [](const Key& k) { return k.corner.uv >= 0; });
-    const bool has_normals = plan_.kind == ObjKind::Face;
+    const std::vector<ObjCorner>& corners = table_.corners();
+    const bool has_uvs = std::any_of(corners.begin(), corners.end(), [](const ObjCorner& c) { return c.uv >= 0; });
+    const auto position = [](const ObjCorner& c) { return static_cast<std::size_t>(c.position); };
     Mesh mesh;
     mesh.topology = plan_.kind == ObjKind::Face   ? Topology::Triangles
                     : plan_.kind == ObjKind::Line ? Topology::Lines
                                                   : Topology::Points;
     mesh.material = plan_.material;
     mesh.index = std::move(index_);
-    const bool has_colors = !file_.colors.empty();
     parallel_for(4, [&](std::size_t i) {
-      if (i == 0) make_large(mesh.position, keys.size());
-      if (i == 1 && has_normals) make_large(mesh.normal, keys.size());
-      if (i == 2 && has_uvs) make_large(mesh.uv0, keys.size());
-      if (i == 3 && has_colors) make_large(mesh.color, keys.size());
-    });
-    parallel_ranges(keys.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Key& key = keys[i];
-        const auto p = static_cast<std::size_t>(key.corner.position);
-        mesh.position[i] = file_.positions[p];
-        if (has_normals)
-          mesh.normal[i] =
-              key.corner.normal >= 0 ? file_.normals[static_cast<std::size_t>(key.corner.normal)] : key.made;
-        if (has_uvs) {
-          const float2 uv = key.corner.uv >= 0 ? file_.uvs[static_cast<std::size_t>(key.corner.uv)] : float2{0, 1};
-          mesh.uv0[i] = {uv.x, 1 - uv.y};
-        }
-        if (has_colors) mesh.color[i] = color_of(p);
-      }
+      if (i == 0)
+        fill(mesh.position, [&](std::size_t v) { return file_.positions[position(corners[v])]; });
+      else if (i == 1 && plan_.kind == ObjKind::Face)
+        fill(mesh.normal, [&](std::size_t v) { return normal_of(v); });
+      else if (i == 2 && has_uvs)
+        fill(mesh.uv0, [&](std::size_t v) { return uv_of(corners[v].uv); });
+      else if (i == 3 && !file_.colors.empty())
+        fill(mesh.color, [&](std::size_t v) { return color_of(position(corners[v])); });
     });
     return mesh;
   }
 
  private:
-  std::size_t bytes() const {
-    return table_.bytes() + index_.capacity() * sizeof(index_[0]) + table_.keys().size() * 48;
+  /// How many vertices may be expected, and how many indices there will be at most.
+  struct Size {
+    std::size_t vertices = 0, indices = 0;
+  };
+  static Size size_of(const ObjFile& file, const Plan& plan) {
+    std::size_t corners = 0, indices = 0;
+    for (const ObjRun& run : plan.runs) {
+      const ObjElements& elements = file.chunks[run.chunk].elements;
+      const std::size_t count = run.end - run.begin;
+      if (elements.are_triangles()) corners += 3 * count, indices += 3 * count;
+      for (std::uint32_t e = run.begin; e < run.end && !elements.are_triangles(); ++e) {
+        const ObjElement element = elements[e];
+        if (element.kind != plan.kind) continue;
+        corners += element.count;
+        indices += plan.kind == ObjKind::Face   ? 3 * (element.count - 2)
+                   : plan.kind == ObjKind::Line ? 2 * (element.count - 1)
+                                                : element.count;
+      }
+    }
+    return {std::min(corners, std::max({file.positions.size(), file.uvs.size(), file.normals.size()})), indices};
   }
 
+  std::size_t bytes() const {
+    return table_.bytes() + index_.capacity() * sizeof(index_[0]) + table_.corners().size() * 48;
+  }
+
+  template <class V, class Value>
+  void fill(std::vector<V>& values, const Value& value_of) const {
+    const std::size_t count = table_.corners().size();
+    reserve_large(values, count);
+    for (std::size_t v = 0; v < count; ++v) values.push_back(value_of(v));
+  }
+  float3 normal_of(std::size_t v) const {
+    const std::int32_t normal = table_.corners()[v].normal;
+    return normal >= 0 ? file_.normals[static_cast<std::size_t>(normal)] : table_.made(v);
+  }
+  float2 uv_of(std::int32_t index) const {
+    const float2 uv = index >= 0 ? file_.uvs[static_cast<std::size_t>(index)] : float2{0, 1};
+    return {uv.x, 1 - uv.y};
+  }
   float4 color_of(std::size_t position) const {
     const float4 c = file_.colors[position];
     return {linear(c.x), linear(c.y), linear(c.z), std::clamp(c.w, 0.0f, 1.0f)};
   }
 
   std::uint32_t vertex(std::uint32_t chunk, std::uint32_t corner) {
-    Key key{file_.chunks[chunk].corners[corner], {}};
-    if (plan_.kind != ObjKind::Face) {
-      key.corner.normal = -1;
-    } else if (!has_normal(file_, key.corner)) {
-      key.corner.normal = -1;
-      key.made = normals_[chunk][corner];
-    }
-    return table_.number(key);
+    ObjCorner found = file_.chunks[chunk].corners[corner];
+    if (plan_.kind == ObjKind::Face && has_normal(file_, found)) return table_.number(found);
+    found.normal = -1;
+    return table_.number(found, plan_.kind == ObjKind::Face ? normals_[chunk][corner] : float3{});
+  }
+
+  /// Whether nothing can be odd about the chunk's elements, and all are triangles.
+  bool are_plain_triangles(const ObjChunk& chunk) const {
+    return plan_.kind == ObjKind::Face && chunk.elements.are_triangles() && chunk.corners.have_normals() &&
+           !file_.has_odd_position && !file_.has_odd_normal;
+  }
+  void add_triangles(const ObjChunk& chunk, std::uint32_t begin, std::uint32_t end) {
+    for (std::size_t i = std::size_t{3} * begin; i < std::size_t{3} * end; ++i)
+      index_.push_back(table_.number(chunk.corners[i]));
   }
 
   void add(std::uint32_t c, const ObjChunk& chunk, const ObjElement& e) {
     polygon_.clear();
     for (std::uint32_t i = 0; i < e.count; ++i)
-      polygon_.push_back(file_.positions[static_cast<std::size_t>(chunk.corners[e.first + i].position)]);
-    if (!std::all_of(polygon_.begin(), polygon_.end(), is_finite)) {
+      polygon_.push_back(file_.positions[chunk.corners.position(e.first + i)]);
+    if (file_.has_odd_position && !std::all_of(polygon_.begin(), polygon_.end(), is_finite)) {
       ++not_finite;
       return;
     }
@@ -206,7 +186,8 @@ class Builder {
   const ObjFile& file_;
   const std::vector<std::vector<float3>>& normals_;
   const Plan& plan_;
-  VertexTable table_;
+  const Size size_;
+  ObjVertexTable table_;
   std::vector<std::uint32_t> index_, vertices_;
   std::vector<float3> polygon_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

@@ -27,13 +27,18 @@ struct Share {
 };
 
 bool is_whole(const ObjFile& file, const ObjChunk& chunk, const ObjElement& e) {
-  for (std::uint32_t i = 0; i < e.count; ++i)
-    if (!is_finite(file.positions[static_cast<std::size_t>(chunk.corners[e.first + i].position)])) return false;
+  for (std::uint32_t i = 0; file.has_odd_position && i < e.count; ++i)
+    if (!is_finite(file.positions[chunk.corners.position(e.first + i)])) return false;
   return true;
 }
 
+/// Whether it is clear without a look at its corners.
+bool has_all_normals(const ObjFile& file, const ObjChunk& chunk) {
+  return chunk.corners.have_normals() && !file.has_odd_normal;
+}
+
 bool needs_normals(const ObjFile& file, const ObjChunk& chunk, const ObjElement& e) {
-  if (e.kind != ObjKind::Face) return false;
+  if (e.kind != ObjKind::Face || has_all_normals(file, chunk)) return false;
   for (std::uint32_t i = 0; i < e.count; ++i)
     if (!has_normal(file, chunk.corners[e.first + i])) return is_whole(file, chunk, e);
   return false;
@@ -96,9 +101,10 @@ void for_each_face(const ObjFile& file, const std::vector<ObjRun>& runs, const B
 Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, ImportBudget& budget) {
   Neighbours n;
   const bool are_needed = std::any_of(runs.begin(), runs.end(), [&](const ObjRun& run) {
-    const auto& elements = file.chunks[run.chunk].elements;
-    return std::any_of(elements.begin() + run.begin, elements.begin() + run.end,
-                       [&](const ObjElement& e) { return needs_normals(file, file.chunks[run.chunk], e); });
+    const ObjChunk& chunk = file.chunks[run.chunk];
+    for (std::uint32_t e = run.begin; e < run.end && !has_all_normals(file, chunk); ++e)
+      if (needs_normals(file, chunk, chunk.elements[e])) return true;
+    return false;
   });
   if (!are_needed) return n;
   budget.take(file.positions.size() * 6 * sizeof(std::uint32_t));
@@ -132,7 +138,7 @@ void fill_shares(const ObjFile& file, const ObjRun& run, Neighbours& n) {
     if (!needs_normals(file, chunk, element)) continue;
     polygon.clear();
     for (std::uint32_t i = 0; i < element.count; ++i)
-      polygon.push_back(file.positions[static_cast<std::size_t>(chunk.corners[element.first + i].position)]);
+      polygon.push_back(file.positions[chunk.corners.position(element.first + i)]);
     const float3 normal = unit(area_vector(polygon));
     for (std::uint32_t i = 0; i < element.count; ++i) {
       const float3 p = polygon[i], after = polygon[(i + 1) % element.count];

@@ -52,6 +52,32 @@ constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
+/// Reads decimal digits as far as they go: value becomes value × 10^n + theirs, without a look at overflow; `at` moves
+/// behind them. Eight at a time, as a loop over digits does not know where it will end.
+inline void scan_digits(const char*& at, const char* end, std::uint64_t& value) {
+  static_assert(std::endian::native == std::endian::little, "the first character is the lowest byte");
+  constexpr std::array<std::uint64_t, 9> scales = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+  while (end - at >= 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, at, sizeof eight);
+    // A byte is a digit where it becomes 0 to 9; of others the first one is found, whatever they carry upwards.
+    eight ^= 0x3030303030303030;
+    const std::uint64_t others = ((eight + 0x7676767676767676) | eight) & 0x8080808080808080;
+    const int n = std::countr_zero(others) / 8;
+    if (n == 0) return;
+    // Pairs of digits, fours, eight; zeros in front stand for those that are missing.
+    eight <<= 64 - 8 * n;
+    eight = eight * 10 + (eight >> 8);
+    eight =
+        ((eight & 0x000000ff000000ff) * 0x000f424000000064 + (eight >> 16 & 0x000000ff000000ff) * 0x0000271000000001) >>
+        32;
+    value = value * scales[static_cast<std::size_t>(n)] + eight;
+    at += n;
+    if (n < 8) return;
+  }
+  for (; at != end && is_digit(*at); ++at) value = value * 10 + static_cast<std::uint64_t>(*at - '0');
+}
+
 /// digits × 10^power as a float, if one rounding in double settles it.
 ///
 /// Both factors are exact in double, so that their product is the double nearest to the number. Its float is the
@@ -120,7 +146,7 @@ const char* scan_number(const char* at, const char* end, float& value) {
   std::ptrdiff_t count = at - first;
   if (at != end && *at == '.') {
     const char* const point = ++at;
-    for (; at != end && is_digit(*at); ++at) digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+    scan_digits(at, end, digits);
     power = static_cast<int>(std::max<std::ptrdiff_t>(point - at, -1000));
     count += at - point;
   }

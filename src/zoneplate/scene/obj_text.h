@@ -20,6 +20,7 @@ class TextLines {
   std::string_view line() const { return line_; }   ///< without its end, continuations included
   std::uint64_t number() const { return number_; }  ///< of its first physical line
   std::uint64_t next_number() const { return next_number_; }
+  const char* rest() const { return rest_.data(); }  ///< where the next line begins
 
  private:
   std::string_view rest_, line_;

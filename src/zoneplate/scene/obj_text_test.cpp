@@ -42,6 +42,23 @@ TEST(FindNumber, RoundsNumbersBetweenTwoFloatsByTheirLastDigit) {
   EXPECT_EQ(find_number("16777217.0000001"), 16777218.0f);
 }
 
+TEST(ScanNumber, StopsAtTheFirstOtherCharacter) {
+  const std::string digits = "908172635445362";
+  for (std::size_t n = 1; n <= digits.size(); ++n)
+    for (int other = 0; other < 256; ++other) {
+      if (other >= '0' && other <= '9') continue;
+      for (const std::string& behind : {std::string(), std::string("1234567890"), std::string(10, '\xff')}) {
+        const std::string number = "0." + digits.substr(0, n);
+        const std::string text = number + static_cast<char>(other) + behind;
+        float value = 0;
+        const char* const end = scan_number(text.data(), text.data() + text.size(), value);
+        const bool is_space = other <= ' ';
+        ASSERT_EQ(end, is_space ? text.data() + number.size() : nullptr) << text;
+        ASSERT_EQ(value, is_space ? std::stof(number) : 0) << text;
+      }
+    }
+}
+
 TEST(FindNumber, TakesWhatWritersWrite) {
   EXPECT_EQ(find_number("+1.5"), 1.5f);
   EXPECT_EQ(find_number(".5"), 0.5f);

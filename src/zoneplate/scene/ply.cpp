@@ -69,8 +69,8 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
     return;
   }
   if (mesh.normal.empty()) {
-    // Faces, corners by vertex, and at most a copy of each corner's vertex.
-    budget.take(mesh.index.size() * (sizeof(float3) + 2 * sizeof(std::uint32_t) + 48));
+    // Sums by vertex; at most every corner by its vertex, and a copy of that.
+    budget.take(mesh.position.size() * 40 + mesh.index.size() * (sizeof(float3) + 2 * sizeof(std::uint32_t) + 48));
     make_smooth_normals(mesh);
     return;
   }

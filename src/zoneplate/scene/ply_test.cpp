@@ -8,6 +8,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/scene/damage_for_test.h"
 #include "zoneplate/scene/gltf_maker_test.h"
 #include "zoneplate/scene/smooth_normals.h"
@@ -210,6 +211,66 @@ TEST(SmoothNormals, AnEdgeOf90DegreesStaysAndOneOf20DegreesGoes) {
     EXPECT_NEAR(dot(n[1], n[6]), degrees > 50 ? 0 : 1, 1e-6f);
     EXPECT_EQ(n[0], (float3{0, 0, 1}));
     for (const float3 v : n) EXPECT_NEAR(length(v), 1, 1e-6f);
+  }
+}
+
+/// Rolling land with a rough part, 60 × 60 squares, in which every triangle is somewhere in the list.
+Mesh rough_land() {
+  constexpr std::uint32_t n = 60;
+  Mesh m;
+  for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
+    const std::uint32_t x = i % (n + 1), z = i / (n + 1);
+    const float rough = x > 20 && x < 40 ? 1.5f : 0.1f;
+    m.position.push_back({static_cast<float>(x), rough * unit_float(hash(i)), static_cast<float>(z)});
+  }
+  for (std::uint32_t k = 0; k < n * n; ++k) {
+    const std::uint32_t square = k * 1009 % (n * n), a = square / n * (n + 1) + square % n;
+    m.index.insert(m.index.end(), {a, a + n + 1, a + 1, a + 1, a + n + 1, a + n + 2});
+  }
+  return m;
+}
+
+/// The normals of all corners by their definition.
+std::vector<float3> defined_normals(const Mesh& m) {
+  std::vector<std::vector<std::size_t>> about(m.position.size());
+  for (std::size_t k = 0; k < m.index.size(); ++k) about[m.index[k]].push_back(k);
+  const auto at = [&](std::size_t corner, std::size_t step) {
+    return m.position[m.index[corner / 3 * 3 + (corner + step) % 3]];
+  };
+  const auto area = [&](std::size_t corner) {
+    const std::size_t first = corner / 3 * 3;
+    return cross(at(first, 1) - at(first, 0), at(first, 2) - at(first, 0));
+  };
+  std::vector<float3> out;
+  for (std::size_t k = 0; k < m.index.size(); ++k) {
+    const float3 own = normalize(area(k));
+    float3 sum;
+    for (const std::size_t c : about[m.index[k]]) {
+      const float3 p = m.position[m.index[c]];
+      float3 ends[2];
+      for (std::size_t j = 0, e = 0; j < 3; ++j)
+        if (c / 3 * 3 + j != c) ends[e++] = m.position[m.index[c / 3 * 3 + j]] - p;
+      const float3 normal = area(c);
+      if (dot(normalize(normal), own) > 0.64278761f)
+        sum += normal * (1 / (dot(ends[0], ends[0]) * dot(ends[1], ends[1])));
+    }
+    out.push_back(normalize(sum));
+  }
+  return out;
+}
+
+TEST(SmoothNormals, AreTheirDefinitionForAnyNumberOfThreads) {
+  const Mesh land = rough_land();
+  const std::vector<float3> wanted = defined_normals(land);
+  std::vector<float3> first;
+  for (const int threads : {1, 2, 5}) {
+    Mesh m = land;
+    with_threads(threads, [&] { make_smooth_normals(m); });
+    EXPECT_GT(m.position.size(), land.position.size() + 500);
+    const std::vector<float3> found = corner_normals(m);
+    if (first.empty()) first = found;
+    ASSERT_EQ(found, first) << threads;
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_GT(dot(found[i], wanted[i]), 0.99999f) << i;
   }
 }
 

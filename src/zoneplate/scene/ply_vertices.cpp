@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/scene/large_array.h"
 #include "zoneplate/scene/ply_mesh.h"
 
 namespace zoneplate {

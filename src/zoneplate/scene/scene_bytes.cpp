@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "zoneplate/scene/large_array.h"
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/scene/sound.h"
 
 namespace zoneplate {

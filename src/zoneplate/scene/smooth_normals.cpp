@@ -1,5 +1,6 @@
 #include "zoneplate/scene/smooth_normals.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -7,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/scene/large_array.h"
 
 namespace zoneplate {
 namespace {
@@ -27,45 +28,139 @@ float3 direction(const Sum& s, float3 otherwise) {
   return {static_cast<float>(s.x / length), static_cast<float>(s.y / length), static_cast<float>(s.z / length)};
 }
 
-/// The corners about each vertex, in the order of the triangles.
-struct Corners {
-  std::vector<std::uint32_t> first, list;  ///< of vertex v: list[first[v] .. first[v + 1])
-};
-
-Corners corners_by_vertex(const Mesh& mesh) {
-  Corners c;
-  c.first.resize(mesh.position.size() + 2);
-  make_large(c.list, mesh.index.size());
-  // Counted one place ahead, so that after the filling each entry is where its vertex begins.
-  for (const std::uint32_t v : mesh.index) ++c.first[v + 2];
-  for (std::size_t v = 2; v < c.first.size(); ++v) c.first[v] += c.first[v - 1];
-  for (std::uint32_t k = 0; k < mesh.index.size(); ++k) c.list[c.first[mesh.index[k] + 1]++] = k;
-  return c;
-}
-
 /// A triangle's unit normal, and what it weighs at each of its corners.
 struct Face {
   float3 normal;
   std::array<double, 3> weight;
 };
 
-Face measure(float3 a, float3 b, float3 c) {
-  const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
-  const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
-  const double wx = double{c.x} - b.x, wy = double{c.y} - b.y, wz = double{c.z} - b.z;
-  const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-  const double square = x * x + y * y + z * z;
-  if (!(square > 0 && square < 1e300)) return {{0, 1, 0}, {}};
-  const double area = std::sqrt(square), scale = 1 / area;
-  const double u = ux * ux + uy * uy + uz * uz, v = vx * vx + vy * vy + vz * vz, w = wx * wx + wy * wy + wz * wz;
-  return {{static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)},
-          {area / (u * v), area / (u * w), area / (v * w)}};
+/// Some triangles, measured side by side.
+class Faces {
+ public:
+  static constexpr std::size_t most = 64;
+
+  void set(std::size_t i, float3 a, float3 b, float3 c) {
+    u_[0][i] = double{b.x} - a.x, u_[1][i] = double{b.y} - a.y, u_[2][i] = double{b.z} - a.z;
+    v_[0][i] = double{c.x} - a.x, v_[1][i] = double{c.y} - a.y, v_[2][i] = double{c.z} - a.z;
+    w_[0][i] = double{c.x} - b.x, w_[1][i] = double{c.y} - b.y, w_[2][i] = double{c.z} - b.z;
+  }
+
+  /// Measures the first `count`, rounded up to whole vectors of any width.
+  void measure(std::size_t count) {
+    constexpr std::size_t width = 8;
+    for (std::size_t first = 0; first < count; first += width)
+      for (std::size_t i = first; i < first + width; ++i) {
+        const double x = u_[1][i] * v_[2][i] - u_[2][i] * v_[1][i], y = u_[2][i] * v_[0][i] - u_[0][i] * v_[2][i],
+                     z = u_[0][i] * v_[1][i] - u_[1][i] * v_[0][i];
+        const double square = x * x + y * y + z * z, area = std::sqrt(square), scale = 1 / area;
+        const double u = u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i];
+        const double v = v_[0][i] * v_[0][i] + v_[1][i] * v_[1][i] + v_[2][i] * v_[2][i];
+        const double w = w_[0][i] * w_[0][i] + w_[1][i] * w_[1][i] + w_[2][i] * w_[2][i];
+        square_[i] = square;
+        normal_[0][i] = x * scale, normal_[1][i] = y * scale, normal_[2][i] = z * scale;
+        weight_[0][i] = area / (u * v), weight_[1][i] = area / (u * w), weight_[2][i] = area / (v * w);
+      }
+  }
+
+  Face operator[](std::size_t i) const {
+    if (!(square_[i] > 0 && square_[i] < 1e300)) return {{0, 1, 0}, {}};
+    return {{static_cast<float>(normal_[0][i]), static_cast<float>(normal_[1][i]), static_cast<float>(normal_[2][i])},
+            {weight_[0][i], weight_[1][i], weight_[2][i]}};
+  }
+
+ private:
+  using Lane = std::array<double, most>;
+  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; what is found
+  Lane square_{};
+};
+
+Sum weighted(const Face& f, std::size_t corner) {
+  const double w = f.weight[corner];
+  return {f.normal.x * w, f.normal.y * w, f.normal.z * w};
 }
 
-Sum weighted(const std::vector<Face>& faces, std::uint32_t corner) {
-  const Face& f = faces[corner / 3];
-  const double w = f.weight[corner % 3];
-  return {f.normal.x * w, f.normal.y * w, f.normal.z * w};
+/// What the triangles about each vertex come to, in their order. The first one's normal stands in Mesh::normal.
+struct Sums {
+  std::vector<Sum> sum;
+  std::vector<std::uint16_t> count;  ///< of them, up to `most_compared` and one more
+  std::vector<char> bends;           ///< whether one of them bends away from the first by more than 25°
+};
+
+/// Adds all triangles to those of their vertices that lie in [begin, end).
+class Adder {
+ public:
+  Adder(Mesh& mesh, std::uint32_t begin, std::uint32_t end, Sums& sums)
+      : mesh_(mesh), begin_(begin), size_(end - begin), sums_(sums) {}
+
+  void add_all() {
+    for (std::uint32_t t = 0; t < mesh_.index.size() / 3; ++t) {
+      const std::uint32_t* const v = &mesh_.index[std::size_t{3} * t];
+      if (!is_here(v[0]) && !is_here(v[1]) && !is_here(v[2])) continue;
+      faces_.set(count_, mesh_.position[v[0]], mesh_.position[v[1]], mesh_.position[v[2]]);
+      triangles_[count_++] = t;
+      if (count_ == Faces::most) add();
+    }
+    add();
+  }
+
+ private:
+  bool is_here(std::uint32_t v) const { return v - begin_ < size_; }
+
+  void add() {
+    faces_.measure(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Face face = faces_[i];
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const std::uint32_t v = mesh_.index[std::size_t{3} * triangles_[i] + k]; is_here(v)) add(v, face, k);
+    }
+    count_ = 0;
+  }
+  void add(std::uint32_t v, const Face& face, std::size_t corner) {
+    std::uint16_t& count = sums_.count[v];
+    if (count == 0) mesh_.normal[v] = face.normal;
+    if (count <= most_compared) ++count;
+    if (!(dot(mesh_.normal[v], face.normal) > cos_25)) sums_.bends[v] = 1;
+    sums_.sum[v].add(weighted(face, corner));
+  }
+
+  Mesh& mesh_;
+  std::uint32_t begin_, size_;
+  Sums& sums_;
+  Faces faces_;
+  std::array<std::uint32_t, Faces::most> triangles_;
+  std::size_t count_ = 0;
+};
+
+/// Corners about vertices that need a closer look, in the order of the triangles.
+struct Corners {
+  std::vector<std::uint32_t> vertex;       ///< in growing order
+  std::vector<std::uint32_t> first, list;  ///< of the i-th: list[first[i] .. first[i + 1])
+};
+
+Corners corners_of(const Mesh& mesh, const std::vector<char>& is_wanted) {
+  constexpr std::size_t corners_per_range = 1 << 16;
+  std::vector<std::vector<std::uint32_t>> found((mesh.index.size() + corners_per_range - 1) / corners_per_range);
+  parallel_ranges(mesh.index.size(), corners_per_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (is_wanted[mesh.index[k]] != 0) found[begin / corners_per_range].push_back(static_cast<std::uint32_t>(k));
+  });
+  Corners c;
+  std::vector<std::uint32_t> place;  // of a vertex in c.vertex
+  for (std::uint32_t v = 0; v < is_wanted.size(); ++v) {
+    if (is_wanted[v] == 0) continue;
+    place.resize(is_wanted.size());
+    place[v] = static_cast<std::uint32_t>(c.vertex.size());
+    c.vertex.push_back(v);
+  }
+  // Counted one place ahead, so that after the filling each entry is where its vertex begins.
+  c.first.resize(c.vertex.size() + 2);
+  for (const std::vector<std::uint32_t>& part : found)
+    for (const std::uint32_t k : part) ++c.first[place[mesh.index[k]] + 2];
+  for (std::size_t i = 2; i < c.first.size(); ++i) c.first[i] += c.first[i - 1];
+  c.list.resize(c.first.back());
+  for (const std::vector<std::uint32_t>& part : found)
+    for (const std::uint32_t k : part) c.list[c.first[place[mesh.index[k]] + 1]++] = k;
+  return c;
 }
 
 /// A corner whose normal is not that of its vertex.
@@ -74,31 +169,28 @@ struct Other {
   float3 normal;
 };
 
-/// Finds the normals about one vertex.
-class Vertex {
+/// Finds the normals about vertices where not all triangles are smooth with each other.
+class BentVertex {
  public:
-  Vertex(Mesh& mesh, const std::vector<Face>& faces, std::vector<Other>& others)
-      : mesh_(mesh), faces_(faces), others_(others) {}
+  BentVertex(Mesh& mesh, std::vector<Other>& others) : mesh_(mesh), others_(others) {}
 
   void smooth(std::uint32_t v, std::span<const std::uint32_t> corners) {
-    if (corners.empty()) return;
-    const float3 first = faces_[corners[0] / 3].normal;
-    bool is_even = true;
-    for (const std::uint32_t c : corners) is_even = is_even && dot(first, faces_[c / 3].normal) > cos_25;
-    if (is_even || corners.size() > most_compared) {
-      Sum sum;
-      for (const std::uint32_t c : corners) sum.add(weighted(faces_, c));
-      mesh_.normal[v] = direction(sum, first);
-      return;
+    own_.clear(), shares_.clear();
+    for (std::size_t first = 0; first < corners.size(); first += Faces::most) {
+      const std::span<const std::uint32_t> some = corners.subspan(first, std::min(Faces::most, corners.size() - first));
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        const std::uint32_t* const t = &mesh_.index[some[i] / 3 * 3];
+        faces_.set(i, mesh_.position[t[0]], mesh_.position[t[1]], mesh_.position[t[2]]);
+      }
+      faces_.measure(some.size());
+      for (std::size_t i = 0; i < some.size(); ++i)
+        own_.push_back(faces_[i].normal), shares_.push_back(weighted(faces_[i], some[i] % 3));
     }
-    shares_.clear();
-    for (const std::uint32_t c : corners) shares_.push_back(weighted(faces_, c));
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const float3 own = faces_[corners[i] / 3].normal;
       Sum sum;
       for (std::size_t k = 0; k < corners.size(); ++k)
-        if (k == i || dot(own, faces_[corners[k] / 3].normal) > cos_50) sum.add(shares_[k]);
-      const float3 normal = direction(sum, own);
+        if (k == i || dot(own_[i], own_[k]) > cos_50) sum.add(shares_[k]);
+      const float3 normal = direction(sum, own_[i]);
       if (i == 0) mesh_.normal[v] = normal;
       if (i != 0 && normal != mesh_.normal[v]) others_.push_back({corners[i], normal});
     }
@@ -106,8 +198,9 @@ class Vertex {
 
  private:
   Mesh& mesh_;
-  const std::vector<Face>& faces_;
   std::vector<Other>& others_;
+  Faces faces_;
+  std::vector<float3> own_;
   std::vector<Sum> shares_;
 };
 
@@ -141,25 +234,40 @@ void split(Mesh& mesh, const std::vector<std::vector<Other>>& blocks) {
   }
 }
 
+/// The normals of vertices about which all is smooth; the others remain marked in `bends`.
+void smooth_even(Mesh& mesh, Sums& sums) {
+  parallel_ranges(mesh.position.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (sums.count[v] == 0) continue;
+      if (sums.count[v] > most_compared) sums.bends[v] = 0;
+      if (sums.bends[v] == 0) mesh.normal[v] = direction(sums.sum[v], mesh.normal[v]);
+    }
+  });
+}
+
 }  // namespace
 
 void make_smooth_normals(Mesh& mesh) {
   assert(mesh.topology == Topology::Triangles && mesh.tangent.empty());
-  std::vector<Face> faces;
-  make_large(faces, mesh.index.size() / 3);
-  parallel_ranges(faces.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      faces[f] = measure(mesh.position[mesh.index[3 * f]], mesh.position[mesh.index[3 * f + 1]],
-                         mesh.position[mesh.index[3 * f + 2]]);
+  const std::size_t vertices = mesh.position.size();
+  mesh.normal.assign(vertices, {0, 1, 0});
+  Sums sums;
+  make_large(sums.sum, vertices);
+  sums.count.resize(vertices), sums.bends.resize(vertices);
+  // Every thread goes through all triangles for vertices of its own: a vertex meets its triangles in their order.
+  const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
+  parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
+    Adder(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), sums).add_all();
   });
-  const Corners corners = corners_by_vertex(mesh);
-  mesh.normal.assign(mesh.position.size(), {0, 1, 0});
-  std::vector<std::vector<Other>> others((mesh.position.size() + block - 1) / block);
-  parallel_ranges(mesh.position.size(), block, [&](std::size_t begin, std::size_t end) {
-    Vertex vertex(mesh, faces, others[begin / block]);
-    for (std::size_t v = begin; v < end; ++v)
-      vertex.smooth(static_cast<std::uint32_t>(v),
-                    std::span(corners.list).subspan(corners.first[v], corners.first[v + 1] - corners.first[v]));
+  smooth_even(mesh, sums);
+
+  const Corners corners = corners_of(mesh, sums.bends);
+  std::vector<std::vector<Other>> others((corners.vertex.size() + block - 1) / block);
+  parallel_ranges(corners.vertex.size(), block, [&](std::size_t begin, std::size_t end) {
+    BentVertex vertex(mesh, others[begin / block]);
+    for (std::size_t i = begin; i < end; ++i)
+      vertex.smooth(corners.vertex[i],
+                    std::span(corners.list).subspan(corners.first[i], corners.first[i + 1] - corners.first[i]));
   });
   split(mesh, others);
 }

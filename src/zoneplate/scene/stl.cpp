@@ -14,11 +14,11 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/finite.h"
 #include "zoneplate/scene/import_budget.h"
-#include "zoneplate/scene/large_array.h"
 #include "zoneplate/scene/mtl_material.h"
 #include "zoneplate/scene/stl_text.h"
 #include "zoneplate/scene/triangulate.h"

@@ -28,6 +28,13 @@ template <class F>
   return result;
 }
 
+/// x^(exponent / 2), with x the square of a cosine: only odd exponents need its root.
+template <class F>
+[[gnu::always_inline]] inline F power_of_square(F x, Exponent exponent) {
+  if (exponent.whole % 2 != 0) return power(F(sqrt(x)), exponent);
+  return power(x, {exponent.value * 0.5f, exponent.whole / 2});
+}
+
 /// max(n · h, 0)^exponent; not cut where the light is below the horizon.
 /// Source: Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977.
 template <class F>

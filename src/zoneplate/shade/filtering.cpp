@@ -36,8 +36,7 @@ std::int32_t mix_level(const Code* codes, int shift, const Taps& taps, int level
     return static_cast<std::int32_t>(codes[std::ptrdiff_t{4} * texel + channel]) << shift;
   };
   const std::int32_t upper = taps.upper[level][point], lower = taps.lower[level][point];
-  const std::int32_t right = taps.right[level][point];
-  const std::int32_t down = taps.down[level][point];
+  const std::int32_t right = taps.right(level, point), down = taps.down(level, point);
   return mix(mix(code(upper), code(lower), down), mix(code(upper + 1), code(lower + 1), down), right);
 }
 
@@ -46,7 +45,8 @@ void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < 4; ++c) {
       std::int32_t value = mix_level(codes, shift, taps, 0, i, c);
-      if (taps.blend[i] > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), taps.blend[i]);
+      const std::int32_t blend = taps.blend[Taps::by_fours(i)];
+      if (blend > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), blend);
       out[c][i] = static_cast<float>(value) * unit;
     }
 }

@@ -36,10 +36,17 @@ struct Footprint {
 /// Units     weights in 1/32768.
 struct Taps {
   static constexpr int capacity = 256;
-  alignas(64) std::int32_t upper[2][capacity], lower[2][capacity];
-  alignas(64) std::int16_t right[2][capacity], down[2][capacity];  ///< weights of the right and lower texels
-  alignas(64) std::int16_t blend[capacity];                        ///< weight of the second level
-  alignas(64) float detail[capacity];                              ///< log2 of the footprint, on the way there
+  static constexpr int groups = capacity / 8;
+  static constexpr int room = capacity + 16;  ///< as Batch::room
+  alignas(64) std::int32_t upper[2][room], lower[2][room];
+  alignas(64) std::int16_t side[2][2 * room];  ///< weights of the right texels, of the lower texels: by fours
+  alignas(64) std::int16_t blend[2 * room];    ///< weight of the second level, the same twice: by fours
+  alignas(64) float detail[room];              ///< log2 of the footprint, on the way there
+
+  /// Where point i's first number stands among numbers by fours: the first of four points, then their second.
+  static constexpr int by_fours(int i) { return i / 4 * 8 + i % 4; }
+  std::int32_t right(int level, int i) const { return side[level][by_fours(i)]; }
+  std::int32_t down(int level, int i) const { return side[level][by_fours(i) + 4]; }
 };
 
 /// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity.

@@ -51,27 +51,29 @@ struct TexelCodes {
 
 HWY_INLINE V mix(V a, V b, V weight) { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), weight)); }
 
-/// Which bytes of eight weights go into which lanes, by the two points 2 n and 2 n + 1 that the first block has: that
-/// of the first for eight lanes (`odd`: of the second), or of both for four each.
+/// Which bytes of the weights by fours go into which lanes of a block, by the points p and p + 1 of the four that the
+/// block has: of the lower texels' weights that of the first for eight lanes, or of the second; of the right ones' that
+/// of each for four.
 struct Spread {
-  alignas(32) std::uint8_t even[8 / points][32], odd[8 / points][32], both[8 / points][32];
+  alignas(32) std::uint8_t down[4][32], right[2][32];
 };
 
 constexpr Spread make_spread() {
   Spread s{};
-  for (int n = 0; n < 8 / points; ++n)
-    for (int byte = 0; byte < 32; ++byte) {
-      const int first = 2 * n + byte / 16 * 4, half = byte % 2;
-      s.even[n][byte] = static_cast<std::uint8_t>(2 * first + half);
-      s.odd[n][byte] = static_cast<std::uint8_t>(2 * (first + 1) + half);
-      s.both[n][byte] = static_cast<std::uint8_t>(2 * (first + byte % 16 / 8) + half);
-    }
+  for (int byte = 0; byte < 32; ++byte) {
+    const int half = byte % 2, lane = byte % 16 / 2;
+    for (int p = 0; p < 4; ++p) s.down[p][byte] = static_cast<std::uint8_t>(8 + 2 * p + half);
+    for (int pair = 0; pair < 2; ++pair)
+      s.right[pair][byte] = static_cast<std::uint8_t>(2 * (2 * pair + lane / 4) + half);
+  }
   return s;
 }
 constexpr Spread spread = make_spread();
 
-/// The weights of eight points from `weights` on, in every block.
-HWY_INLINE V load_weights(const std::int16_t* weights) { return hn::LoadDup128(Fixed(), weights); }
+/// The weights by fours of the points i + 2 n and i + 2 n + 1, and of those four on if vectors have two blocks.
+HWY_INLINE V load_weights(const std::int16_t* weights, int i, int n) {
+  return hn::Load(Fixed(), weights + 2 * i + (blocks == 2 ? 0 : n / 2 * 8));
+}
 
 HWY_INLINE V spread_weights(V weights, const std::uint8_t* bytes) {
   const hn::Repartition<std::uint8_t, Fixed> d;
@@ -87,26 +89,29 @@ HWY_INLINE V upper_halves(V a, V b) {
   return hn::BitCast(Fixed(), hn::InterleaveUpper(d, hn::BitCast(d, a), hn::BitCast(d, b)));
 }
 
-/// The weights of eight points' taps into one level.
-struct LevelWeights {
-  V right, down;
-  LevelWeights(const Taps& taps, int level, int i)
-      : right(load_weights(taps.right[level] + i)), down(load_weights(taps.down[level] + i)) {}
-};
-
 /// A level of the points i + 2 n and i + 2 n + 1, and of those four on: a point is four lanes.
 template <class Codes>
-HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, const LevelWeights& weights, int i, int n) {
+HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, int n) {
   const std::int32_t* const upper = taps.upper[level] + i + 2 * n;
   const std::int32_t* const lower = taps.lower[level] + i + 2 * n;
+  const V weights = load_weights(taps.side[level], i, n);
   constexpr int other = blocks == 2 ? 4 : 0;
   // Left and right texels.
-  const auto rows = [&](int p, const std::uint8_t* bytes) HWY_ATTR {
+  const auto rows = [&](int p) HWY_ATTR {
     const V up = codes.pair(upper[p], upper[p + other]), low = codes.pair(lower[p], lower[p + other]);
-    return mix(up, low, spread_weights(weights.down, bytes));
+    return mix(up, low, spread_weights(weights, spread.down[n % 2 * 2 + p]));
   };
-  const V even = rows(0, spread.even[n]), odd = rows(1, spread.odd[n]);
-  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(weights.right, spread.both[n]));
+  const V even = rows(0), odd = rows(1);
+  return mix(lower_halves(even, odd), upper_halves(even, odd), spread_weights(weights, spread.right[n % 2]));
+}
+
+/// Both levels.
+template <class Codes>
+HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, int i, int n) {
+  const V first = mix_level(codes, taps, 0, i, n);
+  if (!has_second) return first;
+  const V blend = spread_weights(load_weights(taps.blend, i, n), spread.right[n % 2]);
+  return mix(first, mix_level(codes, taps, 1, i, n), blend);
 }
 
 /// What mix_level gives of points that follow each other, to channels from point i on.
@@ -125,22 +130,22 @@ HWY_INLINE void store_channels(V first, V second, float unit, float* const out[4
   store(hn::ShiftRight<16>(ba), out[3]);
 }
 
+/// True if one of eight points from i on needs its second level.
+HWY_INLINE bool blends(const Taps& taps, int i) {
+  const V zero = hn::Zero(Fixed());
+  V any = zero;
+  for (int n = 0; n < 4; n += points) any = hn::Or(any, load_weights(taps.blend, i, n));
+  return !hn::AllTrue(Fixed(), hn::Eq(any, zero));
+}
+
 template <class Code>
 void mix_codes(const Code* of, const Taps& taps, float* const out[4], int count) {
   const TexelCodes<Code> codes{of};
-  const hn::FixedTag<std::int16_t, 8> eight;
   for (int i = 0; i < count; i += 8) {
-    const LevelWeights weights(taps, 0, i);
-    const bool has_second = !hn::AllTrue(eight, hn::Eq(hn::Load(eight, taps.blend + i), hn::Zero(eight)));
+    const bool has_second = blends(taps, i);
     for (int n = 0; n < 8 / points; n += 2) {
-      V first = mix_level(codes, taps, 0, weights, i, n), second = mix_level(codes, taps, 0, weights, i, n + 1);
-      if (has_second) {
-        const LevelWeights weights1(taps, 1, i);
-        const V blend = load_weights(taps.blend + i);
-        first = mix(first, mix_level(codes, taps, 1, weights1, i, n), spread_weights(blend, spread.both[n]));
-        second = mix(second, mix_level(codes, taps, 1, weights1, i, n + 1), spread_weights(blend, spread.both[n + 1]));
-      }
-      store_channels(first, second, TexelCodes<Code>::unit, out, i + 2 * n);
+      const V first = mix_levels(codes, taps, has_second, i, n);
+      store_channels(first, mix_levels(codes, taps, has_second, i, n + 1), TexelCodes<Code>::unit, out, i + 2 * n);
     }
   }
 }

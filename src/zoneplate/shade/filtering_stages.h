@@ -40,7 +40,7 @@ template <class F>
     w = F(2.0f) * (half - floor(half));
     w = select(w > one, F(2.0f) - w, w);
   } else if (!clamps) {
-    w = u - floor(u);
+    return max(u - floor(u), zero);
   }
   return min(max(w, zero), one);
 }
@@ -105,15 +105,18 @@ struct WrappedPoint {
 };
 
 /// Asks for texels that will be mixed some stages later.
-template <class View>
-[[gnu::always_inline]] inline void fetch_ahead(const View& t, std::int32_t texel) {
-  const std::ptrdiff_t code = std::ptrdiff_t{4} * texel;
-  if (t.codes8 != nullptr) {
-    __builtin_prefetch(t.codes8 + code);
-  } else {
-    __builtin_prefetch(t.codes15 + code);
+struct TexelFetch {
+  const unsigned char* codes;
+  int shift;  ///< log2 of a texel's bytes
+
+  template <class View>
+  explicit TexelFetch(const View& t)
+      : codes(t.codes8 != nullptr ? t.codes8 : reinterpret_cast<const unsigned char*>(t.codes15)),
+        shift(t.codes8 != nullptr ? 2 : 3) {}
+  [[gnu::always_inline]] void ask_for(std::int32_t texel) const {
+    __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
   }
-}
+};
 
 /// The levels to look at.
 template <class F>
@@ -185,19 +188,18 @@ template <class F, class Filter>
   const Int below = repeats_v && !nearest ? place.pitch : select(y.is_same, Int(0), place.pitch);
   upper.store(out.upper[which] + i);
   (upper + below).store(out.lower[which] + i);
-  x.weight.store_narrow(out.right[which] + i);
-  y.weight.store_narrow(out.down[which] + i);
+  x.weight.store_by_fours(y.weight, out.side[which], i);
 }
 
 /// The taps of points at (u, v), the i-th of `out` and on.
-template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void store_taps(const View& t, const Filter& f, const Lookup<F>& at, F u, F v, Taps& out,
-                                              int i) {
-  at.blend.store_narrow(out.blend + i);
+template <class F, class Filter>
+[[gnu::always_inline]] inline void store_taps(const TexelFetch& fetch, const Filter& f, const Lookup<F>& at, F u, F v,
+                                              Taps& out, int i) {
+  at.blend.store_by_fours(at.blend, out.blend, i);
   const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
   for (int which = 0; which < (f.has_levels && f.blends_levels ? 2 : 1); ++which) {
     store_level<F>(f, p, at.place[which], out, which, i);
-    for (const int end : {0, F::lanes - 1}) fetch_ahead(t, out.lower[which][i + end]);
+    for (const int end : {0, F::lanes - 1}) fetch.ask_for(out.lower[which][i + end]);
   }
 }
 
@@ -208,10 +210,11 @@ template <class F, class View, class Filter>
   const auto repeats = [&](int i) { return at.repeats != nullptr && at.repeats[i / 8]; };
   for (int i = 0; i < count; i += F::lanes)
     if (!repeats(i)) footprint_level<F>(t, at, i).store(out.detail + i);
+  const TexelFetch fetch(t);
   Lookup<F> lookup = begin_lookup<F>(t, f);
   for (int i = 0; i < count; i += F::lanes) {
     if (!repeats(i)) find_lookup<F>(t, f, F::load(out.detail + i), lookup);
-    store_taps<F>(t, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
+    store_taps<F>(fetch, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
   }
 }
 
@@ -222,76 +225,109 @@ void find_taps(const View& t, const Filtering& f, const Footprint& footprint, Ta
   find_all_taps<F>(t, f, footprint, out, count);
 }
 
-/// Points' longer axes of their footprints, the probes along them and their level.
-template <class F>
+/// Points' longer axes of their footprints, how many probes lie along them, and their level.
 struct Probes {
-  F du, dv;  ///< the longer axis
-  F count, detail;
+  alignas(64) float du[Taps::room], dv[Taps::room];
+  alignas(64) float count[Taps::room], detail[Taps::room];
 };
 
 template <class F, class View>
-[[gnu::always_inline]] inline Probes<F> find_probes(const View& t, int anisotropy, const Footprint& p, int i) {
+[[gnu::always_inline]] inline void find_probes(const View& t, int anisotropy, const Footprint& p, int i, Probes& out) {
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0])), one(1.0f);
   const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
   const F sx = ux * w, tx = vx * h, sy = uy * w, ty = vy * h;
   const F x = min(max(sx * sx + tx * tx, F(0x1p-60f)), F(0x1p60f));
   const F y = min(max(sy * sy + ty * ty, F(0x1p-60f)), F(0x1p60f));
   const auto is_wide = x > y;
-  const F longer = max(x, y), ratio = sqrt(longer / min(x, y));
+  const F longer = max(x, y);
 
   // As many as the footprint is longer than wide; but no more than it has texels.
-  const F wanted = min(min(-floor(-ratio), -floor(-sqrt(longer))), F(static_cast<float>(anisotropy)));
+  const F wanted = min(-floor(-sqrt(min(longer / min(x, y), longer))), F(static_cast<float>(anisotropy)));
   const F count = max(wanted, one);
-  return {select(is_wide, ux, uy), select(is_wide, vx, vy), count, F(0.5f) * coarse_log2(longer / (count * count))};
+  select(is_wide, ux, uy).store(out.du + i), select(is_wide, vx, vy).store(out.dv + i);
+  count.store(out.count + i);
+  (F(0.5f) * coarse_log2(longer / (count * count))).store(out.detail + i);
 }
 
-/// The taps of eight points' probes, the first of all points before the second of any. Gives the most that a point has,
-/// which all are given.
+/// Some groups' probes in one list of taps: of a group the first of all points before the second of any, as many as the
+/// point has that has most.
+struct ProbeTaps {
+  static_assert(Taps::capacity >= 8 * Filtering::most_anisotropy);
+  Taps taps;
+  int count = 0;            ///< of taps
+  int first = 0, last = 0;  ///< the points
+  int most[Taps::groups];   ///< of probes, by group from that of the first point on
+
+  bool has_room(int probes) const { return count + 8 * probes <= Taps::capacity; }
+};
+
+/// The taps of eight points' probes.
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline int store_probes(const View& t, const Filter& f, int anisotropy, const Footprint& at,
-                                               int first, Lookup<F>& lookup, Taps& out, float (&counts)[8]) {
-  constexpr int vectors = 8 / F::lanes;
-  Probes<F> probes[vectors];
-  for (int k = 0; k < vectors; ++k) {
-    probes[k] = find_probes<F>(t, anisotropy, at, first + k * F::lanes);
-    probes[k].count.store(counts + k * F::lanes);
-  }
-  float most = 1;
-  for (const float n : counts) most = most < n ? n : most;
-  for (int k = 0; k < vectors; ++k) {
-    const int i = first + k * F::lanes;
-    find_lookup<F>(t, f, probes[k].detail, lookup);
-    const F u = F::load(at.u + i), v = F::load(at.v + i), all = probes[k].count, step = F(1.0f) / (all + F(1.0f));
-    for (int n = 0; n < static_cast<int>(most); ++n) {
+[[gnu::always_inline]] inline void store_probes(const View& t, const Filter& f, const Footprint& at,
+                                                const Probes& probes, int most, Lookup<F>& lookup, ProbeTaps& out) {
+  const TexelFetch fetch(t);
+  for (int k = 0; k < 8; k += F::lanes) {
+    const int i = out.last + k;
+    find_lookup<F>(t, f, F::load(probes.detail + i), lookup);
+    const F u = F::load(at.u + i), v = F::load(at.v + i), du = F::load(probes.du + i), dv = F::load(probes.dv + i);
+    const F all = F::load(probes.count + i), step = F(1.0f) / (all + F(1.0f));
+    for (int n = 0; n < most; ++n) {
       const F along = min(F(static_cast<float>(n + 1)), all) * step - F(0.5f);
-      store_taps<F>(t, f, lookup, u + probes[k].du * along, v + probes[k].dv * along, out, 8 * n + k * F::lanes);
+      store_taps<F>(fetch, f, lookup, u + du * along, v + dv * along, out.taps, out.count + 8 * n + k);
     }
   }
-  return static_cast<int>(most);
+  out.most[(out.last - out.first) / 8] = most;
+  out.count += 8 * most;
+  out.last += 8;
+}
+
+/// The means of the points whose probes are mixed.
+template <class F>
+[[gnu::always_inline]] inline void store_means(const ProbeTaps& of, const Probes& probes, const float* const mixed[4],
+                                               float* const out[4]) {
+  for (int i = of.first, from = 0; i < of.last; i += 8) {
+    const int most = of.most[(i - of.first) / 8];
+    for (int k = 0; k < 8; k += F::lanes) {
+      const F all = F::load(probes.count + i + k), share = F(1.0f) / all;
+      F sum[4];
+      for (int c = 0; c < 4; ++c) sum[c] = F::load(mixed[c] + from + k) * share;
+      for (int n = 1; n < most; ++n) {
+        const F weight = select(F(static_cast<float>(n + 1)) > all, F(0.0f), share);
+        for (int c = 0; c < 4; ++c) sum[c] = sum[c] + F::load(mixed[c] + from + 8 * n + k) * weight;
+      }
+      for (int c = 0; c < 4; ++c) sum[c].store(out[c] + i + k);
+    }
+    from += 8 * most;
+  }
 }
 
 /// The stage `sample_anisotropic` of shade/filtering.h; mix(taps, out, count) mixes the first taps.
 template <class F, class View, class Mix>
 [[gnu::always_inline]] inline void sample_anisotropic(const View& t, const Filtering& f, const Footprint& at,
                                                       float* const out[4], int count, Mix mix) {
-  static_assert(Taps::capacity >= 8 * Filtering::most_anisotropy);
-  Taps taps;
-  alignas(64) float mixed[4][Taps::capacity], counts[8];
-  float* const probe[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
+  Probes probes;
+  for (int i = 0; i < count; i += F::lanes) find_probes<F>(t, f.anisotropy, at, i, probes);
+  ProbeTaps taps;
+  alignas(64) float mixed[4][Taps::room];
+  float* const means[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
+  const float* const from[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
+  const bool usual = is_usual(f);
   Lookup<F> lookup = begin_lookup<F>(t, f);
-  for (int first = 0; first < count; first += 8) {
-    const int most = is_usual(f) ? store_probes<F>(t, UsualFiltering{}, f.anisotropy, at, first, lookup, taps, counts)
-                                 : store_probes<F>(t, f, f.anisotropy, at, first, lookup, taps, counts);
-    mix(taps, probe, 8 * most);
-    for (int k = 0; k < 8; k += F::lanes) {
-      const F all = F::load(counts + k), share = F(1.0f) / all;
-      for (int c = 0; c < 4; ++c) {
-        F sum = F::load(mixed[c] + k) * share;
-        for (int n = 1; n < most; ++n)
-          sum = sum + F::load(mixed[c] + 8 * n + k) * select(F(static_cast<float>(n + 1)) > all, F(0.0f), share);
-        sum.store(out[c] + first + k);
+  while (taps.last < count) {
+    taps.first = taps.last, taps.count = 0;
+    while (taps.last < count) {
+      F most = F::load(probes.count + taps.last);
+      for (int k = F::lanes; k < 8; k += F::lanes) most = max(most, F::load(probes.count + taps.last + k));
+      const int n = static_cast<int>(greatest(most));
+      if (!taps.has_room(n)) break;
+      if (usual) {
+        store_probes<F>(t, UsualFiltering{}, at, probes, n, lookup, taps);
+      } else {
+        store_probes<F>(t, f, at, probes, n, lookup, taps);
       }
     }
+    mix(taps.taps, means, taps.count);
+    store_means<F>(taps, probes, from, out);
   }
 }
 

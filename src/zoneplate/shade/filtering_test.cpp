@@ -351,8 +351,8 @@ TEST(Filtering, NoPlaceLeavesTheTexture) {
             for (const std::int32_t left : {taps.upper[l][i], taps.lower[l][i]}) {
               ASSERT_GE(left, 0);
               ASSERT_LT(left + 1, texels);
-              ASSERT_GE(taps.right[l][i], 0);
-              ASSERT_GE(taps.down[l][i], 0);
+              ASSERT_GE(taps.right(l, i), 0);
+              ASSERT_GE(taps.down(l, i), 0);
             }
       }
   }

@@ -35,27 +35,39 @@ struct Linear {
 
   [[gnu::always_inline]] F at(const Batch& batch, int i) const { return first + along(batch.b, i); }
   /// Its change, with that of the weights.
-  [[gnu::always_inline]] F along(const float (&change)[2][Batch::capacity], int i) const {
+  [[gnu::always_inline]] F along(const float (&change)[2][Batch::room], int i) const {
     return second * F::load(change[0] + i) + third * F::load(change[1] + i);
   }
 };
 
-/// Float c of a quad at the points from i on.
+/// Float c of a quad at points [i, end).
 template <class F>
 [[gnu::always_inline]] inline void store_float(const Batch& batch, const Linear<F>& a, const Interpolation::Quad& quad,
-                                               int c, int i, Points& p) {
-  a.at(batch, i).store(quad.value[c].of(p) + i);
-  if (quad.dx[c].is_none()) return;
-  a.along(batch.dbdx, i).store(quad.dx[c].of(p) + i);
-  a.along(batch.dbdy, i).store(quad.dy[c].of(p) + i);
+                                               int c, int i, int end, Points& p) {
+  float* const value = quad.value[c].of(p);
+  if (quad.dx[c].is_none()) {
+    for (int k = i; k < end; k += F::lanes) a.at(batch, k).store(value + k);
+    return;
+  }
+  float *const dx = quad.dx[c].of(p), *const dy = quad.dy[c].of(p);
+  for (int k = i; k < end; k += F::lanes) {
+    a.at(batch, k).store(value + k);
+    a.along(batch.dbdx, k).store(dx + k);
+    a.along(batch.dbdy, k).store(dy + k);
+  }
 }
 
+/// The same of one triangle, with slopes that are those of point i everywhere.
 template <class F>
-[[gnu::always_inline]] inline void load_corner(const Batch& batch, const Corners& corners, int k, int i, int place,
-                                               F (&out)[4]) {
-  const float* record[F::lanes];
-  corners.find(batch, k, i, record);
-  F::load_quads(record, place, out);
+[[gnu::always_inline]] inline void store_affine_float(const Batch& batch, const Linear<F>& a,
+                                                      const Interpolation::Quad& quad, int c, int i, int end,
+                                                      Points& p) {
+  const F change_x = a.along(batch.dbdx, i), change_y = a.along(batch.dbdy, i);
+  float *const value = quad.value[c].of(p), *const dx = quad.dx[c].of(p), *const dy = quad.dy[c].of(p);
+  for (int k = i; k < end; k += F::lanes) {
+    a.at(batch, k).store(value + k);
+    change_x.store(dx + k), change_y.store(dy + k);
+  }
 }
 
 /// The end of the groups from point i on that share a triangle.
@@ -66,23 +78,7 @@ template <class F>
   return g * Batch::group;
 }
 
-/// The same for points i to `end`, of one triangle.
-template <class F>
-[[gnu::always_inline]] inline void store_float_of_run(const Batch& batch, const Linear<F>& a,
-                                                      const Interpolation::Quad& quad, int c, int i, int end,
-                                                      Points& p) {
-  const bool repeats_slopes = i + Batch::group < end && batch.repeats_slopes[i / Batch::group + 1];
-  if (quad.dx[c].is_none() || !repeats_slopes) {
-    for (int k = i; k < end; k += F::lanes) store_float(batch, a, quad, c, k, p);
-    return;
-  }
-  const F dx = a.along(batch.dbdx, i), dy = a.along(batch.dbdy, i);
-  for (int k = i; k < end; k += F::lanes) {
-    a.at(batch, k).store(quad.value[c].of(p) + k);
-    dx.store(quad.dx[c].of(p) + k), dy.store(quad.dy[c].of(p) + k);
-  }
-}
-
+/// A quad at points [i, end), of one triangle.
 template <class F>
 [[gnu::always_inline]] inline void interpolate_run(const Batch& batch, const Corners& corners,
                                                    const Interpolation::Quad& quad, int i, int end, Points& p) {
@@ -90,34 +86,51 @@ template <class F>
   const float* const v0 = corners.record[0][told] + quad.place;
   const float* const v1 = corners.record[1][told] + quad.place;
   const float* const v2 = corners.record[2][told] + quad.place;
+  const bool repeats_slopes = i + Batch::group < end && batch.repeats_slopes[i / Batch::group + 1];
   for (int c = 0; c < 4; ++c) {
     if (quad.value[c].is_none()) continue;
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
     if (second == 0 && third == 0 && quad.dx[c].is_none()) {
-      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(quad.value[c].of(p) + k);
+      float* const value = quad.value[c].of(p);
+      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(value + k);
       continue;
     }
-    store_float_of_run(batch, Linear<F>{F(v0[c]), F(second), F(third)}, quad, c, i, end, p);
+    const Linear<F> line{F(v0[c]), F(second), F(third)};
+    if (repeats_slopes && !quad.dx[c].is_none()) {
+      store_affine_float(batch, line, quad, c, i, end, p);
+    } else {
+      store_float(batch, line, quad, c, i, end, p);
+    }
+  }
+}
+
+/// All quads of a vector of points of any triangles.
+template <class F>
+[[gnu::always_inline]] inline void interpolate_points(const Batch& batch, const Corners& corners,
+                                                      const Interpolation& what, int i, Points& p) {
+  const float* record[3][F::lanes];
+  for (int k = 0; k < 3; ++k) corners.find(batch, k, i, record[k]);
+  for (int n = 0; n < what.quads; ++n) {
+    const Interpolation::Quad& quad = what.quad[n];
+    F v0[4], v1[4], v2[4];
+    F::load_quads(record[0], quad.place, v0);
+    F::load_quads(record[1], quad.place, v1);
+    F::load_quads(record[2], quad.place, v2);
+    for (int c = 0; c < 4; ++c)
+      if (!quad.value[c].is_none())
+        store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i, i + F::lanes, p);
   }
 }
 
 template <class F>
 void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
-  for (int n = 0; n < what.quads; ++n) {
-    const Interpolation::Quad& quad = what.quad[n];
-    for (int i = 0; i < p.count;) {
-      if (batch.one_triangle[i / Batch::group]) {
-        const int end = run_end(batch, i, p.count);
-        interpolate_run<F>(batch, corners, quad, i, end, p);
-        i = end;
-        continue;
-      }
-      F v0[4], v1[4], v2[4];
-      load_corner(batch, corners, 0, i, quad.place, v0);
-      load_corner(batch, corners, 1, i, quad.place, v1);
-      load_corner(batch, corners, 2, i, quad.place, v2);
-      for (int c = 0; c < 4; ++c)
-        if (!quad.value[c].is_none()) store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i, p);
+  for (int i = 0; i < p.count;) {
+    if (batch.one_triangle[i / Batch::group]) {
+      const int end = run_end(batch, i, p.count);
+      for (int n = 0; n < what.quads; ++n) interpolate_run<F>(batch, corners, what.quad[n], i, end, p);
+      i = end;
+    } else {
+      interpolate_points<F>(batch, corners, what, i, p);
       i += F::lanes;
     }
   }

@@ -28,7 +28,11 @@ struct Int {
   Int(std::int32_t x) : v(x) {}
   static Int load(const std::int32_t* p) { return *p; }
   void store(std::int32_t* p) const { *p = v; }
-  void store_narrow(std::int16_t* p) const { *p = static_cast<std::int16_t>(v); }
+  /// Numbers i and on of a list by fours: of four lanes this, then what `second` has there.
+  void store_by_fours(Int second, std::int16_t* list, int i) const {
+    const int first = i / 4 * 8 + i % 4;
+    list[first] = static_cast<std::int16_t>(v), list[first + 4] = static_cast<std::int16_t>(second.v);
+  }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
   bool equals(Int other) const { return v == other.v; }
@@ -73,6 +77,7 @@ struct Lane {
   friend Lane min(Lane a, Lane b) { return a.v < b.v ? a : b; }
   friend Lane max(Lane a, Lane b) { return a.v > b.v ? a : b; }
   friend Lane select(Bool m, Lane a, Lane b) { return m.v ? a : b; }
+  friend T greatest(Lane a) { return a.v; }
   friend Lane sqrt(Lane a) { return std::sqrt(a.v); }
   friend Lane floor(Lane a) { return std::floor(a.v); }
   friend Int truncate(Lane a) { return static_cast<std::int32_t>(a.v); }

@@ -29,9 +29,9 @@ struct Int {
   HWY_INLINE explicit Int(hn::Vec<IntTag> x) : v(x) {}
   static HWY_INLINE Int load(const std::int32_t* p) { return Int(hn::LoadU(IntTag(), p)); }
   HWY_INLINE void store(std::int32_t* p) const { hn::StoreU(v, IntTag(), p); }
-  HWY_INLINE void store_narrow(std::int16_t* p) const {
-    const hn::Rebind<std::int16_t, IntTag> narrow;
-    hn::StoreU(hn::DemoteTo(narrow, v), narrow, p);
+  HWY_INLINE void store_by_fours(Int second, std::int16_t* list, int i) const {
+    const hn::Repartition<std::int16_t, IntTag> narrow;
+    hn::StoreU(hn::ReorderDemote2To(narrow, v, second.v), narrow, list + 2 * i);
   }
   static HWY_INLINE Int gather(const std::int32_t* table, Int i) { return Int(hn::GatherIndex(IntTag(), table, i.v)); }
   HWY_INLINE std::int32_t first() const { return hn::GetLane(v); }
@@ -96,6 +96,7 @@ struct Float {
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::Max(a.v, b.v)); }
   friend HWY_INLINE Float select(Bool m, Float a, Float b) { return Float(hn::IfThenElse(m.v, a.v, b.v)); }
+  friend HWY_INLINE float greatest(Float a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.v)); }
   friend HWY_INLINE Float sqrt(Float a) { return Float(hn::Sqrt(a.v)); }
   friend HWY_INLINE Float floor(Float a) { return Float(hn::Floor(a.v)); }
   friend HWY_INLINE Int truncate(Float a) { return Int(truncated(FloatTag(), a.v)); }

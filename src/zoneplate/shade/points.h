@@ -13,7 +13,7 @@ namespace zoneplate {
 /// unit length, or zero where there is none.
 struct Points {
   static constexpr int capacity = Batch::capacity;
-  using Array = float[capacity];
+  using Array = float[Batch::room];
 
   int count = 0;  ///< a multiple of Batch::group
 
@@ -35,7 +35,7 @@ struct Corners {
   /// groups of several triangles.
   const float* first = nullptr;
   std::size_t stride = 0;
-  const float* record[3][Batch::capacity];
+  const float* record[3][Batch::room];
   bool one_instance[Batch::groups];
 
   template <int lanes>

@@ -111,7 +111,7 @@ struct SurfaceShader::Data::Walk {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot for which `taps` stands
-  alignas(64) float texel_values[4][Points::capacity];
+  alignas(64) float texel_values[4][Batch::room];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
   Walk(const Data& data, const Batch& of)
@@ -176,7 +176,9 @@ void SurfaceShader::Data::Walk::find_base() {
     }
     if (plan.attributes.color) kernels.multiply(p.base[c], p.color[c], p.count);
   }
-  if (plan.alpha_mode != AlphaMode::Opaque) kernels.saturate(p.base[3], p.count);
+  // A texture's alpha lies in [0, 1] by itself.
+  const bool may_leave = plan.attributes.color || !(plan.factor[3] >= 0 && plan.factor[3] <= 1);
+  if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
 void SurfaceShader::Data::Walk::find_normals() {
@@ -270,6 +272,10 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
 bool SurfaceShader::wants_slopes(int material) const {
   const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
   return a.uv[0] || a.uv[1];
+}
+
+std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
+  return {data_->records.of_instance(instance), static_cast<std::size_t>(data_->records.layout(material).floats)};
 }
 
 void SurfaceShader::alpha(const Batch& batch, float* out) const {

@@ -56,6 +56,9 @@ class SurfaceShader {
   /// Whether a material's batches need dbdx and dbdy.
   bool wants_slopes(int material) const;
 
+  /// What shading reads of an instance's first vertex; the other vertices follow.
+  std::span<const float> vertex_record(std::uint32_t instance, int material) const;
+
  private:
   struct Data;
   std::unique_ptr<Data> data_;

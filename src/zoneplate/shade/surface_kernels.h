@@ -45,7 +45,7 @@ struct CoordinateMap {
 
 /// A use of texture coordinates and their derivatives: u, v; du/dx, dv/dx; du/dy, dv/dy.
 struct Coordinates {
-  alignas(64) float uv[2][Points::capacity], dx[2][Points::capacity], dy[2][Points::capacity];
+  alignas(64) float uv[2][Batch::room], dx[2][Batch::room], dy[2][Batch::room];
 };
 
 /// The stages between the vertices and the colour; each acts on all of a batch's points, entry by entry.

@@ -73,7 +73,7 @@ struct Bench {
   /// Gives the points of the group from `told` on, and of the one from `first` on, one slope.
   void repeat_slopes(int told, int first) {
     for (auto* slopes : {&batch.dbdx, &batch.dbdy})
-      for (float(&slope)[Batch::capacity] : *slopes)
+      for (float(&slope)[Batch::room] : *slopes)
         for (const int group : {told, first}) std::fill_n(slope + group, Batch::group, slope[told]);
   }
 
@@ -185,8 +185,8 @@ TEST(SurfaceKernels, NothingIsWrittenPastTheCount) {
     const auto* after = reinterpret_cast<const float*>(&actual->points.position);
     const std::size_t arrays = (sizeof(Points) - offsetof(Points, position)) / sizeof(Points::Array);
     for (std::size_t a = 0; a < arrays; ++a)
-      for (std::size_t i = 24; i < Points::capacity; ++i)
-        ASSERT_EQ(std::memcmp(before + a * Points::capacity + i, after + a * Points::capacity + i, sizeof(float)), 0)
+      for (std::size_t i = 24; i < Batch::room; ++i)
+        ASSERT_EQ(std::memcmp(before + a * Batch::room + i, after + a * Batch::room + i, sizeof(float)), 0)
             << stage.name;
   }
 }

@@ -501,7 +501,7 @@ TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
         word = hash(word, number);
       }
   }
-  EXPECT_EQ(word, 993694878u);
+  EXPECT_EQ(word, 1196327486u);
 }
 
 TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {

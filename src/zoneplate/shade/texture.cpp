@@ -177,20 +177,26 @@ Texture::Texture(const Rgba8Image& image, TexelMeaning meaning) {
     });
     close_level(target, view_, 0);
   };
+  // Between the last level and the end lie two texels that may be read.
+  const auto room = [&](auto* type) {
+    auto* const first = reinterpret_cast<decltype(type)>(codes_.room(codes * sizeof(*type)));
+    std::fill_n(first + codes - 8, 8, 0);
+    return first;
+  };
   if (meaning == TexelMeaning::Color) {
-    codes15_.resize(codes);
-    view_.codes15 = codes15_.data();
+    std::uint16_t* const target = room(static_cast<std::uint16_t*>(nullptr));
+    view_.codes15 = target;
     const auto table = linear_codes();
     const auto widen = [](std::uint8_t code) { return static_cast<std::uint16_t>((code * 32767 + 127) / 255); };
     fill(
-        codes15_.data(), [&](std::uint8_t code) { return table[code]; }, widen);
-    make_levels(codes15_.data(), view_);
+        target, [&](std::uint8_t code) { return table[code]; }, widen);
+    make_levels(target, view_);
   } else {
-    codes8_.resize(codes);
-    view_.codes8 = codes8_.data();
+    std::uint8_t* const target = room(static_cast<std::uint8_t*>(nullptr));
+    view_.codes8 = target;
     const auto same = [](std::uint8_t code) { return code; };
-    fill(codes8_.data(), same, same);
-    make_levels(codes8_.data(), view_);
+    fill(target, same, same);
+    make_levels(target, view_);
   }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/raster/arena.h"
 #include "zoneplate/shade/texture_view.h"
 
 namespace zoneplate {
@@ -33,8 +33,7 @@ class Texture {
   const TextureView& view() const { return view_; }
 
  private:
-  std::vector<std::uint8_t> codes8_;
-  std::vector<std::uint16_t> codes15_;
+  RawMemory codes_;
   TextureView view_;
 };
 

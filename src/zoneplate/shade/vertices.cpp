@@ -66,30 +66,28 @@ void write_record(const Mesh& mesh, const RecordLayout& layout, std::size_t v, f
 
 VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene)), meshes_(scene.meshes.size()) {
   constexpr std::size_t vertices_per_range = 8192;
+  std::vector<const float*> first(meshes_.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
     const RecordLayout& layout = layouts_[static_cast<std::size_t>(mesh.material)];
     const auto stride = static_cast<std::size_t>(layout.floats);
-    meshes_[m].resize(mesh.position.size() * stride);
+    auto* const records = reinterpret_cast<float*>(meshes_[m].room(mesh.position.size() * stride * sizeof(float)));
+    first[m] = records;
     parallel_ranges(mesh.position.size(), vertices_per_range, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, meshes_[m].data() + v * stride);
+      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, records + v * stride);
     });
   }
-  for (const Instance& instance : scene.instances)
-    instances_.push_back(meshes_[static_cast<std::size_t>(instance.mesh)].data());
-}
-
-/// Records that stand in one array are asked for, and found when they are needed.
-static void find_corners_of_one(const float* first, std::size_t stride, const Batch& batch, Corners& out) {
-  out.first = first, out.stride = stride;
-  std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i)
-    for (const auto& vertex : batch.vertex) __builtin_prefetch(first + stride * vertex[i]);
+  for (const Instance& instance : scene.instances) instances_.push_back(first[static_cast<std::size_t>(instance.mesh)]);
 }
 
 void find_corners(const VertexRecords& records, const Batch& batch, Corners& out) {
   const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
-  if (batch.one_instance) return find_corners_of_one(records.of_instance(batch.instance[0]), stride, batch, out);
+  if (batch.one_instance) {
+    // Records that stand in one array are found when they are needed.
+    out.first = records.of_instance(batch.instance[0]), out.stride = stride;
+    std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
+    return;
+  }
   out.first = nullptr;
   const auto find = [&](std::size_t i) {
     const float* const first = records.of_instance(batch.instance[i]);

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "zoneplate/raster/arena.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/shade/points.h"
 
@@ -25,7 +26,8 @@ struct RecordLayout {
 
 /// The attributes of a scene's vertices, one vertex after the other: what shading reads of a vertex lies together.
 ///
-/// What a mesh lacks and others of its material have is 0, its colour (1, 1, 1, 1).
+/// What a mesh lacks and others of its material have is 0, its colour (1, 1, 1, 1). A record of eight floats lies
+/// within one cache line, and large meshes in large pages: shading reads vertices from anywhere.
 class VertexRecords {
  public:
   /// Made in parallel. A material without a normal map has no tangents.
@@ -36,7 +38,7 @@ class VertexRecords {
 
  private:
   std::vector<RecordLayout> layouts_;  ///< by material
-  std::vector<std::vector<float>> meshes_;
+  std::vector<RawMemory> meshes_;
   std::vector<const float*> instances_;
 };
 

@@ -1,4 +1,4 @@
-#include "zoneplate/scene/sandbox.h"
+#include "zoneplate/base/sandbox.h"
 
 #include <fcntl.h>
 #include <linux/audit.h>

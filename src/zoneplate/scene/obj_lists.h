@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace zoneplate {
+
+/// A corner of an element. Indices are zero-based; -1 is none.
+struct ObjCorner {
+  std::int32_t position = -1, uv = -1, normal = -1;
+  bool operator==(const ObjCorner&) const = default;
+};
+
+enum class ObjKind : std::uint8_t { Face, Line, Point };
+
+/// A face, a polyline or a set of points: `count` corners of its chunk from `first` on.
+struct ObjElement {
+  std::uint32_t first = 0, count = 0;
+  ObjKind kind = ObjKind::Face;
+  bool operator==(const ObjElement&) const = default;
+};
+
+/// A list of indices beside one of positions: as long as that, or nothing where all are -1 or all equal to it.
+class ObjIndices {
+ public:
+  std::int32_t at(std::size_t i, std::int32_t position) const {
+    return kind_ == Kind::Own ? own_[i] : kind_ == Kind::None ? -1 : position;
+  }
+  /// Whether none is -1, for all that the list knows.
+  bool has_all() const { return kind_ == Kind::Same || (kind_ == Kind::Own && !has_none_); }
+
+  /// Whether all equal their positions.
+  bool are_same() const { return kind_ == Kind::Same; }
+
+  void push_back(std::int32_t index, const std::vector<std::int32_t>& positions, std::int32_t position) {
+    const bool is_first = positions.empty();
+    if (is_first) kind_ = index == position ? Kind::Same : index < 0 ? Kind::None : Kind::Own;
+    if (kind_ != Kind::Own && index == at(0, position)) return;
+    if (kind_ != Kind::Own) become_own(positions);
+    has_none_ = has_none_ || index < 0;
+    own_.push_back(index);
+  }
+  void shorten(std::size_t size) {
+    if (kind_ == Kind::Own) own_.resize(size);
+  }
+  std::size_t bytes() const { return own_.size() * sizeof(own_[0]); }
+
+ private:
+  enum class Kind : std::uint8_t { None, Same, Own };
+  void become_own(const std::vector<std::int32_t>& positions) {
+    if (kind_ == Kind::None)
+      own_.assign(positions.size(), -1), has_none_ = true;
+    else
+      own_ = positions;
+    kind_ = Kind::Own;
+  }
+
+  std::vector<std::int32_t> own_;
+  Kind kind_ = Kind::None;
+  bool has_none_ = false;
+};
+
+/// The corners of a chunk's elements, one after the other. In most files the three indices of a corner are one number,
+/// or a kind is missing throughout: then they take a third of the room.
+class ObjCorners {
+ public:
+  std::size_t size() const { return positions_.size(); }
+  bool empty() const { return positions_.empty(); }
+  ObjCorner operator[](std::size_t i) const {
+    const std::int32_t position = positions_[i];
+    return {position, uvs_.at(i, position), normals_.at(i, position)};
+  }
+  std::size_t position(std::size_t i) const { return static_cast<std::size_t>(positions_[i]); }
+  /// Whether every corner names a normal, for all that the list knows.
+  bool have_normals() const { return normals_.has_all(); }
+
+  void push_back(const ObjCorner& corner) {
+    const bool is_one = corner.uv == corner.position && corner.normal == corner.position;
+    if (is_one && !empty() && uvs_.are_same() && normals_.are_same()) return positions_.push_back(corner.position);
+    uvs_.push_back(corner.uv, positions_, corner.position);
+    normals_.push_back(corner.normal, positions_, corner.position);
+    positions_.push_back(corner.position);
+  }
+  /// Drops the last corners.
+  void shorten(std::size_t size) {
+    uvs_.shorten(size), normals_.shorten(size);
+    positions_.resize(size);
+  }
+  std::size_t bytes() const { return positions_.size() * sizeof(positions_[0]) + uvs_.bytes() + normals_.bytes(); }
+
+ private:
+  std::vector<std::int32_t> positions_;
+  ObjIndices uvs_, normals_;
+};
+
+/// The elements of a chunk. As long as they are triangles that follow each other, only counted.
+class ObjElements {
+ public:
+  std::size_t size() const { return triangles_ + own_.size(); }
+  bool empty() const { return size() == 0; }
+  bool are_triangles() const { return own_.empty(); }
+  ObjElement operator[](std::size_t i) const { return own_.empty() ? triangle(i) : own_[i]; }
+
+  void push_back(const ObjElement& element) {
+    if (own_.empty() && element == triangle(triangles_)) return void(++triangles_);
+    for (std::size_t i = 0; i < triangles_; ++i) own_.push_back(triangle(i));
+    triangles_ = 0;
+    own_.push_back(element);
+  }
+  std::size_t bytes() const { return own_.size() * sizeof(own_[0]); }
+
+ private:
+  static ObjElement triangle(std::size_t i) { return {static_cast<std::uint32_t>(3 * i), 3, ObjKind::Face}; }
+  std::vector<ObjElement> own_;
+  std::size_t triangles_ = 0;  ///< while `own_` is empty
+};
+
+}  // namespace zoneplate

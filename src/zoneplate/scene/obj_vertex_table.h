@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/math/random.h"
+#include "zoneplate/math/vec.h"
+#include "zoneplate/scene/obj_lists.h"
+
+namespace zoneplate {
+
+/// Numbers the vertices of a mesh in the order in which they come: corners with the same indices, and the same normal
+/// where that was made, are one.
+///
+/// Vertices hang in chains. Their places are first near each other when the indices are, as in most files, which is
+/// kind to the cache; when a chain grows long for that, all are placed anew by a hash that scatters.
+class ObjVertexTable {
+ public:
+  /// Keeps room for so many; more may come.
+  explicit ObjVertexTable(std::size_t expected) : heads_(std::bit_ceil(std::max<std::size_t>(expected, 64)), none) {
+    corners_.reserve(expected);
+    next_.reserve(expected);
+  }
+
+  std::uint32_t number(const ObjCorner& corner, float3 made = {}) {
+    int steps = 0;
+    const std::size_t at = place(corner, made);
+    for (std::uint32_t i = heads_[at]; i != none; i = next_[i], ++steps)
+      if (corners_[i] == corner && this->made(i) == made) return i;
+    return add(corner, made, at, steps > 24 && !is_scattered_);
+  }
+
+  const std::vector<ObjCorner>& corners() const { return corners_; }
+  /// The normal that was made for a vertex; zero if none was.
+  float3 made(std::size_t i) const { return made_.empty() ? float3{} : made_[i]; }
+  std::size_t bytes() const {
+    return corners_.capacity() * (sizeof(ObjCorner) + sizeof(next_[0])) + heads_.size() * sizeof(heads_[0]) +
+           made_.capacity() * sizeof(float3);
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  std::size_t place(const ObjCorner& corner, float3 made) const {
+    const auto v = static_cast<std::uint32_t>(corner.position), t = static_cast<std::uint32_t>(corner.uv),
+               n = static_cast<std::uint32_t>(corner.normal);
+    const std::uint32_t h = is_scattered_
+                                ? hash(v, t, n,
+                                       std::bit_cast<std::uint32_t>(made.x) ^ std::bit_cast<std::uint32_t>(made.y) * 5 ^
+                                           std::bit_cast<std::uint32_t>(made.z) * 9)
+                                : v + 3 * t + 5 * n;
+    return h & (heads_.size() - 1);
+  }
+  std::uint32_t add(const ObjCorner& corner, float3 made, std::size_t at, bool is_crowded) {
+    const auto fresh = static_cast<std::uint32_t>(corners_.size());
+    if (made_.empty() && made != float3{}) made_.resize(corners_.size());
+    if (!made_.empty() || made != float3{}) made_.push_back(made);
+    corners_.push_back(corner);
+    next_.push_back(std::exchange(heads_[at], fresh));
+    if (!is_crowded && corners_.size() <= heads_.size()) return fresh;
+    is_scattered_ = is_scattered_ || is_crowded;
+    heads_.assign(std::max(heads_.size(), std::bit_ceil(2 * corners_.size())), none);
+    for (std::uint32_t i = 0; i < corners_.size(); ++i)
+      next_[i] = std::exchange(heads_[place(corners_[i], this->made(i))], i);
+    return fresh;
+  }
+
+  std::vector<ObjCorner> corners_;
+  std::vector<float3> made_;  ///< as long as they, once one was made
+  std::vector<std::uint32_t> next_, heads_;
+  bool is_scattered_ = false;
+};
+
+}  // namespace zoneplate
