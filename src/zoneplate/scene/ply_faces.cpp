@@ -84,12 +84,18 @@ bool read_plain_triangles(const PlyRows& rows, std::size_t indices, const Mesh& 
 
 /// A face of more corners than this is dropped: no polygon is, and it would hold up the others of its block.
 constexpr std::uint32_t most_corners = 1 << 20;
+/// A face of more corners than this may take long: the time is looked at before it.
+constexpr std::uint32_t many_corners = 64;
 
 /// Reads the faces of one block, of any kind.
 class BlockReader {
  public:
-  BlockReader(const PlyRows& rows, const Mesh& vertices, std::size_t indices)
-      : rows_(rows), vertices_(vertices), indices_(indices), texcoord_(find(*rows.element, "texcoord", true)) {
+  BlockReader(const PlyRows& rows, const Mesh& vertices, std::size_t indices, const ImportBudget& budget)
+      : rows_(rows),
+        vertices_(vertices),
+        indices_(indices),
+        budget_(budget),
+        texcoord_(find(*rows.element, "texcoord", true)) {
     if (!vertices.color.empty()) return;
     const auto red = find(*rows.element, "red", false), green = find(*rows.element, "green", false),
                blue = find(*rows.element, "blue", false);
@@ -121,6 +127,7 @@ class BlockReader {
       ++out.too_concave;
       return;
     }
+    if (list.count > many_corners && !budget_.has_time()) return;
     corners_.clear();
     for (std::size_t k = 0; k < list.count; ++k) {
       const double v = value(indices_, list, k);
@@ -171,6 +178,7 @@ class BlockReader {
   const PlyRows& rows_;
   const Mesh& vertices_;
   std::size_t indices_;
+  const ImportBudget& budget_;
   std::optional<std::size_t> texcoord_;
   std::optional<std::array<std::size_t, 3>> color_;
   std::vector<std::uint32_t> corners_;
@@ -209,7 +217,7 @@ PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget&
   std::vector<std::optional<BadIndex>> found(parts.size());
   parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
     if (!budget.has_time() || made > most) return;
-    BlockReader reader(rows, vertices, indices);
+    BlockReader reader(rows, vertices, indices, budget);
     reader.read(begin, end);
     made += reader.out.index.size() * sizeof(std::uint32_t) + reader.out.corner_uv.size() * sizeof(float2) +
             reader.out.corner_color.size() * sizeof(float4);

@@ -153,11 +153,14 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
 }
 
 /// The triangles of the loops [begin, end).
-Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, std::uint64_t& too_short) {
+Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, const ImportBudget& budget,
+               std::uint64_t& too_short) {
+  constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
   Mesh mesh;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint64_t l = begin; l < end; ++l) {
     const std::span<const float3> loop(&text.vertices[text.loops[l]], text.loops[l + 1] - text.loops[l]);
+    if (loop.size() > many_corners && !budget.has_time()) break;
     triangles.clear();
     if (loop.size() == 3 || !std::all_of(loop.begin(), loop.end(), is_finite))
       triangles.push_back({0, 1, 2});  // what is not finite is dropped later
@@ -186,7 +189,7 @@ void read_text(Bytes bytes, const std::string& name, Scene& scene, ImportBudget&
   std::vector<std::uint64_t> too_short(meshes.size());
   parallel_for(meshes.size(), [&](std::size_t i) {
     const std::uint64_t end = i + 1 < meshes.size() ? text.solids[i + 1].before : text.loops.size() - 1;
-    meshes[i] = make_mesh(text, text.solids[i].before, end, too_short[i]);
+    meshes[i] = make_mesh(text, text.solids[i].before, end, budget, too_short[i]);
   });
   budget.check_time();
   if (const std::uint64_t n = std::accumulate(too_short.begin(), too_short.end(), std::uint64_t{0}))

@@ -65,12 +65,13 @@ class Outline {
   }
 
   /// Whether the corner can be cut off: it turns left (or goes straight on, if that is enough), and no other corner
-  /// lies in its triangle.
-  bool is_ear(std::uint32_t i, bool may_be_straight) const {
+  /// lies in its triangle. The corners that are looked at are added to `looked_at`.
+  bool is_ear(std::uint32_t i, bool may_be_straight, std::uint64_t& looked_at) const {
+    ++looked_at;
     const Point a = points_[before_[i]], b = points_[i], c = points_[after_[i]];
     const double bend = turn(a, b, c);
     if (bend < 0 || (bend == 0 && !may_be_straight)) return false;
-    for (std::uint32_t k = after_[after_[i]]; k != before_[i]; k = after_[k]) {
+    for (std::uint32_t k = after_[after_[i]]; k != before_[i]; k = after_[k], ++looked_at) {
       const Point p = points_[k];
       if (p == a || p == b || p == c) continue;
       if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
@@ -83,18 +84,25 @@ class Outline {
   std::vector<std::uint32_t> after_, before_;
 };
 
-void cut_ears(const std::vector<Point>& points, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+/// Whether ears were found as far as an outline has them.
+bool cut_ears(const std::vector<Point>& points, std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  // An outline that crosses itself everywhere has few ears, and to look for each all around would take the cube of its
+  // corners. Simple ones take a small part of this.
+  const std::uint64_t enough = (1 << 16) + 2 * std::uint64_t{points.size()} * points.size();
+  std::uint64_t looked_at = 0;
   Outline outline(points);
   std::uint32_t i = 1;
   for (std::size_t left = points.size(); left > 3; --left) {
     // Go round once for a true ear, once more for a straight corner; an outline that crosses itself may have neither.
     std::size_t tried = 0;
-    while (tried < 2 * left && !outline.is_ear(i, tried >= left)) i = outline.after(i), ++tried;
+    while (looked_at < enough && tried < 2 * left && !outline.is_ear(i, tried >= left, looked_at))
+      i = outline.after(i), ++tried;
     triangles.push_back({outline.before(i), i, outline.after(i)});
     outline.remove(i);
     i = outline.after(i);
   }
   triangles.push_back({outline.before(i), i, outline.after(i)});
+  return looked_at < enough;
 }
 
 }  // namespace
@@ -124,12 +132,10 @@ bool triangulate(std::span<const float3> polygon, std::vector<std::array<std::ui
     return true;
   }
   const std::vector<Point> points = flattened(polygon);
-  const bool convex = is_convex(points), fits = polygon.size() <= most_corners;
-  if (convex || !fits)
-    add_fan(polygon.size(), triangles);
-  else
-    cut_ears(points, triangles);
-  return convex || fits;
+  const bool convex = is_convex(points);
+  if (!convex && polygon.size() <= most_corners) return cut_ears(points, triangles);
+  add_fan(polygon.size(), triangles);
+  return convex;
 }
 
 }  // namespace zoneplate

@@ -22,8 +22,9 @@ std::array<double, 3> area_vector(std::span<const float3> polygon);
 ///
 /// Requires  all corners finite.
 /// Edges     fewer than three corners: nothing. A concave polygon of more than 4096 corners becomes a fan, which is
-///           wrong but bounded: the answer is then false.
-/// Cost      quadratic in the corners of a concave polygon.
+///           wrong but bounded, and so is the search for ears where corners cross each other without end: the answer is
+///           then false.
+/// Cost      at most quadratic in the corners of a concave polygon.
 bool triangulate(std::span<const float3> polygon, std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace zoneplate

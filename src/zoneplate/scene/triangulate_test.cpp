@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "zoneplate/math/random.h"
 
@@ -106,6 +107,25 @@ TEST(Triangulate, BoundsItsWork) {
   Triangles triangles;
   EXPECT_FALSE(triangulate(comb, triangles));
   EXPECT_EQ(triangles.size(), comb.size() - 2);
+}
+
+TEST(Triangulate, FindsTheEarsOfLongOutlinesButNotOfKnots) {
+  constexpr std::uint32_t n = 4096;
+  std::vector<float3> star, spiral, knot;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const float angle = 6.2831853f * static_cast<float>(i) / n, r = 0.2f + unit_float(hash(i, 1));
+    star.push_back({r * std::cos(angle), r * std::sin(angle), 0});
+    // Ten times round and back, a wall of half the distance between two rounds.
+    const float t = static_cast<float>(i < n / 2 ? i : n - 1 - i) / (n / 2), turn = 62.831853f * t;
+    const float radius = 1 + 10 * t + (i < n / 2 ? 0 : 0.5f);
+    spiral.push_back({radius * std::cos(turn), radius * std::sin(turn), 0});
+    knot.push_back({unit_float(hash(i, 2)), unit_float(hash(i, 3)), 0});
+  }
+  for (const auto& [outline, has_ears] : {std::pair(star, true), {spiral, true}, {knot, false}}) {
+    Triangles triangles;
+    EXPECT_EQ(triangulate(outline, triangles), has_ears);
+    EXPECT_EQ(triangles.size(), n - 2);
+  }
 }
 
 }  // namespace
