@@ -1,5 +1,7 @@
 #include "zoneplate/scene/gltf_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -133,8 +135,7 @@ void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& me
       for (const auto& [number, share] : {std::pair(j.x, w.x), {j.y, w.y}, {j.z, w.z}, {j.w, w.w}}) {
         if (!(share > 0)) continue;
         if (!(number >= 0 && number < static_cast<float>(joints.size())))
-          p.json.fail("vertex " + std::to_string(p.range.first + v) + " uses joint " +
-                      std::to_string(static_cast<std::int64_t>(number)) + " of " + std::to_string(joints.size()));
+          p.json.fail(fmt::format("vertex {} uses joint {} of {}", p.range.first + v, number, joints.size()));
         add_weighted(blend, joints[static_cast<std::size_t>(number)], share);
         sum += share;
       }

@@ -215,10 +215,11 @@ TEST(GltfMesh, MorphTargetErrors) {
   EXPECT_EQ(error_of(m), "mesh 0 primitive 0: has 1 morph targets, but 2 weights are given");
 }
 
-GltfMaker skinned(const std::vector<std::uint8_t>& joints, const std::vector<float>& weights) {
+template <class Joint = std::uint8_t>
+GltfMaker skinned(const std::vector<Joint>& joints, const std::vector<float>& weights) {
   GltfMaker m;
   m.mesh(R"("POSITION":)" + m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}) + R"(,"JOINTS_0":)" +
-         m.values<std::uint8_t>("VEC4", joints) + R"(,"WEIGHTS_0":)" + m.floats("VEC4", weights));
+         m.values<Joint>("VEC4", joints) + R"(,"WEIGHTS_0":)" + m.floats("VEC4", weights));
   const std::string inverse = m.floats(
       "MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1});
   m.nodes = R"({"mesh":0,"skin":0,"translation":[100,0,0]},{"translation":[0,0,5]},{"translation":[1,2,0]})";
@@ -236,6 +237,8 @@ TEST(GltfMesh, SkinsTakeThePoseOfTheirJointsAndIgnoreTheNode) {
 TEST(GltfMesh, SkinErrors) {
   EXPECT_EQ(error_of(skinned({0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})),
             "mesh 0 primitive 0: vertex 1 uses joint 2 of 2");
+  EXPECT_EQ(error_of(skinned<float>({0, 0, 0, 0, 1e30f, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})),
+            "mesh 0 primitive 0: vertex 1 uses joint 1e+30 of 2");
   GltfMaker m = skinned({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   m.rest = R"(,"skins":[{"joints":[1,2,0],"inverseBindMatrices":3}])";
   EXPECT_EQ(error_of(m), "skin 0: inverseBindMatrices has 2 elements, wants 3");

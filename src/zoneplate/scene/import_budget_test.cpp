@@ -7,6 +7,7 @@
 
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/damage_for_test.h"
+#include "zoneplate/scene/obj.h"
 #include "zoneplate/scene/ply.h"
 #include "zoneplate/scene/stl.h"
 
@@ -30,6 +31,17 @@ std::string ply_of_knots() {
   for (int k = 0; k < knots; ++k) {
     text += std::to_string(corners);
     for (int i = 0; i < corners; ++i) text += " " + std::to_string(knot_corner(i));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string obj_of_knots() {
+  std::string text;
+  for (std::uint32_t p = 0; p < points; ++p) text += "v " + place(p);
+  for (int k = 0; k < knots; ++k) {
+    text += "f";
+    for (int i = 0; i < corners; ++i) text += " " + std::to_string(1 + knot_corner(i));
     text += "\n";
   }
   return text;
@@ -63,6 +75,7 @@ std::string hurried(const Load& load, const std::string& text) {
 
 TEST(ImportBudget, TimeRunsOutBetweenTheFacesOfABlock) {
   const std::string late = ": takes longer to load than the limit of 100 ms";
+  EXPECT_EQ(hurried(load_obj, obj_of_knots()), late);
   EXPECT_EQ(hurried(load_ply, ply_of_knots()), late);
   EXPECT_EQ(hurried(load_stl, stl_of_knots()), late);
 }

@@ -135,6 +135,7 @@ std::optional<std::string> ObjFolder::find_file(const std::string& within, std::
 }
 
 int ObjFolder::image(const std::string& within, const std::string& name) {
+  budget_.check_time();  // files are looked for
   const std::optional<std::string> path = find_file(within, name);
   const auto [entry, is_new] = images_.try_emplace(path.value_or("missing " + name), -1);
   if (is_new) entry->second = load(name, path);

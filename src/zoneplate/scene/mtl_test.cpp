@@ -53,6 +53,15 @@ TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
 }
 
+TEST(ParseMtl, TakesTimeInProportionToALinesLength) {
+  std::string text = "newmtl a\nmap_Kd";
+  for (int i = 0; i < 100000; ++i) text += " -o 1 2 3";
+  std::vector<std::string> warnings;
+  const std::vector<MtlMaterial> found = parse_mtl(text + " x.png", "a.mtl", warnings);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].diffuse_map.file, "x.png");
+}
+
 TEST(ParseMtl, PassesOverWhatIsWrong) {
   const Parsed p = parse("Kd 1 1 1\nnewmtl a\nKd red\nKs\nNs nan\nwhatever 3\nmap_Kd\nKd spectral x.rfl\n");
   EXPECT_EQ(p.materials.size(), 1u);

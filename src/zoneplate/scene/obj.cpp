@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <unordered_map>
@@ -37,12 +38,24 @@ class Libraries {
   Material material(const std::string& name) {
     const auto found = materials_.find(name);
     if (found != materials_.end()) return make_material(found->second.material, found->second.within, folder_);
-    if (!name.empty())
+    if (!name.empty() && ++undefined_ <= most_named)
       folder_.scene().warnings.push_back(fmt::format("{}: material {} is not defined", folder_.budget().file(), name));
     return plain_material(name.empty() ? "default" : name);
   }
 
+  void report_rest() {
+    const auto report = [&](std::size_t count, const char* text) {
+      if (count > most_named)
+        folder_.scene().warnings.push_back(
+            fmt::format("{}: {} more {}", folder_.budget().file(), count - most_named, text));
+    };
+    report(missing_, "material libraries are not found");
+    report(undefined_, "materials are not defined");
+  }
+
  private:
+  static constexpr std::size_t most_named = 20;
+
   struct Found {
     MtlMaterial material;
     std::string within;
@@ -50,23 +63,32 @@ class Libraries {
 
   void open(const std::string& name) {
     Scene& scene = folder_.scene();
+    folder_.budget().check_time();
     const std::optional<std::string> path = folder_.find_file("", name);
     if (!path) {
-      scene.warnings.push_back(
-          fmt::format("{}: material library {} not found in the model's folder", folder_.budget().file(), name));
+      if (++missing_ <= most_named)
+        scene.warnings.push_back(
+            fmt::format("{}: material library {} not found in the model's folder", folder_.budget().file(), name));
       return;
     }
     if (!opened_.try_emplace(*path, true).second) return;
     const FileBytes file(*path, folder_.budget().limits().memory);
     const std::size_t slash = name.find_last_of("/\\");
     const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
-    for (MtlMaterial& m : parse_mtl(text_of(file), name, scene.warnings)) {
+    // A line may be a material.
+    const auto is_end = [](std::uint8_t c) { return c == '\n' || c == '\r'; };
+    const auto lines = static_cast<std::size_t>(std::count_if(file.bytes().begin(), file.bytes().end(), is_end)) + 1;
+    folder_.budget().take(lines * sizeof(Found));
+    std::vector<MtlMaterial> found = parse_mtl(text_of(file), name, scene.warnings);
+    folder_.budget().give_back((lines - std::min(lines, found.size())) * sizeof(Found));
+    for (MtlMaterial& m : found) {
       std::string key = m.name;
       materials_.try_emplace(std::move(key), Found{std::move(m), within});
     }
   }
 
   ObjFolder& folder_;
+  std::size_t missing_ = 0, undefined_ = 0;
   std::unordered_map<std::string, Found> materials_;
   std::unordered_map<std::string, bool> opened_;
 };
@@ -86,6 +108,14 @@ void report_notes(const ObjFile& file, const std::string& name, std::vector<std:
     const std::string more = sum.count > 1 ? fmt::format(" (and {} more)", sum.count - 1) : "";
     warnings.push_back(fmt::format("{}: line {}: {} {}{}", name, sum.line, sum.word, texts[kind], more));
   }
+}
+
+/// What names and materials take, of which a hostile file has one for every face. A name is kept twice, once in a
+/// table.
+void count_names(const ObjLayout& layout, ImportBudget& budget) {
+  constexpr std::size_t name = 2 * sizeof(std::string) + 64;
+  budget.take(layout.runs.size() * sizeof(ObjRun) + layout.objects.size() * name +
+              layout.materials.size() * (name + sizeof(Material)));
 }
 
 bool has_elements(const ObjFile& file) {
@@ -136,6 +166,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
 
   const std::filesystem::path place(path);
   const ObjLayout layout = lay_out(file, is_stream ? "object" : place.stem().string());
+  count_names(layout, budget);
   const std::vector<std::vector<float3>> normals = missing_normals(file, layout.runs, budget);
   ObjMeshes found = make_meshes(file, layout, normals, budget);
   file = {};
@@ -150,6 +181,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   Libraries libraries(folder);
   for (const std::string& statement : layout.libraries) libraries.add(statement);
   for (const std::string& material : layout.materials) scene.materials.push_back(libraries.material(material));
+  libraries.report_rest();
   return scene;
 }
 

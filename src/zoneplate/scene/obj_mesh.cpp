@@ -43,6 +43,9 @@ std::vector<Plan> plan_meshes(const ObjFile& file, const ObjLayout& layout) {
   return plans;
 }
 
+/// An element of more corners than this may take long: the limits are looked at before it.
+constexpr std::uint32_t many_corners = 64;
+
 float linear(float code) { return decode_srgb(std::clamp(code, 0.0f, 1.0f)); }
 
 /// Makes one mesh, element by element.
@@ -67,8 +70,11 @@ class Builder {
         if (are_plain_triangles(chunk))
           add_triangles(chunk, begin, end);
         else
-          for (std::uint32_t e = begin; e < end; ++e)
-            if (chunk.elements[e].kind == plan_.kind) add(run.chunk, chunk, chunk.elements[e]);
+          for (std::uint32_t e = begin; e < end; ++e) {
+            if (chunk.elements[e].kind != plan_.kind) continue;
+            if (chunk.elements[e].count > many_corners && !may_go_on(bytes())) return;
+            add(run.chunk, chunk, chunk.elements[e]);
+          }
       }
     }
     may_go_on(bytes());
@@ -202,6 +208,7 @@ ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::v
     std::uint64_t not_finite = 0, too_concave = 0, bytes = 0;
   };
   const std::vector<Plan> plans = plan_meshes(file, layout);
+  budget.take(plans.size() * (sizeof(Plan) + sizeof(ObjRun) + sizeof(Made) + sizeof(ObjMesh) + sizeof(Instance)));
   std::vector<Made> made(plans.size());
   std::atomic<std::uint64_t> all_bytes = 0;
   parallel_for(plans.size(), [&](std::size_t i) {

@@ -72,7 +72,8 @@ void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>
 }
 
 std::uint64_t size_of(const ObjPart& part) {
-  return part.vertices.bytes() + part.chunk.corners.bytes() + part.chunk.elements.bytes();
+  return part.vertices.bytes() + part.chunk.corners.bytes() + part.chunk.elements.bytes() +
+         part.chunk.states.size() * sizeof(ObjState);
 }
 
 /// Reads the parts by themselves, and then anew those that need to know the others; gives what comes before each.

@@ -345,6 +345,40 @@ void expect_sound(const Scene& scene) {
   }
 }
 
+TEST_F(ObjModel, NamesCountAsMemory) {
+  // Small files of which each line becomes a hundred times as much.
+  const LoadLimits limits{.memory = 4 << 20};
+  const auto lines = [](int count, const auto& line) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < count; ++i) text += line(std::to_string(i));
+    return text;
+  };
+  const auto refused = [&](const std::string& text) { return refusal(text, limits).substr(0, 30); };
+  const std::string over = "model.obj: needs more than the";
+  EXPECT_EQ(refused(lines(200000, [](const std::string&) { return "o\n"; })), over);
+  EXPECT_EQ(refused(lines(10000, [](const std::string& i) { return "o " + i + "\nf 1 2 3\n"; })), over);
+  EXPECT_EQ(refused(lines(10000, [](const std::string& i) { return "usemtl " + i + "\nf 1 2 3\n"; })), over);
+  EXPECT_EQ(refusal(lines(1000, [](const std::string& i) { return "o " + i + "\nf 1 2 3\n"; }), limits), "loaded");
+}
+
+TEST_F(ObjModel, OfManyMaterialsThatAreNotDefinedSomeAreNamed) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 30; ++i) text += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+  const Scene scene = load(text);
+  ASSERT_EQ(scene.warnings.size(), 21u);
+  EXPECT_EQ(without_folder(scene.warnings[19]), "model.obj: material m19 is not defined");
+  EXPECT_EQ(without_folder(scene.warnings[20]), "model.obj: 10 more materials are not defined");
+}
+
+TEST_F(ObjModel, MaterialsOfALibraryCountAsMemory) {
+  std::string library;
+  for (int i = 0; i < 20000; ++i) library += "newmtl " + std::to_string(i) + "\n";
+  write("many.mtl", library);
+  const std::string text = "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl 7\nf 1 2 3\n";
+  EXPECT_EQ(refusal(text, {.memory = 4 << 20}).substr(0, 30), "model.obj: needs more than the");
+  EXPECT_EQ(refusal(text), "loaded");
+}
+
 TEST_F(ObjModel, SurvivesAnyChange) {
   write("m.mtl", "newmtl red\nKd 1 0 0\nNs 20\nmap_Kd -s 2 2 x.png\nillum 2\n");
   const std::string text =

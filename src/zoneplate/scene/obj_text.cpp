@@ -126,6 +126,11 @@ std::string_view LineWords::next() {
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
+bool LineWords::is_over() {
+  skip_space();
+  return at_ == end_;
+}
+
 std::string LineWords::rest() {
   skip_space();
   const char* last = end_;

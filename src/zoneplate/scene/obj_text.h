@@ -37,6 +37,8 @@ class LineWords {
   std::string_view next();
   /// All that is left, without the spaces around it; continuations and control characters in it become spaces.
   std::string rest();
+  /// Whether rest() is empty.
+  bool is_over();
 
  private:
   void skip_space();

@@ -127,5 +127,12 @@ TEST(Stl, Refusals) {
   EXPECT_EQ(refusal(std::string(84, 1)), "not an STL file, or cut off: says it has 16843009 triangles, holds 0");
 }
 
+TEST(Stl, SolidsCountAsMemory) {
+  std::string text;
+  for (int i = 0; i < 100000; ++i) text += "solid\n";
+  EXPECT_EQ(refusal(text + "facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0"),
+            "needs more than the limit of 16777216 bytes (--max-memory)");
+}
+
 }  // namespace
 }  // namespace zoneplate

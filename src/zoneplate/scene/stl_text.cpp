@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -149,15 +150,20 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
   std::vector<std::optional<TextError>> errors(cuts.size());
   // A vertex takes nine characters at least, and 40 in most files.
   budget.take(text.size() / 9 * sizeof(float3));
+  // Each solid becomes a mesh, be it of six letters.
+  constexpr std::size_t solid_bytes = sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance);
+  std::atomic<std::uint64_t> solids = 0;
   parallel_for(cuts.size(), [&](std::size_t i) {
-    if (!budget.has_time()) return;
+    if (!budget.has_time() || solids * solid_bytes > budget.memory_left()) return;
     try {
       parts[i] = PartReader(cuts[i]).read();
     } catch (TextError& error) {
       errors[i] = std::move(error);
     }
+    solids += parts[i].solids.size();
   });
   budget.check_time();
+  budget.take(solids * solid_bytes);
   for (const std::optional<TextError>& error : errors) {
     if (!error) continue;
     const auto line = 1 + std::count(text.data(), error->at, '\n');
