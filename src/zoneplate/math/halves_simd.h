@@ -2,7 +2,7 @@
 
 #include <hwy/highway.h>
 
-/// Vectors made of two halves, for the instruction set of the file that includes this.
+/// Vectors made of parts of two, for the instruction set of the file that includes this.
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -23,34 +23,21 @@ HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
   return hn::Combine(d, upper, lower);
 }
 
-/// Words 0 and 2 of each block of 128 bits, of `lower` and then of `upper`.
-template <class V>
-HWY_INLINE V even_words(V upper, V lower) {
+/// Every second word of each block of 128 bits, from word `first` on, of `lower` and then of `upper`.
+template <int first, class V>
+HWY_INLINE V every_second_word(V upper, V lower) {
+  static_assert(first == 0 || first == 1);
   const hn::DFromV<V> d;
   static_assert(sizeof(hn::TFromD<decltype(d)>) == 4);
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
   if constexpr (sizeof(V) == 32) {
+    constexpr int chosen = first == 0 ? 0x88 : 0xdd;
     const hn::RebindToFloat<decltype(d)> f;
     return hn::BitCast(
-        d, hn::Vec<decltype(f)>{_mm256_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, 0x88)});
+        d, hn::Vec<decltype(f)>{_mm256_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, chosen)});
   }
 #endif
-  return hn::ConcatEven(d, upper, lower);
-}
-
-/// Words 1 and 3.
-template <class V>
-HWY_INLINE V odd_words(V upper, V lower) {
-  const hn::DFromV<V> d;
-  static_assert(sizeof(hn::TFromD<decltype(d)>) == 4);
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-  if constexpr (sizeof(V) == 32) {
-    const hn::RebindToFloat<decltype(d)> f;
-    return hn::BitCast(
-        d, hn::Vec<decltype(f)>{_mm256_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, 0xdd)});
-  }
-#endif
-  return hn::ConcatOdd(d, upper, lower);
+  return first == 0 ? hn::ConcatEven(d, upper, lower) : hn::ConcatOdd(d, upper, lower);
 }
 
 }  // namespace zoneplate::HWY_NAMESPACE

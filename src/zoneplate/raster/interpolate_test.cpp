@@ -72,6 +72,38 @@ TEST(Interpolate, RowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
   }
 }
 
+TEST(Interpolate, ClippedRowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
+  for (std::uint32_t key = 0; key < 200; ++key) {
+    const auto number = [&](std::uint32_t k, std::uint32_t what) {
+      return 4 * unit_float(hash(key, 4 * k + what)) - 2;
+    };
+    const auto corner = [&](std::uint32_t k) { return float4{number(k, 0), number(k, 1), 0, number(k, 2)}; };
+    const BarycentricPlanes planes = barycentric_planes(corner(0), corner(1), corner(2), viewport);
+    const auto rows = std::make_unique<Rows>(key), expected = std::make_unique<Rows>(key);
+    expected->interpolate(scalar::interpolate_kernels);  // for x and y of all points
+    rows->batch = expected->batch;
+    scalar::interpolate_kernels.interpolate_clipped_rows(planes, viewport, 1.0f, expected->batch, 8, 40);
+    for (const Isa isa : supported_isas()) {
+      interpolate_kernels(isa).interpolate_clipped_rows(planes, viewport, 1.0f, rows->batch, 8, 40);
+      ASSERT_TRUE(same_floats(rows->batch, expected->batch)) << key << ' ' << name_of(isa);
+
+      ClippedGroup group{};
+      for (int i = 0; i < Batch::group; ++i) {
+        for (int k = 0; k < 3; ++k)
+          group.x[k][i] = planes.x[k], group.y[k][i] = planes.y[k], group.one[k][i] = planes.one[k];
+        group.px[i] = rows->batch.x[16 + i], group.py[i] = rows->batch.y[16 + i];
+      }
+      interpolate_kernels(isa).interpolate_clipped(viewport, 1.0f, group);
+      for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < Batch::group; ++i) {
+          ASSERT_EQ(group.b[k][i], expected->batch.b[k][16 + i]) << key << ' ' << name_of(isa);
+          ASSERT_EQ(group.dbdx[k][i], expected->batch.dbdx[k][16 + i]);
+          ASSERT_EQ(group.dbdy[k][i], expected->batch.dbdy[k][16 + i]);
+        }
+    }
+  }
+}
+
 TEST(Interpolate, AffineTrianglesRepeatTheirSlopes) {
   Rows rows(0);
   rows.interpolate(interpolate_kernels(best_isa()));

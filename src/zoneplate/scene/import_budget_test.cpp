@@ -69,6 +69,7 @@ std::string hurried(const Load& load, const std::string& text) {
   } catch (const Error& error) {
     message = error.what();
   }
+  // A knot takes some tenths of a second, all of them many times this; a few may be at work when the time is over.
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 4.0);
   return message.substr(std::min(message.size(), path.size()));
 }

@@ -119,7 +119,7 @@ HWY_INLINE void store_channels(V first, V second, float unit, float* const out[4
   const hn::Repartition<std::int32_t, Fixed> di;
   const hn::RebindToFloat<decltype(di)> df;
   const auto a = hn::BitCast(di, first), b = hn::BitCast(di, second);
-  const auto rg = even_words(b, a), ba = odd_words(b, a);
+  const auto rg = every_second_word<0>(b, a), ba = every_second_word<1>(b, a);
   const auto low = hn::Set(di, 0xffff);
   const auto scale = hn::Set(df, unit);
   const auto store = [&](auto codes, float* to)

@@ -144,8 +144,10 @@ struct Several {
 template <class F, Highlight highlight>
 [[gnu::always_inline]] inline void raise_cosines(const Exponent& exponent, Cosines& cosines, int count) {
   constexpr int vectors = 8 / F::lanes < 2 ? 2 : 8 / F::lanes;
-  static_assert(Points::capacity % (vectors * F::lanes) == 0);
-  for (int i = 0; i < count; i += vectors * F::lanes) {
+  constexpr int step = vectors * F::lanes;
+  static_assert(Points::capacity % step == 0);
+  if (count % step != 0) std::fill_n(cosines.highlight + count, step - count % step, 0.0f);
+  for (int i = 0; i < count; i += step) {
     const Several<F, vectors> x([&](int k) { return F::load(cosines.highlight + i + k * F::lanes); });
     const auto raised = highlight == Highlight::Phong ? power(x, exponent) : power_of_square(x, exponent);
     for (int k = 0; k < vectors; ++k) raised.v[k].store(cosines.highlight + i + k * F::lanes);
