@@ -2,7 +2,9 @@
 // takes.
 //
 // Keeps corners, finds diagonals, and smooths long edges better than FXAA. Weak where there is less than a pixel: thin
-// wires stay broken, and an edge beyond the search's length is taken for two.
+// wires stay broken, and an edge beyond the search's length is taken for two. S2x mends the wires and steep edges; long
+// edges that stand alone come out farther from the truth than with one sample, for the original's areas of samples
+// beside the centre are the mean of each step's line and of two halves.
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
 // code v2.8: 1x and S2x. Edges are found on codes, colours are mixed in linear light.

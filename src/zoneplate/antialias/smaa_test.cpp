@@ -162,6 +162,36 @@ TEST(Smaa, TwoSamplesSeeThinBandsAndExchangedPlacesSpoilThem) {
   EXPECT_LT(two, 0.8 * one);
 }
 
+TEST(Smaa, TwoSamplesBeatOneWhereEdgesAreSteepAndLoseWhereTheyAreLongAndAlone) {
+  // For samples beside the centre the original's areas of a step are the mean of the line's and of its two halves'
+  // (SmaaTables.StepsSeenFromBesideTheCentreAreHalfwayToTheirHalves), which costs what two samples gain.
+  for (const double run : {2.0, 4.5, 20.0, 30.0}) {
+    double one = 0, two = 0;
+    for (int k = 0; k < 4; ++k) {
+      const Band plane{run, 1000, 20.013 + 0.25 * k};
+      one += plane.error(apply_smaa(plane.codes(0.5, 0.5), nullptr, {})) / 4, two += error_of_s2x(plane, false) / 4;
+    }
+    if (run < 5) {
+      EXPECT_LT(two, 0.8 * one) << run;
+    } else {
+      EXPECT_GT(two, 1.5 * one) << run;
+      EXPECT_LT(two, 0.04) << run;
+    }
+  }
+}
+
+TEST(Smaa, TwoSamplesAloneSeeALevelEdgeToTheHalf) {
+  // Nothing crosses an exactly level edge, so that nothing is followed: its pixels are the mean of their two samples.
+  for (const double height : {20.1, 20.4, 20.6, 20.9}) {
+    const Band level{1e12, 1000, height};
+    EXPECT_NEAR(error_of_s2x(level, false),
+                std::abs(level.area(80, 20) - (height < 20.25   ? 1
+                                               : height < 20.75 ? 0.5
+                                                                : 0)),
+                5e-3);
+  }
+}
+
 TEST(Smaa, TwoSamplesUseTheAreasOfTheirDiagonals) {
   // Rising edges near the diagonal, across which the two samples lie: with their slots they come nearer to the area
   // than one sample does; with each other's or with none they do not.
