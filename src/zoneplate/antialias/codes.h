@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <functional>
@@ -22,6 +23,13 @@ DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& f
 
 /// `v` rounded to a code, for v in [0, 255].
 inline std::uint8_t rounded_code(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
+
+/// code / 255, without the division.
+inline constexpr std::array<float, 256> code_share = [] {
+  std::array<float, 256> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(i) / 255;
+  return out;
+}();
 
 /// A pixel's linear light and alpha in [0, 1], from its codes and back.
 Linear light_of(Rgba8 codes);

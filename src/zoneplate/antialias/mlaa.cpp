@@ -103,7 +103,7 @@ Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& tak
   Linear sum{0, 0, 0, 0};
   float total = 0;
   for (int i = 0; i < 4; ++i) {
-    const float a = static_cast<float>(weights[i]) / 255;
+    const float a = code_share[weights[i]];
     sum = sum + (here * (1 - a) + others[i] * a) * a;
     total += a;
   }

@@ -20,8 +20,6 @@
 namespace zoneplate::antialias {
 namespace {
 
-float share_of(std::uint8_t weight) { return static_cast<float>(weight) / 255; }
-
 /// A pixel mixed with its neighbours on the axis of its greater weight.
 Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
   const auto at = [&](int i, int j) {
@@ -30,8 +28,8 @@ Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& tak
     return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
   };
   const bool is_horizontal = std::max(taken.right, taken.left) > std::max(taken.below, taken.above);
-  const float first = share_of(is_horizontal ? taken.right : taken.below);
-  const float second = share_of(is_horizontal ? taken.left : taken.above);
+  const float first = code_share[is_horizontal ? taken.right : taken.below];
+  const float second = code_share[is_horizontal ? taken.left : taken.above];
   const Linear here = at(x, y);
   const Linear a = is_horizontal ? at(x + 1, y) : at(x, y + 1), b = is_horizontal ? at(x - 1, y) : at(x, y - 1);
   const float sum = first + second, u = first / sum, v = second / sum;

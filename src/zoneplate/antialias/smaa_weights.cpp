@@ -76,6 +76,9 @@ class Line {
     const Root r = tables.roots[static_cast<std::size_t>(std::abs(after))];
     const int left_code = 3 * crosses(before, 0) + crosses(before, -1);
     const int right_code = 3 * crosses(after + 1, 0) + crosses(after + 1, -1);
+    // Where nothing crosses there is no area, but for what the fetch at the longest distances takes of the next
+    // pattern.
+    if (left_code + right_code == 0 && std::max(l.cell, r.cell) < 15) return {};
     Areas areas = fetch(slot, 16 * left_code + l.cell, l.share, 16 * right_code + r.cell, r.share);
     if (options.corner_rounding < 100) round_corners(before, after, tables.corner_strength, options, areas);
     return areas;
@@ -125,8 +128,7 @@ class Line {
   static Areas fetch(const AreaSlot& slot, int x, float u, int y, float v) {
     const int right = std::min(x + 1, AreaSlot::size - 1), lower = std::min(y + 1, AreaSlot::size - 1);
     const auto at = [&](int column, int row, int c) {
-      return static_cast<float>(slot.orthogonal[static_cast<std::size_t>(2 * (row * AreaSlot::size + column) + c)]) /
-             255;
+      return code_share[slot.orthogonal[static_cast<std::size_t>(2 * (row * AreaSlot::size + column) + c)]];
     };
     const auto mixed = [&](int c) {
       const float above = at(x, y, c) + (at(right, y, c) - at(x, y, c)) * u;
@@ -190,7 +192,7 @@ class Diagonals {
   static Areas fetch(const AreaSlot& slot, const Found& a, const Found& b, int code_a, int code_b) {
     const int x = 20 * (a.goes_on ? 0 : code_a) + a.distance, y = 20 * (b.goes_on ? 0 : code_b) + b.distance;
     const std::size_t at = static_cast<std::size_t>(2 * (y * AreaSlot::size + x));
-    return {static_cast<float>(slot.diagonal[at]) / 255, static_cast<float>(slot.diagonal[at + 1]) / 255};
+    return {code_share[slot.diagonal[at]], code_share[slot.diagonal[at + 1]]};
   }
 
   Areas rising_areas(const AreaSlot& slot) const {
