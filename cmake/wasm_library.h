@@ -4,6 +4,7 @@
 
 #ifdef __cplusplus
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <charconv>
 #include <cstdlib>
@@ -12,6 +13,12 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+
+#include <sys/mman.h>
+
+#ifndef MADV_POPULATE_WRITE
+#define MADV_POPULATE_WRITE 23
+#endif
 
 namespace std {
 
@@ -38,14 +45,25 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
   return {first + (end - text.c_str()), errc()};
 }
 
+/// There is one thread.
+template <class T>
+class atomic_ref {
+ public:
+  explicit atomic_ref(T& value) : value_(value) {}
+  void store(T value, memory_order) const { value_ = value; }
+
+ private:
+  T& value_;
+};
+
 namespace ranges {
 template <class Range, class Out>
 constexpr void copy(Range&& range, Out out) {
   std::copy(std::begin(range), std::end(range), out);
 }
-template <class Range, class T>
-constexpr auto find(Range&& range, const T& value) {
-  return std::find(std::begin(range), std::end(range), value);
+template <class Range, class T, class Part = identity>
+constexpr auto find(Range&& range, const T& value, Part part = {}) {
+  return std::find_if(std::begin(range), std::end(range), [&](auto&& x) { return std::invoke(part, x) == value; });
 }
 template <class Range, class Out, class Change>
 constexpr void transform(Range&& range, Out out, Change change) {
@@ -54,6 +72,14 @@ constexpr void transform(Range&& range, Out out, Change change) {
 template <class Range, class Condition>
 constexpr bool any_of(Range&& range, Condition condition) {
   return std::any_of(std::begin(range), std::end(range), condition);
+}
+template <class Range, class Order>
+void sort(Range&& range, Order order) {
+  std::sort(std::begin(range), std::end(range), order);
+}
+template <class Range, class T>
+constexpr auto count(Range&& range, const T& value) {
+  return std::count(std::begin(range), std::end(range), value);
 }
 template <class A, class B>
 constexpr bool equal(A&& a, B&& b) {
