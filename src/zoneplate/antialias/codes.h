@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <functional>
 
 #include "zoneplate/image/rgb.h"
@@ -34,6 +35,11 @@ inline constexpr std::size_t rows_a_block = 16;
 
 /// Calls `body(y)` for every row of a picture, blocks of rows in parallel.
 void for_rows(int height, const std::function<void(int)>& body);
+
+/// Copies row y of a picture into another one of its size. (std::ranges::copy takes one pixel at a time.)
+inline void copy_row(const Rgba8Image& from, Rgba8Image& to, int y) {
+  std::memcpy(to.row(y).data(), from.row(y).data(), from.row(y).size_bytes());
+}
 
 /// Allocates a picture of the size of `like`, or takes `memory` where it has that size already. The values are unset
 /// leftovers in the second case and zero in the first.

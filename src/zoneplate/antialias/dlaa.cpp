@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include "zoneplate/antialias/bordered.h"
@@ -49,7 +50,8 @@ struct Source {
 
   explicit Source(const Rgba8Image& image)
       : colors(image.width(), image.height(), reach), edges(image.width(), image.height(), half_blur) {
-    for_rows(image.height(), [&](int y) { std::ranges::copy(image.row(y), colors.at(0, y)); });
+    for_rows(image.height(),
+             [&](int y) { std::memcpy(colors.at(0, y), image.row(y).data(), image.row(y).size_bytes()); });
     colors.extend();
     const std::ptrdiff_t s = colors.stride();
     for_rows(image.height(), [&](int y) {
