@@ -65,7 +65,7 @@ constexpr Golden goldens[] = {
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
     {"sphere:triangles=5000", "msaa:n=16", 0x4261133c47ed6cf1u},
     {"city-trilinear", "msaa:n=4", 0x2d58cb34d17d8ea5u},
-    {"fillblend", "msaa:n=4", 0xe98a2fed0c160e8au},
+    {"fillblend", "msaa:n=4", 0x413bf4d038ecd54au},
 };
 
 TEST(Pictures, TenPicturesHaveTheirBits) {

@@ -185,7 +185,7 @@ class TileRenderer {
   std::uint8_t is_slow_row_[tile_pixels / 8];
   std::vector<BlendedRow> blended_rows_;
   std::vector<BlockLayer> block_layers_, unsorted_layers_;
-  Linear8 behind_[64];              ///< by rows of a strip of blocks
+  Layers8 strip_layers_[64];        ///< by rows of a strip of blocks
   std::uint64_t other_blocks_ = 0;  ///< a bit for each block whose layers go by rows or pixels
 
   std::vector<Linear8> sum_;    ///< by eight pixels: weighted sum of samples
