@@ -41,6 +41,7 @@ constexpr const char* notes =
     "\n"
     "The folder DIR is made, whole or not at all, and must not exist before:\n"
     "  compare.txt, compare.csv, compare.json   the figures; the JSON holds everything, and its version\n"
+    "  compare.md                               all methods on all scenes as a table for a page\n"
     "  cost.svg                                 error and cost of the means, the Pareto front marked\n"
     "  SCENE/reference.png, SCENE/METHOD.png    the pictures, METHOD.error.png their FLIP, METHOD.worst.png the worst\n"
     "                                           places 8 times enlarged\n"
@@ -267,6 +268,7 @@ void compare_all(const CompareArgs& args, const TrialOptions& options) {
   const std::string json = report_json(scenes, args.command, thread_limit(), args.render.options.isa).indented() + '\n';
   files.push_back({"cost.svg", bytes_of(plot_svg(cost_plot(means_of(scenes)), {.width = 960, .height = 600}))});
   files.push_back({"compare.txt", bytes_of(text)});
+  files.push_back({"compare.md", bytes_of(report_markdown(scenes))});
   files.push_back({"compare.csv", bytes_of(report_csv(scenes))});
   files.push_back({"compare.json", bytes_of(json)});
   progress.begin("write", 1);

@@ -222,6 +222,52 @@ std::string report_csv(const std::vector<SceneTrials>& scenes) {
   return text;
 }
 
+namespace {
+
+/// The mean over the scenes that have a figure.
+template <class Figure>
+std::optional<double> mean_over(const std::vector<SceneTrials>& scenes, const Figure& figure) {
+  double sum = 0, count = 0;
+  for (const SceneTrials& s : scenes)
+    if (const std::optional<double> value = figure(s)) sum += *value, count += 1;
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+bool is_on_front(const MethodMeans& own, const std::vector<MethodMeans>& all) {
+  return std::ranges::none_of(all, [&](const MethodMeans& m) {
+    return m.error <= own.error && m.processor_ms <= own.processor_ms &&
+           (m.error < own.error || m.processor_ms < own.processor_ms);
+  });
+}
+
+}  // namespace
+
+std::string report_markdown(const std::vector<SceneTrials>& scenes) {
+  const std::vector<MethodMeans> means = means_of(scenes);
+  std::vector<std::size_t> order(means.size());
+  for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
+  std::ranges::stable_sort(order, {}, [&](std::size_t m) { return means[m].error; });
+  std::string text = "| method | mean |", rule = "|---|---|";
+  for (const SceneTrials& s : scenes) text += fmt::format(" {} |", s.name), rule += "---|";
+  text += " near axis % | shaded | MB | ms |\n" + rule + "---|---|---|---|\n";
+  for (const std::size_t m : order) {
+    const char* mark = is_on_front(means[m], means) ? "**" : "";
+    text += fmt::format("| {0}`{1}`{0} | {2} |", mark, means[m].method, shown(means[m].error, 1, 1000));
+    for (const SceneTrials& s : scenes) text += fmt::format(" {} |", shown(s.trials[m].value("flip"), 1, 1000));
+    const auto mean = [&](const auto& figure) {
+      return mean_over(scenes, [&](const SceneTrials& s) -> std::optional<double> { return figure(s.trials[m]); });
+    };
+    const auto near_axis = mean([](const Trial& t) { return t.value("edge_error.near_axis"); });
+    const auto bytes = mean([](const Trial& t) -> std::optional<double> {
+      return t.memory ? std::optional(static_cast<double>(*t.memory) / (1 << 20)) : std::nullopt;
+    });
+    text += fmt::format(" {} | {} | {} | {} |\n", shown(near_axis, 1, 100),
+                        shown(mean([](const Trial& t) { return std::optional(t.shaded_per_pixel()); }), 1),
+                        shown(bytes, 0), shown(means[m].processor_ms, 0));
+  }
+  return text;
+}
+
 Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command, int threads,
                  Isa isa) {
   Json::Array rows, means;

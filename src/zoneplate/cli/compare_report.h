@@ -15,6 +15,10 @@ std::string report_text(const std::vector<SceneTrials>& scenes);
 /// One row a scene and method, every figure of it; numbers in the fewest digits that read back the same.
 std::string report_csv(const std::vector<SceneTrials>& scenes);
 
+/// The table of all methods on all scenes for a page in Markdown, the nearest to the references first, in bold what is
+/// on the Pareto front of the means.
+std::string report_markdown(const std::vector<SceneTrials>& scenes);
+
 /// The version of the JSON's layout; it rises when a reader of the last one would misread the new one.
 inline constexpr int report_version = 1;
 

@@ -61,7 +61,7 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   EXPECT_EQ(json["format"], "zoneplate-compare");
   EXPECT_EQ(json["version"], report_version);
   ASSERT_EQ(json["scenes"].size(), 2u);
-  std::size_t files = 4;  // cost.svg, compare.txt, compare.csv, compare.json
+  std::size_t files = 5;  // cost.svg, compare.txt, compare.md, compare.csv, compare.json
   for (const auto& scene : json["scenes"]) {
     for (const auto& name : {scene["reference"]["picture"], scene["crops"], scene["plot"]}) {
       EXPECT_TRUE(fs::exists(place / "out" / std::string(name))) << name;
@@ -91,6 +91,11 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   const std::string csv = text_of("out/compare.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
   EXPECT_TRUE(contains(csv, "triangles,,\"ssaa:pattern=halton,samples=8\","));
+  // The nearest first, and it and the cheapest are on the front.
+  const std::string table = text_of("out/compare.md");
+  EXPECT_TRUE(table.starts_with("| method | mean | triangles | cyclic | near axis % | shaded | MB | ms |\n|---|"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_LT(table.find("**`ssaa:pattern=halton,samples=8`**"), table.find("`none`"));
 }
 
 TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
