@@ -24,6 +24,7 @@ class Msaa : public Resolver {
     request.is_local = gathering_.is_plain();
     request.planes.samples = !gathering_.is_plain();
     request.halo = gathering_.reach();
+    request.works_on_shown = gathering_.weight == SampleWeight::Display;
     return request;
   }
   LinearImage resolve(Frame& frame) override {

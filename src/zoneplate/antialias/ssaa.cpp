@@ -54,6 +54,7 @@ class Ssaa : public Resolver {
     request.planes.samples = true;
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
     request.halo = gathering_.reach();
+    request.works_on_shown = gathering_.weight == SampleWeight::Display;
     return request;
   }
   void take(const Frame& frame) {
