@@ -6,6 +6,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/raster/centroid.h"
 #include "zoneplate/raster/project.h"
 #include "zoneplate/signal/samples.h"
 
@@ -31,6 +32,7 @@ struct Target {
   std::vector<float> weights;          ///< one a sample; empty: all equal
   bool is_per_sample = false;          ///< shade every sample by itself
   AlphaTest alpha = AlphaTest::Pixel;  ///< where not every sample is shaded
+  Centroid centroid = Centroid::Mean;  ///< the same
   float spacing = 1;                   ///< the footprint of a shaded point, in pixels
 
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied

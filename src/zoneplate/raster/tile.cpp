@@ -27,7 +27,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       resolve_(resolve_kernels(isa)),
       point_lists_(point_list_kernels(isa)),
       target_(target),
-      sample_places_(target.samples),
+      places_(target.samples, target.is_per_sample ? Centroid::First : target.centroid),
       shader_(projected, shader, isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
       digit_batcher_(projected, digits_, isa, target),
@@ -278,18 +278,23 @@ void TileRenderer::draw_opaque() {
 }
 
 Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
-  // A surface that owns the whole pixel is shaded at its centre, another at the first sample it owns.
+  const bool is_centre = samples == all_samples_ && !target_.is_per_sample;
+  return point_at(pixel, id, samples, is_centre ? SamplePosition{} : places_.of(samples, first_sample_));
+}
+
+Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const {
   const std::int32_t x = (tile_x_ + static_cast<std::int32_t>(pixel % tile_size)) * 256;
   const std::int32_t y = (tile_y_ + static_cast<std::int32_t>(pixel / tile_size)) * 256;
-  if (samples == all_samples_ && !target_.is_per_sample) return {x + 128, y + 128, id, pixel, samples};
-  const SamplePosition s = target_.samples[static_cast<std::size_t>(first_sample_ + std::countr_zero(samples))];
-  return {x + s.x, y + s.y, id, pixel, samples};
+  return {x + place.x, y + place.y, id, pixel, samples};
 }
 
 void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
                               std::vector<Point>& points) const {
   if (!is_each_sample) return points.push_back(point_at(pixel, id, samples));
-  for (std::uint64_t left = samples; left; left &= left - 1) points.push_back(point_at(pixel, id, left & (~left + 1)));
+  for (std::uint64_t left = samples; left; left &= left - 1) {
+    const auto s = static_cast<std::size_t>(first_sample_ + std::countr_zero(left));
+    points.push_back(point_at(pixel, id, left & (~left + 1), target_.samples[s]));
+  }
 }
 
 void TileRenderer::find_points() {

@@ -8,6 +8,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/raster/alpha_coverage.h"
 #include "zoneplate/raster/bin.h"
+#include "zoneplate/raster/centroid.h"
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/points.h"
 #include "zoneplate/raster/rasterize.h"
@@ -129,6 +130,7 @@ class TileRenderer {
   }
   bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }
   Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
+  Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const;
 
   const ProjectedDraws& projected_;
   const Bins& bins_;
@@ -136,7 +138,7 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const PointListKernels& point_lists_;
   const Target& target_;
-  const SampleArrays sample_places_;
+  const ShadedPlaces places_;
   PointBatcher shader_;
   AlphaDigits digits_;
   PointBatcher digit_batcher_;

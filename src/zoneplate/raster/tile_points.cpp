@@ -20,8 +20,8 @@ void TileRenderer::list_row(int x, int y) {
   if (first >= last) return;
   point_lists_.list({.id = visibility_.id + pixel,
                      .sample_count = pass_samples_,
-                     .sample_x = sample_places_.x.data() + first_sample_,
-                     .sample_y = sample_places_.y.data() + first_sample_,
+                     .first_place = places_.first.data() + first_sample_,
+                     .more_places = places_.more.data() + first_sample_,
                      .pixel = pixel,
                      .x = (tile_x_ + x) * 256,
                      .y = (tile_y_ + y) * 256,

@@ -159,6 +159,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   target.samples = request.samples;
   target.weights = request.weights;
   target.alpha = request.alpha;
+  target.centroid = request.centroid;
   target.is_per_sample = request.rate == Rate::Sample;
   if (target.is_per_sample && options.sample_footprint)
     target.spacing =
