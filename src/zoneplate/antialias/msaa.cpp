@@ -28,7 +28,7 @@ class Msaa : public Resolver {
     request.alpha = alpha_;
     request.centroid = centroid_;
     request.is_local = gathering_.is_plain();
-    request.planes.samples = !gathering_.is_plain();
+    request.planes.sample_colors = !gathering_.is_plain();
     request.halo = gathering_.reach();
     return request;
   }

@@ -47,9 +47,11 @@ struct Target {
   Plane<std::uint32_t>* primitive = nullptr;
   Plane<float>* coverage = nullptr;
 
-  std::vector<LinearImage>* sample_color = nullptr;  ///< by sample; this and the next only beside `sample_triangle`
-  std::vector<Plane<float>>* sample_depth = nullptr;
+  std::vector<LinearImage>* sample_color = nullptr;   ///< by sample
+  std::vector<Plane<float>>* sample_depth = nullptr;  ///< only beside `sample_triangle`
   std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
+
+  bool stores_samples() const { return sample_color || sample_triangle; }
 
   static constexpr std::uint32_t no_id = 0xffffffffu;  ///< in an id plane, where nothing is
 };

@@ -111,7 +111,7 @@ bool TileRenderer::is_plain() const {
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
   return !has_planes && !target_.where && !target_.sample_triangle && !has_passes &&
-         !(target_.is_per_sample && has_layers());
+         !((target_.is_per_sample || target_.sample_color) && has_layers());
 }
 
 void TileRenderer::begin_pass(int first_sample, int sample_count) {
@@ -189,6 +189,8 @@ void TileRenderer::shade_rows() {
   if (!target_.is_per_sample) {
     shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
       resolve_.resolve(color, first, weight_sum_, color_[row.pixel / 8]);
+      if (target_.sample_color)
+        for (int s = 0; s < pass_samples_; ++s) store_row(row.pixel, s, color, first);
       if (has_layers()) resolve_.resolve(color, first, 1, base_[row.pixel / 8]);
     });
     return;
@@ -198,6 +200,7 @@ void TileRenderer::shade_rows() {
   std::size_t s = 0;
   shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
     resolve_.add(color, first, weights_[s], sum_[row.pixel / 8]);
+    if (target_.sample_color) store_row(row.pixel, static_cast<int>(s), color, first);
     s = s + 1 == samples ? 0 : s + 1;
     if (s == 0) resolve_.divide(sum_[row.pixel / 8], weight_sum_, color_[row.pixel / 8]);
   });
@@ -237,6 +240,7 @@ void TileRenderer::resolve_points() {
     const std::uint32_t pixel = points_[first].pixel;
     Linear sum{0, 0, 0, 0};
     for (; first < points_.size() && points_[first].pixel == pixel; ++first) {
+      if (target_.sample_color) store_color(pixel, points_[first].samples, colors_[first]);
       float weight = 0;
       for (std::uint64_t left = points_[first].samples; left; left &= left - 1)
         weight += weights_[static_cast<std::size_t>(std::countr_zero(left))];
@@ -308,7 +312,7 @@ void TileRenderer::find_points() {
 }
 
 void TileRenderer::accumulate() {
-  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.sample_triangle) {
+  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.stores_samples()) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
     for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));

@@ -80,6 +80,7 @@ class TileRenderer {
   void list_row(int x, int y);
   void shade_list();
   void sum_list();
+  void store_listed(const Shaded& colors, std::size_t first, std::size_t count);
   void find_weights();
   float weight_of(std::uint32_t samples) const;
   void find_first_points();
@@ -110,6 +111,8 @@ class TileRenderer {
   void add_surfaces(std::uint32_t pixel);
   void note_nearest();
   void store_samples(std::uint32_t pixel, int sample, Linear color);
+  void store_color(std::uint32_t pixel, std::uint64_t samples, Linear color);
+  void store_row(std::uint32_t pixel, int sample, const Shaded& color, int first);
   void finish();
 
   bool is_wanted(int x, int y) const {
