@@ -224,6 +224,16 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        {"triangles", "-o", "a.png", "--aov", "error"},
        "--aov error: msaa:n=8 has no estimate of its error; converged has"},
       {2,
+       {"triangles", "-o", "a.exr", "--aa", "fxaa"},
+       "--anti-aliasing: fxaa works on the picture as shown, and .exr holds the light before that: write a .png, or "
+       "take "
+       "a method such as msaa or ssaa"},
+      {2,
+       {"triangles", "-o", "-", "--output-format", "pfm", "--aa", "msaa:resolve=display"},
+       "--anti-aliasing: msaa:resolve=display works on the picture as shown, and .pfm holds the light before that: "
+       "write "
+       "a .png, or take a method such as msaa or ssaa"},
+      {2,
        {"triangles", "-o", "a.png", "--size", "99999x1"},
        "--resolution: 99999x1 is too large: a side has at most 16384 pixels"},
       {2,

@@ -21,6 +21,7 @@ class Analytic : public Resolver {
   Request ask(int) override {
     Request request{.samples = standard_pattern(8)};
     request.draw = [options = options_](const Drawing& drawing) { draw_analytic(drawing, options); };
+    request.works_on_shown = options_.order == FilterOrder::Display;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame& frame) override {

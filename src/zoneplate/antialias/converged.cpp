@@ -18,6 +18,7 @@ class Converged : public Resolver {
     Request request{.samples = standard_pattern(8)};
     request.draw = [options = options_](const Drawing& drawing) { draw_converged(drawing, options); };
     request.estimates_error = true;
+    request.works_on_shown = options_.order == FilterOrder::Display;
     return request;
   }
   LinearImage resolve(Frame& frame) override {

@@ -205,6 +205,7 @@ class Dlaa : public Resolver {
   Request ask(int) override {
     Request request;
     request.halo = reach;
+    request.works_on_shown = true;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame&) override {

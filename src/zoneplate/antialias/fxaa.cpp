@@ -323,6 +323,7 @@ class Fxaa : public Resolver {
   Request ask(int) override {
     Request request;
     request.halo = fxaa_reach(options_);
+    request.works_on_shown = true;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame&) override {

@@ -185,6 +185,7 @@ class Mlaa : public Resolver {
   Request ask(int) override {
     Request request;
     request.halo = reach_of(options_);
+    request.works_on_shown = true;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame&) override {

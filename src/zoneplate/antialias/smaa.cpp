@@ -88,6 +88,7 @@ class Smaa : public Resolver {
     Request request;
     request.planes.depth = options_.edges == SmaaOptions::Edges::Depth;
     request.halo = smaa_reach(options_);
+    request.works_on_shown = true;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame& frame) override {
@@ -119,6 +120,7 @@ class SmaaS2x : public Resolver {
     Request request{.samples = standard_pattern(2), .rate = Rate::Surface, .weights = {}, .planes = {}};
     request.planes.samples = true;
     request.halo = smaa_reach(options_);
+    request.works_on_shown = true;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame& frame) override {

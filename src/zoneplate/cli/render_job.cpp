@@ -36,7 +36,7 @@ Stage& RenderJobs::stage_of(const RenderArgs& args) {
 Summary RenderJobs::run(RenderArgs args) {
   const Stopwatch total_watch;
   const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
-  check_memory(args, resolver->ask(0));
+  check_request(args, resolver->ask(0));
   Summary summary;
   summary.threads = thread_limit();
   Progress progress(args.progress ? *args.progress : parse_progress("auto"));

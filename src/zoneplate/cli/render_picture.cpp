@@ -124,6 +124,23 @@ void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, 
   if (is_exr(output)) out.exr = exr_of(out.linear, data);
 }
 
+// The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
+void check_memory(const RenderArgs& args, const Request& request) {
+  constexpr std::uint64_t bytes_per_sample = 24;  // where every sample is stored: colour, depth, triangle
+  const bool has_matte =
+      std::ranges::any_of(args.aovs, [](const Aov* a) { return a->plane == &Planes::sample_triangles; });
+  const std::uint64_t bytes_per_pixel = (args.aovs.empty() ? 44 : 136) +
+                                        (has_matte ? 96 + sizeof(std::uint32_t) * request.samples.size() : 0) +
+                                        (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
+  const std::optional<Crop> crop = rendered_crop(args.options, request.halo);
+  const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
+  const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
+  const std::uint64_t need = width * height * bytes_per_pixel;
+  if (need > args.load.limits.memory)
+    throw Error(Trouble::Usage, fmt::format("a picture of {}x{} needs {} MB, --max-memory allows {} MB", width, height,
+                                            need >> 20, args.load.limits.memory >> 20));
+}
+
 void count_times(Summary& summary) {
   summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},
                                              {"geometry", summary.counts.geometry_ms},
@@ -148,21 +165,12 @@ void check_writable(const std::string& output) {
     throw Error(Trouble::Output, fmt::format("{}: {}: {}", output, folder, std::strerror(errno)));
 }
 
-// The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
-void check_memory(const RenderArgs& args, const Request& request) {
-  constexpr std::uint64_t bytes_per_sample = 24;  // where every sample is stored: colour, depth, triangle
-  const bool has_matte =
-      std::ranges::any_of(args.aovs, [](const Aov* a) { return a->plane == &Planes::sample_triangles; });
-  const std::uint64_t bytes_per_pixel = (args.aovs.empty() ? 44 : 136) +
-                                        (has_matte ? 96 + sizeof(std::uint32_t) * request.samples.size() : 0) +
-                                        (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
-  const std::optional<Crop> crop = rendered_crop(args.options, request.halo);
-  const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
-  const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
-  const std::uint64_t need = width * height * bytes_per_pixel;
-  if (need > args.load.limits.memory)
-    throw Error(Trouble::Usage, fmt::format("a picture of {}x{} needs {} MB, --max-memory allows {} MB", width, height,
-                                            need >> 20, args.load.limits.memory >> 20));
+void check_request(const RenderArgs& args, const Request& request) {
+  if (request.works_on_shown && is_linear(args.named_output()))
+    throw Error(Trouble::Usage, fmt::format("--anti-aliasing: {} works on the picture as shown, and {} holds the light "
+                                            "before that: write a .png, or take a method such as msaa or ssaa",
+                                            args.method, extension_of(args.named_output())));
+  check_memory(args, request);
 }
 
 Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,

@@ -45,8 +45,9 @@ std::string aov_path(const std::string& output, std::string_view name);
 /// Errors    Trouble::Output; Trouble::Usage for a terminal.
 void check_writable(const std::string& output);
 
-/// Errors    Trouble::Usage where frame and picture need more than the limit.
-void check_memory(const RenderArgs& args, const Request& request);
+/// Errors    Trouble::Usage where frame and picture need more than the limit, or the method would leave no trace in a
+///           file of light.
+void check_request(const RenderArgs& args, const Request& request);
 
 /// Renders a scene that is loaded and lit. The passes are named after `output`: "chair.png", "chair.depth.png".
 Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,

@@ -266,7 +266,7 @@ class ExrReader {
   std::array<Plane<float>, 4> planes_;  ///< red or grey, green, blue, alpha
 };
 
-/// Gives the rows of the display window, with what the data window has of them, to `send(data, size)`.
+/// Gives the rows of the display window, with what the data window has of them, to `send(row)`.
 template <class Send>
 void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
   const Window &data = windows.data, &display = windows.display;
@@ -278,7 +278,7 @@ void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
       reader.copy_row(static_cast<int>(y - data.top), static_cast<int>(left - data.left),
                       std::span(row).subspan(static_cast<std::size_t>(left - display.left),
                                              static_cast<std::size_t>(right - left + 1)));
-    send(row.data(), row.size() * sizeof(Linear));
+    send(std::span<const Linear>(row));
   }
 }
 
@@ -295,7 +295,13 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes) {
   return int2{static_cast<int>(windows->display.width()), static_cast<int>(windows->display.height())};
 }
 
-LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<Windows> windows = find_windows(bytes);
+  return windows ? sizeof(Linear) * windows->data.pixels() : 0;
+}
+
+void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                     const std::function<void(std::span<const Linear>)>& take_row) {
   const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": EXR: " + cause}; };
   const std::optional<Windows> windows = find_windows(bytes);
   if (!windows) throw fail("the header is wrong");
@@ -304,9 +310,6 @@ LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& n
       throw fail(std::to_string(window.width()) + " x " + std::to_string(window.height()) + " pixels, at most " +
                  std::to_string(max_pixels) + " are allowed");
 
-  const Window& display = windows->display;
-  LinearImage image(static_cast<int>(display.width()), static_cast<int>(display.height()));
-  auto* const values = reinterpret_cast<std::uint8_t*>(image.values().data());
   const auto decode = [&](const Library& library, auto send) {
     try {
       ExrReader reader(library, bytes, windows->data);
@@ -316,13 +319,7 @@ LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& n
       throw fail(refused.cause);
     }
   };
-  if (is_limited_child()) {
-    decode(Library(name), [at = values](const void* data, std::size_t size) mutable {
-      std::memcpy(at, data, size);
-      at += size;
-    });
-    return image;
-  }
+  if (is_limited_child()) return decode(Library(name), take_row);
 
   // The picture, and as much again for what is being unpacked of it.
   constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
@@ -336,10 +333,23 @@ LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& n
   LimitedChild child(
       name + ": EXR", limits,
       [&](ChildAnswer& answer) {
-        decode(*library, [&](const void* data, std::size_t size) { answer.write(data, size); });
+        decode(*library, [&](std::span<const Linear> row) { answer.write(row.data(), row.size_bytes()); });
       },
       [&] { library.emplace(name); });
-  child.read(values, image.values().size_bytes());
+  std::vector<Linear> row(static_cast<std::size_t>(windows->display.width()));
+  for (std::int64_t y = 0; y < windows->display.height(); ++y) {
+    child.read(row.data(), row.size() * sizeof(Linear));
+    take_row(row);
+  }
+}
+
+LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  LinearImage image;  // made when the first row is there: a broken file takes no memory
+  int y = 0;
+  decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
+    if (y == 0) image = LinearImage(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+    std::copy(row.begin(), row.end(), image.row(y++).begin());
+  });
   return image;
 }
 

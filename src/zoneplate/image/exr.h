@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +29,13 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 ///           not installed.
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
+/// The same, a row of the picture after the other from the top.
+void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                     const std::function<void(std::span<const Linear>)>& take_row);
+
+/// Bytes that decoding takes beside what becomes of the rows.
+std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);
 
 /// Opens the library, where it is installed, for a process that may not open it later.
 void open_exr_library();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/transfer.h"
 
 namespace zoneplate {
 namespace {
@@ -155,6 +156,48 @@ class LineReader {
   Rgbe last_{};
 };
 
+/// Calls `put(x, y, pixel)` for every pixel, in the order in which they are stored.
+template <class Put>
+void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const std::string& name, const Put& put) {
+  LineReader reader(packed);
+  std::vector<Rgbe> line(static_cast<std::size_t>(scan.length()));
+  for (int j = 0; j < scan.lines(); ++j) {
+    if (!reader.read(line))
+      throw Error(Trouble::Input, name + ": HDR: scanline " + std::to_string(j) + " is corrupt or cut off");
+    for (int i = 0; i < scan.length(); ++i) {
+      const int x = scan.is_by_columns ? j : i, y = scan.is_by_columns ? i : j;
+      put(scan.is_x_down ? scan.width - 1 - x : x, scan.is_y_up ? scan.height - 1 - y : y,
+          line[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+/// The picture, each pixel as `to_pixel(light)`.
+template <class Image, class ToPixel>
+Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+             const ToPixel& to_pixel) {
+  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": HDR: " + cause}; };
+  const auto header = is_hdr(bytes) ? parse_header(bytes) : std::nullopt;
+  if (!header) throw fail("the header is wrong");
+  if (!header->is_rgbe) throw fail("its pixels are not RGBE");
+  const Scan& scan = header->scan;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(scan.width) * static_cast<std::uint64_t>(scan.height);
+  if (pixels > max_pixels)
+    throw fail(std::to_string(scan.width) + " x " + std::to_string(scan.height) + " pixels, at most " +
+               std::to_string(max_pixels) + " are allowed");
+
+  // What a small file claims is found out before memory is taken: a scanline takes four bytes at least, and where all
+  // together take less than runs do in pictures, a first look is cheap.
+  constexpr std::uint64_t usual_ratio = 64;
+  const std::span<const std::uint8_t> packed = bytes.subspan(header->end);
+  if (packed.size() < static_cast<std::uint64_t>(scan.lines()) * 4) throw fail("the file ends early");
+  if (pixels / usual_ratio > packed.size()) for_pixels(scan, packed, name, [](int, int, Rgbe) {});
+
+  Image image(scan.width, scan.height);
+  for_pixels(scan, packed, name, [&](int x, int y, Rgbe pixel) { image(x, y) = to_pixel(light_of(pixel)); });
+  return image;
+}
+
 }  // namespace
 
 bool is_hdr(std::span<const std::uint8_t> bytes) { return bytes.size() > 2 && bytes[0] == '#' && bytes[1] == '?'; }
@@ -166,31 +209,13 @@ std::optional<int2> find_hdr_size(std::span<const std::uint8_t> bytes) {
 }
 
 LinearImage decode_hdr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": HDR: " + cause}; };
-  const auto header = is_hdr(bytes) ? parse_header(bytes) : std::nullopt;
-  if (!header) throw fail("the header is wrong");
-  if (!header->is_rgbe) throw fail("its pixels are not RGBE");
-  const Scan& scan = header->scan;
-  const std::uint64_t pixels = static_cast<std::uint64_t>(scan.width) * static_cast<std::uint64_t>(scan.height);
-  if (pixels > max_pixels)
-    throw fail(std::to_string(scan.width) + " x " + std::to_string(scan.height) + " pixels, at most " +
-               std::to_string(max_pixels) + " are allowed");
-  // A scanline takes four bytes at least: what a short file claims is found out before memory is taken.
-  const std::span<const std::uint8_t> packed = bytes.subspan(header->end);
-  if (packed.size() < static_cast<std::uint64_t>(scan.lines()) * 4) throw fail("the file ends early");
+  return decode<LinearImage>(bytes, name, max_pixels, [](Linear light) { return light; });
+}
 
-  LinearImage image(scan.width, scan.height);
-  LineReader reader(packed);
-  std::vector<Rgbe> line(static_cast<std::size_t>(scan.length()));
-  for (int j = 0; j < scan.lines(); ++j) {
-    if (!reader.read(line)) throw fail("scanline " + std::to_string(j) + " is corrupt or cut off");
-    for (int i = 0; i < scan.length(); ++i) {
-      const int x = scan.is_by_columns ? j : i, y = scan.is_by_columns ? i : j;
-      image(scan.is_x_down ? scan.width - 1 - x : x, scan.is_y_up ? scan.height - 1 - y : y) =
-          light_of(line[static_cast<std::size_t>(i)]);
-    }
-  }
-  return image;
+Rgba8Image decode_hdr_codes(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  return decode<Rgba8Image>(bytes, name, max_pixels, [](Linear light) {
+    return Rgba8{encode_srgb8(light.r), encode_srgb8(light.g), encode_srgb8(light.b), 255};
+  });
 }
 
 }  // namespace zoneplate

@@ -1,11 +1,13 @@
 #include "zoneplate/image/hdr.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <string>
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {
@@ -95,6 +97,27 @@ TEST(Hdr, RefusalsNameTheCause) {
     EXPECT_EQ(error_of(file_of(scan, pixels)), "a.hdr: HDR: the header is wrong") << scan;
   EXPECT_EQ(error_of(file_of("-Y 99999999 +X 1", pixels), 1u << 30), "a.hdr: HDR: the file ends early");
   EXPECT_EQ(error_of({'#', '?'}), "a.hdr: HDR: the header is wrong");
+}
+
+TEST(Hdr, ASmallFileThatClaimsMuchIsLookedThroughFirst) {
+  // Every line is one pixel and its repetitions, the last one lacks them; whole it would be a gigabyte of light.
+  constexpr int side = 8192;
+  Bytes pixels = {5, 0, 0, 136};
+  for (int line = 0; line + 1 < side; ++line) pixels.insert(pixels.end(), {1, 1, 1, 255, 1, 1, 1, 31, 5, 0, 0, 136});
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  EXPECT_EQ(error_of(file_of("-Y 8192 +X 8192", pixels), side * side),
+            "a.hdr: HDR: scanline 8191 is corrupt or cut off");
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100 << 10);
+}
+
+TEST(Hdr, CodesAreThoseOfTheLight) {
+  const Bytes file = file_of("-Y 1 +X 3", {128, 8, 0, 131, 100, 50, 25, 128, 0, 0, 0, 0});
+  EXPECT_EQ(decode_hdr_codes(file, "a.hdr", 3)(0, 0), (Rgba8{255, 137, 0, 255}));
+  const LinearImage light = decode_hdr(file, "a.hdr");
+  EXPECT_EQ(decode_hdr_codes(file, "a.hdr", 3)(1, 0).g, encode_srgb8(light(1, 0).g));
+  EXPECT_EQ(decode_hdr_codes(file, "a.hdr", 3)(2, 0), (Rgba8{0, 0, 0, 255}));
 }
 
 TEST(Hdr, DamageNeverReachesBeyondTheBytes) {

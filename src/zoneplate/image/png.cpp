@@ -68,13 +68,17 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  PngImage decode(std::uint64_t max_pixels) {
+  enum class Depth { Stored, Eight };
+
+  /// Of 16 bits a channel, `Depth::Eight` leaves no more than the rounded codes.
+  PngImage decode(std::uint64_t max_pixels, Depth depth) {
     check(guarded(png_, [this] { read_header(); }));
     check_size(max_pixels);
     const int width = static_cast<int>(png_get_image_width(png_, info_));
     const int height = static_cast<int>(png_get_image_height(png_, info_));
     PngImage image;
-    if (png_get_bit_depth(png_, info_) == 16) {
+    if (depth == Depth::Eight) png_set_scale_16(png_);
+    if (depth == Depth::Stored && png_get_bit_depth(png_, info_) == 16) {
       image.pixels16 = Rgba16Image(width, height);
       read_rows(reinterpret_cast<png_bytep>(image.pixels16.values().data()), image.pixels16.row(0).size_bytes(),
                 height);
@@ -147,9 +151,16 @@ class Reader {
 
 }  // namespace
 
+bool is_png(std::span<const std::uint8_t> bytes) { return bytes.size() >= 8 && png_sig_cmp(bytes.data(), 0, 8) == 0; }
+
 PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  if (bytes.size() < 8 || png_sig_cmp(bytes.data(), 0, 8) != 0) throw Error(Trouble::Input, name + ": not a PNG file");
-  return Reader(bytes, name).decode(max_pixels);
+  if (!is_png(bytes)) throw Error(Trouble::Input, name + ": not a PNG file");
+  return Reader(bytes, name).decode(max_pixels, Reader::Depth::Stored);
+}
+
+Rgba8Image decode_png8(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  if (!is_png(bytes)) throw Error(Trouble::Input, name + ": not a PNG file");
+  return Reader(bytes, name).decode(max_pixels, Reader::Depth::Eight).pixels;
 }
 
 namespace {

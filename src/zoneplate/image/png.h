@@ -16,9 +16,13 @@ struct PngImage {
   Rgba16Image pixels16;  ///< empty unless the file has 16 bits a channel
 };
 
+bool is_png(std::span<const std::uint8_t> bytes);
+
 /// Errors    Trouble::Input with `name` in front: not a PNG, truncated, corrupt, more than `max_pixels` pixels.
 PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name,
                     std::uint64_t max_pixels = std::uint64_t{1} << 28);
+/// The same with 16 bits rounded to 8 on the way.
+Rgba8Image decode_png8(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
 struct PngOptions {
   bool has_alpha = true;        ///< false: RGB is written

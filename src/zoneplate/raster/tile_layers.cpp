@@ -124,7 +124,7 @@ void TileRenderer::blend(int top, int bottom) {
 
 /// Every sample shows the layers in front of the surface that it owns, and that through them.
 void TileRenderer::blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last) {
-  if (first == last && !target_.sample_triangle) return add_surfaces(pixel);
+  if (first == last && !target_.stores_samples()) return add_surfaces(pixel);
   Linear behind[TileTriangle::max_samples];
   std::fill_n(behind, pass_samples_, Linear{0, 0, 0, 0});
   for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p)
@@ -135,7 +135,7 @@ void TileRenderer::blend_pixel(std::uint32_t pixel, std::size_t first, std::size
   add_layers(first, last, behind);
   for (int s = 0; s < pass_samples_; ++s) {
     add_to_sum(pixel, behind[s] * weights_[static_cast<std::size_t>(first_sample_ + s)]);
-    if (target_.sample_triangle) store_samples(pixel, s, behind[s]);
+    if (target_.stores_samples()) store_samples(pixel, s, behind[s]);
   }
 }
 

@@ -32,10 +32,12 @@ struct Request {
   Rate rate = Rate::Surface;
   std::vector<float> weights;          ///< one a sample; empty: all equal
   AlphaTest alpha = AlphaTest::Pixel;  ///< of masked surfaces at rate *surface*
+  Centroid centroid = Centroid::Mean;  ///< where surfaces are shaded at rate *surface*
   Planes planes;
-  Plane<std::uint8_t> where;  ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
-  float footprint = 0;        ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
-  bool is_local = false;      ///< the mean is the method's last word: `resolve` and `finish` change nothing
+  Plane<std::uint8_t> where;    ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
+  float footprint = 0;          ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  bool is_local = false;        ///< the mean is the method's last word: `resolve` and `finish` change nothing
+  bool works_on_shown = false;  ///< on the picture after tone mapping: what is written as light would not have it
   int halo = 0;  ///< pixels beyond a picture's sides that `finish` would read, so that a crop has the whole's bits
 
   /// Draws the colour in the method's own way, in place of the tiles' mean; `samples` then serve the data passes alone.

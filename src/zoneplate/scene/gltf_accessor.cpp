@@ -67,6 +67,9 @@ void place_in_view(GltfFile& file, const JsonView& json, const std::string& what
                              static_cast<std::size_t>(wanted));
 }
 
+/// Of an accessor for whose elements there are no bytes: a small file must not ask for all memory.
+constexpr std::uint64_t most_zeros = std::uint64_t{1} << 22;
+
 /// An accessor, its place in messages "mesh 3 primitive 0 POSITION".
 struct Accessor {
   JsonView json;
@@ -89,6 +92,9 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
       a.json.fail("has another shape than what was decoded");
   } else if (a.json.has("bufferView")) {
     place_in_view(file, a.json, "it", a.layout);
+  } else if (a.layout.count > most_zeros) {
+    a.json.fail("has no bufferView for " + std::to_string(a.layout.count) + " elements, at most " +
+                std::to_string(most_zeros) + " may be zero");
   }
   return a;
 }
@@ -228,8 +234,8 @@ Accessor find_vectors(GltfFile& file, const JsonView& owner, const char* key, co
 
 }  // namespace
 
-std::uint64_t count_elements(const GltfFile& file, const JsonView& owner, const char* key) {
-  return file.root().element("accessors", owner.index(key, file.count("accessors")), "accessor").whole("count");
+std::uint64_t count_elements(GltfFile& file, const JsonView& owner, const char* key) {
+  return find_accessor(file, owner, key).layout.count;
 }
 
 ElementShape read_shape(const GltfFile& file, const JsonView& owner, const char* key) {
@@ -259,6 +265,14 @@ std::vector<float4> read_color(GltfFile& file, const JsonView& owner, const char
 
 std::vector<float4> read_color_change(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {
   return read_vectors<float4>(file, find_vectors(file, owner, key, "VEC4", "VEC3"), range, {});
+}
+
+std::vector<float4> read_joints(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {
+  const Accessor a = find_vectors(file, owner, key, "VEC4", "VEC4");
+  if (a.layout.type != Uint8 && a.layout.type != Uint16)
+    a.json.fail("componentType is " + std::to_string(a.layout.type) + ", wants 5121 or 5123");
+  if (a.layout.is_normalized) a.json.fail("is normalized, wants numbers of joints");
+  return read_vectors<float4>(file, a, range, {});
 }
 
 std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const char* key) {

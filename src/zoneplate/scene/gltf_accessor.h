@@ -14,8 +14,8 @@ struct ElementRange {
   std::uint64_t count = ~std::uint64_t{0};  ///< as many as there are
 };
 
-/// The number of elements of the accessor whose index stands under `key` of `owner`.
-std::uint64_t count_elements(const GltfFile& file, const JsonView& owner, const char* key);
+/// The number of elements of the accessor whose index stands under `key` of `owner`; its buffer view holds them.
+std::uint64_t count_elements(GltfFile& file, const JsonView& owner, const char* key);
 
 /// What the accessor says of its elements: how many, of how many components, of what type (5120 to 5126).
 struct ElementShape {
@@ -38,6 +38,8 @@ std::vector<float4> read_float4(GltfFile& file, const JsonView& owner, const cha
 std::vector<float4> read_color(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 /// The difference of two colours: alpha is 0 where it is missing.
 std::vector<float4> read_color_change(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
+/// Numbers of joints: unsigned integers of 1 or 2 bytes.
+std::vector<float4> read_joints(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const char* key);
 /// Vertex indices: unsigned integers of 1, 2 or 4 bytes.
 std::vector<std::uint32_t> read_indices(GltfFile& file, const JsonView& owner, const char* key);

@@ -202,14 +202,24 @@ GltfMaterials load_materials(GltfFile& file) {
   for (const std::size_t i : reader.used_images()) encoded.push_back(read_image(file, i));
   out.images.resize(encoded.size());
   std::vector<std::string> trouble(encoded.size());
-  parallel_for(encoded.size(), [&](std::size_t i) {
-    const EncodedImage& e = encoded[i];
-    try {
-      out.images[i] = {e.name, decode_image(e.data.bytes, e.place, file.budget().limits().pixels)};
-    } catch (const Error& error) {
-      trouble[i] = error.what();
-    }
-  });
+  // So many at a time: what they take on the way is counted without regard to the number of threads.
+  constexpr std::size_t wave = 16;
+  for (std::size_t first = 0; first < encoded.size(); first += wave) {
+    const std::size_t count = std::min(wave, encoded.size() - first);
+    std::uint64_t working = 0;
+    for (std::size_t i = first; i < first + count; ++i) working += image_working_memory(encoded[i].data.bytes);
+    file.budget().take(working);
+    parallel_for(count, [&](std::size_t i) {
+      const EncodedImage& e = encoded[first + i];
+      try {
+        out.images[first + i] = {e.name, decode_image(e.data.bytes, e.place, file.budget().limits().pixels)};
+      } catch (const Error& error) {
+        trouble[first + i] = error.what();
+      }
+    });
+    file.budget().give_back(working);
+    file.budget().check_time();
+  }
   // Of several broken images the first in the file is named, whichever thread met its own first.
   for (const std::string& t : trouble)
     if (!t.empty()) throw Error(Trouble::Input, t);

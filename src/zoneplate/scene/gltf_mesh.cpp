@@ -121,8 +121,8 @@ void add_weighted(float4x4& sum, const float4x4& m, float weight) {
 
 /// Moves the vertices by their joints (linear blending, weights scaled to the sum 1).
 void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& mesh) {
-  const std::array<std::vector<float4>, 2> joint = {read_attribute(p, "JOINTS_0", read_float4),
-                                                    read_attribute(p, "JOINTS_1", read_float4)};
+  const std::array<std::vector<float4>, 2> joint = {read_attribute(p, "JOINTS_0", read_joints),
+                                                    read_attribute(p, "JOINTS_1", read_joints)};
   const std::array<std::vector<float4>, 2> weight = {read_attribute(p, "WEIGHTS_0", read_float4),
                                                      read_attribute(p, "WEIGHTS_1", read_float4)};
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {

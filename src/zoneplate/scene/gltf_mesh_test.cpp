@@ -234,11 +234,23 @@ TEST(GltfMesh, SkinsTakeThePoseOfTheirJointsAndIgnoreTheNode) {
   EXPECT_EQ(s.meshes.at(0).position, (std::vector<float3>{{0, 0, 5}, {1, 2, 0}, {0, 2, 2.5f}}));
 }
 
+TEST(GltfMesh, VerticesThatAreNotThereTakeNoMemory) {
+  GltfMaker m = triangle_maker();
+  m.accessors = R"({"bufferView":0,"componentType":5126,"count":4000000000,"type":"VEC3"})";
+  EXPECT_EQ(error_of(m),
+            "mesh 0 primitive 0: POSITION (accessor 0): it holds 36 bytes, wants 48000000000 (4000000000 "
+            "elements)");
+  m.accessors = R"({"componentType":5126,"count":4200000,"type":"VEC3"})";
+  EXPECT_EQ(error_of(m),
+            "mesh 0 primitive 0: POSITION (accessor 0): has no bufferView for 4200000 elements, at most "
+            "4194304 may be zero");
+}
+
 TEST(GltfMesh, SkinErrors) {
   EXPECT_EQ(error_of(skinned({0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})),
             "mesh 0 primitive 0: vertex 1 uses joint 2 of 2");
   EXPECT_EQ(error_of(skinned<float>({0, 0, 0, 0, 1e30f, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})),
-            "mesh 0 primitive 0: vertex 1 uses joint 1e+30 of 2");
+            "mesh 0 primitive 0: JOINTS_0 (accessor 1): componentType is 5126, wants 5121 or 5123");
   GltfMaker m = skinned({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   m.rest = R"(,"skins":[{"joints":[1,2,0],"inverseBindMatrices":3}])";
   EXPECT_EQ(error_of(m), "skin 0: inverseBindMatrices has 2 elements, wants 3");

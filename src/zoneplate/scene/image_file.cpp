@@ -20,7 +20,6 @@ bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_v
                     [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
 }
 
-bool is_png(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "\x89PNG\r\n\x1a\n"); }
 bool is_jpeg(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "\xff\xd8\xff"); }
 
 bool is_webp(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP"); }
@@ -41,45 +40,61 @@ int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
 }
 
-/// Walks over a JPEG's segments to the frame header (ITU-T T.81, B.2); what stands between segments is passed over, as
-/// libjpeg does.
-std::optional<int2> find_jpeg_size(std::span<const std::uint8_t> bytes) {
+/// A JPEG's frame header (ITU-T T.81, B.2.2).
+struct JpegFrame {
+  int2 size;
+  std::uint64_t samples = 0;  ///< of all components in one unit of `pixels`: 3 of 2 where colour is stored by halves
+  std::uint64_t pixels = 1;
+};
+
+/// Walks over a JPEG's segments to the frame header; what stands between segments is passed over, as libjpeg does.
+std::optional<JpegFrame> find_jpeg_frame(std::span<const std::uint8_t> bytes) {
   for (std::size_t at = 2; at + 9 <= bytes.size();) {
     const std::uint8_t marker = bytes[at + 1];
     const bool is_marker = bytes[at] == 0xff && marker != 0xff && marker != 0;
     const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_marker && is_frame) return int2{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+    if (is_marker && is_frame) {
+      JpegFrame frame{{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)}};
+      const std::size_t components = at + 9 < bytes.size() ? bytes[at + 9] : 0;
+      std::uint64_t wide = 1, high = 1;
+      for (std::size_t i = at + 11; i < at + 10 + 3 * components && i < bytes.size(); i += 3) {
+        const std::uint64_t x = bytes[i] >> 4, y = bytes[i] & 15;
+        frame.samples += x * y, wide = std::max(wide, x), high = std::max(high, y);
+      }
+      frame.pixels = wide * high;
+      return frame;
+    }
     const bool is_bare = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd9);
     at += !is_marker ? 1 : is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
   }
   return std::nullopt;
 }
 
-/// 16-bit codes as 8-bit ones: round(code * 255 / 65535).
-Rgba8Image narrow(const Rgba16Image& wide) {
-  Rgba8Image out(wide.width(), wide.height());
-  const auto to8 = [](std::uint16_t v) { return static_cast<std::uint8_t>((std::uint32_t{v} + 128) / 257); };
-  std::transform(wide.values().begin(), wide.values().end(), out.values().begin(), [&](Rgba16 p) {
-    return Rgba8{to8(p.r), to8(p.g), to8(p.b), to8(p.a)};
-  });
-  return out;
+/// Light as a code.
+Rgba8 code_of(Linear c) {
+  if (!(c.a > 0)) return {0, 0, 0, 0};
+  const float alpha = std::min(c.a, 1.0f);
+  return {encode_srgb8(c.r / c.a), encode_srgb8(c.g / c.a), encode_srgb8(c.b / c.a),
+          static_cast<std::uint8_t>(alpha * 255 + 0.5f)};
 }
 
-Rgba8Image codes_of(const LinearImage& light) {
-  Rgba8Image out(light.width(), light.height());
-  std::transform(light.values().begin(), light.values().end(), out.values().begin(), [](Linear c) {
-    if (!(c.a > 0)) return Rgba8{0, 0, 0, 0};
-    const float alpha = std::min(c.a, 1.0f);
-    return Rgba8{encode_srgb8(c.r / c.a), encode_srgb8(c.g / c.a), encode_srgb8(c.b / c.a),
-                 static_cast<std::uint8_t>(alpha * 255 + 0.5f)};
+Rgba8Image decode_exr_codes(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  Rgba8Image image;
+  int y = 0;
+  decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
+    if (y == 0) image = Rgba8Image(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+    std::transform(row.begin(), row.end(), image.row(y++).begin(), code_of);
   });
-  return out;
+  return image;
 }
 
 }  // namespace
 
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
-  if (is_jpeg(bytes)) return find_jpeg_size(bytes);
+  if (is_jpeg(bytes)) {
+    const std::optional<JpegFrame> frame = find_jpeg_frame(bytes);
+    return frame ? std::optional(frame->size) : std::nullopt;
+  }
   if (is_webp(bytes)) return find_webp_size(bytes);
   if (is_hdr(bytes)) return find_hdr_size(bytes);
   if (is_exr(bytes)) return find_exr_size(bytes);
@@ -87,16 +102,27 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   return std::nullopt;
 }
 
+std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<int2> size = find_image_size(bytes);
+  if (!size) return 0;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
+  if (is_exr(bytes)) return exr_working_memory(bytes);
+  // Every pixel once more, and its alpha.
+  if (is_webp(bytes)) return 5 * pixels;
+  if (!is_jpeg(bytes)) return 0;
+  // In several passes all coefficients are kept, two bytes each.
+  const std::optional<JpegFrame> frame = find_jpeg_frame(bytes);
+  return 2 * pixels * frame->samples / frame->pixels;
+}
+
 Rgba8Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, max_pixels);
   if (is_webp(bytes)) return decode_webp(bytes, name, max_pixels);
-  if (is_hdr(bytes)) return codes_of(decode_hdr(bytes, name, max_pixels / 4));
-  if (is_exr(bytes)) return codes_of(decode_exr(bytes, name, max_pixels / 4));
-  if (!is_png(bytes))
-    throw Error(Trouble::Input,
-                name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG, WebP, HDR or EXR");
-  PngImage png = decode_png(bytes, name, max_pixels);
-  return png.pixels16.empty() ? std::move(png.pixels) : narrow(png.pixels16);
+  if (is_hdr(bytes)) return decode_hdr_codes(bytes, name, max_pixels);
+  if (is_exr(bytes)) return decode_exr_codes(bytes, name, max_pixels / 4);
+  if (is_png(bytes)) return decode_png8(bytes, name, max_pixels);
+  throw Error(Trouble::Input,
+              name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG, WebP, HDR or EXR");
 }
 
 }  // namespace zoneplate

@@ -8,6 +8,7 @@
 #include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/jpeg_encode.h"
 #include "zoneplate/image/png.h"
+#include "zoneplate/image/webp_still.h"
 
 namespace zoneplate {
 namespace {
@@ -63,7 +64,23 @@ TEST(ImageFile, LightBecomesItsCode) {
   EXPECT_EQ(find_image_size(exr), (int2{1, 1}));
   EXPECT_EQ(decode_image(hdr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 255}));
   EXPECT_EQ(decode_image(exr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 128}));
-  EXPECT_THROW(decode_image(hdr, "tex", 3), Error);
+  EXPECT_THROW(decode_image(exr, "tex", 3), Error);
+  EXPECT_THROW(decode_image(hdr, "tex", 0), Error);
+}
+
+TEST(ImageFile, WhatDecodingTakesBesideThePicture) {
+  const Rgba8Image image(48, 32, {200, 100, 50, 255});
+  EXPECT_EQ(image_working_memory(encode_png(image)), 0u);
+  EXPECT_EQ(image_working_memory(encode_webp(image, false)), 48u * 32 * 5);
+  EXPECT_EQ(image_working_memory(encode_jpeg(image)), 48u * 32 * 3 * 2);  // every pixel its own colour
+  // Colour stored by halves both ways: one pixel of brightness has half a sample of colour.
+  const Bytes halves{0xff, 0xd8, 0xff, 0xc2, 0, 17, 8, 0, 32, 0, 48, 3, 1, 0x22, 0, 2, 0x11, 0, 3, 0x11, 0};
+  EXPECT_EQ(image_working_memory(halves), 48u * 32 * 3);
+  // An EXR's pixels are those that it stores, not those that it shows.
+  const std::vector<float> values(64);
+  const Bytes exr = encode_exr(8, 8, {{"Y", ExrType::Float, values.data(), nullptr, 1}});
+  EXPECT_EQ(image_working_memory(exr), 64u * sizeof(Linear));
+  EXPECT_EQ(image_working_memory(Bytes{1, 2, 3}), 0u);
 }
 
 TEST(ImageFile, SizeOfAJpegIsKnownWhereverItCanBeDecoded) {

@@ -157,8 +157,12 @@ int ObjFolder::add(Make make) {
 
 TextureImage ObjFolder::decode(const std::string& name, std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
-  if (size) budget_.take(static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
-  return {name, decode_image(bytes, name, budget_.limits().pixels)};
+  const std::uint64_t working = image_working_memory(bytes);
+  if (size)
+    budget_.take(working + static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
+  TextureImage image{name, decode_image(bytes, name, budget_.limits().pixels)};
+  budget_.give_back(working);
+  return image;
 }
 
 int ObjFolder::load(const std::string& name, const std::optional<std::string>& path) {

@@ -70,7 +70,7 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
   }
   if (mesh.normal.empty()) {
     // Sums by vertex; at most every corner by its vertex, and a copy of that.
-    budget.take(mesh.position.size() * 40 + mesh.index.size() * (sizeof(float3) + 2 * sizeof(std::uint32_t) + 48));
+    budget.take(mesh.position.size() * 28 + mesh.index.size() * (sizeof(float3) + 2 * sizeof(std::uint32_t) + 48));
     make_smooth_normals(mesh);
     return;
   }

@@ -61,7 +61,8 @@ bool read_plain_triangles(const PlyRows& rows, std::size_t indices, const Mesh& 
   const std::uint8_t* const first = places[indices].at;
   const auto limit = static_cast<std::uint32_t>(vertices.position.size());
   budget.take(rows.count() * 3 * sizeof(std::uint32_t));
-  make_large(index, 3 * rows.count());
+  reserve_large(index, 3 * rows.count());
+  index.resize(3 * rows.count());
   std::vector<std::optional<BadIndex>> found(blocks(rows.count()));
   parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
     bool are_there = true;

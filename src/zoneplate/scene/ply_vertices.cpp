@@ -103,10 +103,11 @@ Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
       n * (sizeof(float3) + (normal ? sizeof(float3) : 0) + (uv ? sizeof(float2) : 0) + (color ? sizeof(float4) : 0)));
   Mesh mesh;
   parallel_for(4, [&](std::size_t i) {
-    if (i == 0) make_large(mesh.position, n);
-    if (i == 1 && normal) make_large(mesh.normal, n);
-    if (i == 2 && color) make_large(mesh.color, n);
-    if (i == 3 && uv) make_large(mesh.uv0, n);
+    const auto make = [n](auto& values) { reserve_large(values, n), values.resize(n); };
+    if (i == 0) make(mesh.position);
+    if (i == 1 && normal) make(mesh.normal);
+    if (i == 2 && color) make(mesh.color);
+    if (i == 3 && uv) make(mesh.uv0);
   });
   read_columns(rows, *position, mesh.position);
   if (normal) read_columns(rows, *normal, mesh.normal), normalize_all(mesh.normal);

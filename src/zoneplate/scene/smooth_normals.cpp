@@ -10,12 +10,64 @@
 
 #include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/smooth_sums.h"
 
 namespace zoneplate {
 namespace {
 
-constexpr float cos_50 = 0.64278761f, cos_25 = 0.90630779f;
+constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256, block = 4096;
+
+/// The sums of the triangles about each vertex, in their order, as units; marked are vertices that want a closer look.
+void sum_all(Mesh& mesh, std::vector<char>& mark) {
+  const SmoothSumKernels& kernels = smooth_sum_kernels(best_isa());
+  const std::size_t vertices = mesh.position.size(), triangles = mesh.index.size() / 3;
+  const auto* const position = reinterpret_cast<const float*>(mesh.position.data());
+  auto* const normal = reinterpret_cast<float*>(mesh.normal.data());
+  // Every thread goes through all triangles for vertices of its own: a vertex meets its triangles in their order.
+  const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
+  parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
+    const VertexRange own{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
+    kernels.add(position, vertices, mesh.index.data(), triangles, own, normal);
+    kernels.normalize(normal + 3 * begin, end - begin, &mark[begin]);
+  });
+  parallel_ranges(triangles, block, [&](std::size_t begin, std::size_t end) {
+    kernels.mark_turns(position, normal, vertices, &mesh.index[3 * begin], end - begin, mark.data());
+  });
+}
+
+/// Corners about vertices that need a closer look, in the order of the triangles.
+struct Corners {
+  std::vector<std::uint32_t> vertex;       ///< in growing order
+  std::vector<std::uint32_t> first, list;  ///< of the i-th: list[first[i] .. first[i + 1])
+};
+
+Corners corners_of(const Mesh& mesh, const std::vector<char>& is_wanted) {
+  if (std::find(is_wanted.begin(), is_wanted.end(), 1) == is_wanted.end()) return {};
+  constexpr std::size_t corners_per_range = 1 << 16;
+  std::vector<std::vector<std::uint32_t>> found((mesh.index.size() + corners_per_range - 1) / corners_per_range);
+  parallel_ranges(mesh.index.size(), corners_per_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (is_wanted[mesh.index[k]] != 0) found[begin / corners_per_range].push_back(static_cast<std::uint32_t>(k));
+  });
+  Corners c;
+  std::vector<std::uint32_t> place;  // of a vertex in c.vertex
+  for (std::uint32_t v = 0; v < is_wanted.size(); ++v) {
+    if (is_wanted[v] == 0) continue;
+    place.resize(is_wanted.size());
+    place[v] = static_cast<std::uint32_t>(c.vertex.size());
+    c.vertex.push_back(v);
+  }
+  // Counted one place ahead, so that after the filling each entry is where its vertex begins.
+  c.first.resize(c.vertex.size() + 2);
+  for (const std::vector<std::uint32_t>& part : found)
+    for (const std::uint32_t k : part) ++c.first[place[mesh.index[k]] + 2];
+  for (std::size_t i = 2; i < c.first.size(); ++i) c.first[i] += c.first[i - 1];
+  c.list.resize(c.first.back());
+  for (const std::vector<std::uint32_t>& part : found)
+    for (const std::uint32_t k : part) c.list[c.first[place[mesh.index[k]] + 1]++] = k;
+  return c;
+}
 
 struct Sum {
   double x = 0, y = 0, z = 0;
@@ -79,90 +131,6 @@ Sum weighted(const Face& f, std::size_t corner) {
   return {f.normal.x * w, f.normal.y * w, f.normal.z * w};
 }
 
-/// What the triangles about each vertex come to, in their order. The first one's normal stands in Mesh::normal.
-struct Sums {
-  std::vector<Sum> sum;
-  std::vector<std::uint16_t> count;  ///< of them, up to `most_compared` and one more
-  std::vector<char> bends;           ///< whether one of them bends away from the first by more than 25°
-};
-
-/// Adds all triangles to those of their vertices that lie in [begin, end).
-class Adder {
- public:
-  Adder(Mesh& mesh, std::uint32_t begin, std::uint32_t end, Sums& sums)
-      : mesh_(mesh), begin_(begin), size_(end - begin), sums_(sums) {}
-
-  void add_all() {
-    for (std::uint32_t t = 0; t < mesh_.index.size() / 3; ++t) {
-      const std::uint32_t* const v = &mesh_.index[std::size_t{3} * t];
-      if (!is_here(v[0]) && !is_here(v[1]) && !is_here(v[2])) continue;
-      faces_.set(count_, mesh_.position[v[0]], mesh_.position[v[1]], mesh_.position[v[2]]);
-      triangles_[count_++] = t;
-      if (count_ == Faces::most) add();
-    }
-    add();
-  }
-
- private:
-  bool is_here(std::uint32_t v) const { return v - begin_ < size_; }
-
-  void add() {
-    faces_.measure(count_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Face face = faces_[i];
-      for (std::size_t k = 0; k < 3; ++k)
-        if (const std::uint32_t v = mesh_.index[std::size_t{3} * triangles_[i] + k]; is_here(v)) add(v, face, k);
-    }
-    count_ = 0;
-  }
-  void add(std::uint32_t v, const Face& face, std::size_t corner) {
-    std::uint16_t& count = sums_.count[v];
-    if (count == 0) mesh_.normal[v] = face.normal;
-    if (count <= most_compared) ++count;
-    if (!(dot(mesh_.normal[v], face.normal) > cos_25)) sums_.bends[v] = 1;
-    sums_.sum[v].add(weighted(face, corner));
-  }
-
-  Mesh& mesh_;
-  std::uint32_t begin_, size_;
-  Sums& sums_;
-  Faces faces_;
-  std::array<std::uint32_t, Faces::most> triangles_;
-  std::size_t count_ = 0;
-};
-
-/// Corners about vertices that need a closer look, in the order of the triangles.
-struct Corners {
-  std::vector<std::uint32_t> vertex;       ///< in growing order
-  std::vector<std::uint32_t> first, list;  ///< of the i-th: list[first[i] .. first[i + 1])
-};
-
-Corners corners_of(const Mesh& mesh, const std::vector<char>& is_wanted) {
-  constexpr std::size_t corners_per_range = 1 << 16;
-  std::vector<std::vector<std::uint32_t>> found((mesh.index.size() + corners_per_range - 1) / corners_per_range);
-  parallel_ranges(mesh.index.size(), corners_per_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      if (is_wanted[mesh.index[k]] != 0) found[begin / corners_per_range].push_back(static_cast<std::uint32_t>(k));
-  });
-  Corners c;
-  std::vector<std::uint32_t> place;  // of a vertex in c.vertex
-  for (std::uint32_t v = 0; v < is_wanted.size(); ++v) {
-    if (is_wanted[v] == 0) continue;
-    place.resize(is_wanted.size());
-    place[v] = static_cast<std::uint32_t>(c.vertex.size());
-    c.vertex.push_back(v);
-  }
-  // Counted one place ahead, so that after the filling each entry is where its vertex begins.
-  c.first.resize(c.vertex.size() + 2);
-  for (const std::vector<std::uint32_t>& part : found)
-    for (const std::uint32_t k : part) ++c.first[place[mesh.index[k]] + 2];
-  for (std::size_t i = 2; i < c.first.size(); ++i) c.first[i] += c.first[i - 1];
-  c.list.resize(c.first.back());
-  for (const std::vector<std::uint32_t>& part : found)
-    for (const std::uint32_t k : part) c.list[c.first[place[mesh.index[k]] + 1]++] = k;
-  return c;
-}
-
 /// A corner whose normal is not that of its vertex.
 struct Other {
   std::uint32_t corner;
@@ -185,6 +153,12 @@ class BentVertex {
       faces_.measure(some.size());
       for (std::size_t i = 0; i < some.size(); ++i)
         own_.push_back(faces_[i].normal), shares_.push_back(weighted(faces_[i], some[i] % 3));
+    }
+    if (corners.size() > most_compared) {
+      Sum sum;
+      for (const Sum& share : shares_) sum.add(share);
+      mesh_.normal[v] = direction(sum, own_[0]);
+      return;
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
       Sum sum;
@@ -234,34 +208,17 @@ void split(Mesh& mesh, const std::vector<std::vector<Other>>& blocks) {
   }
 }
 
-/// The normals of vertices about which all is smooth; the others remain marked in `bends`.
-void smooth_even(Mesh& mesh, Sums& sums) {
-  parallel_ranges(mesh.position.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      if (sums.count[v] == 0) continue;
-      if (sums.count[v] > most_compared) sums.bends[v] = 0;
-      if (sums.bends[v] == 0) mesh.normal[v] = direction(sums.sum[v], mesh.normal[v]);
-    }
-  });
-}
-
 }  // namespace
 
 void make_smooth_normals(Mesh& mesh) {
   assert(mesh.topology == Topology::Triangles && mesh.tangent.empty());
-  const std::size_t vertices = mesh.position.size();
-  mesh.normal.assign(vertices, {0, 1, 0});
-  Sums sums;
-  make_large(sums.sum, vertices);
-  sums.count.resize(vertices), sums.bends.resize(vertices);
-  // Every thread goes through all triangles for vertices of its own: a vertex meets its triangles in their order.
-  const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
-  parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
-    Adder(mesh, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), sums).add_all();
-  });
-  smooth_even(mesh, sums);
+  mesh.normal.clear();
+  reserve_large(mesh.normal, mesh.position.size());
+  mesh.normal.resize(mesh.position.size());
+  std::vector<char> is_bent(mesh.position.size());
+  sum_all(mesh, is_bent);
 
-  const Corners corners = corners_of(mesh, sums.bends);
+  const Corners corners = corners_of(mesh, is_bent);
   std::vector<std::vector<Other>> others((corners.vertex.size() + block - 1) / block);
   parallel_ranges(corners.vertex.size(), block, [&](std::size_t begin, std::size_t end) {
     BentVertex vertex(mesh, others[begin / block]);

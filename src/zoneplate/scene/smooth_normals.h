@@ -13,7 +13,9 @@ namespace zoneplate {
 /// Shape     vertices keep their places; copies are appended where the corners of one vertex differ.
 /// Edges     a vertex about which no triangle has an area gets +Y; where more than 256 triangles meet all are taken.
 /// Requires  triangles, all finite.
-/// Exact     the same bits for any number of threads.
+/// Exact     the same bits for any number of threads and any instruction set; of vertices that are smooth all around,
+///           sums in floats, of others in doubles.
+/// Cost      beside the normals a byte a vertex; more where not all is smooth.
 /// Source    Max, Weights for Computing Vertex Normals from Facet Normals, Journal of Graphics Tools 4(2), 1999.
 void make_smooth_normals(Mesh& mesh);
 
