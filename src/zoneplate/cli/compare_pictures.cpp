@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "zoneplate/metrics/magma.h"
 
@@ -55,12 +56,18 @@ struct Dot {
 
 Plot plot_of(const std::string& title, std::vector<Dot> dots) {
   std::ranges::stable_sort(dots, {}, &Dot::ms);
-  Curve front{.name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1};
+  // Left of the front and below it there is nothing that its names could cover.
+  Curve front{
+      .name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1, .labels_are = Curve::Beside::LeftBelow};
   Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
+  constexpr double apart = 0.94;  // of errors whose names do not touch
+  double last_named = HUGE_VAL;
   for (const Dot& d : dots) {
     Curve& curve = d.is_on_front ? front : others;
     curve.points.emplace_back(d.ms, 1000 * d.error);
-    curve.labels.push_back(d.method);
+    const bool is_named = !d.is_on_front || d.error <= apart * last_named;
+    curve.labels.push_back(is_named ? d.method : "");
+    if (d.is_on_front && is_named) last_named = d.error;
   }
   // The names of many would cover one another; those on the front are what matters.
   constexpr std::size_t few = 16;
@@ -69,8 +76,8 @@ Plot plot_of(const std::string& title, std::vector<Dot> dots) {
   Plot plot{.title = title,
             .x = {.label = "processor time of a frame (ms)", .is_logarithmic = true},
             .y = {.label = "mean FLIP × 1000", .is_logarithmic = is_logarithmic}};
-  // Room for the names on the right.
-  if (!dots.empty()) plot.x.low = dots.front().ms / 1.3, plot.x.high = dots.back().ms * 2.5;
+  // Room for the names on both sides.
+  if (!dots.empty()) plot.x.low = dots.front().ms / 2.5, plot.x.high = dots.back().ms * (dots.size() > few ? 1.3 : 2.5);
   if (is_logarithmic && !dots.empty()) {
     const auto [least, most] = std::ranges::minmax(dots, {}, &Dot::error);
     plot.y.low = 1000 * least.error / 1.5, plot.y.high = 1000 * most.error * 1.5;

@@ -94,15 +94,31 @@ std::string marks_of(const Curve& curve, const std::string& block, std::size_t p
 
 std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
   std::string text = marks_of(curve, block, place, terminal);
+  const char* place_of_labels =
+      curve.labels_are == Curve::Beside::RightAbove ? "left offset 0.8,0.35" : "right offset -0.8,-0.45";
   if (!curve.labels.empty())
-    text += fmt::format(
-        ", {} using 1:2:3 with labels left offset 0.8,0.35 font 'DejaVu Sans,{}' textcolor rgb '{}' notitle", block,
-        label_px * terminal.font, hex(color_of(curve, place)));
+    text += fmt::format(", {} using 1:2:3 with labels {} font 'DejaVu Sans,{}' textcolor rgb '{}' notitle", block,
+                        place_of_labels, label_px * terminal.font, hex(color_of(curve, place)));
   return text;
 }
 
+/// 1, 2 and 5 of each decade, where decades alone would leave a logarithmic axis nearly bare.
+std::string ticks_of(char name, const Axis& axis) {
+  if (!axis.is_logarithmic || !(axis.low > 0) || axis.high >= 1000 * axis.low)
+    return fmt::format("set {}tics autofreq\n", name);
+  std::string places;
+  double decade = 1;
+  while (decade > axis.low) decade /= 10;
+  while (10 * decade <= axis.low) decade *= 10;
+  for (; decade <= axis.high; decade *= 10)
+    for (const int step : {1, 2, 5})
+      if (step * decade >= axis.low && step * decade <= axis.high)
+        places += fmt::format("{}{:.6g}", places.empty() ? "" : ", ", step * decade);
+  return places.empty() ? fmt::format("set {}tics autofreq\n", name) : fmt::format("set {}tics ({})\n", name, places);
+}
+
 std::string axis_of(char name, const Axis& axis) {
-  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label)) + ticks_of(name, axis);
   text += axis.is_logarithmic ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name)
                               : fmt::format("unset logscale {0}\nset format {0} '%g'\n", name);
   text += axis.low == 0 && axis.high == 0 ? fmt::format("set autoscale {}\n", name)

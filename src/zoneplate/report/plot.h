@@ -30,13 +30,14 @@ struct Curve {
   /// Which colour of the palette; -1: the place among the curves; `grey`: for what should step back.
   int color = -1;
   double opacity = 0.25;                 ///< of an Area
-  std::vector<std::string> labels = {};  ///< beside the points, as many as those, or none
+  std::vector<std::string> labels = {};  ///< beside the points, as many as those, or none; some may be empty
+  enum class Beside { RightAbove, LeftBelow } labels_are = Beside::RightAbove;
   static constexpr int grey = -2;
 };
 
 struct Axis {
   std::string label;         ///< with its unit: "frequency (cycles per pixel)"
-  double low = 0, high = 0;  ///< both 0: as the data want
+  double low = 0, high = 0;  ///< both 0: as the data want; a logarithm of less than three decades has ticks at 1, 2, 5
   bool is_logarithmic = false;
 };
 

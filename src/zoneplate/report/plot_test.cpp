@@ -96,6 +96,19 @@ TEST(Plot, PointsMayHaveNames) {
   EXPECT_TRUE(contains(svg, "a  quoted name"));
 }
 
+TEST(Plot, LogarithmsOfFewDecadesHaveTicksBetweenThem) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  Plot plot = line_plot();
+  plot.x = {.label = "x", .low = 3, .high = 400, .is_logarithmic = true};
+  const std::string few = plot_svg(plot);
+  for (const char* tick : {">5<", ">10<", ">20<", ">50<", ">200<"}) EXPECT_TRUE(contains(few, tick)) << tick;
+  EXPECT_FALSE(contains(few, ">500<"));
+  plot.x.high = 40000;
+  const std::string many = plot_svg(plot);
+  EXPECT_FALSE(contains(many, ">20<"));
+  EXPECT_TRUE(contains(many, ">1000<"));
+}
+
 TEST(Plot, PointsThatAreNotFiniteInterruptTheLine) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const auto pixels = [](double middle) {
