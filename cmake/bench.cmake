@@ -13,3 +13,7 @@ if(opengl_headers)
   add_executable(peers bench/peers/compare.cpp bench/peers/mesa.cpp)
   target_link_libraries(peers PRIVATE zoneplate zoneplate_flags fmt::fmt ${CMAKE_DL_LIBS})
 endif()
+
+# What bench/peers/run-filters starts, beside a browser.
+add_executable(peer_filters bench/peers/filters.cpp)
+target_link_libraries(peer_filters PRIVATE zoneplate zoneplate_flags fmt::fmt)

@@ -48,7 +48,7 @@ class Adaptive : public Resolver {
     first_ = {};
     where_ = {};
     Request request{.samples = standard_pattern(4), .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}};
-    request.planes.samples = true;
+    request.planes.sample_colors = true;
     return request;
   }
   std::optional<Request> ask_again(Frame& frame) override {

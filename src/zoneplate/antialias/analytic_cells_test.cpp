@@ -185,5 +185,41 @@ TEST(PixelRegions, CrowdedPixelsShowTheSameAsOneRegionWould) {
   }
 }
 
+TEST(PixelRegions, LayersInOneOrderAreNoCrowdAndLinesSideBySideAreQuarteredButTwice) {
+  // Forty layers, the nearest first; those of `cut` end at lines hardly apart that leave the pixel's lower left to
+  // them.
+  const auto layers = [](bool cut) {
+    std::vector<PixelTriangle> out;
+    for (int i = 0; i < 40; ++i) {
+      const double z = 0.9 - 0.01 * i, off = 1e-4 * i;
+      out.push_back(make({Corner{-9, -9 + off, z}, {9, 9 + off, z}, {-9, 9 + off, z}}, i, Surface::Blended));
+      out.back().covers_all = !cut;
+    }
+    return out;
+  };
+  for (const bool cut : {false, true}) {
+    const std::vector<PixelTriangle> triangles = layers(cut);
+    SeenAreas expected, found;
+    add_areas(cells_of(triangles), expected);
+    PixelRegions regions;
+    int regions_used = 0;
+    std::size_t most = 0;
+    regions.find(triangles, [&](const PixelCells& cells) {
+      add_areas(cells, found), ++regions_used;
+      for (const PixelCells::Cell& cell : cells.cells()) most = std::max<std::size_t>(most, cell.layers);
+    });
+    EXPECT_EQ(most, 40u);
+    if (cut) {
+      EXPECT_GT(regions_used, 4);
+      EXPECT_LE(regions_used, 64);  // 4096 if nothing stopped it
+    } else {
+      EXPECT_EQ(regions_used, 1);
+    }
+    for (const auto& [id, area] : expected) {
+      EXPECT_NEAR(found[id], id < 0 ? found[id] : area, 1e-12);  // regions without triangles are not given
+    }
+  }
+}
+
 }  // namespace
 }  // namespace zoneplate::antialias

@@ -10,7 +10,8 @@
 namespace zoneplate::antialias {
 
 /// Finds what is visible in a pixel, a region at a time: a crowded pixel is quartered, and crowded quarters again, so
-/// that each triangle meets only what is near it.
+/// that each triangle meets only what is near it. Triangles that cover a region in one order, however many, are no
+/// crowd: they cut nothing.
 ///
 /// Exact     as PixelCells: the regions' polygons together fill the pixel. Whether a region is quartered depends on the
 ///           triangles' places alone.
@@ -27,14 +28,21 @@ class PixelRegions {
   struct Member {
     std::uint32_t number;
     bool covers;
-    double greatest_depth;
+    double least_depth, greatest_depth;
+  };
+  /// How many triangles cut what is above a region, and how often quartering has hardly lessened them.
+  struct Crowd {
+    std::size_t cutters = 0;
+    int in_vain = 0;
   };
 
-  void find_in(const ConvexPolygon& square, std::size_t level, const Use& use);
+  void find_in(const ConvexPolygon& square, std::size_t level, Crowd above, const Use& use);
   void gather(const ConvexPolygon& square, std::size_t level);
+  std::size_t count_cutters(std::size_t level);
 
   std::span<const PixelTriangle> triangles_;
   std::vector<std::vector<Member>> members_;  ///< by level
+  std::vector<Member> covering_;              ///< of the region at work, nearest first
   PixelCells cells_;
 };
 

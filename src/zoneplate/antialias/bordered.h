@@ -32,13 +32,16 @@ class Bordered {
   T* at(int x, int y) { return values_.get() + (y + border_) * stride_ + x + border_; }
   const T* at(int x, int y) const { return values_.get() + (y + border_) * stride_ + x + border_; }
 
+  /// Writes the borders before and after one row.
+  void extend_row(int y) {
+    std::fill(at(-border_, y), at(0, y), *at(0, y));
+    std::fill(at(width_, y), at(width_ + border_ + 32, y), *at(width_ - 1, y));
+  }
+
   /// Writes the borders.
   void extend() {
     parallel_ranges(static_cast<std::size_t>(height_), 64, [&](std::size_t begin, std::size_t end) {
-      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-        std::fill(at(-border_, y), at(0, y), *at(0, y));
-        std::fill(at(width_, y), at(width_ + border_ + 32, y), *at(width_ - 1, y));
-      }
+      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) extend_row(y);
     });
     for (int i = 1; i <= border_; ++i) {
       std::copy_n(at(-border_, 0), stride_, at(-border_, -i));

@@ -64,8 +64,8 @@ inline Rgba8Image random_shapes(int width, int height, std::uint32_t seed) {
 /// A white band on black along a line of slope 1 / run, as seen at a point of each pixel, and each pixel's share of it.
 struct Band {
   static constexpr int width = 160, height = 56;
-  double run, thickness;
-  double below(double x) const { return 20.1 + x / run; }
+  double run, thickness, start = 20.1;
+  double below(double x) const { return start + x / run; }
   Rgba8Image codes(double u, double v) const {
     return make_codes(width, height, [&](int x, int y) {
       const double depth = y + v - below(x + u);

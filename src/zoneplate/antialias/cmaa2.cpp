@@ -330,7 +330,7 @@ Rgba8Image apply_cmaa2(const Rgba8Image& image, const Cmaa2Options& options, Rgb
   parallel_for(blocks.size(), [&](std::size_t block) {
     const std::size_t first = block * rows_a_block * width;
     const std::size_t pixels = std::min(rows_a_block * width, image.values().size() - first);
-    std::ranges::copy(image.values().subspan(first, pixels), out.values().begin() + static_cast<std::ptrdiff_t>(first));
+    std::memcpy(&out.values()[first], &image.values()[first], pixels * sizeof(Rgba8));
     apply_items(blocks, static_cast<int>(block), out.values(), first, pixels);
   });
   return out;

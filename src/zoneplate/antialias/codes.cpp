@@ -91,7 +91,7 @@ DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& f
 }
 
 Linear light_of(Rgba8 codes) {
-  return {decode_srgb8(codes.r), decode_srgb8(codes.g), decode_srgb8(codes.b), static_cast<float>(codes.a) / 255};
+  return {decode_srgb8(codes.r), decode_srgb8(codes.g), decode_srgb8(codes.b), code_share[codes.a]};
 }
 
 Rgba8 codes_of(Linear light) {

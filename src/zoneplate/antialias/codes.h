@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 
 #include "zoneplate/image/rgb.h"
@@ -22,6 +24,13 @@ DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& f
 /// `v` rounded to a code, for v in [0, 255].
 inline std::uint8_t rounded_code(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
 
+/// code / 255, without the division.
+inline constexpr std::array<float, 256> code_share = [] {
+  std::array<float, 256> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(i) / 255;
+  return out;
+}();
+
 /// A pixel's linear light and alpha in [0, 1], from its codes and back.
 Linear light_of(Rgba8 codes);
 Rgba8 codes_of(Linear light);
@@ -34,6 +43,11 @@ inline constexpr std::size_t rows_a_block = 16;
 
 /// Calls `body(y)` for every row of a picture, blocks of rows in parallel.
 void for_rows(int height, const std::function<void(int)>& body);
+
+/// Copies row y of a picture into another one of its size. (std::ranges::copy takes one pixel at a time.)
+inline void copy_row(const Rgba8Image& from, Rgba8Image& to, int y) {
+  std::memcpy(to.row(y).data(), from.row(y).data(), from.row(y).size_bytes());
+}
 
 /// Allocates a picture of the size of `like`, or takes `memory` where it has that size already. The values are unset
 /// leftovers in the second case and zero in the first.

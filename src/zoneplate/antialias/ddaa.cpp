@@ -142,7 +142,7 @@ Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8
   const Power power = make_power(image);
   Rgba8Image out = sized_like(image, std::move(memory));
   for_rows(image.height(), [&](int y) {
-    std::ranges::copy(image.row(y), out.row(y).begin());
+    copy_row(image, out, y);
     for (int x = 0; x < image.width(); ++x) {
       const float* pixel = power.at(x, y);
       if (!has_contrast(pixel, power.stride(), options)) continue;

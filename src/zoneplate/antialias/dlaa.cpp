@@ -9,14 +9,62 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include "zoneplate/antialias/bordered.h"
 #include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/dlaa_kernels.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/render/method.h"
 
-namespace zoneplate::antialias {
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+int bend(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c) {
+  return std::abs(a[0] + b[0] - 2 * c[0]) + std::abs(a[1] + b[1] - 2 * c[1]) + std::abs(a[2] + b[2] - 2 * c[2]);
+}
+
+void edge_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
+              std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    int sum = 0;
+    for (std::size_t at = 4 * i; at < 4 * i + 3; ++at)
+      sum += std::abs(*(here + at - 4) + here[at + 4] + above[at] + below[at] - 4 * here[at]);
+    edges[i] = static_cast<std::uint8_t>(std::min(255, (4 * sum + 1) / 3));
+  }
+}
+
+void sum_row(const std::uint8_t* edges, std::int16_t* sums, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    int sum = 0;
+    for (std::ptrdiff_t k = -8; k <= 8; ++k) sum += *(edges + i + k);
+    sums[i] = static_cast<std::int16_t>(sum);
+  }
+}
+
+void slide_row(const std::uint8_t* added, const std::uint8_t* removed, std::int16_t* sums, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) sums[i] = static_cast<std::int16_t>(sums[i] + added[i] - removed[i]);
+}
+
+void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
+              const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint8_t* c = here + 4 * i;
+    const int most = std::max(bend(c - 4, c + 4, c), bend(above + 4 * i, below + 4 * i, c));
+    seen[i] = most > least_bend || std::max(level[i], upright[i]) > least_sum ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+const DlaaKernels dlaa_kernels = {
+    .edge_row = edge_row, .sum_row = sum_row, .slide_row = slide_row, .seen_row = seen_row};
+
+}  // namespace scalar
+
+namespace antialias {
 namespace {
 
 constexpr float lambda = 3, epsilon = 0.1f;
@@ -47,23 +95,17 @@ struct Source {
   Bordered<Rgba8> colors;
   Bordered<std::uint8_t> edges;
 
-  explicit Source(const Rgba8Image& image)
+  Source(const Rgba8Image& image, const DlaaKernels& kernels)
       : colors(image.width(), image.height(), reach), edges(image.width(), image.height(), half_blur) {
-    for_rows(image.height(), [&](int y) { std::ranges::copy(image.row(y), colors.at(0, y)); });
+    for_rows(image.height(),
+             [&](int y) { std::memcpy(colors.at(0, y), image.row(y).data(), image.row(y).size_bytes()); });
     colors.extend();
-    const std::ptrdiff_t s = colors.stride();
     for_rows(image.height(), [&](int y) {
-      for (int x = 0; x < image.width(); ++x) {
-        const Rgba8* p = colors.at(x, y);
-        const auto off = [&](std::uint8_t Rgba8::*c) {
-          return std::abs(p[-1].*c + p[1].*c + (p - s)->*c + p[s].*c - 4 * (p->*c));
-        };
-        const int sum = 4 * (off(&Rgba8::r) + off(&Rgba8::g) + off(&Rgba8::b));
-        *edges.at(x, y) = static_cast<std::uint8_t>(std::min(255, (sum + 1) / 3));
-      }
+      kernels.edge_row(codes(y - 1), codes(y), codes(y + 1), edges.at(0, y), static_cast<std::size_t>(image.width()));
     });
     edges.extend();
   }
+  const std::uint8_t* codes(int y) const { return &colors.at(0, y)->r; }
   float4 at(int x, int y) const { return values_of(*colors.at(x, y)); }
 };
 
@@ -88,11 +130,10 @@ float4 long_blur(const Source& source, int x, int y, int dx, int dy) {
           static_cast<float>(a) / scale};
 }
 
+constexpr int whole = 255 * 2 * half_blur;  ///< of sixteen edge codes
+
 /// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
-float mask_of(int sum) {
-  constexpr int whole = 255 * 2 * half_blur;
-  return 2 * sum <= whole ? 0 : static_cast<float>(2 * sum) / whole - 1;
-}
+float mask_of(int sum) { return 2 * sum <= whole ? 0 : static_cast<float>(2 * sum) / whole - 1; }
 
 Rgba8 filtered(const Source& source, int x, int y, float level_mask, float upright_mask) {
   const Rgba8* p = source.colors.at(x, y);
@@ -122,31 +163,36 @@ Rgba8 filtered(const Source& source, int x, int y, float level_mask, float uprig
 
 }  // namespace
 
-Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
+Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
   if (image.empty()) return image;
-  const Source source(image);
+  const DlaaKernels& kernels = pick(isa, scalar::dlaa_kernels);
+  const Source source(image, kernels);
   Rgba8Image out = sized_like(image, std::move(memory));
+  const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
     // The sums of the edge codes of eight rows above and below move down with the rows.
-    std::vector<int> columns(static_cast<std::size_t>(image.width()));
+    std::vector<std::int16_t> level(room), upright(room);
+    std::vector<std::uint8_t> seen(room), nothing(room);
     const int first = static_cast<int>(begin);
-    const auto add = [&](int y, int sign) {
-      const std::uint8_t* row = source.edges.at(0, y);
-      for (std::size_t x = 0; x < columns.size(); ++x) columns[x] += sign * row[x];
-    };
-    for (int y = first - half_blur; y <= first + half_blur; ++y) add(y, 1);
+    for (int y = first - half_blur; y < first + half_blur; ++y)
+      kernels.slide_row(source.edges.at(0, y), nothing.data(), upright.data(), width);
     for (int y = first; y < static_cast<int>(end); ++y) {
-      const std::uint8_t* row = source.edges.at(0, y);
-      int level = 0;
-      for (int x = -half_blur; x <= half_blur; ++x) level += *(row + x);
-      for (int x = 0; x < image.width(); ++x) {
-        const int own = row[x];
-        out(x, y) = filtered(source, x, y, mask_of(level - own), mask_of(columns[static_cast<std::size_t>(x)] - own));
-        level += row[x + half_blur + 1] - *(row + x - half_blur);
+      const std::uint8_t* before = y == first ? nothing.data() : source.edges.at(0, y - half_blur - 1);
+      kernels.slide_row(source.edges.at(0, y + half_blur), before, upright.data(), width);
+      kernels.sum_row(source.edges.at(0, y), level.data(), width);
+      kernels.seen_row(source.codes(y - 1), source.codes(y), source.codes(y + 1), level.data(), upright.data(),
+                       unseen_bend, whole / 2, seen.data(), width);
+      copy_row(image, out, y);
+      for (std::size_t block = 0; block < width; block += 8) {
+        std::uint64_t any = 0;
+        std::memcpy(&any, &seen[block], sizeof any);
+        if (any == 0) continue;
+        for (std::size_t x = block; x < std::min(block + 8, width); ++x) {
+          if (!seen[x]) continue;
+          const int i = static_cast<int>(x), own = *source.edges.at(i, y);
+          out(i, y) = filtered(source, i, y, mask_of(level[x] - own), mask_of(upright[x] - own));
+        }
       }
-      if (y + 1 == static_cast<int>(end)) break;
-      add(y - half_blur, -1);
-      add(y + half_blur + 1, 1);
     }
   });
   return out;
@@ -179,4 +225,5 @@ Method dlaa() {
           .is_specification_only = true};
 }
 
-}  // namespace zoneplate::antialias
+}  // namespace antialias
+}  // namespace zoneplate

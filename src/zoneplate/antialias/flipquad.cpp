@@ -23,7 +23,7 @@ class FlipQuad : public Resolver {
                     .weights = {},
                     .planes = {},
                     .where = {}};
-    request.planes.samples = true;
+    request.planes.sample_colors = true;
     request.halo = 1;
     return request;
   }

@@ -80,19 +80,49 @@ Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
   return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
 
-using Luma = Bordered<std::uint8_t>;
+/// The luma of a block of rows and of all that lies within reach of them, made just before it is looked at, so that it
+/// and the pixels are still in the caches.
+class Luma {
+ public:
+  Luma(const Rgba8Image& image, const FxaaOptions& options, int first, int last)
+      : image_(image),
+        row_of_(options.is_green_luma ? pick(options.isa, scalar::fxaa_kernels).green_row
+                                      : pick(options.isa, scalar::fxaa_kernels).luma_row),
+        reach_(fxaa_reach(options)),
+        first_(first),
+        made_(first - reach_),
+        values_(image.width(), last - first, reach_) {}
 
-Luma make_luma(const Rgba8Image& image, const FxaaOptions& options, const FxaaKernels& kernels) {
-  Luma luma(image.width(), image.height(), fxaa_reach(options));
-  for_rows(image.height(), [&](int y) {
-    const auto row = image.row(y);
-    if (options.is_green_luma)
-      std::ranges::transform(row, luma.at(0, y), &Rgba8::g);
-    else
-      kernels.luma_row(&row[0].r, luma.at(0, y), row.size());
+  std::ptrdiff_t stride() const { return values_.stride(); }
+  const std::uint8_t* at(int x, int y) const { return values_.at(x, y - first_); }
+
+  /// Makes what is in reach of row y and was not made for the rows before it.
+  void make_around(int y) {
+    for (; made_ <= y + reach_; ++made_) {
+      std::uint8_t* out = values_.at(0, made_ - first_);
+      const auto row = image_.row(std::clamp(made_, 0, image_.height() - 1));
+      row_of_(&row[0].r, out, row.size());
+      values_.extend_row(made_ - first_);
+    }
+  }
+
+ private:
+  const Rgba8Image& image_;
+  decltype(FxaaKernels::luma_row) row_of_;
+  int reach_, first_, made_;
+  Bordered<std::uint8_t> values_;
+};
+
+/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, for the luma within reach of both
+/// is made by each of two.
+template <class Body>
+void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const Body& body) {
+  constexpr std::size_t rows = 64;
+  parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
+    const int first = static_cast<int>(begin), last = static_cast<int>(end);
+    Luma luma(image, options, first, last);
+    body(luma, first, last);
   });
-  luma.extend();
-  return luma;
 }
 
 /// The memory for what the kernels find in one row.
@@ -217,11 +247,13 @@ int fxaa_reach(const FxaaOptions& options) {
 Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
   const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels);
-  const Luma luma = make_luma(image, options, kernels);
   Rgba8Image out = sized_like(image, std::move(memory));
   if (options.preset == FxaaOptions::console) {
-    for_rows(image.height(), [&](int y) {
-      for (int x = 0; x < image.width(); ++x) out(x, y) = console_pixel(image, luma, options, x, y);
+    for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
+      for (int y = begin; y < end; ++y) {
+        luma.make_around(y);
+        for (int x = 0; x < image.width(); ++x) out(x, y) = console_pixel(image, luma, options, x, y);
+      }
     });
     return out;
   }
@@ -230,10 +262,11 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
   const std::span<const int> distances = distances_of(options.preset);
   const FxaaSearch search{distances.data(), distances.size(), options.subpixel};
   const auto width = static_cast<std::size_t>(image.width());
-  parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
+  for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
     RowMemory row(image.width());
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      std::ranges::copy(image.row(y), out.row(y).begin());
+    for (int y = begin; y < end; ++y) {
+      luma.make_around(y);
+      copy_row(image, out, y);
       kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, row.bits.data(), width);
       clear_beyond(row.bits, width);
       kernels.ends_row(luma.at(0, y), luma.stride(), search, row.bits.data(), row.ends(), width);

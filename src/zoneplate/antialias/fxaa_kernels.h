@@ -32,6 +32,8 @@ struct FxaaSearch {
 struct FxaaKernels {
   /// Luma codes, (299 R + 587 G + 114 B) / 1000 rounded, of n pixels of four codes.
   void (*luma_row)(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n);
+  /// The green codes of n pixels.
+  void (*green_row)(const std::uint8_t* rgba, std::uint8_t* green, std::size_t n);
   /// Bit x of `bits` says that the contrast between pixel x of a row of luma and its four neighbours is to be treated.
   ///
   /// Shape     reads whole vectors: up to 31 values after the n-th; `bits` has room for n rounded up to 64.

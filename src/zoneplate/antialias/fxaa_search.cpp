@@ -1,5 +1,6 @@
 // The scalar twins of FXAA's kernels, and its search where a comparison is tied.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -11,9 +12,13 @@ namespace {
 
 void luma_row(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
-    const float r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
-    luma[i] = static_cast<std::uint8_t>((299 * r + 587 * g + 114 * b) * 0.001f + 0.5f);
+    const int r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
+    luma[i] = static_cast<std::uint8_t>((299 * r + 587 * g + 114 * b + 500) / 1000);
   }
+}
+
+void green_row(const std::uint8_t* rgba, std::uint8_t* green, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) green[i] = rgba[4 * i + 1];
 }
 
 void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast contrast, std::uint8_t* bits,
@@ -32,6 +37,13 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
 float shift_between(int before, int after) {
   return 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after);
 }
+
+/// Codes / 255.
+constexpr std::array<double, 256> units = [] {
+  std::array<double, 256> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<double>(i) / 255;
+  return out;
+}();
 
 /// Walks along an edge from one of its pixels, between it and the one across.
 class Walk {
@@ -78,7 +90,7 @@ class Walk {
 
  private:
   int pair(std::ptrdiff_t i) const { return pixel_[i * along_] + pixel_[i * along_ + across_]; }
-  double unit(std::ptrdiff_t offset) const { return static_cast<double>(pixel_[offset]) / 255; }
+  double unit(std::ptrdiff_t offset) const { return units[pixel_[offset]]; }
   double border(std::ptrdiff_t i) const { return (unit(i * along_) + unit(i * along_ + across_)) * 0.5; }
 
   const std::uint8_t* pixel_;
@@ -137,8 +149,11 @@ void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uin
 
 }  // namespace
 
-const FxaaKernels fxaa_kernels = {
-    .luma_row = luma_row, .contrast_row = contrast_row, .ends_row = ends_row, .mix_row = mix_row};
+const FxaaKernels fxaa_kernels = {.luma_row = luma_row,
+                                  .green_row = green_row,
+                                  .contrast_row = contrast_row,
+                                  .ends_row = ends_row,
+                                  .mix_row = mix_row};
 
 }  // namespace scalar
 

@@ -7,29 +7,68 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The sum of products is below 2^24, so that its floats are exact and its order does not matter.
-template <class D>
-HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, std::uint8_t* luma, std::size_t i) {
-  const hn::RebindToSigned<D> di;
-  const hn::Rebind<std::uint8_t, D> d8;
-  const hn::Repartition<std::uint8_t, D> bytes;
-  const auto pixels = hn::BitCast(di, hn::LoadU(bytes, rgba + 4 * i));
-  const auto mask = hn::Set(di, 255);
-  const auto r = hn::ConvertTo(d, hn::And(pixels, mask));
-  const auto g = hn::ConvertTo(d, hn::And(hn::ShiftRight<8>(pixels), mask));
-  const auto b = hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(pixels), mask));
-  const auto rg = hn::Add(hn::Mul(r, hn::Set(d, 299.0f)), hn::Mul(g, hn::Set(d, 587.0f)));
-  const auto sum = hn::Add(rg, hn::Mul(b, hn::Set(d, 114.0f)));
-  const auto scaled = hn::Add(hn::Mul(sum, hn::Set(d, 0.001f)), hn::Set(d, 0.5f));
-  hn::StoreU(hn::DemoteTo(d8, hn::ConvertTo(di, scaled)), d8, luma + i);
+using Words = hn::CappedTag<std::int16_t, 16>;
+using Sums = hn::RepartitionToWide<Words>;
+
+/// Values of two vectors, each of 32 bits, as 16 bits in their order.
+HWY_INLINE hn::Vec<Words> narrowed(hn::Vec<Sums> first, hn::Vec<Sums> second) {
+  constexpr Words d;
+  constexpr Sums wide;
+  if (hn::Lanes(d) <= 8) return hn::ReorderDemote2To(d, first, second);
+  // It works on halves of 128 bits by themselves.
+  return hn::ReorderDemote2To(d, hn::ConcatLowerLower(wide, second, first), hn::ConcatUpperUpper(wide, second, first));
+}
+
+HWY_INLINE hn::Vec<Sums> load_codes(const std::uint8_t* rgba) {
+  const hn::Repartition<std::uint8_t, Sums> bytes;
+  return hn::BitCast(Sums(), hn::LoadU(bytes, rgba));
+}
+
+/// An eighth of 299 R + 587 G + 114 B + 500, rounded down: an integer below 2^15.
+HWY_INLINE hn::Vec<Sums> eighth_of_sum(hn::Vec<Sums> codes) {
+  constexpr Sums d;
+  const auto mask = hn::Set(d, 255);
+  const auto r = hn::And(codes, mask), g = hn::And(hn::ShiftRight<8>(codes), mask);
+  const auto b = hn::And(hn::ShiftRight<16>(codes), mask);
+  const auto rg = hn::Add(hn::Mul(r, hn::Set(d, 299)), hn::Mul(g, hn::Set(d, 587)));
+  return hn::ShiftRight<3>(hn::Add(hn::Add(rg, hn::Set(d, 500)), hn::Mul(b, hn::Set(d, 114))));
+}
+
+/// As many of what `of(codes)` gives, one each pixel, as fit a vector of 16 bits.
+template <class Of>
+HWY_INLINE hn::Vec<Words> for_codes(const std::uint8_t* rgba, const Of& of) {
+  return narrowed(of(load_codes(rgba)), of(load_codes(rgba + 4 * hn::Lanes(Sums()))));
+}
+
+HWY_INLINE void store_bytes(hn::Vec<Words> v, std::uint8_t* to) {
+  const hn::Rebind<std::uint8_t, Words> bytes;
+  hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
+}
+
+/// x / 125 for x below 2^15, and so the sum's thousandth.
+HWY_INLINE hn::Vec<Words> a_125th(hn::Vec<Words> x) {
+  const hn::RebindToUnsigned<Words> du;
+  const auto quotient = hn::ShiftRight<6>(hn::MulHigh(hn::BitCast(du, x), hn::Set(du, std::uint16_t{33555})));
+  return hn::BitCast(Words(), quotient);
 }
 
 void luma_row(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n) {
-  const hn::CappedTag<float, 8> full;
-  const hn::CappedTag<float, 1> one;
+  const std::size_t lanes = hn::Lanes(Words());
   std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_some(full, rgba, luma, i);
-  for (; i < n; ++i) luma_some(one, rgba, luma, i);
+  for (; i + lanes <= n; i += lanes)
+    store_bytes(a_125th(for_codes(rgba + 4 * i, [](hn::Vec<Sums> c) HWY_ATTR { return eighth_of_sum(c); })), luma + i);
+  for (; i < n; ++i)
+    luma[i] =
+        static_cast<std::uint8_t>((299 * rgba[4 * i] + 587 * rgba[4 * i + 1] + 114 * rgba[4 * i + 2] + 500) / 1000);
+}
+
+void green_row(const std::uint8_t* rgba, std::uint8_t* green, std::size_t n) {
+  const std::size_t lanes = hn::Lanes(Words());
+  std::size_t i = 0;
+  const auto green_of = [](hn::Vec<Sums> codes)
+                            HWY_ATTR { return hn::And(hn::ShiftRight<8>(codes), hn::Set(Sums(), 255)); };
+  for (; i + lanes <= n; i += lanes) store_bytes(for_codes(rgba + 4 * i, green_of), green + i);
+  for (; i < n; ++i) green[i] = rgba[4 * i + 1];
 }
 
 void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast contrast, std::uint8_t* bits,
@@ -57,7 +96,6 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
   }
 }
 
-using Words = hn::CappedTag<std::int16_t, 16>;
 using W = hn::Vec<Words>;
 using WMask = hn::Mask<Words>;
 constexpr Words dw;
@@ -82,11 +120,6 @@ HWY_INLINE V upper(W v) {
   const hn::RebindToSigned<Floats> di;
   const hn::Half<Words> half;
   return hn::ConvertTo(df, hn::PromoteTo(di, hn::UpperHalf(half, v)));
-}
-
-HWY_INLINE void store_bytes(W v, std::uint8_t* to) {
-  const hn::Rebind<std::uint8_t, Words> bytes;
-  hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
 }
 
 /// |a + b - 2 c|
@@ -181,9 +214,10 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   End before{start, hn::Zero(dw), hn::Not(wanted)}, after = before;
   WMask is_tied = hn::Lt(start, start);
   for (std::size_t i = 0; i + 1 < search.count; ++i) {
-    before.look(walk, -1, search.distances[i], search.distances[i + 1], is_tied);
-    after.look(walk, 1, search.distances[i], search.distances[i + 1], is_tied);
-    if (hn::AllTrue(dw, hn::And(before.is_done, after.is_done))) break;
+    const bool is_before = hn::AllTrue(dw, before.is_done), is_after = hn::AllTrue(dw, after.is_done);
+    if (is_before && is_after) break;
+    if (!is_before) before.look(walk, -1, search.distances[i], search.distances[i + 1], is_tied);
+    if (!is_after) after.look(walk, 1, search.distances[i], search.distances[i + 1], is_tied);
   }
   const W nearer = hn::IfThenElse(hn::Lt(before.distance, after.distance), before.error, after.error);
   const WMask bends = hn::Xor(hn::Lt(nearer, hn::Zero(dw)), hn::Lt(m, across));
@@ -230,7 +264,7 @@ HWY_INLINE P mixed_channel(P here, P there, V t) {
   const V from = hn::ConvertTo(df, hn::And(hn::ShiftRight<shift>(here), mask));
   const V to = hn::ConvertTo(df, hn::And(hn::ShiftRight<shift>(there), mask));
   const V out = hn::Add(hn::Add(from, hn::Mul(hn::Sub(to, from), t)), hn::Set(df, 0.5f));
-  return hn::ShiftLeft<shift>(hn::ConvertTo(dp, out));
+  return hn::ShiftLeft<shift>(hn::NearestInt(hn::Floor(out)));
 }
 
 HWY_INLINE P load_pixels(const std::uint8_t* p) {
@@ -289,6 +323,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
 const FxaaKernels FxaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
+                                                .green_row = HWY_NAMESPACE::green_row,
                                                 .contrast_row = HWY_NAMESPACE::contrast_row,
                                                 .ends_row = HWY_NAMESPACE::ends_row,
                                                 .mix_row = HWY_NAMESPACE::mix_row};

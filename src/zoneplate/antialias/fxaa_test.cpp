@@ -92,11 +92,15 @@ TEST(Fxaa, LumaIsRec601Rounded) {
   for (const Isa isa : supported_isas()) {
     const FxaaKernels& kernels = pick(isa, scalar::fxaa_kernels);
     for (std::size_t n = 0; n <= pixels.size(); ++n) {
-      std::vector<std::uint8_t> luma(n + 1, 7);
+      std::vector<std::uint8_t> luma(n + 1, 7), green = luma;
       kernels.luma_row(&pixels[0].r, luma.data(), n);
-      for (std::size_t i = 0; i < n; ++i)
+      kernels.green_row(&pixels[0].r, green.data(), n);
+      for (std::size_t i = 0; i < n; ++i) {
         ASSERT_NEAR(luma[i], 0.299 * pixels[i].r + 0.587 * pixels[i].g + 0.114 * pixels[i].b, 0.5001);
+        ASSERT_EQ(green[i], pixels[i].g);
+      }
       ASSERT_EQ(luma[n], 7);
+      ASSERT_EQ(green[n], 7);
     }
   }
 }

@@ -81,6 +81,7 @@ class IdSraa : public Resolver {
   Request ask(int) override {
     Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}};
     request.planes.samples = true;
+    request.centroid = Centroid::First;  // the pixel's centre where the triangle is there
     request.halo = 1;
     return request;
   }

@@ -92,17 +92,18 @@ struct Line {
 };
 
 /// Every weight's mixture counts by its weight.
-Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const std::uint8_t (&weights)[4], bool mixes_light) {
+Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
   const auto at = [&](int i, int j) {
     const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
     if (mixes_light) return light_of(c);
     return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
   };
   const Linear here = at(x, y), others[4] = {at(x, y - 1), at(x, y + 1), at(x - 1, y), at(x + 1, y)};
+  const std::uint8_t weights[4] = {taken.above, taken.below, taken.left, taken.right};
   Linear sum{0, 0, 0, 0};
   float total = 0;
   for (int i = 0; i < 4; ++i) {
-    const float a = static_cast<float>(weights[i]) / 255;
+    const float a = code_share[weights[i]];
     sum = sum + (here * (1 - a) + others[i] * a) * a;
     total += a;
   }
@@ -116,44 +117,48 @@ int reach_of(const MlaaOptions& options) {
   return options.kind == MlaaOptions::Kind::Reshetov ? whole_picture : 2 * options.steps + 4;
 }
 
-}  // namespace
-
-WeightPlane mlaa_jimenez_weights(const Rgba8Image& image, const MlaaOptions& options) {
-  const MlaaAreas table(2 * options.steps);
-  const EdgePlane edges = find_edges(image, options, reach_of(options));
-  WeightPlane weights(image.width(), image.height(), 1);
-  for_rows(image.height(), [&](int y) {
-    SmaaWeights* row = weights.at(0, y);
-    for (int x = 0; x < image.width(); ++x) {
+/// The second pass of one row, by the distances to the ends of its edges.
+void weigh(const EdgePlane& edges, const MlaaAreas& table, int steps, int y, WeightRow& out) {
+  for (int block = 0; block < edges.width(); block += 8) {
+    std::uint64_t any = 0;
+    std::memcpy(&any, edges.at(block, y), sizeof any);
+    if (any == 0) continue;
+    for (int x = block; x < std::min(block + 8, edges.width()); ++x) {
       const std::uint8_t* pixel = edges.at(x, y);
-      row[x] = {};
+      EdgeWeights w;
       if (*pixel & top_edge) {
-        const auto codes = Line{pixel, 1, edges.stride(), top_edge, left_edge}.areas(table, options.steps);
-        row[x].from_above = codes.below, row[x].to_above = codes.above;
+        const auto codes = Line{pixel, 1, edges.stride(), top_edge, left_edge}.areas(table, steps);
+        w.from_above = codes.below, w.to_above = codes.above;
       }
       if (*pixel & left_edge) {
-        const auto codes = Line{pixel, edges.stride(), 1, left_edge, top_edge}.areas(table, options.steps);
-        row[x].from_left = codes.below, row[x].to_left = codes.above;
+        const auto codes = Line{pixel, edges.stride(), 1, left_edge, top_edge}.areas(table, steps);
+        w.from_left = codes.below, w.to_left = codes.above;
       }
+      if (*pixel != 0) out.put(x, w);
     }
-  });
-  weights.extend();
-  return weights;
+  }
 }
+
+}  // namespace
 
 Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
-  const WeightPlane weights =
-      options.kind == MlaaOptions::Kind::Reshetov ? mlaa_reshetov_weights(image) : mlaa_jimenez_weights(image, options);
   Rgba8Image out = sized_like(image, std::move(memory));
-  for_rows(image.height(), [&](int y) {
-    const SmaaWeights *row = weights.at(0, y), *next = weights.at(0, y + 1);
-    std::ranges::copy(image.row(y), out.row(y).begin());
-    for (int x = 0; x < image.width(); ++x) {
-      const std::uint8_t w[4] = {row[x].from_above, next[x].to_above, row[x].from_left, row[x + 1].to_left};
-      if ((w[0] | w[1] | w[2] | w[3]) != 0) out(x, y) = mixed_pixel(image, x, y, w, options.mixes_light);
-    }
-  });
+  const auto mix = [&](int x, int y, const TakenWeights& taken) {
+    return mixed_pixel(image, x, y, taken, options.mixes_light);
+  };
+  if (options.kind == MlaaOptions::Kind::Reshetov) {
+    const WeightPlane weights = mlaa_reshetov_weights(image);
+    const auto copy = [&](int y, WeightRow& row) {
+      for (int x = 0; x < image.width(); ++x) row.put(x, *weights.at(x, y));
+    };
+    mix_by_weights(image, out, copy, mix);
+    return out;
+  }
+  const MlaaAreas table(2 * options.steps);
+  const EdgePlane edges = find_edges(image, options, reach_of(options));
+  mix_by_weights(
+      image, out, [&](int y, WeightRow& row) { weigh(edges, table, options.steps, y, row); }, mix);
   return out;
 }
 

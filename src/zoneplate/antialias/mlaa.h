@@ -23,8 +23,8 @@ struct MlaaOptions {
 ///           Pro 2, 2011.
 Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8Image memory = {});
 
-/// The two kinds' second passes: the weights of all edges. Their first passes differ too.
-WeightPlane mlaa_jimenez_weights(const Rgba8Image& image, const MlaaOptions& options);
+/// The weights of all edges of the first kind, which have no order of rows.
+using WeightPlane = Bordered<EdgeWeights>;
 WeightPlane mlaa_reshetov_weights(const Rgba8Image& image);
 
 /// The height in [0, 1] at which a line crosses the step between two columns, so that the mixed colours of both sides

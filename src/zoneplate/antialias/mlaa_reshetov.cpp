@@ -111,7 +111,7 @@ class Lines {
   }
 
   void add(int i, int j, Side side, float area) {
-    SmaaWeights& w = *(is_horizontal_ ? weights_.at(i, j) : weights_.at(j, i));
+    EdgeWeights& w = *(is_horizontal_ ? weights_.at(i, j) : weights_.at(j, i));
     std::uint8_t& weight = is_horizontal_ ? (side == Side::Below ? w.from_above : w.to_above)
                                           : (side == Side::Below ? w.from_left : w.to_left);
     weight = static_cast<std::uint8_t>(std::min(255, weight + rounded_code(255 * area)));
@@ -128,7 +128,7 @@ class Lines {
 WeightPlane mlaa_reshetov_weights(const Rgba8Image& image) {
   const EdgePlane edges = find_edges(image);
   WeightPlane weights(image.width(), image.height(), 1);
-  for_rows(image.height(), [&](int y) { std::fill_n(weights.at(0, y), image.width(), SmaaWeights{}); });
+  for_rows(image.height(), [&](int y) { std::fill_n(weights.at(0, y), image.width(), EdgeWeights{}); });
   for (const bool is_horizontal : {true, false}) {
     Lines lines(image, edges, weights, is_horizontal);
     for_rows(lines.count(), [&](int j) { lines.weigh(j); });

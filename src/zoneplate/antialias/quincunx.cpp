@@ -14,7 +14,7 @@ class Quincunx : public Resolver {
  public:
   Request ask(int) override {
     Request request{.samples = {{128, 128}, {0, 0}}, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
-    request.planes.samples = true;
+    request.planes.sample_colors = true;
     request.halo = 1;
     return request;
   }

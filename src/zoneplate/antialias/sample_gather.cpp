@@ -1,24 +1,21 @@
 #include "zoneplate/antialias/sample_gather.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 
-#include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/gather_kernels.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/image/transfer.h"
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
 namespace {
 
-/// The greatest mean that is mapped back: 2^21 times white.
-constexpr float greatest_mapped = 1 - 0x1p-21f;
-
-float greatest(Linear c) { return std::max({c.r, c.g, c.b, 0.0f}); }
-
-Linear scaled_light(Linear c, float s) { return {c.r * s, c.g * s, c.b * s, c.a}; }
-
-/// Rec.709.
-float luma(Linear c) { return std::max((0.2126f * c.r + 0.7152f * c.g) + 0.0722f * c.b, 0.0f); }
+constexpr std::size_t room = 8;             // pixels that kernels may touch beyond a row
+constexpr std::size_t rows_of_a_part = 32;  // that one thread fills
+constexpr int greatest_reach = 4;           // of a filter of radius 4
 
 /// The kernel's values at a sample's distances from the centres of the pixels around, the farthest to the left first.
 std::vector<float> taps_of(const Gathering& gathering, std::uint8_t offset) {
@@ -30,20 +27,41 @@ std::vector<float> taps_of(const Gathering& gathering, std::uint8_t offset) {
   return taps;
 }
 
-/// A sample as a screen shows it, in linear light again.
-LinearImage displayed(const LinearImage& samples, const DisplayOptions& options) {
-  const DisplayImage codes = make_display(samples, options);
-  LinearImage out(codes.width(), codes.height());
-  for_rows(codes.height(), [&](int y) {
-    std::ranges::transform(codes.row(y), out.row(y).begin(), [&](Display c) {
-      const auto light = [&](float v) { return (options.raw ? v : decode_srgb(v)) * c.a; };
-      return Linear{light(c.r), light(c.g), light(c.b), c.a};
-    });
-  });
-  return out;
-}
+const GatherKernels& kernels() { return pick(best_isa(), scalar::gather_kernels); }
 
 }  // namespace
+
+/// Samples of a row as they count and what they count, between zeros as far as a filter reaches beyond the picture.
+class SampleRow {
+ public:
+  SampleRow(int width, int reach)
+      : width_(static_cast<std::size_t>(width)),
+        before_(static_cast<std::size_t>(reach)),
+        color_(4 * (width_ + 2 * before_ + room)),
+        weight_(width_ + 2 * before_ + room) {
+    std::fill_n(weight_.begin() + reach, width, 1.0f);
+  }
+
+  void take(std::span<const Linear> samples, SampleWeight weight, const DisplayOptions& display) {
+    float* const color = color_.data() + 4 * before_;
+    if (weight == SampleWeight::Display) {
+      show_light(samples, display, color);
+      return kernels().premultiply(color, width_);
+    }
+    std::copy_n(&samples.data()->r, 4 * width_, color);
+    if (weight == SampleWeight::Max3) kernels().map_max3(color, width_);
+    if (weight != SampleWeight::Karis) return;
+    kernels().weigh_karis(display.exposure, color, weight_.data() + before_, width_);
+    std::fill(weight_.begin() + static_cast<std::ptrdiff_t>(before_ + width_), weight_.end(), 0.0f);
+  }
+
+  const float* color() const { return color_.data(); }
+  const float* weight() const { return weight_.data(); }
+
+ private:
+  std::size_t width_, before_;
+  std::vector<float> color_, weight_;
+};
 
 int Gathering::reach() const { return kernel ? static_cast<int>(std::ceil(kernel->radius + 0.5)) - 1 : 0; }
 
@@ -60,69 +78,62 @@ Gathering gathering_of(std::string_view method, const Settings& settings) {
   return out;
 }
 
-void SampleGather::add(const Frame& frame, std::span<const SamplePosition> positions) {
-  for (std::size_t s = 0; s < positions.size(); ++s) {
-    const LinearImage& samples = frame.sample_color[s];
-    if (gathering_.weight == SampleWeight::Display)
-      add_plane(displayed(samples, frame.display), positions[s], 1);
-    else
-      add_plane(samples, positions[s], frame.display.exposure);
-  }
+void SampleGather::begin(int width, int height) {
+  width_ = width, height_ = height;
+  stride_ = (static_cast<std::size_t>(width) + room - 1) / room * room;
+  sum_.assign(4 * stride_ * static_cast<std::size_t>(height), 0);
+  weight_.assign(stride_ * static_cast<std::size_t>(height), 0);
 }
 
-void SampleGather::add_plane(const LinearImage& samples, SamplePosition position, float exposure) {
-  if (sum_.empty()) {
-    sum_ = LinearImage(samples.width(), samples.height(), Linear{0, 0, 0, 0});
-    weight_ = Plane<float>(samples.width(), samples.height());
-  }
-  const std::vector<float> across = taps_of(gathering_, position.x), down = taps_of(gathering_, position.y);
-  const int reach = gathering_.reach();
-  for_rows(sum_.height(), [&](int y) {
-    for (int dy = std::max(-reach, -y); dy <= std::min(reach, sum_.height() - 1 - y); ++dy) {
-      const std::span<const Linear> row = samples.row(y + dy);
-      for (int x = 0; x < sum_.width(); ++x)
-        for (int dx = std::max(-reach, -x); dx <= std::min(reach, sum_.width() - 1 - x); ++dx) {
-          Linear c = row[static_cast<std::size_t>(x + dx)];
-          float w = down[static_cast<std::size_t>(dy + reach)] * across[static_cast<std::size_t>(dx + reach)];
-          if (gathering_.weight == SampleWeight::Karis) w = w / (1 + luma(c) * exposure);
-          if (gathering_.weight == SampleWeight::Max3) c = scaled_light(c, 1 / (1 + greatest(c)));
-          sum_(x, y) = sum_(x, y) + c * w;
-          weight_(x, y) += w;
-        }
-    }
+void SampleGather::add(const Frame& frame, std::span<const SamplePosition> positions) {
+  if (sum_.empty()) begin(frame.sample_color[0].width(), frame.sample_color[0].height());
+  std::vector<Taps> taps;
+  for (const SamplePosition p : positions) taps.push_back({taps_of(gathering_, p.x), taps_of(gathering_, p.y)});
+  parallel_ranges(static_cast<std::size_t>(height_), rows_of_a_part, [&](std::size_t first, std::size_t last) {
+    add_rows(frame, taps, static_cast<int>(first), static_cast<int>(last));
   });
 }
 
-LinearImage SampleGather::light() const {
-  LinearImage out(sum_.width(), sum_.height());
-  for_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x) {
-      const Linear s = sum_(x, y);
-      const float w = weight_(x, y);
-      Linear mean{s.r / w, s.g / w, s.b / w, s.a / w};
-      if (gathering_.weight == SampleWeight::Max3)
-        mean = scaled_light(mean, 1 / (1 - std::min(greatest(mean), greatest_mapped)));
-      out(x, y) = mean;
+/// Rows [first, last) of the sums get what all samples give them.
+void SampleGather::add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last) {
+  const int reach = gathering_.reach();
+  SampleRow row(width_, reach);
+  for (std::size_t s = 0; s < taps.size(); ++s)
+    for (int y = std::max(first - reach, 0); y < std::min(last + reach, height_); ++y) {
+      row.take(frame.sample_color[s].row(y), gathering_.weight, frame.display);
+      spread(row, taps[s], y, std::max(first, y - reach), std::min(last, y + reach + 1));
     }
+}
+
+/// Adds row y of samples to rows [first, last) of the sums.
+void SampleGather::spread(const SampleRow& row, const Taps& taps, int y, int first, int last) {
+  std::array<float*, 2 * greatest_reach + 1> colors, weights;
+  std::array<float, 2 * greatest_reach + 1> down;
+  const int reach = gathering_.reach(), count = last - first, wide = static_cast<int>(taps.across.size());
+  assert(reach <= greatest_reach);
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i), to = static_cast<std::size_t>(first + i) * stride_;
+    colors[at] = &sum_[4 * to], weights[at] = &weight_[to];
+    down[at] = taps.down[static_cast<std::size_t>(y - (first + i) + reach)];
+  }
+  const auto n = static_cast<std::size_t>(width_);
+  kernels().spread(row.color(), 4, taps.across.data(), wide, down.data(), colors.data(), count, 4 * n);
+  kernels().spread(row.weight(), 1, taps.across.data(), wide, down.data(), weights.data(), count, n);
+}
+
+LinearImage SampleGather::light() const {
+  LinearImage out(width_, height_);
+  parallel_ranges(static_cast<std::size_t>(height_), rows_of_a_part, [&](std::size_t first, std::size_t last) {
+    for (std::size_t y = first; y < last; ++y)
+      kernels().mean(&sum_[4 * y * stride_], &weight_[y * stride_], gathering_.weight == SampleWeight::Max3,
+                     &out.row(static_cast<int>(y)).data()->r, static_cast<std::size_t>(width_));
   });
   return out;
 }
 
 DisplayImage SampleGather::shown(DisplayImage image, const DisplayOptions& display) const {
   if (gathering_.weight != SampleWeight::Display) return image;
-  const LinearImage mean = light();
-  for_rows(image.height(), [&](int y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const Linear c = mean(x, y);
-      const float alpha = std::clamp(c.a, 0.0f, 1.0f);
-      const auto code = [&](float v) {
-        const float straight = alpha > 0 ? std::clamp(v / alpha, 0.0f, 1.0f) : 0.0f;
-        return display.raw ? straight : encode_srgb(straight);
-      };
-      image(x, y) = {code(c.r), code(c.g), code(c.b), alpha};
-    }
-  });
-  return image;
+  return make_display(light(), {.is_transparent = true, .raw = display.raw});
 }
 
 }  // namespace zoneplate::antialias

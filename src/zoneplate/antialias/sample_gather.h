@@ -48,10 +48,14 @@ inline constexpr Param radius_param = {.name = "radius",
                                        .decimals = 2};
 Gathering gathering_of(std::string_view method, const Settings& settings);
 
-/// Sums samples that come in one frame or several.
+class SampleRow;
+
+/// Sums samples that come in one frame or several. A filter goes along the rows first, then down the columns.
 ///
 /// Edges     samples beyond the picture's sides are not there; the weights of the others are divided by their sum.
-/// Exact     in float, in the order of samples, then rows, then columns; the same for any number of threads.
+/// Exact     in float, in the order of samples, then rows, of each the sum along it from left to right; the same for
+///           any number of threads and instruction set.
+/// Cost      a sample takes as many products a channel as the filter is wide and high, not as it has pixels.
 /// Source    wide resolves and weights: Pettineo, Experimenting with Reconstruction Filters for MSAA Resolve, 2012;
 ///           Karis, Tone Mapping, 2013; Lottes, Optimized Reversible Tonemapper for Resolve, 2016.
 class SampleGather {
@@ -68,11 +72,17 @@ class SampleGather {
   DisplayImage shown(DisplayImage image, const DisplayOptions& display) const;
 
  private:
-  void add_plane(const LinearImage& samples, SamplePosition position, float exposure);
+  struct Taps {
+    std::vector<float> across, down;  ///< by distance, the farthest to the left or above first
+  };
+  void begin(int width, int height);
+  void add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last);
+  void spread(const SampleRow& row, const Taps& taps, int y, int first, int last);
 
   Gathering gathering_;
-  LinearImage sum_;
-  Plane<float> weight_;
+  int width_ = 0, height_ = 0;
+  std::size_t stride_ = 0;           ///< pixels a row, in whole vectors
+  std::vector<float> sum_, weight_;  ///< four floats a pixel, and one
 };
 
 }  // namespace zoneplate::antialias

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "zoneplate/antialias/gather_kernels.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/random.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -103,6 +106,72 @@ TEST(SampleGather, RoundsAddUpAndThreadsLeaveNoTrace) {
   LinearImage many;
   with_threads(3, [&] { many = gathered(mitchell, frame, two).light(); });
   EXPECT_EQ(rounds.light(), many);
+}
+
+/// Every kernel of the set on rows of n pixels, one after the other.
+std::vector<float> kernel_results(const GatherKernels& kernels, std::size_t n) {
+  std::vector<float> color(4 * (n + 12)), weight(n + 12), out;
+  for (std::size_t i = 0; i < 4 * n; ++i) color[8 + i] = unit_float(hash(static_cast<std::uint32_t>(i), 7)) * 3 - 0.5f;
+  const auto keep = [&](const std::vector<float>& v, std::size_t first, std::size_t count) {
+    out.insert(out.end(), v.begin() + static_cast<std::ptrdiff_t>(first),
+               v.begin() + static_cast<std::ptrdiff_t>(first + count));
+  };
+  kernels.weigh_karis(1.7f, color.data() + 8, weight.data() + 2, n);
+  keep(color, 8, 4 * n), keep(weight, 2, n);
+  std::fill(weight.begin() + static_cast<std::ptrdiff_t>(n) + 2, weight.end(), 0.0f);
+  kernels.premultiply(color.data() + 8, n);
+  kernels.map_max3(color.data() + 8, n);
+  keep(color, 8, 4 * n);
+  const float across[] = {-0.25f, 0.7f, 1.1f, 0.6f, -0.125f}, down[] = {0.3f, -0.9f, 0.25f};
+  std::vector<float> sum[3];
+  float* rows[3];
+  for (int k = 0; k < 3; ++k) sum[k].assign(4 * (n + 8), 0.5f), rows[k] = sum[k].data();
+  kernels.spread(color.data(), 4, across, 5, down, rows, 3, 4 * n);
+  std::vector<float> weights(n + 8, 0.5f);
+  float* const weight_rows[] = {weights.data()};
+  kernels.spread(weight.data(), 1, across, 5, down, weight_rows, 1, n);
+  keep(weights, 0, n);
+  for (const std::vector<float>& row : sum) keep(row, 0, 4 * n);
+  for (const bool is_max3 : {false, true}) {
+    std::vector<float> mean(4 * n);
+    kernels.mean(sum[0].data(), sum[1].data(), is_max3, mean.data(), n);
+    keep(mean, 0, 4 * n);
+  }
+  return out;
+}
+
+TEST(SampleGather, KernelsGiveTheScalarTwinsBits) {
+  for (const Isa isa : supported_isas())
+    for (const std::size_t n : {1, 2, 7, 8, 9, 31, 64})
+      EXPECT_EQ(kernel_results(pick(isa, scalar::gather_kernels), n), kernel_results(scalar::gather_kernels, n))
+          << name_of(isa) << ", " << n;
+}
+
+TEST(SampleGather, IsTheSumOfAllProducts) {
+  // As the definition says, pixel by pixel, on a picture narrower than the filter and on one of several parts.
+  for (const int side : {3, 70}) {
+    Frame frame = frame_of({grey(0), grey(0)}, side);
+    for (std::uint32_t s = 0; s < 2; ++s)
+      for (std::uint32_t i = 0; i < frame.sample_color[s].values().size(); ++i)
+        for (float* v : {&frame.sample_color[s].values()[i].r, &frame.sample_color[s].values()[i].a})
+          *v = unit_float(hash(i, s));
+    const Kernel kernel = make_kernel("catmull-rom");
+    const LinearImage image = gathered({.weight = SampleWeight::Karis, .kernel = kernel}, frame, two).light();
+    for (int y = 0; y < side; y += 1 + side / 9)
+      for (int x = 0; x < side; ++x) {
+        double red = 0, weight = 0;
+        for (std::size_t s = 0; s < 2; ++s)
+          for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i) {
+              const Linear c = frame.sample_color[s](i, j);
+              const double w = kernel.value(i - x + two[s].x / 256.0 - 0.5) *
+                               kernel.value(j - y + two[s].y / 256.0 - 0.5) /
+                               (1 + 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b);
+              red += w * c.r, weight += w;
+            }
+        ASSERT_NEAR(image(x, y).r, red / weight, 2e-6) << side << " at " << x << "," << y;
+      }
+  }
 }
 
 }  // namespace

@@ -114,6 +114,49 @@ TEST(Csaa, WithASlotForEachSurfaceItIsMultisampling) {
   EXPECT_THROW(make_resolver(methods(), "csaa:n=4,slots=8"), Error);
 }
 
+/// A fan of `parts` triangles around (0.3, 0.2) whose colour is a linear function of the place.
+Scene slope_of(int parts) {
+  Scene scene;
+  Material material;
+  material.model = ShadingModel::Unlit;
+  material.double_sided = true;
+  scene.materials.push_back(material);
+  Mesh mesh;
+  const auto add = [&](float x, float y) {
+    mesh.position.push_back({x, y, 0});
+    mesh.color.push_back({0.5f + x / 20, 0.5f + y / 20, 0.5f, 1});
+  };
+  add(0.3f, 0.2f);
+  for (int i = 0; i < parts; ++i) {  // around the square from -9 to 9
+    const float at = 4 * static_cast<float>(i) / static_cast<float>(parts), side = 18 * (at - std::floor(at)) - 9;
+    const int of = static_cast<int>(at);
+    add(of == 0 ? side : of == 1 ? 9 : of == 2 ? -side : -9, of == 0 ? -9 : of == 1 ? side : of == 2 ? 9 : -side);
+    const auto n = static_cast<std::uint32_t>(i);
+    mesh.index.insert(mesh.index.end(), {0, 1 + n, 1 + (n + 1) % static_cast<std::uint32_t>(parts)});
+  }
+  mesh.normal.assign(mesh.position.size(), {0, 0, 1});
+  scene.objects.emplace_back("slope");
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back({});
+  Camera camera;
+  camera.world_from_camera.column[3] = {0, 0, 5, 1};
+  camera.is_orthographic = true;
+  scene.cameras.push_back(camera);
+  return scene;
+}
+
+TEST(Msaa, APlaneLooksTheSameHoweverManyTrianglesItIsMadeOf) {
+  // Where a pixel is shared, places rounded to 1/256 pixel are all that differs: two pixels of the picture are 1e-3.
+  for (const char* n : {"4", "8"}) {
+    const std::string mean = std::string("msaa:n=") + n, first = mean + ",centroid=first";
+    EXPECT_LT(greatest_difference(shot(slope_of(4), mean).light, shot(slope_of(40), mean).light), 5e-6) << n;
+    EXPECT_GT(greatest_difference(shot(slope_of(4), first).light, shot(slope_of(40), first).light), 5e-5) << n;
+  }
+  // At the pixel's centre nothing can be seen of a plane's triangles either, but their own sides do not count.
+  const std::string centre = "msaa:n=4,centroid=centre";
+  EXPECT_LT(greatest_difference(shot(slope_of(4), centre).light, shot(slope_of(8), centre).light), 5e-4);
+}
+
 TEST(SharedSamples, SmoothEdgesAndKeepFlatColours) {
   const LinearImage none = shot("cyclic", "none").light, truth = shot("cyclic", "ssaa:n=16").light;
   for (const char* method : {"quincunx", "flipquad"}) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "zoneplate/antialias/edge_rows.h"
+#include "zoneplate/antialias/weight_rows.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
@@ -22,19 +24,25 @@ struct SmaaOptions {
   Isa isa = best_isa();
 };
 
-/// What a pixel takes from across its borders, in 1/255.
-struct SmaaWeights {
-  std::uint8_t from_above = 0;  ///< this pixel, from the one above
-  std::uint8_t to_above = 0;    ///< the pixel above, from this one
-  std::uint8_t from_left = 0, to_left = 0;
-};
-using WeightPlane = Bordered<SmaaWeights>;
-
 /// The first pass, on codes or (Edges::Depth) on depth in [0, 1].
 EdgePlane smaa_edges(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options);
 
-/// The second pass.
-WeightPlane smaa_weights(const EdgePlane& edges, const SmaaOptions& options);
+struct SmaaTables;
+
+/// The second pass, row by row. What it is made of outlives it.
+class SmaaWeigher {
+ public:
+  SmaaWeigher(const EdgePlane& edges, const SmaaOptions& options);
+  ~SmaaWeigher();
+
+  /// Puts the weights of row y into a cleared row.
+  void weigh(int y, WeightRow& out) const;
+
+ private:
+  const EdgePlane& edges_;
+  const SmaaOptions& options_;
+  std::unique_ptr<const SmaaTables> tables_;
+};
 
 /// SMAA 1x; `memory` may be any picture, whose storage is reused where its size fits.
 ///

@@ -37,14 +37,16 @@ struct Root {
   float share = 0;
 };
 
+}  // namespace
+
 /// What all pixels share.
-struct Tables {
+struct SmaaTables {
   const AreaSlot* slots[4];
   SearchLengths lengths;
   std::array<Root, 256> roots;
   float corner_strength;  ///< how much of an area a corner takes
 
-  explicit Tables(const SmaaOptions& o) {
+  explicit SmaaTables(const SmaaOptions& o) {
     const AreaRounding rounding = o.is_postprocessing ? AreaRounding::Nearest : AreaRounding::Down;
     for (std::size_t i = 0; i < 4; ++i) slots[i] = &area_slot(o.slots[i], rounding);
     for (std::size_t d = 0; d < roots.size(); ++d) {
@@ -54,6 +56,8 @@ struct Tables {
     corner_strength = 1 - static_cast<float>(o.corner_rounding) / 100;
   }
 };
+
+namespace {
 
 /// Two areas in [0, 1]: this pixel's share of the one across its border, and the other's share of this one.
 struct Areas {
@@ -66,12 +70,15 @@ class Line {
   Line(const std::uint8_t* pixel, std::ptrdiff_t along, std::ptrdiff_t across, std::uint8_t own, std::uint8_t cross)
       : pixel_(pixel), along_(along), across_(across), own_(own), cross_(cross) {}
 
-  Areas areas(const Tables& tables, const AreaSlot& slot, const SmaaOptions& options) const {
+  Areas areas(const SmaaTables& tables, const AreaSlot& slot, const SmaaOptions& options) const {
     const int before = start(tables, options.steps), after = end(tables, options.steps);
     const Root l = tables.roots[static_cast<std::size_t>(std::abs(before))];
     const Root r = tables.roots[static_cast<std::size_t>(std::abs(after))];
     const int left_code = 3 * crosses(before, 0) + crosses(before, -1);
     const int right_code = 3 * crosses(after + 1, 0) + crosses(after + 1, -1);
+    // Where nothing crosses there is no area, but for what the fetch at the longest distances takes of the next
+    // pattern.
+    if (left_code + right_code == 0 && std::max(l.cell, r.cell) < 15) return {};
     Areas areas = fetch(slot, 16 * left_code + l.cell, l.share, 16 * right_code + r.cell, r.share);
     if (options.corner_rounding < 100) round_corners(before, after, tables.corner_strength, options, areas);
     return areas;
@@ -103,14 +110,14 @@ class Line {
   }
 
   /// The first and the last pixel of the line, as distances; looked for two pixels at a time.
-  int start(const Tables& tables, int steps) const {
+  int start(const SmaaTables& tables, int steps) const {
     int k = 0;
     Four found;
     do found = four(-2 * k, -2 * k - 1);
     while (++k < steps && goes_on(found));
     return 3 - 2 * k - tables.lengths.before[bits_of(found)];
   }
-  int end(const Tables& tables, int steps) const {
+  int end(const SmaaTables& tables, int steps) const {
     int k = 0;
     Four found;
     do found = four(2 * k + 1, 2 * k + 2);
@@ -121,8 +128,7 @@ class Line {
   static Areas fetch(const AreaSlot& slot, int x, float u, int y, float v) {
     const int right = std::min(x + 1, AreaSlot::size - 1), lower = std::min(y + 1, AreaSlot::size - 1);
     const auto at = [&](int column, int row, int c) {
-      return static_cast<float>(slot.orthogonal[static_cast<std::size_t>(2 * (row * AreaSlot::size + column) + c)]) /
-             255;
+      return code_share[slot.orthogonal[static_cast<std::size_t>(2 * (row * AreaSlot::size + column) + c)]];
     };
     const auto mixed = [&](int c) {
       const float above = at(x, y, c) + (at(right, y, c) - at(x, y, c)) * u;
@@ -158,7 +164,7 @@ class Diagonals {
   Diagonals(const std::uint8_t* pixel, std::ptrdiff_t stride, int steps)
       : pixel_(pixel), stride_(stride), steps_(steps) {}
 
-  Areas areas(const Tables& tables) const {
+  Areas areas(const SmaaTables& tables) const {
     const Areas rising = rising_areas(*tables.slots[2]), falling = falling_areas(*tables.slots[3]);
     return {rising.from + falling.from, rising.to + falling.to};
   }
@@ -186,7 +192,7 @@ class Diagonals {
   static Areas fetch(const AreaSlot& slot, const Found& a, const Found& b, int code_a, int code_b) {
     const int x = 20 * (a.goes_on ? 0 : code_a) + a.distance, y = 20 * (b.goes_on ? 0 : code_b) + b.distance;
     const std::size_t at = static_cast<std::size_t>(2 * (y * AreaSlot::size + x));
-    return {static_cast<float>(slot.diagonal[at]) / 255, static_cast<float>(slot.diagonal[at + 1]) / 255};
+    return {code_share[slot.diagonal[at]], code_share[slot.diagonal[at + 1]]};
   }
 
   Areas rising_areas(const AreaSlot& slot) const {
@@ -221,9 +227,9 @@ class Diagonals {
 
 std::uint8_t weight_of(float area) { return rounded_code(std::min(area, 1.0f) * 255); }
 
-SmaaWeights weights_of(const std::uint8_t* pixel, std::ptrdiff_t stride, const Tables& tables,
+EdgeWeights weights_of(const std::uint8_t* pixel, std::ptrdiff_t stride, const SmaaTables& tables,
                        const SmaaOptions& options) {
-  SmaaWeights w;
+  EdgeWeights w;
   if (*pixel & top_edge) {
     Areas areas;
     if (options.diagonal_steps > 0) areas = Diagonals(pixel, stride, options.diagonal_steps).areas(tables);
@@ -241,23 +247,18 @@ SmaaWeights weights_of(const std::uint8_t* pixel, std::ptrdiff_t stride, const T
 
 }  // namespace
 
-WeightPlane smaa_weights(const EdgePlane& edges, const SmaaOptions& options) {
-  const Tables tables(options);
-  WeightPlane weights(edges.width(), edges.height(), 1);
-  for_rows(edges.height(), [&](int y) {
-    SmaaWeights* row = weights.at(0, y);
-    std::fill_n(row, edges.width(), SmaaWeights{});
-    constexpr int together = 8;
-    for (int block = 0; block < edges.width(); block += together) {
-      std::uint64_t any = 0;
-      std::memcpy(&any, edges.at(block, y), sizeof any);
-      if (any == 0) continue;
-      for (int x = block; x < std::min(block + together, edges.width()); ++x)
-        if (*edges.at(x, y) != 0) row[x] = weights_of(edges.at(x, y), edges.stride(), tables, options);
-    }
-  });
-  weights.extend();
-  return weights;
+SmaaWeigher::SmaaWeigher(const EdgePlane& edges, const SmaaOptions& options)
+    : edges_(edges), options_(options), tables_(std::make_unique<SmaaTables>(options)) {}
+SmaaWeigher::~SmaaWeigher() = default;
+
+void SmaaWeigher::weigh(int y, WeightRow& out) const {
+  for (int block = 0; block < edges_.width(); block += 8) {
+    std::uint64_t any = 0;
+    std::memcpy(&any, edges_.at(block, y), sizeof any);
+    if (any == 0) continue;
+    for (int x = block; x < std::min(block + 8, edges_.width()); ++x)
+      if (*edges_.at(x, y) != 0) out.put(x, weights_of(edges_.at(x, y), edges_.stride(), *tables_, options_));
+  }
 }
 
 int smaa_reach(const SmaaOptions& options) {

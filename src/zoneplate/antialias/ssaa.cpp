@@ -51,7 +51,7 @@ class Ssaa : public Resolver {
   }
   Request next_round() const {
     Request request{.samples = round(), .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}};
-    request.planes.samples = true;
+    request.planes.sample_colors = true;
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
     request.halo = gathering_.reach();
     request.works_on_shown = gathering_.weight == SampleWeight::Display;

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/lost_bytes.h"
 
 namespace zoneplate {
 namespace {
@@ -111,6 +112,7 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
     if (place != MAP_FAILED) {
       bytes_ = {static_cast<const std::uint8_t*>(place), size};
       mapped_ = true;
+      enter_mapping(place, size);
       return;
     }
   }
@@ -119,6 +121,7 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
 
 FileBytes::~FileBytes() {
   if (mapped_) {
+    leave_mapping(bytes_.data());
     ::munmap(const_cast<std::uint8_t*>(bytes_.data()), bytes_.size());
   } else {
     delete[] bytes_.data();

@@ -9,7 +9,8 @@ namespace zoneplate {
 
 /// The bytes of a whole file, mapped read-only (or read, where it cannot be mapped, as a pipe or "-" for stdin).
 ///
-/// Errors    Trouble::Input naming the file and the cause: missing, a directory, not readable, larger than `limit`.
+/// Errors    Trouble::Input naming the file and the cause: missing, a directory, not readable, larger than `limit`. Of
+/// one that is cut off while it is mapped: base/lost_bytes.h.
 class FileBytes {
  public:
   explicit FileBytes(const std::string& path, std::uint64_t limit = ~std::uint64_t{0});

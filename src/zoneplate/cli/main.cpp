@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/base/isa.h"
+#include "zoneplate/base/lost_bytes.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/render/method.h"
@@ -139,6 +140,7 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, cli::leave);
   std::signal(SIGPIPE, SIG_IGN);  // a closed stdout is an error of write(), and so exit code 4
   std::signal(SIGXFSZ, SIG_IGN);  // likewise a file that may not grow
+  outlive_lost_bytes();
   try {
     cli::run(std::vector<std::string>(argv + 1, argv + argc));
     return 0;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
@@ -16,6 +17,8 @@
 #include "zoneplate/cli/frame_name.h"
 #include "zoneplate/cli/stage.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/shade/material_plan.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -59,6 +62,16 @@ class Plan {
     SceneChoice choice = choice_;
     choice.time = time_of(frame);
     return memory = source_.load_shape(choice);
+  }
+
+  // What the frames have in common is made once. `scene`: lit, a stage's.
+  void share(const Scene& scene, RenderOptions& options) {
+    if (!textures_) textures_.emplace(scene, options.raw_colors);
+    options.textures = &*textures_;
+    options.memory = &memory_;
+    if (is_animated()) return;
+    if (!records_) records_.emplace(scene);
+    options.records = &*records_;
   }
 
   // The camera that every frame is seen by, before the turntable turns it.
@@ -128,6 +141,9 @@ class Plan {
   SceneChoice choice_;
   double end_ = 0;  // of the animation, in seconds
   std::unique_ptr<Stage> stage_;
+  std::optional<TextureSet> textures_;
+  std::optional<VertexRecords> records_;
+  RasterMemory memory_;
   std::vector<int> frames_;
   float3 centre_;
 };
@@ -173,6 +189,7 @@ Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int fra
     Stage& stage = plan.stage(at);
     camera = plan.camera(still, stage.scene(), args.view, aspect, at);
     args.options.environment = stage.light(camera, args.look);
+    plan.share(stage.scene(), args.options);
     return stage.scene();
   };
   if (samples > 1) return render_mean(args, samples, scene_at, camera, resolver, summary);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "zoneplate/base/file.h"
+#include "zoneplate/base/lost_bytes.h"
 #include "zoneplate/image/exr.h"
 #include "zoneplate/image/hdr.h"
 #include "zoneplate/image/png.h"
@@ -51,10 +52,7 @@ LinearImage as_codes(LinearImage image) {
   return image;
 }
 
-}  // namespace
-
-LinearImage load_signal(const std::string& operand, bool uses_codes) {
-  if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
+LinearImage load_file(const std::string& operand, bool uses_codes) {
   const FileBytes file(operand);
   if (is_hdr(file.bytes()) || is_exr(file.bytes())) {
     LinearImage light = is_hdr(file.bytes()) ? decode_hdr(file.bytes(), operand, most_pixels)
@@ -65,6 +63,16 @@ LinearImage load_signal(const std::string& operand, bool uses_codes) {
   if (!is_png) return image_of(decode_image(file.bytes(), operand, most_pixels), uses_codes);
   const PngImage png = decode_png(file.bytes(), operand, most_pixels);
   return png.pixels16.empty() ? image_of(png.pixels, uses_codes) : image_of(png.pixels16, uses_codes);
+}
+
+}  // namespace
+
+LinearImage load_signal(const std::string& operand, bool uses_codes) {
+  if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
+  const LostBytesWatch watch;
+  LinearImage image = load_file(operand, uses_codes);
+  watch.check(operand);
+  return image;
 }
 
 }  // namespace zoneplate::cli

@@ -136,6 +136,13 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
   return display;
 }
 
+void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light) {
+  DisplayStep step = make_step(options);
+  step.is_encoded = false;
+  for (int c = 0; c < 3; ++c) step.code[c] = options.raw ? step.code[c] : decode_srgb(step.code[c]);
+  best_kernels().display_row(step, &pixels.data()->r, light, pixels.size());
+}
+
 Presenter::Presenter(const DisplayOptions& options) : step_(make_step(options)) {
   Rgba8 shown[Linear8::size];
   const Linear8 nothing{};

@@ -29,6 +29,9 @@ struct DisplayOptions {
 ///           background's own code is shown, where the picture is opaque nothing of it.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
 
+/// make_display of some pixels without the encoding: straight linear light in [0, 1], four floats a pixel.
+void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light);
+
 /// quantize8 of make_display, a few pixels at a time: for those that are shown while they are in cache.
 class Presenter {
  public:

@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/base/lost_bytes.h"
 #include "zoneplate/image/exr.h"
 #include "zoneplate/image/hdr.h"
 #include "zoneplate/image/jpeg.h"
@@ -139,10 +140,13 @@ const std::string* find_alone(const std::vector<std::string>& paths, const std::
 }  // namespace
 
 Picture load_picture(const std::string& path) {
+  const LostBytesWatch watch;
   const FileBytes file(path);
-  if (is_hdr(file.bytes())) return make_picture(decode_hdr(file.bytes(), path));
-  if (is_exr(file.bytes())) return make_picture(decode_exr(file.bytes(), path));
-  return make_picture(decode_display(file.bytes(), path));
+  Picture picture = is_hdr(file.bytes())   ? make_picture(decode_hdr(file.bytes(), path))
+                    : is_exr(file.bytes()) ? make_picture(decode_exr(file.bytes(), path))
+                                           : make_picture(decode_display(file.bytes(), path));
+  watch.check(path);
+  return picture;
 }
 
 std::vector<std::string> list_pictures(const std::string& operand) {

@@ -7,12 +7,19 @@
 namespace zoneplate::scalar {
 namespace {
 
+SamplePosition place_of(const OwnerRow& row, std::uint32_t samples) {
+  if (samples == (1u << row.sample_count) - 1 && !row.is_per_sample) return {};
+  std::int32_t sum = row.first_place[std::countr_zero(samples)];
+  for (std::uint32_t left = samples & (samples - 1); left; left &= left - 1)
+    sum += row.more_places[std::countr_zero(left)];
+  return mean_place(sum);
+}
+
 void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t samples, PointList& out) {
-  const bool is_centre = samples == (1u << row.sample_count) - 1 && !row.is_per_sample;
-  const int first = std::countr_zero(samples);
+  const SamplePosition place = place_of(row, samples);
   const int i = out.count++;
-  out.x[i] = row.x + lane * 256 + (is_centre ? 128 : row.sample_x[first]);
-  out.y[i] = row.y + (is_centre ? 128 : row.sample_y[first]);
+  out.x[i] = row.x + lane * 256 + place.x;
+  out.y[i] = row.y + place.y;
   out.id[i] = id;
   out.at[i] = row.pixel + static_cast<std::uint32_t>(lane) + (samples << 12);
 }

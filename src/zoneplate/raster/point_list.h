@@ -5,6 +5,7 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/pixel.h"
 #include "zoneplate/raster/batch.h"
+#include "zoneplate/raster/centroid.h"
 
 namespace zoneplate {
 
@@ -29,16 +30,16 @@ struct PointList {
 struct OwnerRow {
   const std::int32_t* id;  ///< of the first pixel's sample 0; the other samples' planes follow tile_pixels on
   int sample_count;        ///< at most PointList::most_samples
-  const std::int32_t *sample_x, *sample_y;
-  std::uint32_t pixel;   ///< the first, within the tile
-  std::int32_t x, y;     ///< its top-left corner, 1/256 pixel
-  std::uint32_t wanted;  ///< a bit for each pixel that is drawn
-  bool is_per_sample;    ///< every sample is a point of its own, in the order of the samples
+  const std::int32_t *first_place, *more_places;  ///< of the samples, as in ShadedPlaces
+  std::uint32_t pixel;                            ///< the first, within the tile
+  std::int32_t x, y;                              ///< its top-left corner, 1/256 pixel
+  std::uint32_t wanted;                           ///< a bit for each pixel that is drawn
+  bool is_per_sample;                             ///< every sample is a point of its own, in the order of the samples
 };
 
 struct PointListKernels {
   /// Adds one point for each triangle that owns samples of a pixel: at the pixel's centre if it owns all of them, else
-  /// at the first. Requires  room for row_room.
+  /// where their ShadedPlaces say. Requires  room for row_room.
   void (*list)(const OwnerRow& row, PointList& out);
   /// sum of the pixel of at[i] += color[i] × weight[i], one after the other; four floats a pixel.
   void (*add)(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum);

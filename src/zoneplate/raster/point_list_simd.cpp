@@ -10,12 +10,26 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
 using I = hn::CappedTag<std::int32_t, 8>;
+using F = hn::CappedTag<float, 8>;
 using VI = hn::Vec<I>;
 using MI = hn::Mask<I>;
+using VF = hn::Vec<F>;
 constexpr I i32;
+constexpr F f32;
 constexpr int lanes = static_cast<int>(hn::MaxLanes(I()));
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
+
+/// The samples of a pixel that one triangle owns, a bit each, and the sum of their places.
+struct Owned {
+  VI samples, places;
+};
+
+/// floor((x + n / 2) / n) of whole numbers, n <= 16, where `half` is n / 2 + 1/64 and `inverse` 1 / n: what is added
+/// keeps the product's rounding from going below a whole number, and is too little to reach the next.
+HWY_INLINE VI mean(VI x, VF half, VF inverse) {
+  return hn::ConvertTo(i32, hn::Mul(hn::Add(hn::ConvertTo(f32, x), half), inverse));
+}
 
 /// A vector's width of pixels.
 class Pixels {
@@ -31,13 +45,19 @@ class Pixels {
   HWY_INLINE VI owner(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
   HWY_INLINE MI is_there(VI owner) const { return hn::AndNot(hn::Eq(owner, set(no_triangle)), wanted_); }
 
-  /// Adds those whose first sample is s.
-  HWY_INLINE void put(MI mask, int s, VI owner, VI samples, PointList& out) const {
-    const VI all = set((1 << row_.sample_count) - 1);
-    const MI is_centre = row_.is_per_sample ? hn::Ne(all, all) : hn::Eq(samples, all);
-    const VI x = hn::Add(x_, hn::IfThenElse(is_centre, set(128), set(row_.sample_x[s])));
-    const VI y = hn::Add(set(row_.y), hn::IfThenElse(is_centre, set(128), set(row_.sample_y[s])));
-    const VI at = hn::Add(at_, hn::ShiftLeft<12>(samples));
+  /// Adds those of the mask.
+  HWY_INLINE void put(MI mask, VI owner, const Owned& owned, PointList& out) const {
+    VI x = set(128), y = set(128);
+    if (row_.sample_count > 1 || row_.is_per_sample) {
+      const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
+      const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
+      const VI all = set((1 << row_.sample_count) - 1), low = set(4095);
+      const MI is_centre = row_.is_per_sample ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
+      x = hn::IfThenElse(is_centre, x, mean(hn::And(owned.places, low), half, inverse));
+      y = hn::IfThenElse(is_centre, y, mean(hn::And(hn::ShiftRight<12>(owned.places), low), half, inverse));
+    }
+    x = hn::Add(x_, x), y = hn::Add(set(row_.y), y);
+    const VI at = hn::Add(at_, hn::ShiftLeft<12>(owned.samples));
     std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + out.count;
     if (hn::AllTrue(i32, mask)) {
       hn::StoreU(x, i32, out.x + out.count), hn::StoreU(y, i32, out.y + out.count);
@@ -65,16 +85,19 @@ class Pixels {
 HWY_INLINE void list_first_at(const Pixels& pixels, const OwnerRow& row, int s, PointList& out) {
   const VI owner = pixels.owner(s);
   MI mask = pixels.is_there(owner);
+  Owned owned{set(1 << s), set(row.first_place[s])};
   if (row.is_per_sample) {
-    if (!hn::AllFalse(i32, mask)) pixels.put(mask, s, owner, set(1 << s), out);
+    if (!hn::AllFalse(i32, mask)) pixels.put(mask, owner, owned, out);
     return;
   }
   for (int t = 0; t < s; ++t) mask = hn::AndNot(hn::Eq(owner, pixels.owner(t)), mask);
   if (hn::AllFalse(i32, mask)) return;
-  VI samples = set(1 << s);
-  for (int t = s + 1; t < row.sample_count; ++t)
-    samples = hn::Or(samples, hn::IfThenElseZero(hn::Eq(owner, pixels.owner(t)), set(1 << t)));
-  pixels.put(mask, s, owner, samples, out);
+  for (int t = s + 1; t < row.sample_count; ++t) {
+    const MI is_own = hn::Eq(owner, pixels.owner(t));
+    owned.samples = hn::Or(owned.samples, hn::IfThenElseZero(is_own, set(1 << t)));
+    owned.places = hn::Add(owned.places, hn::IfThenElseZero(is_own, set(row.more_places[t])));
+  }
+  pixels.put(mask, owner, owned, out);
 }
 
 // Vectors of fewer than eight lanes keep the order of eight: by first samples, and of those by pixels.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <tuple>
@@ -18,10 +19,13 @@ namespace {
 /// Owners of eight pixels that share few triangles, some of them nothing's.
 struct Owners {
   std::vector<std::int32_t> id;
-  std::vector<std::int32_t> x, y;
+  ShadedPlaces places;
   OwnerRow row;
-  Owners(std::uint32_t seed, int samples) : id(static_cast<std::size_t>(samples) * tile_pixels) {
-    for (const SamplePosition s : standard_pattern(samples)) x.push_back(s.x), y.push_back(s.y);
+  Owners(std::uint32_t seed, int samples)
+      : id(static_cast<std::size_t>(samples) * tile_pixels),
+        places(
+            standard_pattern(samples),
+            seed % 5 == 0 ? Centroid::First : std::array{Centroid::Mean, Centroid::First, Centroid::Centre}[seed % 3]) {
     const std::uint32_t kinds = 1 + hash(seed, 1) % 6;
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(samples); ++s)
       for (std::uint32_t i = 0; i < 8; ++i) {
@@ -31,8 +35,8 @@ struct Owners {
       }
     row = {.id = id.data(),
            .sample_count = samples,
-           .sample_x = x.data(),
-           .sample_y = y.data(),
+           .first_place = places.first.data(),
+           .more_places = places.more.data(),
            .pixel = 8 * (hash(seed, 2) % 512),
            .x = 4096,
            .y = 8192,
@@ -78,8 +82,9 @@ TEST(PointList, EverySampleThatIsOwnedColoursFromOnePoint) {
         EXPECT_GT(place, last[lane]) << "in the order of samples, or of their triangles' first samples";
         last[lane] = place;
         const bool is_centre = !row.is_per_sample && own == (1u << samples) - 1;
-        EXPECT_EQ(x, row.x + static_cast<std::int32_t>(lane) * 256 + (is_centre ? 128 : row.sample_x[first]));
-        EXPECT_EQ(y, row.y + (is_centre ? 128 : row.sample_y[first]));
+        const SamplePosition expected = is_centre ? SamplePosition{} : owners.places.of(own, 0);
+        EXPECT_EQ(x, row.x + static_cast<std::int32_t>(lane) * 256 + expected.x);
+        EXPECT_EQ(y, row.y + expected.y);
         EXPECT_TRUE(!row.is_per_sample || std::has_single_bit(own));
       }
       for (std::size_t lane = 0; lane < 8; ++lane)

@@ -1,6 +1,29 @@
 #include "zoneplate/raster/resolve.h"
 
-namespace zoneplate::scalar {
+#include <algorithm>
+
+namespace zoneplate {
+
+void Layers::put_under(const Linear& layer) {
+  if (!(transmittance > 0)) return;
+  r = r + layer.r * transmittance, g = g + layer.g * transmittance, b = b + layer.b * transmittance;
+  transmittance = transmittance * (1 - layer.a);
+  if (!(transmittance >= least)) transmittance = 0;
+}
+
+Linear Layers::over(const Linear& behind) const {
+  if (!(transmittance > 0)) return {r, g, b, 1};
+  return {r + behind.r * transmittance, g + behind.g * transmittance, b + behind.b * transmittance,
+          1 - (1 - behind.a) * transmittance};
+}
+
+void Layers8::clear() {
+  for (float* const channel : {r, g, b}) std::fill_n(channel, 8, 0.0f);
+  std::fill_n(transmittance, 8, 1.0f);
+  is_open = true;
+}
+
+namespace scalar {
 namespace {
 
 constexpr auto size = Linear8::size;
@@ -15,15 +38,26 @@ void resolve(const Shaded& color, int first, float weight, Linear8& out) {
   for (std::size_t i = 0; i < size; ++i) out.set(i, divided(Linear{0, 0, 0, 0} + at(color, first, i) * weight, weight));
 }
 
-void over(const Shaded& color, int first, Linear8& behind) {
+Layers get(const Layers8& layers, std::size_t i) {
+  return {layers.r[i], layers.g[i], layers.b[i], layers.transmittance[i]};
+}
+
+void put_under(const Shaded& color, int first, Layers8& layers) {
+  layers.is_open = false;
   for (std::size_t i = 0; i < size; ++i) {
-    const Linear front = at(color, first, i);
-    behind.set(i, front + behind.get(i) * (1 - front.a));
+    Layers l = get(layers, i);
+    l.put_under(at(color, first, i));
+    layers.r[i] = l.r, layers.g[i] = l.g, layers.b[i] = l.b, layers.transmittance[i] = l.transmittance;
+    layers.is_open = layers.is_open || l.transmittance > 0;
   }
 }
 
-void over_rows(const Shaded& color, int rows, Linear8* const* behind) {
-  for (int row = 0; row < rows; ++row) over(color, row * Batch::group, *behind[row]);
+void put_rows_under(const Shaded& color, int rows, Layers8* const* layers) {
+  for (int row = 0; row < rows; ++row) put_under(color, row * Batch::group, *layers[row]);
+}
+
+void over(const Layers8& layers, Linear8& behind) {
+  for (std::size_t i = 0; i < size; ++i) behind.set(i, get(layers, i).over(behind.get(i)));
 }
 
 void resolve_samples(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out) {
@@ -49,11 +83,13 @@ void put(const Linear8& color, Linear* out) {
 }  // namespace
 
 const ResolveKernels resolve_kernels = {.resolve = resolve,
+                                        .put_under = put_under,
+                                        .put_rows_under = put_rows_under,
                                         .over = over,
-                                        .over_rows = over_rows,
                                         .resolve_samples = resolve_samples,
                                         .add = add,
                                         .divide = divide,
                                         .put = put};
 
-}  // namespace zoneplate::scalar
+}  // namespace scalar
+}  // namespace zoneplate

@@ -6,16 +6,44 @@
 
 namespace zoneplate {
 
+/// Layers of a pixel put under one another, the nearest first: what they show, and how much of what is behind them is
+/// seen through them.
+///
+/// Exact     in float, as written. What less than `least` of is seen, a part that a float cannot hold beside a whole,
+///           is not there: further layers need not be shaded.
+/// Source    Porter and Duff, Compositing Digital Images, 1984: over, from the front.
+struct Layers {
+  static constexpr float least = 0x1p-24f;
+
+  float r = 0, g = 0, b = 0;
+  float transmittance = 1;
+
+  /// colour += layer × transmittance; transmittance ×= 1 - alpha.
+  void put_under(const Linear& layer);
+  /// The layers over what is behind all of them. The whole is opaque if that is.
+  Linear over(const Linear& behind) const;
+};
+
+/// The same for eight pixels of a row.
+struct alignas(64) Layers8 {
+  float r[8], g[8], b[8], transmittance[8];
+  bool is_open;  ///< something is seen through at least one of the pixels
+
+  void clear();
+};
+
 /// Sums and means of samples, for eight pixels of a row whose points stand side by side in `color` from `first` on.
 ///
 /// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
 struct ResolveKernels {
   /// out = (0 + color × weight) / weight: one surface owns all samples.
   void (*resolve)(const Shaded& color, int first, float weight, Linear8& out);
-  /// behind = color + behind × (1 - alpha of color).
-  void (*over)(const Shaded& color, int first, Linear8& behind);
+  /// Layers::put_under for eight points.
+  void (*put_under)(const Shaded& color, int first, Layers8& layers);
   /// The same for rows whose points follow each other from the first on.
-  void (*over_rows)(const Shaded& color, int rows, Linear8* const* behind);
+  void (*put_rows_under)(const Shaded& color, int rows, Layers8* const* layers);
+  /// Layers::over.
+  void (*over)(const Layers8& layers, Linear8& behind);
   /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum.
   void (*resolve_samples)(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out);
   /// sum += color × weight.

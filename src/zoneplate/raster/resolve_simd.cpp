@@ -56,18 +56,45 @@ void resolve(const Shaded& color, int first, float weight, Linear8& out) {
   });
 }
 
-HWY_INLINE void lay_over(const Shaded& color, int first, Linear8& behind) {
-  const float* const alpha = color.a + first;
-  each_channel(color, first, behind, [&](V c, float* to, std::size_t i) HWY_ATTR {
-    const V rest = hn::Sub(hn::Set(d, 1.0f), hn::Load(d, alpha + i));
-    hn::Store(hn::Add(c, hn::Mul(hn::Load(d, to), rest)), d, to);
-  });
+HWY_INLINE void put_row_under(const Shaded& color, int first, Layers8& layers) {
+  const V least = hn::Set(d, Layers::least), one = hn::Set(d, 1.0f);
+  V most = hn::Zero(d);
+  for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
+    const std::size_t p = static_cast<std::size_t>(first) + i;
+    const V t = hn::Load(d, layers.transmittance + i);
+    const auto is_open = hn::Gt(t, hn::Zero(d));
+    const auto add = [&](const float* from, float* to) HWY_ATTR {
+      const V sum = hn::Load(d, to + i);
+      hn::Store(hn::IfThenElse(is_open, hn::Add(sum, hn::Mul(hn::Load(d, from + p), t)), sum), d, to + i);
+    };
+    add(color.r, layers.r), add(color.g, layers.g), add(color.b, layers.b);
+    const V rest = hn::Mul(t, hn::Sub(one, hn::Load(d, color.a + p)));
+    const V seen = hn::IfThenElseZero(hn::And(is_open, hn::Ge(rest, least)), rest);
+    hn::Store(seen, d, layers.transmittance + i);
+    most = hn::Max(most, seen);
+  }
+  layers.is_open = !hn::AllTrue(d, hn::Eq(most, hn::Zero(d)));
 }
 
-void over(const Shaded& color, int first, Linear8& behind) { lay_over(color, first, behind); }
+void put_under(const Shaded& color, int first, Layers8& layers) { put_row_under(color, first, layers); }
 
-void over_rows(const Shaded& color, int rows, Linear8* const* behind) {
-  for (int row = 0; row < rows; ++row) lay_over(color, row * Batch::group, *behind[row]);
+void put_rows_under(const Shaded& color, int rows, Layers8* const* layers) {
+  for (int row = 0; row < rows; ++row) put_row_under(color, row * Batch::group, *layers[row]);
+}
+
+void over(const Layers8& layers, Linear8& behind) {
+  const V one = hn::Set(d, 1.0f);
+  for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
+    const V t = hn::Load(d, layers.transmittance + i);
+    const auto is_open = hn::Gt(t, hn::Zero(d));
+    const auto add = [&](const float* from, float* to) HWY_ATTR {
+      const V front = hn::Load(d, from + i);
+      hn::Store(hn::IfThenElse(is_open, hn::Add(front, hn::Mul(hn::Load(d, to + i), t)), front), d, to + i);
+    };
+    add(layers.r, behind.r), add(layers.g, behind.g), add(layers.b, behind.b);
+    const V missing = hn::Mul(hn::Sub(one, hn::Load(d, behind.a + i)), t);
+    hn::Store(hn::IfThenElse(is_open, hn::Sub(one, missing), one), d, behind.a + i);
+  }
 }
 
 void resolve_samples(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out) {
@@ -113,8 +140,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
 const ResolveKernels ResolveKernels::HWY_NAMESPACE = {.resolve = HWY_NAMESPACE::resolve,
+                                                      .put_under = HWY_NAMESPACE::put_under,
+                                                      .put_rows_under = HWY_NAMESPACE::put_rows_under,
                                                       .over = HWY_NAMESPACE::over,
-                                                      .over_rows = HWY_NAMESPACE::over_rows,
                                                       .resolve_samples = HWY_NAMESPACE::resolve_samples,
                                                       .add = HWY_NAMESPACE::add,
                                                       .divide = HWY_NAMESPACE::divide,

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <vector>
+
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {
@@ -30,14 +36,35 @@ TEST(Resolve, KernelsGiveTheScalarTwinsBits) {
     EXPECT_EQ(a, b) << name_of(isa);
     one.resolve_samples(points, weights, 3, 0.9f, a), other.resolve_samples(points, weights, 3, 0.9f, b);
     EXPECT_EQ(a, b) << name_of(isa);
-    one.over(color, 40, a), other.over(color, 40, b);
+    const auto make = [](std::uint32_t seed) {
+      Layers8 l;
+      l.clear();
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        l.r[i] = number(seed + i), l.g[i] = number(seed + i + 10), l.b[i] = number(seed + i + 20);
+        l.transmittance[i] = i == 2 ? 0 : i == 3 ? Layers::least : unit_float(hash(seed + i, 4));
+      }
+      return l;
+    };
+    const auto expect_same = [&](const Layers8& l, const Layers8& m) {
+      EXPECT_EQ(std::memcmp(&l, &m, offsetof(Layers8, is_open)), 0) << name_of(isa);
+      EXPECT_EQ(l.is_open, m.is_open) << name_of(isa);
+    };
+    Layers8 l = make(3000), m = make(3000);
+    one.over(l, a), other.over(m, b);
     EXPECT_EQ(a, b) << name_of(isa);
-    Linear8 rows[3] = {a, points, a}, layered[3] = {a, points, a};
-    Linear8* const each[] = {&rows[2], &rows[0], &rows[1]};
-    Linear8* const expected[] = {&layered[2], &layered[0], &layered[1]};
-    other.over_rows(color, 3, each);
-    for (int i = 0; i < 3; ++i) one.over(color, i * Batch::group, *expected[i]);
-    EXPECT_TRUE(std::equal(rows, rows + 3, layered)) << name_of(isa);
+    one.put_under(color, 40, l), other.put_under(color, 40, m);
+    expect_same(l, m);
+    std::fill_n(l.transmittance, 8, Layers::least), std::fill_n(m.transmittance, 8, Layers::least);
+    for (int p = 0; p < 8; ++p) color.a[40 + p] = 0.5f;
+    one.put_under(color, 40, l), other.put_under(color, 40, m);
+    expect_same(l, m);
+    EXPECT_FALSE(m.is_open);
+    Layers8 rows[3] = {make(1), make(2), make(3)}, layered[3] = {make(1), make(2), make(3)};
+    Layers8* const each[] = {&rows[2], &rows[0], &rows[1]};
+    Layers8* const expected[] = {&layered[2], &layered[0], &layered[1]};
+    other.put_rows_under(color, 3, each);
+    for (int i = 0; i < 3; ++i) one.put_under(color, i * Batch::group, *expected[i]);
+    for (int i = 0; i < 3; ++i) expect_same(rows[i], layered[i]);
     Linear p[8], q[8];
     one.put(a, p), other.put(b, q);
     EXPECT_TRUE(std::equal(p, p + 8, q)) << name_of(isa);
@@ -51,9 +78,47 @@ TEST(Resolve, MeansAndLayersAreTheDefinitions) {
   scalar::resolve_kernels.resolve(color, 8, 4, out);
   EXPECT_EQ(out.get(0), (Linear{0.5f, 0, 0, 1}));
   color.r[16] = 0.25f, color.a[16] = 0.5f;
+  Layers8 layers;
+  layers.clear();
+  scalar::resolve_kernels.put_under(color, 16, layers);
   out.set(0, {1, 0, 0, 1});
-  scalar::resolve_kernels.over(color, 16, out);
+  scalar::resolve_kernels.over(layers, out);
   EXPECT_EQ(out.get(0), (Linear{0.75f, 0, 0, 1}));
+}
+
+TEST(Resolve, LayersFromTheFrontAreLayersFromBehind) {
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    Layers layers;
+    std::vector<Linear> all;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+      const auto at = [&](std::uint32_t k) { return unit_float(hash(seed, i * 4 + k)); };
+      all.push_back({at(0), at(1), at(2), at(3)});
+      layers.put_under(all.back());
+    }
+    Linear expected{0.5f, 1, 2, 1};
+    for (std::size_t i = all.size(); i-- > 0;) expected = all[i] + expected * (1 - all[i].a);
+    const Linear found = layers.over({0.5f, 1, 2, 1});
+    EXPECT_NEAR(found.r, expected.r, 1e-6);
+    EXPECT_NEAR(found.g, expected.g, 1e-6);
+    EXPECT_NEAR(found.b, expected.b, 1e-6);
+    EXPECT_EQ(found.a, 1);
+  }
+}
+
+// Behind an opaque layer is nothing, however bright; and behind many thin ones, what a float cannot tell.
+TEST(Resolve, LayersEndWhereNothingIsSeenThroughThem) {
+  const float bright = std::numeric_limits<float>::infinity();
+  Layers opaque;
+  opaque.put_under({0.25f, 0, 0, 1});
+  opaque.put_under({bright, 0, 0, 0.5f});
+  EXPECT_EQ(opaque.over({bright, 1, 1, 1}), (Linear{0.25f, 0, 0, 1}));
+
+  Layers halves;
+  for (int i = 0; i < 24; ++i) halves.put_under({0.5f, 0, 0, 0.5f});
+  EXPECT_EQ(halves.transmittance, Layers::least);
+  EXPECT_EQ(halves.over({1, 0, 0, 0}), (Linear{1, 0, 0, 1 - Layers::least}));
+  halves.put_under({0.5f, 0, 0, 0.5f});
+  EXPECT_EQ(halves.transmittance, 0);
 }
 
 }  // namespace

@@ -181,6 +181,16 @@ struct RecordLanes {
     return hn::BitCast(i32, hn::ShiftRight<32>(hn::BitCast(i64, v)));
   }
 
+  /// Of the even lanes. Highway 1.0.3 leaves their signs out on WebAssembly.
+  static HWY_INLINE hn::Vec<hn::Repartition<std::int64_t, I>> products(VI p, VI q) {
+#if HWY_TARGET == HWY_WASM
+    const auto even = [](VI v) { return wasm_i64x2_shr(wasm_i64x2_shl(v.raw, 32), 32); };
+    return {wasm_i64x2_mul(even(p), even(q))};
+#else
+    return hn::MulEven(p, q);
+#endif
+  }
+
   template <int k>
   HWY_INLINE void store_edge(const Corners& corners, const SetUp& t) {
     constexpr int from = (k + 1) % 3;
@@ -189,8 +199,8 @@ struct RecordLanes {
     hn::Store(hn::Neg(dy), i32, a[k]);
     hn::Store(dx, i32, b[k]);
     hn::Store(t.bias[k], i32, bias[k]);
-    hn::Store(hn::Sub(hn::MulEven(dy, x), hn::MulEven(dx, y)), i64, c[k]);
-    hn::Store(hn::Sub(hn::MulEven(odd(dy), odd(x)), hn::MulEven(odd(dx), odd(y))), i64, c[k] + lanes / 2);
+    hn::Store(hn::Sub(products(dy, x), products(dx, y)), i64, c[k]);
+    hn::Store(hn::Sub(products(odd(dy), odd(x)), products(odd(dx), odd(y))), i64, c[k] + lanes / 2);
   }
 
   HWY_INLINE void store_rest(const Corners& corners, const Extent& e, const SetUp& t) {

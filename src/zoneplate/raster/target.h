@@ -6,6 +6,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/raster/centroid.h"
 #include "zoneplate/raster/project.h"
 #include "zoneplate/signal/samples.h"
 
@@ -31,6 +32,7 @@ struct Target {
   std::vector<float> weights;          ///< one a sample; empty: all equal
   bool is_per_sample = false;          ///< shade every sample by itself
   AlphaTest alpha = AlphaTest::Pixel;  ///< where not every sample is shaded
+  Centroid centroid = Centroid::Mean;  ///< the same
   float spacing = 1;                   ///< the footprint of a shaded point, in pixels
 
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
@@ -45,9 +47,11 @@ struct Target {
   Plane<std::uint32_t>* primitive = nullptr;
   Plane<float>* coverage = nullptr;
 
-  std::vector<LinearImage>* sample_color = nullptr;  ///< by sample; this and the next only beside `sample_triangle`
-  std::vector<Plane<float>>* sample_depth = nullptr;
+  std::vector<LinearImage>* sample_color = nullptr;   ///< by sample
+  std::vector<Plane<float>>* sample_depth = nullptr;  ///< only beside `sample_triangle`
   std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
+
+  bool stores_samples() const { return sample_color || sample_triangle; }
 
   static constexpr std::uint32_t no_id = 0xffffffffu;  ///< in an id plane, where nothing is
 };

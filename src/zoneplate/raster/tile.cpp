@@ -27,7 +27,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       resolve_(resolve_kernels(isa)),
       point_lists_(point_list_kernels(isa)),
       target_(target),
-      sample_places_(target.samples),
+      places_(target.samples, target.is_per_sample ? Centroid::First : target.centroid),
       shader_(projected, shader, isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
       digit_batcher_(projected, digits_, isa, target),
@@ -111,7 +111,7 @@ bool TileRenderer::is_plain() const {
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
   return !has_planes && !target_.where && !target_.sample_triangle && !has_passes &&
-         !(target_.is_per_sample && has_layers());
+         !((target_.is_per_sample || target_.sample_color) && has_layers());
 }
 
 void TileRenderer::begin_pass(int first_sample, int sample_count) {
@@ -189,6 +189,8 @@ void TileRenderer::shade_rows() {
   if (!target_.is_per_sample) {
     shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
       resolve_.resolve(color, first, weight_sum_, color_[row.pixel / 8]);
+      if (target_.sample_color)
+        for (int s = 0; s < pass_samples_; ++s) store_row(row.pixel, s, color, first);
       if (has_layers()) resolve_.resolve(color, first, 1, base_[row.pixel / 8]);
     });
     return;
@@ -198,6 +200,7 @@ void TileRenderer::shade_rows() {
   std::size_t s = 0;
   shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
     resolve_.add(color, first, weights_[s], sum_[row.pixel / 8]);
+    if (target_.sample_color) store_row(row.pixel, static_cast<int>(s), color, first);
     s = s + 1 == samples ? 0 : s + 1;
     if (s == 0) resolve_.divide(sum_[row.pixel / 8], weight_sum_, color_[row.pixel / 8]);
   });
@@ -237,6 +240,7 @@ void TileRenderer::resolve_points() {
     const std::uint32_t pixel = points_[first].pixel;
     Linear sum{0, 0, 0, 0};
     for (; first < points_.size() && points_[first].pixel == pixel; ++first) {
+      if (target_.sample_color) store_color(pixel, points_[first].samples, colors_[first]);
       float weight = 0;
       for (std::uint64_t left = points_[first].samples; left; left &= left - 1)
         weight += weights_[static_cast<std::size_t>(std::countr_zero(left))];
@@ -278,18 +282,23 @@ void TileRenderer::draw_opaque() {
 }
 
 Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
-  // A surface that owns the whole pixel is shaded at its centre, another at the first sample it owns.
+  const bool is_centre = samples == all_samples_ && !target_.is_per_sample;
+  return point_at(pixel, id, samples, is_centre ? SamplePosition{} : places_.of(samples, first_sample_));
+}
+
+Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const {
   const std::int32_t x = (tile_x_ + static_cast<std::int32_t>(pixel % tile_size)) * 256;
   const std::int32_t y = (tile_y_ + static_cast<std::int32_t>(pixel / tile_size)) * 256;
-  if (samples == all_samples_ && !target_.is_per_sample) return {x + 128, y + 128, id, pixel, samples};
-  const SamplePosition s = target_.samples[static_cast<std::size_t>(first_sample_ + std::countr_zero(samples))];
-  return {x + s.x, y + s.y, id, pixel, samples};
+  return {x + place.x, y + place.y, id, pixel, samples};
 }
 
 void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
                               std::vector<Point>& points) const {
   if (!is_each_sample) return points.push_back(point_at(pixel, id, samples));
-  for (std::uint64_t left = samples; left; left &= left - 1) points.push_back(point_at(pixel, id, left & (~left + 1)));
+  for (std::uint64_t left = samples; left; left &= left - 1) {
+    const auto s = static_cast<std::size_t>(first_sample_ + std::countr_zero(left));
+    points.push_back(point_at(pixel, id, left & (~left + 1), target_.samples[s]));
+  }
 }
 
 void TileRenderer::find_points() {
@@ -303,7 +312,7 @@ void TileRenderer::find_points() {
 }
 
 void TileRenderer::accumulate() {
-  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.sample_triangle) {
+  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.stores_samples()) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
     for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));

@@ -8,6 +8,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/raster/alpha_coverage.h"
 #include "zoneplate/raster/bin.h"
+#include "zoneplate/raster/centroid.h"
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/points.h"
 #include "zoneplate/raster/rasterize.h"
@@ -79,6 +80,7 @@ class TileRenderer {
   void list_row(int x, int y);
   void shade_list();
   void sum_list();
+  void store_listed(const Shaded& colors, std::size_t first, std::size_t count);
   void find_weights();
   float weight_of(std::uint32_t samples) const;
   void find_first_points();
@@ -109,6 +111,8 @@ class TileRenderer {
   void add_surfaces(std::uint32_t pixel);
   void note_nearest();
   void store_samples(std::uint32_t pixel, int sample, Linear color);
+  void store_color(std::uint32_t pixel, std::uint64_t samples, Linear color);
+  void store_row(std::uint32_t pixel, int sample, const Shaded& color, int first);
   void finish();
 
   bool is_wanted(int x, int y) const {
@@ -129,6 +133,7 @@ class TileRenderer {
   }
   bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }
   Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
+  Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const;
 
   const ProjectedDraws& projected_;
   const Bins& bins_;
@@ -136,7 +141,7 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const PointListKernels& point_lists_;
   const Target& target_;
-  const SampleArrays sample_places_;
+  const ShadedPlaces places_;
   PointBatcher shader_;
   AlphaDigits digits_;
   PointBatcher digit_batcher_;
@@ -185,7 +190,7 @@ class TileRenderer {
   std::uint8_t is_slow_row_[tile_pixels / 8];
   std::vector<BlendedRow> blended_rows_;
   std::vector<BlockLayer> block_layers_, unsorted_layers_;
-  Linear8 behind_[64];              ///< by rows of a strip of blocks
+  Layers8 strip_layers_[64];        ///< by rows of a strip of blocks
   std::uint64_t other_blocks_ = 0;  ///< a bit for each block whose layers go by rows or pixels
 
   std::vector<Linear8> sum_;    ///< by eight pixels: weighted sum of samples

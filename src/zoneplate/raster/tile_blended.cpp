@@ -7,7 +7,7 @@
 namespace zoneplate {
 
 /// Where triangles cover all of a block and lie in one order there, they are sorted once for the block; the rows of
-/// such blocks that lie side by side are shaded layer by layer.
+/// such blocks that lie side by side are shaded layer by layer, as long as anything is seen through them.
 void TileRenderer::layer_tile() {
   find_first_points();
   collect_block_layers();
@@ -62,47 +62,49 @@ bool TileRenderer::starts_from_rows(std::uint32_t block) const {
   return is_whole;
 }
 
-/// Farthest first; false if two of the layers may change places within the block, or are pieces of one triangle.
+/// Nearest first; false if two of the layers may change places within the block, or are pieces of one triangle.
 bool TileRenderer::sort_block(std::span<BlockLayer> layers) {
-  const auto is_farther = [](const BlockLayer& p, const BlockLayer& q) { return p.least < q.least; };
-  if (!std::is_sorted(layers.begin(), layers.end(), is_farther)) std::sort(layers.begin(), layers.end(), is_farther);
+  const auto is_nearer = [](const BlockLayer& p, const BlockLayer& q) { return p.least > q.least; };
+  if (!std::is_sorted(layers.begin(), layers.end(), is_nearer)) std::sort(layers.begin(), layers.end(), is_nearer);
   for (std::size_t i = 1; i < layers.size(); ++i)
-    if (!(layers[i - 1].greatest < layers[i].least) || layers[i - 1].id == layers[i].id) return false;
+    if (!(layers[i - 1].least > layers[i].greatest) || layers[i - 1].id == layers[i].id) return false;
   return true;
 }
 
-/// `strip`: its first block; `layers`: of its blocks, none where these are not to be drawn here.
+/// `strip`: its first block; `layers`: of its blocks, none where these are not to be drawn here. Nothing is shaded of
+/// rows through which nothing more is seen.
 void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer> (&layers)[8]) {
   static constexpr Linear8 nothing{};
   const std::uint32_t first_row = strip * 8;
   std::size_t deepest = 0;
-  for (std::uint32_t column = 0; column < 8; ++column) {
-    if (layers[column].empty()) continue;
-    deepest = std::max(deepest, layers[column].size());
-    for (std::uint32_t row = first_row + column; row < first_row + 64; row += 8)
-      behind_[row - first_row] = row_owner_[row] == no_triangle ? nothing : base_[row];
-  }
+  for (std::uint32_t row = 0; row < 64; ++row) strip_layers_[row].clear();
+  for (const auto& of_block : layers) deepest = std::max(deepest, of_block.size());
   PointRow rows[64];
-  Linear8* behind[64];
+  Layers8* under[64];
   for (std::size_t layer = 0; layer < deepest; ++layer) {
     std::size_t count = 0;
     for (std::uint32_t column = 0; column < 8; ++column) {
       if (layer >= layers[column].size()) continue;
       const Point centre = point_at((first_row + column) * 8, layers[column][layer].id, all_samples_);
-      for (std::uint32_t i = 0; i < 8; ++i, ++count) {
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        if (!strip_layers_[i * 8 + column].is_open) continue;
         rows[count] = {centre.x, centre.y + 256 * static_cast<std::int32_t>(i), centre.id,
                        centre.pixel + i * tile_size};
-        behind[count] = &behind_[i * 8 + column];
+        under[count++] = &strip_layers_[i * 8 + column];
       }
     }
+    if (count == 0) break;
     shader_.shade_in_order(std::span(rows).first(count),
                            [&](const Shaded& color, std::size_t first, std::size_t shaded) {
-                             resolve_.over_rows(color, static_cast<int>(shaded), behind + first);
+                             resolve_.put_rows_under(color, static_cast<int>(shaded), under + first);
                            });
   }
-  for (std::uint32_t row = 0; row < 64; ++row)
-    if (!layers[row % 8].empty())
-      resolve_.resolve_samples(behind_[row], weights_.data(), pass_samples_, weight_sum_, color_[first_row + row]);
+  for (std::uint32_t row = 0; row < 64; ++row) {
+    if (layers[row % 8].empty()) continue;
+    Linear8 color = row_owner_[first_row + row] == no_triangle ? nothing : base_[first_row + row];
+    resolve_.over(strip_layers_[row], color);
+    resolve_.resolve_samples(color, weights_.data(), pass_samples_, weight_sum_, color_[first_row + row]);
+  }
 }
 
 /// The other blocks' layers of one strip of eight lines. Where triangles cover eight pixels of a row wholly and lie in
@@ -159,28 +161,31 @@ void TileRenderer::collect_row_layers(int top, int bottom) {
   row_layers_.swap(sorted_row_layers_);
 }
 
-/// Farthest first; false if two of the layers may change places within the row, or are pieces of one triangle.
+/// Nearest first; false if two of the layers may change places within the row, or are pieces of one triangle.
 bool TileRenderer::sort_row(std::size_t first, std::size_t last) {
   const auto at = [&](std::size_t i) { return row_layers_.begin() + static_cast<std::ptrdiff_t>(i); };
-  const auto is_farther = [](const RowLayer& p, const RowLayer& q) { return p.least < q.least; };
-  if (!std::is_sorted(at(first), at(last), is_farther)) std::sort(at(first), at(last), is_farther);
+  const auto is_nearer = [](const RowLayer& p, const RowLayer& q) { return p.least > q.least; };
+  if (!std::is_sorted(at(first), at(last), is_nearer)) std::sort(at(first), at(last), is_nearer);
   for (std::size_t i = first + 1; i < last; ++i)
-    if (!(row_layers_[i - 1].greatest < row_layers_[i].least) || row_layers_[i - 1].id == row_layers_[i].id)
+    if (!(row_layers_[i - 1].least > row_layers_[i].greatest) || row_layers_[i - 1].id == row_layers_[i].id)
       return false;
   return true;
 }
 
-/// Shades rows_ and lays them over one another, each row's layers in their order.
+/// Shades rows_ and puts each row's layers under one another.
 void TileRenderer::blend_rows() {
-  Linear8 behind{};
+  static constexpr Linear8 nothing{};
+  Layers8 layers;
   std::size_t layer = 0, first_layer = 0, row = 0;
   shader_.shade_in_order(rows_, [&](const Shaded& color, std::size_t, std::size_t shaded) {
     for (int i = 0; i < static_cast<int>(shaded); ++i) {
       const BlendedRow& blended = blended_rows_[row];
-      if (layer == first_layer) behind = row_owner_[blended.row] == no_triangle ? Linear8{} : base_[blended.row];
-      resolve_.over(color, i * Batch::group, behind);
+      if (layer == first_layer) layers.clear();
+      resolve_.put_under(color, i * Batch::group, layers);
       if (++layer < blended.end) continue;
-      resolve_.resolve_samples(behind, weights_.data(), pass_samples_, weight_sum_, color_[blended.row]);
+      Linear8 all = row_owner_[blended.row] == no_triangle ? nothing : base_[blended.row];
+      resolve_.over(layers, all);
+      resolve_.resolve_samples(all, weights_.data(), pass_samples_, weight_sum_, color_[blended.row]);
       first_layer = layer;
       ++row;
     }

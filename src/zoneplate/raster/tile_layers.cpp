@@ -122,9 +122,9 @@ void TileRenderer::blend(int top, int bottom) {
   }
 }
 
-/// Every sample starts from the surface that it owns and takes the layers in front of it, the farthest first.
+/// Every sample shows the layers in front of the surface that it owns, and that through them.
 void TileRenderer::blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last) {
-  if (first == last && !target_.sample_triangle) return add_surfaces(pixel);
+  if (first == last && !target_.stores_samples()) return add_surfaces(pixel);
   Linear behind[TileTriangle::max_samples];
   std::fill_n(behind, pass_samples_, Linear{0, 0, 0, 0});
   for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p)
@@ -135,7 +135,7 @@ void TileRenderer::blend_pixel(std::uint32_t pixel, std::size_t first, std::size
   add_layers(first, last, behind);
   for (int s = 0; s < pass_samples_; ++s) {
     add_to_sum(pixel, behind[s] * weights_[static_cast<std::size_t>(first_sample_ + s)]);
-    if (target_.sample_triangle) store_samples(pixel, s, behind[s]);
+    if (target_.stores_samples()) store_samples(pixel, s, behind[s]);
   }
 }
 
@@ -154,12 +154,14 @@ void TileRenderer::add_layers(std::size_t first, std::size_t last, Linear* behin
       overs_.push_back({layer_depths_[layers_[i].first_depth + rank], layers_[i].id, layer_colors_[point]});
     }
     std::sort(overs_.begin(), overs_.end(),
-              [](const Over& p, const Over& q) { return p.depth != q.depth ? p.depth < q.depth : p.id > q.id; });
-    for (std::size_t i = 0; i < overs_.size(); ++i) {
+              [](const Over& p, const Over& q) { return p.depth != q.depth ? p.depth > q.depth : p.id < q.id; });
+    Layers layers;
+    for (std::size_t i = 0; i < overs_.size() && layers.transmittance > 0; ++i) {
       const bool again = has_pieces && std::any_of(overs_.begin(), overs_.begin() + static_cast<std::ptrdiff_t>(i),
                                                    [&](const Over& o) { return o.id == overs_[i].id; });
-      if (!again) behind[s] = overs_[i].color + behind[s] * (1 - overs_[i].color.a);
+      if (!again) layers.put_under(overs_[i].color);
     }
+    if (!overs_.empty()) behind[s] = layers.over(behind[s]);
   }
 }
 

@@ -45,8 +45,26 @@ void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) 
   const std::size_t at = static_cast<std::size_t>(sample) * tile_pixels + pixel;
   if (target_.sample_color) (*target_.sample_color)[s](x, y) = color;
   if (target_.sample_depth) (*target_.sample_depth)[s](x, y) = visibility_.depth[at];
-  (*target_.sample_triangle)[s](x, y) =
-      visibility_.id[at] == no_triangle ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
+  if (target_.sample_triangle)
+    (*target_.sample_triangle)[s](x, y) =
+        visibility_.id[at] == no_triangle ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
+}
+
+/// The colour of some samples of a pixel.
+void TileRenderer::store_color(std::uint32_t pixel, std::uint64_t samples, Linear color) {
+  const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
+  const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
+  for (; samples; samples &= samples - 1)
+    (*target_.sample_color)[static_cast<std::size_t>(first_sample_ + std::countr_zero(samples))](x, y) = color;
+}
+
+/// The colours of one sample of eight pixels of a row.
+void TileRenderer::store_row(std::uint32_t pixel, int sample, const Shaded& color, int first) {
+  const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
+  const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
+  Linear8 same;
+  resolve_.resolve(color, first, 1, same);
+  resolve_.put(same, &(*target_.sample_color)[static_cast<std::size_t>(first_sample_ + sample)](x, y));
 }
 
 void TileRenderer::write_colors() {

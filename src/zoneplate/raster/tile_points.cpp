@@ -20,8 +20,8 @@ void TileRenderer::list_row(int x, int y) {
   if (first >= last) return;
   point_lists_.list({.id = visibility_.id + pixel,
                      .sample_count = pass_samples_,
-                     .sample_x = sample_places_.x.data() + first_sample_,
-                     .sample_y = sample_places_.y.data() + first_sample_,
+                     .first_place = places_.first.data() + first_sample_,
+                     .more_places = places_.more.data() + first_sample_,
                      .pixel = pixel,
                      .x = (tile_x_ + x) * 256,
                      .y = (tile_y_ + y) * 256,
@@ -41,6 +41,7 @@ void TileRenderer::shade_list() {
     shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
       for (std::size_t i = 0; i < count; i += Batch::group)
         resolve_.resolve(colors, static_cast<int>(i), weight_sum_, color_[PointList::pixel(list_.at[first + i]) / 8]);
+      store_listed(colors, first, count);
     });
   } else {
     sum_list();
@@ -59,9 +60,19 @@ void TileRenderer::sum_list() {
     else
       for (std::size_t i = 0; i < count; ++i) weight[i] = weight_of(PointList::samples(at[i]));
     point_lists_.add(colors, at, weight, static_cast<int>(count), &list_sums_[0].r);
+    store_listed(colors, first, count);
   });
   for (const std::uint32_t pixel : listed_rows_)
     point_lists_.divide(&list_sums_[pixel].r, weight_sum_, color_[pixel / 8]);
+}
+
+/// The samples of listed points, where they are wanted.
+void TileRenderer::store_listed(const Shaded& colors, std::size_t first, std::size_t count) {
+  if (!target_.sample_color) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t at = list_.at[first + i];
+    store_color(PointList::pixel(at), PointList::samples(at), {colors.r[i], colors.g[i], colors.b[i], colors.a[i]});
+  }
 }
 
 /// The weight of those samples of the pass, added in their order.

@@ -17,6 +17,7 @@ struct Planes {
   bool error = false;             ///< of methods that estimate it
   bool samples = false;           ///< colour, depth and triangle id of every sample
   bool sample_triangles = false;  ///< triangle id of every sample alone
+  bool sample_colors = false;     ///< colour of every sample alone
 
   /// What is found from the pixels' primitives.
   bool any_point_plane() const { return position || motion || flow; }

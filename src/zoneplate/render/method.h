@@ -32,6 +32,7 @@ struct Request {
   Rate rate = Rate::Surface;
   std::vector<float> weights;          ///< one a sample; empty: all equal
   AlphaTest alpha = AlphaTest::Pixel;  ///< of masked surfaces at rate *surface*
+  Centroid centroid = Centroid::Mean;  ///< where surfaces are shaded at rate *surface*
   Planes planes;
   Plane<std::uint8_t> where;    ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
   float footprint = 0;          ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)

@@ -1,6 +1,11 @@
 #include "zoneplate/render/picture.h"
 
+#include <optional>
+
+#include "zoneplate/base/clock.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/shade/material_plan.h"
 
 namespace zoneplate {
 namespace {
@@ -17,6 +22,14 @@ Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver
                     RenderOptions options, const DisplayOptions& display, RenderCounts* counts) {
   options.display = &display;
   RenderCounts sum;
+  const Stopwatch preparing;
+  std::optional<TextureSet> textures;
+  std::optional<VertexRecords> records;
+  RasterMemory memory;
+  if (!options.textures) options.textures = &textures.emplace(scene, options.raw_colors);
+  if (!options.records) options.records = &records.emplace(scene);
+  if (!options.memory) options.memory = &memory;
+  sum.prepare_ms = preparing.ms();
   const auto round = [&](const Request& wanted) {
     RenderCounts own;
     Frame frame = render(scene, camera, wanted, options, &own);

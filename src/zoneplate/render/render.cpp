@@ -93,10 +93,12 @@ void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Fram
     frame.sample_triangle.assign(samples.size(), Plane<std::uint32_t>(w, h, Frame::no_id));
     target.sample_triangle = &frame.sample_triangle;
   }
+  if (planes.samples || planes.sample_colors) {
+    frame.sample_color.assign(samples.size(), LinearImage(w, h, Linear{0, 0, 0, 0}));
+    target.sample_color = &frame.sample_color;
+  }
   if (!planes.samples) return;
-  frame.sample_color.assign(samples.size(), LinearImage(w, h, Linear{0, 0, 0, 0}));
   frame.sample_depth.assign(samples.size(), Plane<float>(w, h, 0.0f));
-  target.sample_color = &frame.sample_color;
   target.sample_depth = &frame.sample_depth;
 }
 
@@ -121,7 +123,7 @@ void check(const RenderOptions& o, const Request& request) {
     reject("the crop must lie within the picture of " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
-  if (request.draw && (o.shown || request.planes.samples))
+  if (request.draw && (o.shown || request.planes.samples || request.planes.sample_colors))
     reject("a method that draws for itself gives a linear picture and has no samples");
 }
 
@@ -159,6 +161,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   target.samples = request.samples;
   target.weights = request.weights;
   target.alpha = request.alpha;
+  target.centroid = request.centroid;
   target.is_per_sample = request.rate == Rate::Sample;
   if (target.is_per_sample && options.sample_footprint)
     target.spacing =

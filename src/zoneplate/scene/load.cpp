@@ -86,13 +86,20 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
                                      : name + ": no such file, and no built-in scene of that name");
 }
 
+Scene read_watched(const std::string& name, const LoadOptions& options) {
+  const LostBytesWatch watch;
+  Scene scene = read_file(name, options);
+  watch.check(name);
+  return scene;
+}
+
 /// The same in a child process, as the libraries are that open one for themselves.
 Scene read_in_child(const std::string& name, const LoadOptions& options) {
   ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
   LimitedChild child(
       budget.file(), child_limits(budget),
       [&](ChildAnswer& answer) {
-        const Scene scene = read_file(name, options);
+        const Scene scene = read_watched(name, options);
         write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
       [] {
@@ -116,7 +123,7 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
       return std::move(*scene);
     }
   const bool has_child = options.is_sandboxed && !is_for_assimp(extension_of(name, options.format));
-  return has_child ? read_in_child(name, options) : read_file(name, options);
+  return has_child ? read_in_child(name, options) : read_watched(name, options);
 }
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
@@ -124,17 +131,22 @@ SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::mov
   const bool is_gltf = extension == ".gltf" || extension == ".glb";
   if (is_gltf && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
     gltf_ = std::make_unique<GltfModel>(name_, options_.limits);
+  watch_.check(name_);
 }
 SceneSource::~SceneSource() = default;
 
 Scene SceneSource::load(const SceneChoice& choice) {
-  if (gltf_) return gltf_->scene(choice);
   options_.choice = choice;
-  return load_scene(name_, options_);
+  Scene scene = gltf_ ? gltf_->scene(choice) : load_scene(name_, options_);
+  watch_.check(name_);
+  return scene;
 }
 
 Scene SceneSource::load_shape(const SceneChoice& choice) {
-  return gltf_ ? gltf_->scene(choice, GltfModel::Images::Without) : load(choice);
+  if (!gltf_) return load(choice);
+  Scene scene = gltf_->scene(choice, GltfModel::Images::Without);
+  watch_.check(name_);
+  return scene;
 }
 
 }  // namespace zoneplate

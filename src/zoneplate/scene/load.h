@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "zoneplate/base/lost_bytes.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/scene/scene_format.h"
 
@@ -49,6 +50,7 @@ class SceneSource {
  private:
   std::string name_;
   LoadOptions options_;
+  LostBytesWatch watch_;
   std::unique_ptr<GltfModel> gltf_;
 };
 

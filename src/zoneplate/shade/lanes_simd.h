@@ -93,8 +93,13 @@ struct Float {
   friend HWY_INLINE Float operator-(Float a) { return Float(hn::Neg(a.v)); }
   friend HWY_INLINE Bool operator<(Float a, Float b) { return {hn::Lt(a.v, b.v)}; }
   friend HWY_INLINE Bool operator>(Float a, Float b) { return {hn::Gt(a.v, b.v)}; }
+#if HWY_ARCH_X86
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::Max(a.v, b.v)); }
+#else  // where minima keep what is not a number
+  friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v)); }
+  friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v)); }
+#endif
   friend HWY_INLINE Float select(Bool m, Float a, Float b) { return Float(hn::IfThenElse(m.v, a.v, b.v)); }
   friend HWY_INLINE float greatest(Float a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.v)); }
   friend HWY_INLINE Float sqrt(Float a) { return Float(hn::Sqrt(a.v)); }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace zoneplate {
+
+/// What of DLAA is asked at every pixel.
+///
+/// Shape     rows of colours are four codes a pixel, those of `here` valid from one pixel before the first to one after
+///           the last. Sums are made in whole vectors: rows of codes are read up to 31 values after the n-th, and
+///           arrays have room for n rounded up to 64.
+struct DlaaKernels {
+  /// A third of four times the sum of |l + r + t + b - 4 c| over red, green and blue, rounded, at most 255.
+  void (*edge_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
+                   std::size_t n);
+  /// The sums of the seventeen codes around each.
+  void (*sum_row)(const std::uint8_t* edges, std::int16_t* sums, std::size_t n);
+  /// sums += added - removed
+  void (*slide_row)(const std::uint8_t* added, const std::uint8_t* removed, std::int16_t* sums, std::size_t n);
+  /// 1 where the sum of |a + b - 2 c| over the colours exceeds `bend` for left and right or for above and below, or
+  /// where one of the two sums exceeds `sum`; else 0.
+  void (*seen_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                   const std::int16_t* level, const std::int16_t* upright, int bend, int sum, std::uint8_t* seen,
+                   std::size_t n);
+
+  static const DlaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
+};
+
+namespace scalar {
+extern const DlaaKernels dlaa_kernels;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,129 @@
+#include <hwy/highway.h>
+
+#include "zoneplate/antialias/dlaa_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace zoneplate::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Codes of pixels as words: red and blue of each in one vector, green in another beside zeros.
+template <class D>
+struct Codes {
+  using Words = hn::RepartitionToNarrow<D>;
+  hn::Vec<Words> red_blue, green;
+
+  HWY_INLINE Codes(D d, const std::uint8_t* rgba) {
+    const hn::Repartition<std::uint8_t, D> bytes;
+    const auto pixels = hn::BitCast(d, hn::LoadU(bytes, rgba));
+    red_blue = hn::BitCast(Words(), hn::And(pixels, hn::Set(d, 0x00FF00FF)));
+    green = hn::BitCast(Words(), hn::And(hn::ShiftRight<8>(pixels), hn::Set(d, 0xFF)));
+  }
+};
+
+/// Adds up red, green and blue of words that are not negative, a pixel a lane.
+template <class D, class V>
+HWY_INLINE hn::Vec<D> sum_of(D d, V red_blue, V green) {
+  const auto rb = hn::BitCast(d, red_blue);
+  return hn::Add(hn::Add(hn::And(rb, hn::Set(d, 0xFFFF)), hn::ShiftRight<16>(rb)), hn::BitCast(d, green));
+}
+
+/// The sum of |a + b - 2 c|.
+template <class D>
+HWY_INLINE hn::Vec<D> bend(D d, const Codes<D>& a, const Codes<D>& b, const Codes<D>& c) {
+  const auto of = [](auto p, auto q, auto m) HWY_ATTR { return hn::Abs(hn::Sub(hn::Add(p, q), hn::Add(m, m))); };
+  return sum_of(d, of(a.red_blue, b.red_blue, c.red_blue), of(a.green, b.green, c.green));
+}
+
+template <class D>
+HWY_INLINE void store_bytes(D d, hn::Vec<D> v, std::uint8_t* to) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  static_cast<void>(d);
+  hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
+}
+
+using Full = hn::CappedTag<std::int32_t, 8>;
+using One = hn::CappedTag<std::int32_t, 1>;
+
+template <class D>
+HWY_INLINE void edge_some(D d, const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                          std::uint8_t* edges, std::size_t i) {
+  const std::uint8_t* p = here + 4 * i;
+  const Codes<D> l(d, p - 4), r(d, p + 4), t(d, above + 4 * i), b(d, below + 4 * i), c(d, p);
+  const auto off = [](auto left, auto right, auto top, auto bottom, auto middle) HWY_ATTR {
+    const auto around = hn::Add(hn::Add(left, right), hn::Add(top, bottom));
+    return hn::Abs(hn::Sub(around, hn::ShiftLeft<2>(middle)));
+  };
+  const auto sum = sum_of(d, off(l.red_blue, r.red_blue, t.red_blue, b.red_blue, c.red_blue),
+                          off(l.green, r.green, t.green, b.green, c.green));
+  // A third of whole numbers below 2^15, rounded down.
+  const auto four = hn::Add(hn::ShiftLeft<2>(sum), hn::Set(d, 1));
+  const auto third = hn::ShiftRight<16>(hn::Mul(four, hn::Set(d, 21846)));
+  store_bytes(d, hn::Min(third, hn::Set(d, 255)), edges + i);
+}
+
+void edge_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
+              std::size_t n) {
+  const Full full;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) edge_some(full, above, here, below, edges, i);
+  for (; i < n; ++i) edge_some(One(), above, here, below, edges, i);
+}
+
+using Sums = hn::CappedTag<std::int16_t, 16>;
+HWY_INLINE hn::Vec<Sums> load_codes(const std::uint8_t* p) {
+  const hn::Rebind<std::uint8_t, Sums> bytes;
+  return hn::PromoteTo(Sums(), hn::LoadU(bytes, p));
+}
+
+void sum_row(const std::uint8_t* edges, std::int16_t* sums, std::size_t n) {
+  const Sums d;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    auto sum = load_codes(edges + i);
+    for (int k = 1; k <= 8; ++k) sum = hn::Add(sum, hn::Add(load_codes(edges + i - k), load_codes(edges + i + k)));
+    hn::StoreU(sum, d, sums + i);
+  }
+}
+
+void slide_row(const std::uint8_t* added, const std::uint8_t* removed, std::int16_t* sums, std::size_t n) {
+  const Sums d;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d))
+    hn::StoreU(hn::Add(hn::LoadU(d, sums + i), hn::Sub(load_codes(added + i), load_codes(removed + i))), d, sums + i);
+}
+
+template <class D>
+HWY_INLINE void seen_some(D d, const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                          const std::int16_t* level, const std::int16_t* upright, int least_bend, int least_sum,
+                          std::uint8_t* seen, std::size_t i) {
+  const hn::Rebind<std::int16_t, D> words;
+  const std::uint8_t* p = here + 4 * i;
+  const Codes<D> c(d, p);
+  const auto across = bend(d, Codes<D>(d, p - 4), Codes<D>(d, p + 4), c);
+  const auto down = bend(d, Codes<D>(d, above + 4 * i), Codes<D>(d, below + 4 * i), c);
+  const auto sum =
+      hn::Max(hn::PromoteTo(d, hn::LoadU(words, level + i)), hn::PromoteTo(d, hn::LoadU(words, upright + i)));
+  const auto is_bent = hn::Gt(hn::Max(across, down), hn::Set(d, least_bend));
+  const auto is_long = hn::Gt(sum, hn::Set(d, least_sum));
+  store_bytes(d, hn::IfThenElseZero(hn::Or(is_bent, is_long), hn::Set(d, 1)), seen + i);
+}
+
+void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
+              const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
+  const Full full;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full))
+    seen_some(full, above, here, below, level, upright, least_bend, least_sum, seen, i);
+  for (; i < n; ++i) seen_some(One(), above, here, below, level, upright, least_bend, least_sum, seen, i);
+}
+
+}  // namespace
+
+}  // namespace zoneplate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const DlaaKernels DlaaKernels::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
+                                                .sum_row = HWY_NAMESPACE::sum_row,
+                                                .slide_row = HWY_NAMESPACE::slide_row,
+                                                .seen_row = HWY_NAMESPACE::seen_row};
+}  // namespace zoneplate
