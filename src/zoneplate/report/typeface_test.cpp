@@ -51,7 +51,7 @@ TEST(Typeface, PartsANameAtAJoint) {
   };
   EXPECT_EQ(parted("two-squares.obj", "two-squares.ob"), (std::vector<std::string>{"two-squares", ".obj"}));
   EXPECT_EQ(parted("two-squares.obj", "two-squa"), (std::vector<std::string>{"two-squa", "res.obj"}));
-  EXPECT_EQ(parted("two-squares", "two-sq"), (std::vector<std::string>{"two-", "squares"}));
+  EXPECT_EQ(parted("three-squares", "three-squar"), (std::vector<std::string>{"three-", "squares"}));
   EXPECT_EQ(parted("MetalRough", "MetalRou"), (std::vector<std::string>{"Metal", "Rough"}));
 }
 
