@@ -66,6 +66,14 @@ std::size_t fitting(const Typeface& face, std::string_view word, int width) {
     if (face.width(word.substr(0, longer)) > width) break;
     size = longer;
   }
+  // In its second half a name is rather parted at a joint: "Spheres|.glb", "two-|squares", "Metal|Rough".
+  const auto is_joint = [word](std::size_t i) {
+    const char before = word[i - 1], after = word[i];
+    return before == '-' || before == '_' || before == '/' || after == '.' ||
+           (before >= 'a' && before <= 'z' && after >= 'A' && after <= 'Z');
+  };
+  for (std::size_t i = size; size < word.size() && i > size / 2; --i)
+    if (is_joint(i)) return i;
   return size;
 }
 

@@ -29,7 +29,8 @@ class Typeface {
   int leading() const;  ///< from one baseline to the next
   double width(std::string_view line) const;
 
-  /// The text in lines of at most this width, parted at spaces and line ends; a longer word is parted anywhere.
+  /// The text in lines of at most this width, parted at spaces and line ends; a longer word is parted at
+  /// a joint (after a hyphen, before an ending or a capital), or anywhere.
   std::vector<std::string> wrapped(std::string_view text, int width) const;
 
   /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the picture clips it.

@@ -44,6 +44,17 @@ TEST(Typeface, PartsAWordThatIsTooLong) {
   EXPECT_EQ(face.wrapped("ab", 1), (std::vector<std::string>{"a", "b"}));
 }
 
+TEST(Typeface, PartsANameAtAJoint) {
+  const Typeface face(Typeface::Weight::Regular, 15);
+  const auto parted = [&](const std::string& name, const std::string& room) {
+    return face.wrapped(name, static_cast<int>(face.width(room)) + 1);
+  };
+  EXPECT_EQ(parted("two-squares.obj", "two-squares.ob"), (std::vector<std::string>{"two-squares", ".obj"}));
+  EXPECT_EQ(parted("two-squares.obj", "two-squa"), (std::vector<std::string>{"two-squa", "res.obj"}));
+  EXPECT_EQ(parted("three-squares", "three-squar"), (std::vector<std::string>{"three-", "squares"}));
+  EXPECT_EQ(parted("MetalRough", "MetalRou"), (std::vector<std::string>{"Metal", "Rough"}));
+}
+
 TEST(Typeface, KernsAndScales) {
   const Typeface face(Typeface::Weight::Regular, 64), twice(Typeface::Weight::Regular, 128);
   EXPECT_LT(face.width("AV"), face.width("A") + face.width("V") - 1);

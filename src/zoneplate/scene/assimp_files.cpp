@@ -70,7 +70,7 @@ aiFile* AssimpFiles::open(const std::string& name) {
     for (const char c : std::filesystem::absolute(name).string())
       uri += c == '%' ? std::string("%25") : std::string(1, c);
     const auto path = find_path(folder_, uri, budget_.limits().allow_path);
-    if (!path) return nullptr;
+    if (!path || is_stream(*path)) return nullptr;
     others_.emplace_back(*path, budget_.limits().memory);
     return &(new Open(others_.back().bytes()))->file;
   } catch (const Error&) {

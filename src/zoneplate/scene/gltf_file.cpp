@@ -144,6 +144,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   const std::string folder = std::filesystem::path(path_).parent_path().string();
   const auto path = find_path(folder, uri, budget_.limits().allow_path);
   if (!path) owner.fail("uri " + quoted(uri) + " leads out of the model's folder (--allow-path permits it)");
+  if (is_stream(*path)) owner.fail("uri " + quoted(uri) + " is not a regular file");
   try {
     out.file.emplace(*path, budget_.memory_left());
   } catch (const Error& e) {

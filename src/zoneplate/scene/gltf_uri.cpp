@@ -94,4 +94,11 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
   return file.string();
 }
 
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
 }  // namespace zoneplate

@@ -21,4 +21,7 @@ bool has_scheme(std::string_view uri);
 /// (absolute, through "..", or through a symbolic link) and `allow_path` does not permit it, or holds a zero byte.
 std::optional<std::string> find_path(const std::string& folder, std::string_view uri, bool allow_path);
 
+/// Whether there is something under this path that has no end or waits for another program: a pipe, a socket, a device.
+bool is_stream(const std::string& path);
+
 }  // namespace zoneplate

@@ -1,9 +1,12 @@
 #include "zoneplate/scene/gltf_uri.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
+#include "zoneplate/base/error.h"
+#include "zoneplate/scene/gltf.h"
 #include "zoneplate/scene/gltf_maker_test.h"
 
 namespace zoneplate {
@@ -63,6 +66,28 @@ TEST(GltfUri, StaysInTheFolder) {
   EXPECT_FALSE(find_path(model, "in.bin%00.png", true));
   EXPECT_TRUE(find_path(model, "../out.bin", true));
   EXPECT_FALSE(find_path(model, "../model2/x", false));
+}
+
+TEST(GltfUri, AStreamIsNotAFile) {
+  // Who opens a pipe that nobody writes into waits for ever.
+  const TestFolder folder;
+  const std::string pipe = folder.path("pipe.bin");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(is_stream(pipe));
+  EXPECT_TRUE(is_stream("/dev/zero"));
+  EXPECT_FALSE(is_stream(folder.write("in.bin", std::string("x"))));
+  EXPECT_FALSE(is_stream(folder.path("")));
+  EXPECT_FALSE(is_stream(folder.path("not there.bin")));
+  const std::string model = folder.write("m.gltf", std::string(R"({"asset":{"version":"2.0"},"scene":0,
+    "scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"pipe.bin"}]})"));
+  try {
+    load_gltf(model, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), model + ": buffer 0: uri 'pipe.bin' is not a regular file");
+  }
 }
 
 TEST(GltfUri, FollowsLinksBeforeItAnswers) {
