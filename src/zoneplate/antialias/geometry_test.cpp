@@ -48,6 +48,7 @@ Scene half_plane(float slope) {
 TEST(Gbaa, AHalfPlaneIsItsOneDimensionalCoverage) {
   for (const float slope : {0.0f, 0.05f, 0.3f, 0.8f}) {
     const LinearImage own = shot(half_plane(slope), "gbaa");
+    EXPECT_EQ(own, shot(half_plane(slope), "gbaa:edges=surfaces"));
     int partial = 0;
     for (int y = 5; y < 115; ++y)
       for (int x = 5; x < 155; ++x) {
@@ -63,6 +64,16 @@ TEST(Gbaa, AHalfPlaneIsItsOneDimensionalCoverage) {
   }
 }
 
+TEST(Gbaa, EdgesWithinASurfaceDoNotHideWhereItEnds) {
+  // A sphere of triangles smaller than pixels, as bright everywhere: its outline is all that there is to be smoothed.
+  Scene scene = *make_builtin_scene("sphere:triangles=20000");
+  scene.cameras.push_back(fit_camera(scene.bounds(), 4 / 3.0f, {}));
+  for (Material& material : scene.materials) material.model = ShadingModel::Unlit;
+  const LinearImage truth = shot(scene, "ssaa:n=16");
+  const double of_triangles = mean_error(shot(scene, "gbaa"), truth);
+  EXPECT_LT(mean_error(shot(scene, "gbaa:edges=surfaces"), truth), 0.8 * of_triangles);
+}
+
 TEST(Sraa, WithOneShadedPlaceAPixelItComesNearToMultisampling) {
   const Scene scene = *make_builtin_scene("cyclic");
   const LinearImage none = shot(scene, "none"), truth = shot(scene, "ssaa:n=16");
@@ -72,7 +83,7 @@ TEST(Sraa, WithOneShadedPlaceAPixelItComesNearToMultisampling) {
 
 TEST(Geometry, CropsThreadsAndInstructionSetsLeaveNoTrace) {
   const Scene scene = *make_builtin_scene("cyclic");
-  for (const char* method : {"sraa", "gbaa"}) {
+  for (const char* method : {"sraa", "gbaa", "gbaa:edges=surfaces"}) {
     LinearImage whole;
     with_threads(1, [&] { whole = shot(scene, method); });
     RenderOptions options{.width = 160, .height = 120};
