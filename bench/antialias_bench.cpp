@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "scene_codes.h"
 #include "zoneplate/antialias/cmaa2.h"
 #include "zoneplate/antialias/ddaa.h"
 #include "zoneplate/antialias/dlaa.h"
@@ -20,37 +21,16 @@
 #include "zoneplate/antialias/mlaa.h"
 #include "zoneplate/antialias/smaa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/tonemap.h"
-#include "zoneplate/image/transfer.h"
-#include "zoneplate/render/render.h"
-#include "zoneplate/scene/builtin.h"
-#include "zoneplate/scene/default_lights.h"
-#include "zoneplate/scene/fit.h"
 
 namespace zoneplate {
 namespace {
 
 constexpr int width = 3840, height = 2160;
 
-/// A built-in scene with its own camera, or else the whole of it, one sample a pixel.
-Rgba8Image frame_of(const std::string& name) {
-  Scene scene = *make_builtin_scene(name);
-  const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  const Camera camera = scene.cameras.empty() ? fit_camera(scene.bounds(), aspect, {}) : scene.cameras[0];
-  RenderOptions options;
-  options.width = width, options.height = height;
-  if (scene.lights.empty()) {
-    scene.lights = default_lights(camera);
-    options.environment = {default_environment, default_environment, default_environment};
-  }
-  return quantize8(
-      make_display(render(scene, camera, Request{}, options).color, {.background = {0.2f, 0.2f, 0.2f, 1}}));
-}
-
 const Rgba8Image& cached_frame(const std::string& name) {
   static std::map<std::string, Rgba8Image> frames;
   const auto found = frames.find(name);
-  return found != frames.end() ? found->second : frames.emplace(name, frame_of(name)).first->second;
+  return found != frames.end() ? found->second : frames.emplace(name, scene_codes(name, width, height)).first->second;
 }
 
 double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

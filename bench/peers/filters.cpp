@@ -10,18 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "../scene_codes.h"
 #include "zoneplate/antialias/fxaa.h"
 #include "zoneplate/antialias/smaa.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/image/png.h"
-#include "zoneplate/image/tonemap.h"
-#include "zoneplate/image/transfer.h"
-#include "zoneplate/render/render.h"
-#include "zoneplate/scene/builtin.h"
-#include "zoneplate/scene/default_lights.h"
-#include "zoneplate/scene/fit.h"
 
 namespace zoneplate::peers {
 namespace {
@@ -40,17 +35,7 @@ Rgba8Image load_codes(const std::string& path, int width, int height) {
 }
 
 void draw(const std::string& name, int width, int height, const std::string& path) {
-  Scene scene = *make_builtin_scene(name);
-  const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  const Camera camera = scene.cameras.empty() ? fit_camera(scene.bounds(), aspect, {}) : scene.cameras[0];
-  RenderOptions options;
-  options.width = width, options.height = height;
-  if (scene.lights.empty()) {
-    scene.lights = default_lights(camera);
-    options.environment = {default_environment, default_environment, default_environment};
-  }
-  const Rgba8Image image =
-      quantize8(make_display(render(scene, camera, Request{}, options).color, {.background = {0.2f, 0.2f, 0.2f, 1}}));
+  const Rgba8Image image = scene_codes(name, width, height);
   save_bytes(path,
              std::span(reinterpret_cast<const std::uint8_t*>(image.values().data()), image.values().size_bytes()));
 }

@@ -4,20 +4,13 @@
 
 #include <algorithm>
 
-#include "zoneplate/antialias/methods.h"
+#include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/picture.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/default_lights.h"
 
 namespace zoneplate::antialias {
 namespace {
-
-LinearImage shot(const Scene& scene, const char* method, RenderOptions options = {.width = 160, .height = 120}) {
-  const std::unique_ptr<Resolver> resolver = make_resolver(methods(), method);
-  Frame frame = render_rounds(scene, scene.cameras.at(0), *resolver, resolver->ask(0), options, DisplayOptions{});
-  return resolver->resolve(frame);
-}
 
 std::size_t differing(const LinearImage& a, const LinearImage& b) {
   std::size_t count = 0;

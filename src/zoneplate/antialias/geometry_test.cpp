@@ -1,47 +1,21 @@
 // What methods that know geometry at more places than they shade must keep, on rendered scenes.
 #include <gtest/gtest.h>
 
-#include "zoneplate/antialias/methods.h"
+#include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/picture.h"
 #include "zoneplate/scene/builtin.h"
 
 namespace zoneplate::antialias {
 namespace {
 
-LinearImage shot(const Scene& scene, const char* method, RenderOptions options = {.width = 160, .height = 120}) {
-  const std::unique_ptr<Resolver> resolver = make_resolver(methods(), method);
-  Frame frame = render_rounds(scene, scene.cameras.at(0), *resolver, resolver->ask(0), options, DisplayOptions{});
-  return resolver->resolve(frame);
-}
-
-double mean_error(const LinearImage& a, const LinearImage& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.values().size(); ++i)
-    sum += std::abs(double{a.values()[i].g} - double{b.values()[i].g});
-  return sum / static_cast<double>(a.values().size());
-}
-
 /// A white half-plane below the line y = 60 + slope (x - 80) of a picture of 160 × 120.
 Scene half_plane(float slope) {
-  Scene scene;
-  Material material;
-  material.model = ShadingModel::Unlit;
-  material.double_sided = true;
-  scene.materials.push_back(material);
   Mesh mesh;
   const float run = 400, rise = slope * run;
   mesh.position = {{-run, rise, 0}, {-run, -900, 0}, {run, -900, 0}, {run, -rise, 0}};
-  mesh.normal.assign(4, {0, 0, 1});
   mesh.index = {0, 1, 2, 0, 2, 3};
-  scene.objects.emplace_back("half");
-  scene.meshes.push_back(mesh);
-  scene.instances.push_back({});
-  Camera camera;
-  camera.world_from_camera.column[3] = {0, 0, 5, 1};
-  camera.is_orthographic = true;
-  camera.half_height = 60;
-  scene.cameras.push_back(camera);
+  Scene scene = facing_scene(std::move(mesh));
+  scene.cameras[0].half_height = 60;
   return scene;
 }
 

@@ -18,7 +18,7 @@ SamplePosition ShadedPlaces::of(std::uint64_t samples, int begin) const {
     const std::int32_t place = (*of_sample)[static_cast<std::size_t>(begin + std::countr_zero(samples))];
     x += place & 4095, y += place >> 12 & 4095, n += place >> 24;
   }
-  return {static_cast<std::uint8_t>((2 * x + n) / (2 * n)), static_cast<std::uint8_t>((2 * y + n) / (2 * n))};
+  return mean_place(x, y, n);
 }
 
 }  // namespace zoneplate

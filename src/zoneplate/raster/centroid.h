@@ -17,11 +17,13 @@ enum class Centroid {
 /// A place to be added to others: x in bits 0 to 11, y in bits 12 to 23, a one from bit 24 on. At most 16 add up.
 constexpr std::int32_t summand(SamplePosition place) { return place.x | place.y << 12 | 1 << 24; }
 
-/// The mean of such a sum, halves rounded up.
-constexpr SamplePosition mean_place(std::int32_t sum) {
-  const int n = sum >> 24, x = sum & 4095, y = sum >> 12 & 4095;
+/// The mean of n places whose sum is (x, y), halves rounded up.
+constexpr SamplePosition mean_place(int x, int y, int n) {
   return {static_cast<std::uint8_t>((2 * x + n) / (2 * n)), static_cast<std::uint8_t>((2 * y + n) / (2 * n))};
 }
+
+/// That of a sum of summands.
+constexpr SamplePosition mean_place(std::int32_t sum) { return mean_place(sum & 4095, sum >> 12 & 4095, sum >> 24); }
 
 /// A rule and a pattern as summands by sample: a surface is shaded at the mean of `first` of its first sample and
 /// `more` of its others, which are 0 where the rule has no use for them.

@@ -18,8 +18,8 @@ Linear Layers::over(const Linear& behind) const {
 }
 
 void Layers8::clear() {
-  for (float* const channel : {r, g, b}) std::fill_n(channel, 8, 0.0f);
-  std::fill_n(transmittance, 8, 1.0f);
+  for (float* const channel : {r, g, b}) std::fill_n(channel, size, 0.0f);
+  std::fill_n(transmittance, size, 1.0f);
   is_open = true;
 }
 

@@ -26,7 +26,8 @@ struct Layers {
 
 /// The same for eight pixels of a row.
 struct alignas(64) Layers8 {
-  float r[8], g[8], b[8], transmittance[8];
+  static constexpr int size = Linear8::size;
+  float r[size], g[size], b[size], transmittance[size];
   bool is_open;  ///< something is seen through at least one of the pixels
 
   void clear();

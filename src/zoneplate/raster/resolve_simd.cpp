@@ -56,6 +56,11 @@ void resolve(const Shaded& color, int first, float weight, Linear8& out) {
   });
 }
 
+/// What stands in front, and behind it what is seen through it.
+HWY_INLINE V laid_over(V front, hn::Mask<D> is_open, V behind, V transmittance) {
+  return hn::IfThenElse(is_open, hn::Add(front, hn::Mul(behind, transmittance)), front);
+}
+
 HWY_INLINE void put_row_under(const Shaded& color, int first, Layers8& layers) {
   const V least = hn::Set(d, Layers::least), one = hn::Set(d, 1.0f);
   V most = hn::Zero(d);
@@ -64,8 +69,7 @@ HWY_INLINE void put_row_under(const Shaded& color, int first, Layers8& layers) {
     const V t = hn::Load(d, layers.transmittance + i);
     const auto is_open = hn::Gt(t, hn::Zero(d));
     const auto add = [&](const float* from, float* to) HWY_ATTR {
-      const V sum = hn::Load(d, to + i);
-      hn::Store(hn::IfThenElse(is_open, hn::Add(sum, hn::Mul(hn::Load(d, from + p), t)), sum), d, to + i);
+      hn::Store(laid_over(hn::Load(d, to + i), is_open, hn::Load(d, from + p), t), d, to + i);
     };
     add(color.r, layers.r), add(color.g, layers.g), add(color.b, layers.b);
     const V rest = hn::Mul(t, hn::Sub(one, hn::Load(d, color.a + p)));
@@ -87,9 +91,8 @@ void over(const Layers8& layers, Linear8& behind) {
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
     const V t = hn::Load(d, layers.transmittance + i);
     const auto is_open = hn::Gt(t, hn::Zero(d));
-    const auto add = [&](const float* from, float* to) HWY_ATTR {
-      const V front = hn::Load(d, from + i);
-      hn::Store(hn::IfThenElse(is_open, hn::Add(front, hn::Mul(hn::Load(d, to + i), t)), front), d, to + i);
+    const auto add = [&](const float* front, float* to) HWY_ATTR {
+      hn::Store(laid_over(hn::Load(d, front + i), is_open, hn::Load(d, to + i), t), d, to + i);
     };
     add(layers.r, behind.r), add(layers.g, behind.g), add(layers.b, behind.b);
     const V missing = hn::Mul(hn::Sub(one, hn::Load(d, behind.a + i)), t);
