@@ -17,10 +17,11 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/antialias/bordered.h"
 #include "zoneplate/antialias/codes.h"
 #include "zoneplate/antialias/fxaa_kernels.h"
 #include "zoneplate/antialias/result_row.h"
+#include "zoneplate/antialias/rolling_rows.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate {
@@ -81,47 +82,27 @@ Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
   return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
 
-/// The luma of a few rows and of all that lies within reach of them, made just before it is looked at, so that it and
-/// the pixels are still in the caches.
+/// The luma of what lies within reach of one row after the other.
 class Luma {
  public:
   Luma(const Rgba8Image& image, const FxaaOptions& options, int first)
       : image_(image),
         row_of_(options.is_green_luma ? pick(options.isa, scalar::fxaa_kernels).green_row
                                       : pick(options.isa, scalar::fxaa_kernels).luma_row),
-        reach_(fxaa_reach(options)),
-        first_(first),
-        made_(first - reach_),
-        values_(image.width(), rows, reach_) {}
+        rows_(image.width(), image.height(), fxaa_reach(options), first) {}
 
-  std::ptrdiff_t stride() const { return values_.stride(); }
-  const std::uint8_t* at(int x, int y) const { return values_.at(x, y - first_); }
-
-  /// Makes what is in reach of row y and was not made for the row before it.
+  std::ptrdiff_t stride() const { return rows_.stride(); }
+  const std::uint8_t* at(int x, int y) const { return rows_.at(x, y); }
   void make_around(int y) {
-    if (y == first_ + rows) begin_at(y);
-    for (; made_ <= y + reach_; ++made_) {
-      std::uint8_t* out = values_.at(0, made_ - first_);
-      const auto row = image_.row(std::clamp(made_, 0, image_.height() - 1));
-      row_of_(&row[0].r, out, row.size());
-      values_.extend_row(made_ - first_);
-    }
+    rows_.make_around(y, [&](int row, std::uint8_t* luma) {
+      row_of_(&image_.row(row)[0].r, luma, static_cast<std::size_t>(image_.width()));
+    });
   }
 
  private:
-  static constexpr int rows = 32;
-
-  /// Lets row y be the first, and moves what is made and in its reach there.
-  void begin_at(int y) {
-    const auto size = static_cast<std::size_t>(made_ - (y - reach_)) * static_cast<std::size_t>(stride());
-    std::memmove(values_.at(-reach_, -reach_), values_.at(-reach_, y - reach_ - first_), size);
-    first_ = y;
-  }
-
   const Rgba8Image& image_;
   decltype(FxaaKernels::luma_row) row_of_;
-  int reach_, first_, made_;
-  Bordered<std::uint8_t> values_;
+  RollingRows<std::uint8_t> rows_;
 };
 
 /// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, for the luma within reach of both

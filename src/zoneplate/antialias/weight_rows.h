@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,16 @@ class WeightRow {
     values_[static_cast<std::size_t>(x)] = weights;
     has_any_[static_cast<std::size_t>(x / together)] |= weights != EdgeWeights{};
     if (x == width_ - 1) put_beyond(weights);
+  }
+  /// Puts all weights of the row.
+  void assign(const EdgeWeights* weights) {
+    std::memcpy(values_.data(), weights, sizeof(EdgeWeights) * static_cast<std::size_t>(width_));
+    for (std::size_t block = 0; block * together < static_cast<std::size_t>(width_); ++block) {
+      std::uint64_t pairs[together / 2];
+      std::memcpy(pairs, &values_[block * together], sizeof pairs);
+      has_any_[block] = (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+    }
+    put_beyond(values_[static_cast<std::size_t>(width_ - 1)]);
   }
   const EdgeWeights& operator[](int x) const { return values_[static_cast<std::size_t>(x)]; }
   /// False if all weights of a block are zero.
