@@ -12,10 +12,10 @@
 #include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/finite.h"
+#include "zoneplate/scene/flat_normals.h"
 #include "zoneplate/scene/mtl_material.h"
 #include "zoneplate/scene/ply_mesh.h"
 #include "zoneplate/scene/smooth_normals.h"
-#include "zoneplate/scene/tangent.h"
 
 namespace zoneplate {
 namespace {
@@ -78,7 +78,7 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
   std::vector<float3> sum(mesh.normal.size());
   for (std::size_t k = 0; k + 2 < mesh.index.size(); k += 3) {
     const float3 n =
-        face_normal(mesh.position[mesh.index[k]], mesh.position[mesh.index[k + 1]], mesh.position[mesh.index[k + 2]]);
+        flat_normal(mesh.position[mesh.index[k]], mesh.position[mesh.index[k + 1]], mesh.position[mesh.index[k + 2]]);
     for (std::size_t c = 0; c < 3; ++c) sum[mesh.index[k + c]] += n;
   }
   for (std::size_t i = 0; i < sum.size(); ++i)
