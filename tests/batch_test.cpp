@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "zoneplate/report/json_for_test.h"
 
 namespace {
 
@@ -42,7 +43,7 @@ class Batch : public testing::Test {
     lines.clear();
     std::istringstream out(text_of(place / "out.txt"));
     for (std::string line; std::getline(out, line);)
-      if (line.starts_with("{")) lines.push_back(nlohmann::json::parse(line));
+      if (line.starts_with("{")) lines.push_back(zoneplate::parsed_json(line));
     complaint = text_of(place / "err.txt");
     return WEXITSTATUS(status);
   }
