@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/fxaa.h"
+#include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -13,6 +14,22 @@ TEST(Ddaa, OutputsHaveTheirBits) {
   const auto hash = [&](const DdaaOptions& o) { return hash_of(apply_ddaa(image, o)); };
   EXPECT_EQ(hash({.strength = 3}), 0x580497c4ee85d7d2u);
   EXPECT_EQ(hash({.threshold = 0.031f, .least = 0.0078f, .strength = 1}), 0x43b01bc2f3a76555u);
+}
+
+TEST(Ddaa, InstructionSetsAndThreadsLeaveNoTrace) {
+  for (const int width : {1, 5, 64, 203}) {
+    const Rgba8Image image = random_shapes(width, 177, 2);
+    for (const DdaaOptions& options : {DdaaOptions{}, DdaaOptions{.threshold = 0.031f, .least = 0.0078f}}) {
+      DdaaOptions o = options;
+      o.isa = Isa::Scalar;
+      const Rgba8Image expected = apply_ddaa(image, o);
+      for (const Isa isa : supported_isas())
+        for (const int threads : {1, 2, 7}) {
+          o.isa = isa;
+          with_threads(threads, [&] { EXPECT_EQ(apply_ddaa(image, o), expected) << name_of(isa) << threads; });
+        }
+    }
+  }
 }
 
 TEST(Ddaa, DiagonalsAreSmoothedAndThinLinesSpared) {

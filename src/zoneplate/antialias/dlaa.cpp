@@ -15,6 +15,7 @@
 #include "zoneplate/antialias/bordered.h"
 #include "zoneplate/antialias/codes.h"
 #include "zoneplate/antialias/dlaa_kernels.h"
+#include "zoneplate/antialias/result_row.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/render/method.h"
 
@@ -57,57 +58,19 @@ void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::ui
   }
 }
 
-}  // namespace
+using Constants = DlaaConstants;
 
-const DlaaKernels dlaa_kernels = {
-    .edge_row = edge_row, .sum_row = sum_row, .slide_row = slide_row, .seen_row = seen_row};
-
-}  // namespace scalar
-
-namespace antialias {
-namespace {
-
-constexpr float lambda = 3, epsilon = 0.1f;
-constexpr int half_blur = 8;  ///< pixels of the long blur, to either side
-constexpr int reach = half_blur + 1;
-constexpr float least_unlike = 0.2f;  ///< how unlike the two directions must be for the long blur
-
-float4 values_of(Rgba8 c) {
-  return {static_cast<float>(c.r) / 255, static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255,
-          static_cast<float>(c.a) / 255};
+float4 values_of(const std::uint8_t* c) {
+  return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255,
+          static_cast<float>(c[3]) / 255};
 }
-
 float luma(const float4& c) { return (c.x + c.y + c.z) / 3; }
 float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // what is not a number gives 0
 float4 mixed(const float4& a, const float4& b, float t) {
   return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
 }
-/// The sum of |a + b - 2 c| over the colours' codes.
-int bend(Rgba8 a, Rgba8 b, Rgba8 c) {
-  return std::abs(a.r + b.r - 2 * c.r) + std::abs(a.g + b.g - 2 * c.g) + std::abs(a.b + b.b - 2 * c.b);
-}
-/// lambda times the luma of half a bend, less epsilon; not positive up to `unseen_bend`.
-float edge_of(int bend) { return lambda * (static_cast<float>(bend) / (3 * 2 * 255)) - epsilon; }
-constexpr int unseen_bend = 51;
-
-/// The picture with its border, and the first pass: four times the Laplacian's luma, as a code.
-struct Source {
-  Bordered<Rgba8> colors;
-  Bordered<std::uint8_t> edges;
-
-  Source(const Rgba8Image& image, const DlaaKernels& kernels)
-      : colors(image.width(), image.height(), reach), edges(image.width(), image.height(), half_blur) {
-    for_rows(image.height(),
-             [&](int y) { std::memcpy(colors.at(0, y), image.row(y).data(), image.row(y).size_bytes()); });
-    colors.extend();
-    for_rows(image.height(), [&](int y) {
-      kernels.edge_row(codes(y - 1), codes(y), codes(y + 1), edges.at(0, y), static_cast<std::size_t>(image.width()));
-    });
-    edges.extend();
-  }
-  const std::uint8_t* codes(int y) const { return &colors.at(0, y)->r; }
-  float4 at(int x, int y) const { return values_of(*colors.at(x, y)); }
-};
+/// lambda times the luma of half a bend, less epsilon.
+float edge_of(int bend) { return Constants::lambda * (static_cast<float>(bend) / (3 * 2 * 255)) - Constants::epsilon; }
 
 /// Where, between two neighbours at the ends of a line through `c`, the blur along it lies; both are lumas' shares.
 float4 between(const float4& first, const float4& c, const float4& last, const float4& blur) {
@@ -117,49 +80,83 @@ float4 between(const float4& first, const float4& c, const float4& last, const f
   return mixed(last, mixed(first, c, a), b);
 }
 
-/// The mean of the sixteen pixels around in one direction, the middle left out.
-float4 long_blur(const Source& source, int x, int y, int dx, int dy) {
+/// The mean of the sixteen pixels around, `step` bytes from each other, the middle left out.
+float4 long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
   int r = 0, g = 0, b = 0, a = 0;
-  for (int i = -half_blur; i <= half_blur; ++i) {
+  for (int i = -Constants::half_blur; i <= Constants::half_blur; ++i) {
     if (i == 0) continue;
-    const Rgba8 c = *source.colors.at(x + i * dx, y + i * dy);
-    r += c.r, g += c.g, b += c.b, a += c.a;
+    const std::uint8_t* c = pixel + i * step;
+    r += c[0], g += c[1], b += c[2], a += c[3];
   }
-  constexpr float scale = 255 * 2 * half_blur;
+  constexpr float scale = Constants::whole;
   return {static_cast<float>(r) / scale, static_cast<float>(g) / scale, static_cast<float>(b) / scale,
           static_cast<float>(a) / scale};
 }
 
-constexpr int whole = 255 * 2 * half_blur;  ///< of sixteen edge codes
-
 /// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
-float mask_of(int sum) { return 2 * sum <= whole ? 0 : static_cast<float>(2 * sum) / whole - 1; }
+float mask_of(int sum) { return 2 * sum <= Constants::whole ? 0 : static_cast<float>(2 * sum) / Constants::whole - 1; }
 
-Rgba8 filtered(const Source& source, int x, int y, float level_mask, float upright_mask) {
-  const Rgba8* p = source.colors.at(x, y);
-  const std::ptrdiff_t s = source.colors.stride();
-  const int level_bend = bend(p[-1], p[1], *p), upright_bend = bend(*(p - s), p[s], *p);
-  const bool has_long = std::abs(level_mask - upright_mask) > least_unlike;
-  if (level_bend <= unseen_bend && upright_bend <= unseen_bend && !has_long) return *p;
+void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float upright_mask, std::uint8_t* to) {
+  const int level_bend = bend(p - 4, p + 4, p), upright_bend = bend(p - s, p + s, p);
+  const bool has_long = std::abs(level_mask - upright_mask) > Constants::least_unlike;
+  if (std::max(level_bend, upright_bend) <= Constants::unseen_bend && !has_long) return;
   const float level = edge_of(level_bend), upright = edge_of(upright_bend);
-  const float4 c = source.at(x, y), l = source.at(x - 1, y), r = source.at(x + 1, y), t = source.at(x, y - 1),
-               b = source.at(x, y + 1);
+  const float4 c = values_of(p), l = values_of(p - 4), r = values_of(p + 4), t = values_of(p - s), b = values_of(p + s);
 
   // Short edges: six pixels along the direction that changes less.
   const auto blurred = [&](const float4& two, const float4& one, const float4& next, const float4& after) {
     return (two + one + next + after + c * 2) * (1.0f / 6);
   };
-  const float4 along = blurred(source.at(x - 2, y), l, r, source.at(x + 2, y));
-  const float4 down = blurred(source.at(x, y - 2), t, b, source.at(x, y + 2));
+  const float4 along = blurred(values_of(p - 8), l, r, values_of(p + 8));
+  const float4 down = blurred(values_of(p - 2 * s), t, b, values_of(p + 2 * s));
   float4 out = mixed(c, along, saturated(upright / luma(along)));
   out = mixed(out, down, 0.5f * saturated(level / luma(down)));
 
   if (has_long) {
-    out = mixed(out, between(l, c, r, long_blur(source, x, y, 0, 1)), upright_mask);
-    out = mixed(out, between(t, c, b, long_blur(source, x, y, 1, 0)), level_mask);
+    out = mixed(out, between(l, c, r, long_blur(p, s)), upright_mask);
+    out = mixed(out, between(t, c, b, long_blur(p, 4)), level_mask);
   }
-  return {rounded_code(out.x * 255), rounded_code(out.y * 255), rounded_code(out.z * 255), rounded_code(out.w * 255)};
+  const auto code = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5f); };
+  to[0] = code(out.x), to[1] = code(out.y), to[2] = code(out.z), to[3] = code(out.w);
 }
+
+void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i)
+    if (seen[i])
+      blur_pixel(rows.codes + 4 * i, rows.stride, mask_of(rows.level[i] - rows.edges[i]),
+                 mask_of(rows.upright[i] - rows.edges[i]), out + 4 * i);
+}
+
+}  // namespace
+
+const DlaaKernels dlaa_kernels = {
+    .edge_row = edge_row, .sum_row = sum_row, .slide_row = slide_row, .seen_row = seen_row, .blur_row = blur_row};
+
+}  // namespace scalar
+
+namespace antialias {
+namespace {
+
+using Constants = DlaaConstants;
+constexpr int reach = Constants::half_blur + 1;
+
+/// The picture with its border, and the first pass: four times the Laplacian's luma, as a code.
+struct Source {
+  Bordered<Rgba8> colors;
+  Bordered<std::uint8_t> edges;
+
+  Source(const Rgba8Image& image, const DlaaKernels& kernels)
+      : colors(image.width(), image.height(), reach), edges(image.width(), image.height(), Constants::half_blur) {
+    for_rows(image.height(),
+             [&](int y) { std::memcpy(colors.at(0, y), image.row(y).data(), image.row(y).size_bytes()); });
+    colors.extend();
+    for_rows(image.height(), [&](int y) {
+      kernels.edge_row(codes(y - 1), codes(y), codes(y + 1), edges.at(0, y), static_cast<std::size_t>(image.width()));
+    });
+    edges.extend();
+  }
+  const std::uint8_t* codes(int y) const { return &colors.at(0, y)->r; }
+};
 
 }  // namespace
 
@@ -173,6 +170,8 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
     // The sums of the edge codes of eight rows above and below move down with the rows.
     std::vector<std::int16_t> level(room), upright(room);
     std::vector<std::uint8_t> seen(room), nothing(room);
+    ResultRow result(image, out, isa);
+    constexpr int half_blur = Constants::half_blur;
     const int first = static_cast<int>(begin);
     for (int y = first - half_blur; y < first + half_blur; ++y)
       kernels.slide_row(source.edges.at(0, y), nothing.data(), upright.data(), width);
@@ -181,18 +180,11 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
       kernels.slide_row(source.edges.at(0, y + half_blur), before, upright.data(), width);
       kernels.sum_row(source.edges.at(0, y), level.data(), width);
       kernels.seen_row(source.codes(y - 1), source.codes(y), source.codes(y + 1), level.data(), upright.data(),
-                       unseen_bend, whole / 2, seen.data(), width);
-      copy_row(image, out, y);
-      for (std::size_t block = 0; block < width; block += 8) {
-        std::uint64_t any = 0;
-        std::memcpy(&any, &seen[block], sizeof any);
-        if (any == 0) continue;
-        for (std::size_t x = block; x < std::min(block + 8, width); ++x) {
-          if (!seen[x]) continue;
-          const int i = static_cast<int>(x), own = *source.edges.at(i, y);
-          out(i, y) = filtered(source, i, y, mask_of(level[x] - own), mask_of(upright[x] - own));
-        }
-      }
+                       Constants::unseen_bend, Constants::whole / 2, seen.data(), width);
+      const DlaaRows rows{source.codes(y), static_cast<std::ptrdiff_t>(sizeof(Rgba8)) * source.colors.stride(),
+                          source.edges.at(0, y), level.data(), upright.data()};
+      kernels.blur_row(rows, seen.data(), &result.begin(y)[0].r, width);
+      result.end();
     }
   });
   return out;

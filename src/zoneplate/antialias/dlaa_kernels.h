@@ -5,6 +5,24 @@
 
 namespace zoneplate {
 
+/// The constants of the method, as published.
+struct DlaaConstants {
+  static constexpr float lambda = 3, epsilon = 0.1f;
+  static constexpr int half_blur = 8;                ///< pixels of the long blur, to either side
+  static constexpr int whole = 255 * 2 * half_blur;  ///< of sixteen codes
+  static constexpr float least_unlike = 0.2f;        ///< how unlike the two directions must be for the long blur
+  static constexpr int unseen_bend = 51;             ///< up to which lambda × half its luma - epsilon is not positive
+};
+
+/// What the last pass of a row reads: its pixels' codes, around which eight pixels more are valid on every side; their
+/// edge codes; the sums of seventeen of those along the row and down the columns.
+struct DlaaRows {
+  const std::uint8_t* codes;
+  std::ptrdiff_t stride;  ///< of the codes, in bytes
+  const std::uint8_t* edges;
+  const std::int16_t *level, *upright;
+};
+
 /// What of DLAA is asked at every pixel.
 ///
 /// Shape     rows of colours are four codes a pixel, those of `here` valid from one pixel before the first to one after
@@ -23,6 +41,8 @@ struct DlaaKernels {
   void (*seen_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                    const std::int16_t* level, const std::int16_t* upright, int bend, int sum, std::uint8_t* seen,
                    std::size_t n);
+  /// Blurs the pixels that are seen; others of `out` are left alone.
+  void (*blur_row)(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out, std::size_t n);
 
   static const DlaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };

@@ -18,8 +18,9 @@ using EdgePlane = Bordered<std::uint8_t>;
 /// Makes rows with `fill(y, row)` and edges of them with `detect(rows, edges)`, blocks of rows in parallel.
 template <class T, class Fill, class Detect>
 void detect_edges(EdgePlane& edges, const Fill& fill, const Detect& detect) {
+  constexpr std::size_t rows = 32;
   const int height = edges.height();
-  parallel_ranges(static_cast<std::size_t>(height), rows_a_block, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(static_cast<std::size_t>(height), rows, [&](std::size_t begin, std::size_t end) {
     RowWindow<T> window(edges.width());
     const auto make = [&](int y) {
       fill(std::clamp(y, 0, height - 1), window.begin_row(y));

@@ -17,9 +17,11 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/antialias/bordered.h"
 #include "zoneplate/antialias/codes.h"
 #include "zoneplate/antialias/fxaa_kernels.h"
+#include "zoneplate/antialias/result_row.h"
+#include "zoneplate/antialias/rolling_rows.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate {
@@ -80,47 +82,37 @@ Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
   return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
 
-/// The luma of a block of rows and of all that lies within reach of them, made just before it is looked at, so that it
-/// and the pixels are still in the caches.
+/// The luma of what lies within reach of one row after the other.
 class Luma {
  public:
-  Luma(const Rgba8Image& image, const FxaaOptions& options, int first, int last)
+  Luma(const Rgba8Image& image, const FxaaOptions& options, int first)
       : image_(image),
         row_of_(options.is_green_luma ? pick(options.isa, scalar::fxaa_kernels).green_row
                                       : pick(options.isa, scalar::fxaa_kernels).luma_row),
-        reach_(fxaa_reach(options)),
-        first_(first),
-        made_(first - reach_),
-        values_(image.width(), last - first, reach_) {}
+        rows_(image.width(), image.height(), fxaa_reach(options), first) {}
 
-  std::ptrdiff_t stride() const { return values_.stride(); }
-  const std::uint8_t* at(int x, int y) const { return values_.at(x, y - first_); }
-
-  /// Makes what is in reach of row y and was not made for the rows before it.
+  std::ptrdiff_t stride() const { return rows_.stride(); }
+  const std::uint8_t* at(int x, int y) const { return rows_.at(x, y); }
   void make_around(int y) {
-    for (; made_ <= y + reach_; ++made_) {
-      std::uint8_t* out = values_.at(0, made_ - first_);
-      const auto row = image_.row(std::clamp(made_, 0, image_.height() - 1));
-      row_of_(&row[0].r, out, row.size());
-      values_.extend_row(made_ - first_);
-    }
+    rows_.make_around(y, [&](int row, std::uint8_t* luma) {
+      row_of_(&image_.row(row)[0].r, luma, static_cast<std::size_t>(image_.width()));
+    });
   }
 
  private:
   const Rgba8Image& image_;
   decltype(FxaaKernels::luma_row) row_of_;
-  int reach_, first_, made_;
-  Bordered<std::uint8_t> values_;
+  RollingRows<std::uint8_t> rows_;
 };
 
 /// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, for the luma within reach of both
 /// is made by each of two.
 template <class Body>
 void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const Body& body) {
-  constexpr std::size_t rows = 64;
+  constexpr std::size_t rows = 128;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
     const int first = static_cast<int>(begin), last = static_cast<int>(end);
-    Luma luma(image, options, first, last);
+    Luma luma(image, options, first);
     body(luma, first, last);
   });
 }
@@ -264,13 +256,14 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
   const auto width = static_cast<std::size_t>(image.width());
   for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
     RowMemory row(image.width());
+    ResultRow result(image, out, options.isa);
     for (int y = begin; y < end; ++y) {
       luma.make_around(y);
-      copy_row(image, out, y);
       kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, row.bits.data(), width);
       clear_beyond(row.bits, width);
       kernels.ends_row(luma.at(0, y), luma.stride(), search, row.bits.data(), row.ends(), width);
-      mix_row(image, luma, options, distances, kernels, y, row, out.row(y));
+      mix_row(image, luma, options, distances, kernels, y, row, result.begin(y));
+      result.end();
     }
   });
   return out;

@@ -23,7 +23,8 @@ struct FxaaOptions {
 /// Space     luma is held in 8 bits, as in the alpha channel where the original wants it.
 /// Edges     beyond the sides the outermost pixels go on.
 /// Exact     directions and sides are chosen by integers: of equal ones the horizontal direction, the upper or left
-/// side. Cost      the pixels without contrast are passed over by vectors.
+///           side.
+/// Cost      the pixels without contrast are passed over by vectors.
 Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory = {});
 
 /// How far away a pixel can be that decides another one.

@@ -41,11 +41,12 @@ struct FxaaKernels {
                        std::size_t n);
   /// Searches along the edges of the pixels whose bit is set; for others nothing valid is written.
   ///
-  /// Shape     reads and writes whole vectors, so that the arrays have room for n rounded up to 64.
+  /// Shape     reads and writes whole vectors, so that the arrays have room for n rounded up to 64; bits beyond the
+  ///           n-th are clear.
   void (*ends_row)(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch& search, const std::uint8_t* bits,
                    const FxaaEnds& ends, std::size_t n);
   /// Mixes the codes of the pixels whose bit is set with those across their edges, out of the row and those above and
-  /// below it.
+  /// below it. Bits as above.
   void (*mix_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                   const std::uint8_t* bits, const FxaaEnds& ends, std::uint8_t* out, std::size_t n);
 

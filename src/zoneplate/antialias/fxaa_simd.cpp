@@ -125,48 +125,70 @@ HWY_INLINE V upper(W v) {
 /// |a + b - 2 c|
 HWY_INLINE W bend(W a, W b, W c) { return hn::Abs(hn::Sub(hn::Add(a, b), hn::Add(c, c))); }
 
+/// Where the edges of a vector's pixels run.
+enum class Direction { Level, Upright, Both };
+
 /// The edges of a vector of pixels, each with its own direction and side.
 struct Walk {
   const std::uint8_t* pixel;
   std::ptrdiff_t stride;
   WMask is_level, is_second;
-  bool all_level, none_level;
   W gradient, twice;
 
   /// The sums of the lumas on both sides of the edge, i pixels along it.
+  template <Direction direction>
   HWY_INLINE W pair(std::ptrdiff_t i) const {
-    W level = hn::Zero(dw), upright = hn::Zero(dw);
-    if (!none_level) {
-      const std::uint8_t* p = pixel + i;
-      level = hn::Add(load_luma(p), hn::IfThenElse(is_second, load_luma(p + stride), load_luma(p - stride)));
+    if constexpr (direction == Direction::Both) {
+      return hn::IfThenElse(is_level, pair<Direction::Level>(i), pair<Direction::Upright>(i));
+    } else {
+      const bool level = direction == Direction::Level;
+      const std::uint8_t* p = pixel + (level ? i : i * stride);
+      const std::ptrdiff_t across = level ? stride : 1;
+      return hn::Add(load_luma(p), hn::IfThenElse(is_second, load_luma(p + across), load_luma(p - across)));
     }
-    if (!all_level) {
-      const std::uint8_t* p = pixel + i * stride;
-      upright = hn::Add(load_luma(p), hn::IfThenElse(is_second, load_luma(p + 1), load_luma(p - 1)));
-    }
-    return hn::IfThenElse(is_level, level, upright);
   }
   /// Four times the luma on the border, `distance` half pixels along it, less that at the pixel.
+  template <Direction direction>
   HWY_INLINE W error(int distance) const {
-    const W first = pair(distance >> 1);
-    return hn::Sub(hn::Add(first, distance & 1 ? pair((distance + 1) >> 1) : first), twice);
+    const W first = pair<direction>(distance >> 1);
+    return hn::Sub(hn::Add(first, distance & 1 ? pair<direction>((distance + 1) >> 1) : first), twice);
   }
 };
 
-/// One direction of the search.
+/// One end of the edges: how far away it was looked for, and the error that was found there.
 struct End {
   W distance, error;
-  WMask is_done;
-
-  HWY_INLINE void look(const Walk& walk, int sign, int at, int next, WMask& is_tied) {
-    const W found = walk.error(sign * at);
-    const W size = hn::Abs(found);
-    is_tied = hn::Or(is_tied, hn::AndNot(is_done, hn::Eq(size, walk.gradient)));
-    error = hn::IfThenElse(is_done, error, found);
-    is_done = hn::Or(is_done, hn::Not(hn::Lt(size, walk.gradient)));
-    distance = hn::IfThenElse(is_done, distance, hn::Set(dw, static_cast<std::int16_t>(next)));
-  }
 };
+
+/// Looks by fours, for to foresee wrongly where the last pixel of a vector ends costs more than to look again.
+template <Direction direction>
+HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, WMask wanted, int sign) {
+  End end{hn::Set(dw, static_cast<std::int16_t>(search.distances[0])), hn::Zero(dw)};
+  WMask goes_on = wanted;
+  for (std::size_t i = 0; i + 1 < search.count; ++i) {
+    if (i % 4 == 0 && hn::AllFalse(dw, goes_on)) break;
+    const W found = walk.error<direction>(sign * search.distances[i]);
+    end.error = hn::IfThenElse(goes_on, found, end.error);
+    goes_on = hn::And(goes_on, hn::Lt(hn::Abs(found), walk.gradient));
+    const auto next = static_cast<std::int16_t>(search.distances[i + 1]);
+    end.distance = hn::IfThenElse(goes_on, hn::Set(dw, next), end.distance);
+  }
+  return end;
+}
+
+/// Both ends, by the loop for the directions there are: most vectors have one.
+HWY_INLINE void find_ends(const Walk& walk, const FxaaSearch& search, WMask wanted, End& before, End& after) {
+  if (hn::AllFalse(dw, hn::AndNot(walk.is_level, wanted))) {
+    before = find_end<Direction::Level>(walk, search, wanted, -1);
+    after = find_end<Direction::Level>(walk, search, wanted, 1);
+  } else if (hn::AllFalse(dw, hn::And(walk.is_level, wanted))) {
+    before = find_end<Direction::Upright>(walk, search, wanted, -1);
+    after = find_end<Direction::Upright>(walk, search, wanted, 1);
+  } else {
+    before = find_end<Direction::Both>(walk, search, wanted, -1);
+    after = find_end<Direction::Both>(walk, search, wanted, 1);
+  }
+}
 
 HWY_INLINE W bit_where(WMask mask, int bit) {
   return hn::IfThenElseZero(mask, hn::Set(dw, static_cast<std::int16_t>(bit)));
@@ -198,27 +220,20 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   const W middle_h = bend(n, s, m), middle_v = bend(w, e, m);
   const W h = hn::Add(hn::Add(bend(nw, sw, w), bend(ne, se, e)), hn::Add(middle_h, middle_h));
   const W v = hn::Add(hn::Add(bend(nw, ne, n), bend(sw, se, s)), hn::Add(middle_v, middle_v));
-  Walk walk{p, stride, hn::Not(hn::Lt(h, v)), {}, false, false, {}, {}};
+  Walk walk{p, stride, hn::Not(hn::Lt(h, v)), {}, {}, {}};
   const W first = hn::Abs(hn::Sub(hn::IfThenElse(walk.is_level, n, w), m));
   const W second_luma = hn::IfThenElse(walk.is_level, s, e), second = hn::Abs(hn::Sub(second_luma, m));
   walk.is_second = hn::Gt(second, first);
   walk.gradient = hn::Max(first, second);
-  walk.all_level = hn::AllFalse(dw, hn::AndNot(walk.is_level, wanted));
-  walk.none_level = hn::AllFalse(dw, hn::And(walk.is_level, wanted));
   const W across = hn::IfThenElse(walk.is_second, second_luma, hn::IfThenElse(walk.is_level, n, w));
   const W here = hn::Add(m, across);
   walk.twice = hn::Add(here, here);
 
-  // A pixel that is not wanted is done from the start.
-  const W start = hn::Set(dw, static_cast<std::int16_t>(search.distances[0]));
-  End before{start, hn::Zero(dw), hn::Not(wanted)}, after = before;
-  WMask is_tied = hn::Lt(start, start);
-  for (std::size_t i = 0; i + 1 < search.count; ++i) {
-    const bool is_before = hn::AllTrue(dw, before.is_done), is_after = hn::AllTrue(dw, after.is_done);
-    if (is_before && is_after) break;
-    if (!is_before) before.look(walk, -1, search.distances[i], search.distances[i + 1], is_tied);
-    if (!is_after) after.look(walk, 1, search.distances[i], search.distances[i + 1], is_tied);
-  }
+  End before, after;
+  find_ends(walk, search, wanted, before, after);
+  // Who meets a tie goes no farther.
+  const WMask is_tied =
+      hn::Or(hn::Eq(hn::Abs(before.error), walk.gradient), hn::Eq(hn::Abs(after.error), walk.gradient));
   const W nearer = hn::IfThenElse(hn::Lt(before.distance, after.distance), before.error, after.error);
   const WMask bends = hn::Xor(hn::Lt(nearer, hn::Zero(dw)), hn::Lt(m, across));
   const W least = hn::IfThenElseZero(hn::AndNot(is_tied, bends), hn::Min(before.distance, after.distance));
@@ -239,17 +254,39 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   hn::StoreMaskBits(dw, is_tied, ends.tied_bits + x / 8);
 }
 
+/// Where pixels of a part of a row are set: the first ones of blocks of `lanes` pixels. Listed first, so that the loop
+/// over them never guesses wrong which one comes next.
+struct Blocks {
+  static constexpr std::size_t part = 1024;  ///< pixels
+  std::size_t count = 0;
+  std::uint32_t first[part / 8];
+};
+
+template <std::size_t lanes>
+HWY_INLINE void list_blocks(const std::uint8_t* bits, std::size_t begin, std::size_t end, Blocks& out) {
+  out.count = 0;
+  for (std::size_t x = begin; x < end; x += 64)
+    for (std::size_t i = x; i < x + 64; i += lanes) {
+      out.first[out.count] = static_cast<std::uint32_t>(i);
+      out.count += (lanes == 16 ? bits[i / 8] | bits[i / 8 + 1] : bits[i / 8]) != 0;
+    }
+}
+
 void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch& search, const std::uint8_t* bits,
               const FxaaEnds& ends, std::size_t n) {
-  const std::size_t lanes = hn::Lanes(dw);
+  constexpr std::size_t lanes = HWY_MAX_BYTES >= 32 ? 16 : 8;
   const W powers = hn::Load(dw, lane_bits);
-  for (std::size_t x = 0; x < n; x += lanes) {
-    int wanted = bits[x / 8];
-    ends.tied_bits[x / 8] = 0;
-    if (lanes == 16) wanted |= bits[x / 8 + 1] << 8, ends.tied_bits[x / 8 + 1] = 0;
-    if (wanted == 0) continue;
-    const W set = hn::And(hn::Set(dw, static_cast<std::int16_t>(wanted)), powers);
-    ends_some(luma + x, stride, search, hn::Eq(set, powers), ends, x);
+  Blocks blocks;
+  for (std::size_t begin = 0; begin < n; begin += Blocks::part) {
+    const std::size_t end = begin + Blocks::part < n ? begin + Blocks::part : n;
+    list_blocks<lanes>(bits, begin, end, blocks);
+    for (std::size_t byte = begin / 8; byte < (end + lanes - 1) / lanes * lanes / 8; ++byte) ends.tied_bits[byte] = 0;
+    for (std::size_t i = 0; i < blocks.count; ++i) {
+      const std::size_t x = blocks.first[i];
+      const int wanted = bits[x / 8] | (lanes == 16 ? bits[x / 8 + 1] << 8 : 0);
+      const W set = hn::And(hn::Set(dw, static_cast<std::int16_t>(wanted)), powers);
+      ends_some(luma + x, stride, search, hn::Eq(set, powers), ends, x);
+    }
   }
 }
 
@@ -257,14 +294,16 @@ using Pixels = hn::RebindToSigned<Floats>;
 using P = hn::Vec<Pixels>;
 constexpr Pixels dp;
 
-/// One channel of (1 - t) here + t there, rounded, in its place.
+/// One channel of (1 - t) here + t there, rounded, in its place. With 2^23 added a code is the low bits of the float;
+/// what is above them is shifted out, but for the first channel's.
 template <int shift>
 HWY_INLINE P mixed_channel(P here, P there, V t) {
   const P mask = hn::Set(dp, 255);
   const V from = hn::ConvertTo(df, hn::And(hn::ShiftRight<shift>(here), mask));
   const V to = hn::ConvertTo(df, hn::And(hn::ShiftRight<shift>(there), mask));
   const V out = hn::Add(hn::Add(from, hn::Mul(hn::Sub(to, from), t)), hn::Set(df, 0.5f));
-  return hn::ShiftLeft<shift>(hn::NearestInt(hn::Floor(out)));
+  const P code = hn::BitCast(dp, hn::Add(hn::Floor(out), hn::Set(df, 8388608.0f)));
+  return shift == 0 ? hn::And(code, mask) : hn::ShiftLeft<shift>(code);
 }
 
 HWY_INLINE P load_pixels(const std::uint8_t* p) {
@@ -287,31 +326,39 @@ void mix_few(const std::uint8_t* above, const std::uint8_t* here, const std::uin
   }
 }
 
-void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::uint8_t* bits,
-             const FxaaEnds& ends, std::uint8_t* out, std::size_t n) {
-  const std::size_t lanes = hn::Lanes(dp);
+/// Eight pixels that have neighbours on both sides.
+HWY_INLINE void mix_block(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int bits,
+                          const FxaaEnds& ends, std::uint8_t* out, std::size_t x) {
   const hn::Rebind<std::uint8_t, Pixels> bytes;
   const hn::Repartition<std::uint8_t, Pixels> whole;
   const P powers = hn::LoadU(dp, pixel_bits);
-  for (std::size_t x = 0; x < n; x += 8) {
-    if (bits[x / 8] == 0) continue;
-    if (x == 0 || x + 9 > n) {
-      mix_few(above, here, below, bits[x / 8], ends, out, x, x + 8 < n ? x + 8 : n, n);
-      continue;
-    }
-    for (std::size_t i = x; i < x + 8; i += lanes) {
-      const P set = hn::And(hn::Set(dp, bits[x / 8] >> (i - x)), powers);
-      const P flags = hn::PromoteTo(dp, hn::LoadU(bytes, ends.flags + i));
-      const P level = hn::Set(dp, FxaaEnds::level), second = hn::Set(dp, FxaaEnds::second_side);
-      const auto is_second = hn::Eq(hn::And(flags, second), second), is_level = hn::Eq(hn::And(flags, level), level);
-      const P m = load_pixels(here + 4 * i);
-      const P beside = hn::IfThenElse(is_second, load_pixels(here + 4 * i + 4), load_pixels(here + 4 * i - 4));
-      const P over = hn::IfThenElse(is_second, load_pixels(below + 4 * i), load_pixels(above + 4 * i));
-      const P there = hn::IfThenElse(is_level, over, beside);
-      const V t = hn::LoadU(df, ends.shift + i);
-      const P mixed = hn::Or(hn::Or(mixed_channel<0>(m, there, t), mixed_channel<8>(m, there, t)),
-                             hn::Or(mixed_channel<16>(m, there, t), mixed_channel<24>(m, there, t)));
-      hn::StoreU(hn::BitCast(whole, hn::IfThenElse(hn::Eq(set, powers), mixed, m)), whole, out + 4 * i);
+  for (std::size_t i = x; i < x + 8; i += hn::Lanes(dp)) {
+    const P set = hn::And(hn::Set(dp, bits >> (i - x)), powers);
+    const P flags = hn::PromoteTo(dp, hn::LoadU(bytes, ends.flags + i));
+    const P level = hn::Set(dp, FxaaEnds::level), second = hn::Set(dp, FxaaEnds::second_side);
+    const auto is_second = hn::Eq(hn::And(flags, second), second), is_level = hn::Eq(hn::And(flags, level), level);
+    const P m = load_pixels(here + 4 * i);
+    const P beside = hn::IfThenElse(is_second, load_pixels(here + 4 * i + 4), load_pixels(here + 4 * i - 4));
+    const P over = hn::IfThenElse(is_second, load_pixels(below + 4 * i), load_pixels(above + 4 * i));
+    const P there = hn::IfThenElse(is_level, over, beside);
+    const V t = hn::LoadU(df, ends.shift + i);
+    const P mixed = hn::Or(hn::Or(mixed_channel<0>(m, there, t), mixed_channel<8>(m, there, t)),
+                           hn::Or(mixed_channel<16>(m, there, t), mixed_channel<24>(m, there, t)));
+    hn::StoreU(hn::BitCast(whole, hn::IfThenElse(hn::Eq(set, powers), mixed, m)), whole, out + 4 * i);
+  }
+}
+
+void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::uint8_t* bits,
+             const FxaaEnds& ends, std::uint8_t* out, std::size_t n) {
+  Blocks blocks;
+  for (std::size_t begin = 0; begin < n; begin += Blocks::part) {
+    list_blocks<8>(bits, begin, begin + Blocks::part < n ? begin + Blocks::part : n, blocks);
+    for (std::size_t i = 0; i < blocks.count; ++i) {
+      const std::size_t x = blocks.first[i];
+      if (x == 0 || x + 9 > n)
+        mix_few(above, here, below, bits[x / 8], ends, out, x, x + 8 < n ? x + 8 : n, n);
+      else
+        mix_block(above, here, below, bits[x / 8], ends, out, x);
     }
   }
 }

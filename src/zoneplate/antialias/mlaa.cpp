@@ -47,7 +47,7 @@ EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int bo
   constexpr float white = 255 * 10000;
   const float threshold = std::round(static_cast<float>(options.threshold) * white);
   const auto width = static_cast<std::size_t>(image.width());
-  const SmaaKernels& kernels = pick(best_isa(), scalar::smaa_kernels);
+  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
   EdgePlane edges(image.width(), image.height(), border);
   detect_edges<float>(
       edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },
@@ -148,11 +148,9 @@ Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8
     return mixed_pixel(image, x, y, taken, options.mixes_light);
   };
   if (options.kind == MlaaOptions::Kind::Reshetov) {
-    const WeightPlane weights = mlaa_reshetov_weights(image);
-    const auto copy = [&](int y, WeightRow& row) {
-      for (int x = 0; x < image.width(); ++x) row.put(x, *weights.at(x, y));
-    };
-    mix_by_weights(image, out, copy, mix);
+    const WeightPlane weights = mlaa_reshetov_weights(image, options.isa);
+    mix_by_weights(
+        image, out, [&](int y, WeightRow& row) { row.assign(weights.at(0, y)); }, mix);
     return out;
   }
   const MlaaAreas table(2 * options.steps);

@@ -5,13 +5,39 @@
 // directions count from the picture as it was, not one after the other.
 //
 // Source: Reshetov, Morphological Antialiasing, HPG 2009.
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 #include "zoneplate/antialias/codes.h"
 #include "zoneplate/antialias/mlaa.h"
+#include "zoneplate/antialias/mlaa_kernels.h"
 
-namespace zoneplate::antialias {
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+bool differ(const std::uint8_t* a, const std::uint8_t* b, int least) {
+  return std::abs(a[0] - b[0]) >= least || std::abs(a[1] - b[1]) >= least || std::abs(a[2] - b[2]) >= least;
+}
+
+void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, std::uint8_t* edges, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool is_left = i > 0 && differ(here + 4 * i, here + 4 * i - 4, least);
+    edges[i] = static_cast<std::uint8_t>(is_left | differ(here + 4 * i, above + 4 * i, least) << 1);
+  }
+}
+
+}  // namespace
+
+const MlaaKernels mlaa_kernels = {.edges_row = edges_row};
+
+}  // namespace scalar
+
+namespace antialias {
 
 float split_height(int near, int across, int beyond, int beyond_near) {
   const int numerator = beyond_near - near, denominator = across - near - beyond + beyond_near;
@@ -25,22 +51,30 @@ namespace {
 /// A difference in the upper four bits of a channel.
 constexpr int least_difference = 16;
 
-bool differ(Rgba8 a, Rgba8 b) {
-  return std::abs(a.r - b.r) >= least_difference || std::abs(a.g - b.g) >= least_difference ||
-         std::abs(a.b - b.b) >= least_difference;
-}
-
-EdgePlane find_edges(const Rgba8Image& image) {
+EdgePlane find_edges(const Rgba8Image& image, Isa isa) {
+  const MlaaKernels& kernels = pick(isa, scalar::mlaa_kernels);
   EdgePlane edges(image.width(), image.height(), 1);
   for_rows(image.height(), [&](int y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const bool is_left = x > 0 && differ(image(x, y), image(x - 1, y));
-      const bool is_top = y > 0 && differ(image(x, y), image(x, y - 1));
-      *edges.at(x, y) = static_cast<std::uint8_t>(is_left | is_top << 1);
-    }
+    const auto row = image.row(y), above = image.row(std::max(y - 1, 0));
+    kernels.edges_row(&above[0].r, &row[0].r, least_difference, edges.at(0, y), row.size());
   });
   edges.extend();
   return edges;
+}
+
+constexpr std::uint64_t ones = 0x0101010101010101;
+
+/// A bit for each of eight pixels that has one of its edges, in that edge's place of every byte.
+std::uint64_t edges_of_eight(const std::uint8_t* pixels, std::uint8_t edge) {
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, pixels, sizeof eight);
+  return eight & edge * ones;
+}
+
+/// The same as eight bits that follow each other, the first pixel's lowest.
+std::uint64_t bits_of_eight(const std::uint8_t* pixels) {
+  constexpr std::uint64_t gather = 0x0102040810204080;
+  return edges_of_eight(pixels, left_edge) * gather >> 56;
 }
 
 enum class Side { None, Below, Above };
@@ -51,26 +85,53 @@ class Lines {
   Lines(const Rgba8Image& image, const EdgePlane& edges, WeightPlane& weights, bool is_horizontal)
       : image_(image), edges_(edges), weights_(weights), is_horizontal_(is_horizontal) {}
 
-  int count() const { return is_horizontal_ ? image_.height() : image_.width(); }
-
-  /// Weighs every line between pixels j - 1 and j.
-  void weigh(int j) {
-    for (int begin = 0; begin < length();) {
-      if (!is_edge(begin, j)) {
-        ++begin;
-        continue;
+  /// Weighs the horizontal lines above row y, which are looked for by eight pixels.
+  void weigh_row(int y) {
+    const std::uint8_t* row = edges_.at(0, y);
+    for (int x = 0; x < length();) {
+      const std::uint64_t eight = edges_of_eight(row + x, top_edge);
+      x += std::countr_zero(eight) / 8;
+      if (eight == 0 || x >= length()) continue;
+      const int begin = x;
+      for (std::uint64_t gaps = 0; gaps == 0 && x < length();) {
+        gaps = edges_of_eight(row + x, top_edge) ^ top_edge * ones;
+        x += std::countr_zero(gaps) / 8;
       }
-      int end = begin + 1;
-      while (end < length() && is_edge(end, j)) ++end;
-      weigh_line(begin, end, j);
-      begin = end;
+      weigh_line(begin, std::min(x, length()), y);
     }
   }
 
+  /// Weighs the vertical lines on the left of `strip` columns from `first` on, all of them row by row: a column by
+  /// itself would take a line of the cache for every pixel.
+  void weigh_strip(int first) {
+    std::array<int, strip> begin;
+    std::uint64_t open = 0;
+    const auto end_lines = [&](std::uint64_t which, int y) {
+      for (; which != 0; which &= which - 1) {
+        const int column = std::countr_zero(which);
+        weigh_line(begin[static_cast<std::size_t>(column)], y, first + column);
+      }
+    };
+    const int columns = std::min(strip, image_.width() - first);
+    const std::uint64_t inside = columns < strip ? (std::uint64_t{1} << columns) - 1 : ~std::uint64_t{0};
+    for (int y = 0; y < length(); ++y) {
+      std::uint64_t here = 0;
+      for (int x = 0; x < columns; x += 8) here |= bits_of_eight(edges_.at(first + x, y)) << x;
+      here &= inside;
+      end_lines(open & ~here, y);
+      for (std::uint64_t which = here & ~open; which != 0; which &= which - 1)
+        begin[static_cast<std::size_t>(std::countr_zero(which))] = y;
+      open = here;
+    }
+    end_lines(open, length());
+  }
+
+  static constexpr int strip = 64;
+
  private:
+  int count() const { return is_horizontal_ ? image_.height() : image_.width(); }
   int length() const { return is_horizontal_ ? image_.width() : image_.height(); }
   const std::uint8_t& edge(int i, int j) const { return *(is_horizontal_ ? edges_.at(i, j) : edges_.at(j, i)); }
-  bool is_edge(int i, int j) const { return edge(i, j) & (is_horizontal_ ? top_edge : left_edge); }
   /// Whether something crosses before pixel i of row j; nothing does at the picture's sides.
   bool crosses(int i, int j) const {
     return i > 0 && i < length() && edge(i, j) & (is_horizontal_ ? left_edge : top_edge);
@@ -102,11 +163,12 @@ class Lines {
     const int beyond = first - direction;
     const float height =
         split_height(luma(first, near), luma(first, across), luma(beyond, near), luma(beyond, near + (near - across)));
+    float at = height * reach / reach;
     for (int k = 0; static_cast<float>(k) < reach; ++k) {
-      const float at = height * (reach - static_cast<float>(k)) / reach;
       const float rest = std::min(1.0f, reach - static_cast<float>(k));
       const float next = height * (reach - static_cast<float>(k) - rest) / reach;
       add(first + direction * k, j, side, (at + next) * 0.5f * rest);
+      at = next;
     }
   }
 
@@ -125,16 +187,20 @@ class Lines {
 
 }  // namespace
 
-WeightPlane mlaa_reshetov_weights(const Rgba8Image& image) {
-  const EdgePlane edges = find_edges(image);
+WeightPlane mlaa_reshetov_weights(const Rgba8Image& image, Isa isa) {
+  const EdgePlane edges = find_edges(image, isa);
   WeightPlane weights(image.width(), image.height(), 1);
-  for_rows(image.height(), [&](int y) { std::fill_n(weights.at(0, y), image.width(), EdgeWeights{}); });
-  for (const bool is_horizontal : {true, false}) {
-    Lines lines(image, edges, weights, is_horizontal);
-    for_rows(lines.count(), [&](int j) { lines.weigh(j); });
-  }
+  for_rows(image.height(), [&](int y) {
+    std::memset(static_cast<void*>(weights.at(0, y)), 0, sizeof(EdgeWeights) * static_cast<std::size_t>(image.width()));
+  });
+  Lines level(image, edges, weights, true), upright(image, edges, weights, false);
+  for_rows(image.height(), [&](int y) { level.weigh_row(y); });
+  constexpr int strip = Lines::strip;
+  parallel_for(static_cast<std::size_t>((image.width() + strip - 1) / strip),
+               [&](std::size_t i) { upright.weigh_strip(strip * static_cast<int>(i)); });
   weights.extend();
   return weights;
 }
 
-}  // namespace zoneplate::antialias
+}  // namespace antialias
+}  // namespace zoneplate

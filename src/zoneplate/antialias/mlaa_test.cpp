@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/antialias/mlaa_kernels.h"
+#include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -15,6 +17,56 @@ TEST(Mlaa, OutputsHaveTheirBits) {
   EXPECT_EQ(hash({.kind = Kind::Jimenez}), 0x337420ebaf291ca9u);
   EXPECT_EQ(hash({.steps = 4, .mixes_light = false}), 0xd3f9bbbce922e22u);
   EXPECT_EQ(hash({.kind = Kind::Reshetov}), 0xc027e75bd9b0a194u);
+}
+
+TEST(Mlaa, InstructionSetsAndThreadsLeaveNoTrace) {
+  const Rgba8Image image = random_shapes(203, 77, 2);
+  for (const Kind kind : {Kind::Jimenez, Kind::Reshetov}) {
+    const Rgba8Image expected = apply_mlaa(image, {.kind = kind, .isa = Isa::Scalar});
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 2, 7})
+        with_threads(threads, [&] { EXPECT_EQ(apply_mlaa(image, {.kind = kind, .isa = isa}), expected) << threads; });
+  }
+}
+
+TEST(Mlaa, KernelsFindTheEdgesOfTheirTwins) {
+  std::vector<std::uint8_t> codes(2 * 4 * 210);
+  for (std::uint32_t i = 0; i < codes.size(); ++i)
+    codes[i] = static_cast<std::uint8_t>(100 + hash(i) % (i % 5 == 0 ? 40 : 17));
+  const std::uint8_t *above = &codes[0], *here = &codes[840];
+  for (const Isa isa : supported_isas())
+    for (std::size_t n = 0; n <= 200; ++n) {
+      std::vector<std::uint8_t> expected(n + 1, 9), found = expected;
+      scalar::mlaa_kernels.edges_row(above, here, 16, expected.data(), n);
+      pick(isa, scalar::mlaa_kernels).edges_row(above, here, 16, found.data(), n);
+      ASSERT_EQ(found, expected) << name_of(isa);
+      if (n < 200) continue;
+      for (const int edges : {0, 1, 2, 3}) EXPECT_GT(std::ranges::count(found, edges), 10);
+    }
+}
+
+TEST(Mlaa, LinesAreFoundWhereverTheyBeginAndEnd) {
+  // Bars of every length, from every column and row: what a bar's end looks like does not depend on where it lies.
+  const auto bar = [](int begin, int end, bool is_level) {
+    return make_codes(90, 90, [=](int x, int y) {
+      const int along = is_level ? x : y, across = is_level ? y : x;
+      return across == 40 && along >= begin && along < end ? Rgba8{220, 220, 220} : Rgba8{20, 20, 20};
+    });
+  };
+  for (const bool is_level : {true, false})
+    for (int begin = 1; begin < 75; begin += 3)
+      for (const int length : {1, 2, 7, 8, 9, 14}) {
+        const MlaaOptions options{.kind = Kind::Reshetov};
+        const Rgba8Image out = apply_mlaa(bar(begin, begin + length, is_level), options);
+        const Rgba8Image first = apply_mlaa(bar(0 + 1, 1 + length, is_level), options);
+        for (int i = -1; i <= length; ++i)
+          for (int j = 38; j < 43; ++j) {
+            const auto at = [&](const Rgba8Image& image, int along) {
+              return is_level ? image(along, j) : image(j, along);
+            };
+            ASSERT_EQ(at(out, begin + i), at(first, 1 + i)) << begin << " " << length << " " << is_level;
+          }
+      }
 }
 
 TEST(Mlaa, StepsOfOneLengthBecomeTheirLine) {

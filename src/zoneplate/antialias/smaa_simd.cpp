@@ -46,6 +46,11 @@ HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, float threshol
   const auto m = hn::LoadU(d, here), l = hn::LoadU(d, here - 1), t = hn::LoadU(d, above);
   const auto to_left = hn::Abs(hn::Sub(m, l)), to_top = hn::Abs(hn::Sub(m, t));
   const auto is_left = hn::Ge(to_left, least), is_top = hn::Ge(to_top, least);
+  if (hn::AllFalse(d, hn::Or(is_left, is_top))) {
+    const hn::Rebind<std::uint8_t, D> bytes;
+    hn::StoreU(hn::Zero(bytes), bytes, edges + i);
+    return;
+  }
   const auto to_right = hn::Abs(hn::Sub(m, hn::LoadU(d, here + 1)));
   const auto to_bottom = hn::Abs(hn::Sub(m, hn::LoadU(d, below)));
   const auto far_left = hn::Abs(hn::Sub(l, hn::LoadU(d, here - 2)));

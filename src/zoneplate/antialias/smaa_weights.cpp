@@ -4,6 +4,7 @@
 // Left edges are top edges with x and y exchanged, so that one walk serves both.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -14,19 +15,26 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// By the bits of four pixels (0: across and beyond, 1: across, 2: beyond, 3: here), of the edges that cross (high) and
-/// of those along (low): how many of the last two pixels belong to the line.
-struct SearchLengths {
+/// What a search finds between four pixels, by their edges: of the nearer and the farther pixel of the line, and of
+/// those across from them, two bits each.
+struct SearchSteps {
+  static constexpr std::uint8_t length = 3;   ///< how many of the two belong to the line
+  static constexpr std::uint8_t goes_on = 4;  ///< both do, and nothing crosses
   std::array<std::uint8_t, 256> before{}, after{};
-  SearchLengths() {
+
+  SearchSteps(std::uint8_t own, std::uint8_t cross) {
     const std::vector<std::uint8_t> table = make_search_table();
-    const auto value = [](std::size_t bits) {
-      return (bits & 1) + 3 * (bits >> 1 & 1) + 7 * (bits >> 2 & 1) + 21 * (bits >> 3 & 1);
-    };
-    for (std::size_t i = 0; i < 256; ++i) {
-      const std::size_t cross = value(i >> 4), y = std::min<std::size_t>(15, 32 - value(i & 15));
-      before[i] = table[64 * y + cross] / 127;
-      after[i] = table[64 * y + std::min<std::size_t>(63, cross + 33)] / 127;
+    for (std::size_t four = 0; four < 256; ++four) {
+      const auto weighed = [&](std::uint8_t edge) {
+        const auto is = [&](int pixel) { return four >> 2 * pixel & edge ? std::size_t{1} : std::size_t{0}; };
+        return 21 * is(0) + 7 * is(1) + 3 * is(2) + is(3);
+      };
+      const std::size_t x = weighed(cross), y = std::min<std::size_t>(15, 32 - weighed(own));
+      const bool is_line = (four & four >> 2 & own) != 0 && x == 0;
+      const auto step = [&](std::size_t column) {
+        return static_cast<std::uint8_t>(table[64 * y + column] / 127 | (is_line ? goes_on : 0));
+      };
+      before[four] = step(x), after[four] = step(std::min<std::size_t>(63, x + 33));
     }
   }
 };
@@ -42,7 +50,7 @@ struct Root {
 /// What all pixels share.
 struct SmaaTables {
   const AreaSlot* slots[4];
-  SearchLengths lengths;
+  SearchSteps along_top{top_edge, left_edge}, along_left{left_edge, top_edge};
   std::array<Root, 256> roots;
   float corner_strength;  ///< how much of an area a corner takes
 
@@ -65,17 +73,19 @@ struct Areas {
 };
 
 /// The edges seen from one pixel, along or across a line that is horizontal (top edges) or vertical (left edges).
+template <std::uint8_t own>
 class Line {
  public:
-  Line(const std::uint8_t* pixel, std::ptrdiff_t along, std::ptrdiff_t across, std::uint8_t own, std::uint8_t cross)
-      : pixel_(pixel), along_(along), across_(across), own_(own), cross_(cross) {}
+  Line(const std::uint8_t* pixel, std::ptrdiff_t stride)
+      : pixel_(pixel), along_(is_top ? 1 : stride), across_(is_top ? stride : 1) {}
 
   Areas areas(const SmaaTables& tables, const AreaSlot& slot, const SmaaOptions& options) const {
-    const int before = start(tables, options.steps), after = end(tables, options.steps);
-    const Root l = tables.roots[static_cast<std::size_t>(std::abs(before))];
-    const Root r = tables.roots[static_cast<std::size_t>(std::abs(after))];
+    const SearchSteps& steps = is_top ? tables.along_top : tables.along_left;
+    const int before = start(steps, options.steps), after = end(steps, options.steps);
     const int left_code = 3 * crosses(before, 0) + crosses(before, -1);
     const int right_code = 3 * crosses(after + 1, 0) + crosses(after + 1, -1);
+    const Root l = tables.roots[static_cast<std::size_t>(std::abs(before))];
+    const Root r = tables.roots[static_cast<std::size_t>(std::abs(after))];
     // Where nothing crosses there is no area, but for what the fetch at the longest distances takes of the next
     // pattern.
     if (left_code + right_code == 0 && std::max(l.cell, r.cell) < 15) return {};
@@ -85,44 +95,47 @@ class Line {
   }
 
  private:
-  bool is(int i, int j, std::uint8_t edge) const { return pixel_[i * along_ + j * across_] & edge; }
-  int crosses(int i, int j) const { return is(i, j, cross_) ? 1 : 0; }
+  static constexpr bool is_top = own == top_edge;
+  static constexpr std::uint8_t cross = is_top ? left_edge : top_edge;
 
-  /// The four pixels between which a search fetches: i and the one beyond it, here and across.
-  struct Four {
-    int here, beyond, here_across, beyond_across;
-  };
-  Four four(int i, int beyond) const {
+  int crosses(int i, int j) const { return pixel_[i * along_ + j * across_] & cross ? 1 : 0; }
+
+  /// Where SearchSteps holds what is between pixel i of the line and the one beyond it.
+  std::size_t four(int i, int beyond) const {
     const std::uint8_t *p = pixel_ + i * along_, *q = pixel_ + beyond * along_;
-    return {*p, *q, *(p - across_), *(q - across_)};
-  }
-  /// Both pixels of the line are edges, and nothing crosses.
-  bool goes_on(const Four& f) const {
-    return (f.here & f.beyond & own_) != 0 && ((f.here | f.beyond | f.here_across | f.beyond_across) & cross_) == 0;
-  }
-  /// The bits of SearchLengths.
-  std::size_t bits_of(const Four& f) const {
-    const auto bits = [&](int edge) {
-      const auto is = [edge](int pixel) { return (pixel & edge) != 0; };
-      return is(f.beyond_across) | is(f.here_across) << 1 | is(f.beyond) << 2 | is(f.here) << 3;
-    };
-    return static_cast<std::size_t>(bits(own_) | bits(cross_) << 4);
+    return static_cast<std::size_t>(p[0] | q[0] << 2 | *(p - across_) << 4 | *(q - across_) << 6);
   }
 
-  /// The first and the last pixel of the line, as distances; looked for two pixels at a time.
-  int start(const SmaaTables& tables, int steps) const {
-    int k = 0;
-    Four found;
-    do found = four(-2 * k, -2 * k - 1);
-    while (++k < steps && goes_on(found));
-    return 3 - 2 * k - tables.lengths.before[bits_of(found)];
+  /// How many pairs of pixels from `first` on, to one side or the other, are a line that nothing crosses; no more than
+  /// `limit`. The pixels of a horizontal line follow each other: they are looked at by eight.
+  int pairs_on(const SearchSteps& steps, int first, int direction, int limit) const {
+    if constexpr (!is_top) {
+      int k = 0;
+      const auto at = [&](int i) { return first + direction * (2 * k + i); };
+      while (k < limit && steps.before[four(at(0), at(1))] & SearchSteps::goes_on) ++k;
+      return k;
+    }
+    constexpr std::uint64_t ones = 0x0101010101010101;
+    for (int i = 0; i < 2 * limit; i += 8) {
+      const std::uint8_t* p = pixel_ + (direction > 0 ? first + i : first - i - 7);
+      std::uint64_t here, above;
+      std::memcpy(&here, p, sizeof here), std::memcpy(&above, p - across_, sizeof above);
+      const std::uint64_t ends = ones & ~(here >> 1 & ~(here | above));
+      if (ends == 0) continue;
+      const int good = (direction > 0 ? std::countr_zero(ends) : std::countl_zero(ends)) / 8;
+      return std::min(limit, (i + good) / 2);
+    }
+    return limit;
   }
-  int end(const SmaaTables& tables, int steps) const {
-    int k = 0;
-    Four found;
-    do found = four(2 * k + 1, 2 * k + 2);
-    while (++k < steps && goes_on(found));
-    return 2 * k - 2 + tables.lengths.after[bits_of(found)];
+
+  /// The first and the last pixel of the line, as distances; the search goes by two pixels, `most` times at most.
+  int start(const SearchSteps& steps, int most) const {
+    const int k = pairs_on(steps, 0, -1, most - 1);
+    return 1 - 2 * k - (steps.before[four(-2 * k, -2 * k - 1)] & SearchSteps::length);
+  }
+  int end(const SearchSteps& steps, int most) const {
+    const int k = pairs_on(steps, 1, 1, most - 1);
+    return 2 * k + (steps.after[four(2 * k + 1, 2 * k + 2)] & SearchSteps::length);
   }
 
   static Areas fetch(const AreaSlot& slot, int x, float u, int y, float v) {
@@ -155,7 +168,6 @@ class Line {
 
   const std::uint8_t* pixel_;
   std::ptrdiff_t along_, across_;
-  std::uint8_t own_, cross_;
 };
 
 /// The diagonals through a pixel's top edge.
@@ -165,7 +177,9 @@ class Diagonals {
       : pixel_(pixel), stride_(stride), steps_(steps) {}
 
   Areas areas(const SmaaTables& tables) const {
-    const Areas rising = rising_areas(*tables.slots[2]), falling = falling_areas(*tables.slots[3]);
+    Areas rising, falling;
+    if (may_rise()) rising = rising_areas(*tables.slots[2]);
+    if (may_fall()) falling = falling_areas(*tables.slots[3]);
     return {rising.from + falling.from, rising.to + falling.to};
   }
 
@@ -177,6 +191,10 @@ class Diagonals {
   };
   int left(int x, int y) const { return pixel_[y * stride_ + x] & left_edge ? 1 : 0; }
   int top(int x, int y) const { return pixel_[y * stride_ + x] & top_edge ? 1 : 0; }
+
+  /// False where neither search goes beyond its first pixel, which is too short.
+  bool may_rise() const { return (top(1, -1) && left(1, -1)) || (left(0, 0) && top(-1, 1) && left(-1, 1)); }
+  bool may_fall() const { return (top(-1, -1) && left(0, -1)) || (left(1, 0) && top(1, 1) && left(2, 1)); }
 
   /// Follows a diagonal as long as pixels have both edges; the left one is that of the pixel `shift` to the right.
   Found search(int dx, int dy, int shift) const {
@@ -234,12 +252,12 @@ EdgeWeights weights_of(const std::uint8_t* pixel, std::ptrdiff_t stride, const S
     Areas areas;
     if (options.diagonal_steps > 0) areas = Diagonals(pixel, stride, options.diagonal_steps).areas(tables);
     const bool is_diagonal = areas.from + areas.to > 0;
-    if (!is_diagonal) areas = Line(pixel, 1, stride, top_edge, left_edge).areas(tables, *tables.slots[1], options);
+    if (!is_diagonal) areas = Line<top_edge>(pixel, stride).areas(tables, *tables.slots[1], options);
     w.from_above = weight_of(areas.from), w.to_above = weight_of(areas.to);
     if (is_diagonal) return w;
   }
   if (*pixel & left_edge) {
-    const Areas areas = Line(pixel, stride, 1, left_edge, top_edge).areas(tables, *tables.slots[0], options);
+    const Areas areas = Line<left_edge>(pixel, stride).areas(tables, *tables.slots[0], options);
     w.from_left = weight_of(areas.from), w.to_left = weight_of(areas.to);
   }
   return w;
@@ -252,12 +270,14 @@ SmaaWeigher::SmaaWeigher(const EdgePlane& edges, const SmaaOptions& options)
 SmaaWeigher::~SmaaWeigher() = default;
 
 void SmaaWeigher::weigh(int y, WeightRow& out) const {
+  const std::uint8_t* row = edges_.at(0, y);
   for (int block = 0; block < edges_.width(); block += 8) {
     std::uint64_t any = 0;
-    std::memcpy(&any, edges_.at(block, y), sizeof any);
-    if (any == 0) continue;
-    for (int x = block; x < std::min(block + 8, edges_.width()); ++x)
-      if (*edges_.at(x, y) != 0) out.put(x, weights_of(edges_.at(x, y), edges_.stride(), *tables_, options_));
+    std::memcpy(&any, row + block, sizeof any);
+    for (any = (any | any >> 1) & 0x0101010101010101; any != 0; any &= any - 1) {
+      const int x = block + std::countr_zero(any) / 8;
+      if (x < edges_.width()) out.put(x, weights_of(row + x, edges_.stride(), *tables_, options_));
+    }
   }
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <vector>
 
-#include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/result_row.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -44,6 +47,16 @@ class WeightRow {
     has_any_[static_cast<std::size_t>(x / together)] |= weights != EdgeWeights{};
     if (x == width_ - 1) put_beyond(weights);
   }
+  /// Puts all weights of the row.
+  void assign(const EdgeWeights* weights) {
+    std::memcpy(values_.data(), weights, sizeof(EdgeWeights) * static_cast<std::size_t>(width_));
+    for (std::size_t block = 0; block * together < static_cast<std::size_t>(width_); ++block) {
+      std::uint64_t pairs[together / 2];
+      std::memcpy(pairs, &values_[block * together], sizeof pairs);
+      has_any_[block] = (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+    }
+    put_beyond(values_[static_cast<std::size_t>(width_ - 1)]);
+  }
   const EdgeWeights& operator[](int x) const { return values_[static_cast<std::size_t>(x)]; }
   /// False if all weights of a block are zero.
   bool has_any(int block) const { return has_any_[static_cast<std::size_t>(block)] != 0; }
@@ -65,20 +78,21 @@ class WeightRow {
 /// `weigh(y, row)` puts a row's weights into a cleared row; it is called for each row once or twice.
 template <class Weigh, class Mix>
 void mix_by_weights(const Rgba8Image& image, Rgba8Image& out, const Weigh& weigh, const Mix& mix) {
+  constexpr std::size_t rows = 32;
   const int width = image.width(), height = image.height();
-  const auto mix_row = [&](int y, const WeightRow& row, const WeightRow& next) {
-    copy_row(image, out, y);
+  const auto mix_row = [&](int y, const WeightRow& row, const WeightRow& next, std::span<Rgba8> to) {
     for (int block = 0; WeightRow::together * block < width; ++block) {
       if (!row.has_any(block) && !row.has_any(block + 1) && !next.has_any(block)) continue;
       const int begin = WeightRow::together * block, end = std::min(begin + WeightRow::together, width);
       for (int x = begin; x < end; ++x) {
         const TakenWeights taken{row[x].from_above, next[x].to_above, row[x].from_left, row[x + 1].to_left};
-        if ((taken.above | taken.below | taken.left | taken.right) != 0) out(x, y) = mix(x, y, taken);
+        if (std::bit_cast<std::uint32_t>(taken) != 0) to[static_cast<std::size_t>(x)] = mix(x, y, taken);
       }
     }
   };
-  parallel_ranges(static_cast<std::size_t>(height), rows_a_block, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(static_cast<std::size_t>(height), rows, [&](std::size_t begin, std::size_t end) {
     WeightRow here(width), next(width);
+    ResultRow result(image, out);
     const auto make = [&](int y, WeightRow& row) {
       row.clear();
       weigh(std::min(y, height - 1), row);
@@ -86,7 +100,8 @@ void mix_by_weights(const Rgba8Image& image, Rgba8Image& out, const Weigh& weigh
     make(static_cast<int>(begin), here);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       make(y + 1, next);
-      mix_row(y, here, next);
+      mix_row(y, here, next, result.begin(y));
+      result.end();
       std::swap(here, next);
     }
   });
