@@ -1,11 +1,13 @@
-// FXAA 3.11: find the direction of an edge by luma, walk along it to its ends, and fetch each pixel's colour up to half
-// a pixel across it.
+// FXAA 3.11: find the direction of an edge by luma, walk along it to its ends,
+// and fetch each pixel's colour up to half a pixel across it.
 //
-// Smooths every edge that can be seen, whatever made it, at the lowest price of all. Weak where an edge is nearly
-// level: the walk ends after a dozen pixels; and it takes fine text and single pixels towards their neighbours.
+// Smooths every edge that can be seen, whatever made it, at the lowest price of
+// all. Weak where an edge is nearly level: the walk ends after a dozen pixels;
+// and it takes fine text and single pixels towards their neighbours.
 //
-// Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the quality path with its presets and the console
-// path. Colours are mixed as codes, as there, unless light is asked for.
+// Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the
+// quality path with its presets and the console path. Colours are mixed as
+// codes, as there, unless light is asked for.
 #include "zoneplate/antialias/fxaa.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include <vector>
 
 #include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/fxaa_console_kernels.h"
 #include "zoneplate/antialias/fxaa_kernels.h"
 #include "zoneplate/antialias/result_row.h"
 #include "zoneplate/antialias/rolling_rows.h"
@@ -28,8 +31,8 @@ namespace zoneplate {
 namespace antialias {
 namespace {
 
-/// A preset's search: the distances from the pixel at which it looks, in half pixels, and the last one, which it takes
-/// without looking.
+/// A preset's search: the distances from the pixel at which it looks, in half
+/// pixels, and the last one, which it takes without looking.
 ///
 /// Source    the steps of FXAA 3.11, FXAA_QUALITY__P0 and so on, added up.
 struct Search {
@@ -64,7 +67,8 @@ std::span<const int> distances_of(int preset) {
   return {search->distance.begin(), end};
 }
 
-/// What of `share` × greatest and `least` the contrast must reach, as the greatest whole contrast that does not.
+/// What of `share` × greatest and `least` the contrast must reach, as the
+/// greatest whole contrast that does not.
 FxaaContrast contrast_of(const FxaaOptions& options) {
   const auto below = [](double v) { return static_cast<int>(std::ceil(v)) - 1; };
   const auto is_right = [&](int factor) {
@@ -105,8 +109,8 @@ class Luma {
   RollingRows<std::uint8_t> rows_;
 };
 
-/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, for the luma within reach of both
-/// is made by each of two.
+/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are
+/// large, for the luma within reach of both is made by each of two.
 template <class Body>
 void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const Body& body) {
   constexpr std::size_t rows = 128;
@@ -168,69 +172,31 @@ void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& optio
   });
 }
 
-/// A colour as four floats in codes, and the luma that goes with it.
-struct Tap {
-  float rgba[4], luma;
-};
-
-Tap mean(const Tap& a, const Tap& b) {
-  Tap out{{}, (a.luma + b.luma) * 0.5f};
-  for (int c = 0; c < 4; ++c) out.rgba[c] = (a.rgba[c] + b.rgba[c]) * 0.5f;
+/// The console path: its pixels have no ends to be found.
+Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image out) {
+  const FxaaConsoleKernels& kernels = pick(options.isa, scalar::fxaa_console_kernels);
+  const auto width = static_cast<std::size_t>(image.width());
+  const auto threshold = static_cast<float>(options.threshold), least = static_cast<float>(options.least) * 255;
+  for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
+    ResultRow result(image, out, options.isa);
+    std::vector<std::uint8_t> seen((width + 63) / 64 * 64);
+    for (int y = begin; y < end; ++y) {
+      luma.make_around(y);
+      FxaaConsoleRows rows{luma.at(0, y), luma.stride(), {}};
+      for (int j = -rows.reach; j <= rows.reach; ++j)
+        rows.codes[rows.reach + j] = &image.row(std::clamp(y + j, 0, image.height() - 1))[0].r;
+      kernels.seen_row(rows, threshold, least, seen.data(), width);
+      kernels.mix_row(rows, options.sharpness, seen.data(), &result.begin(y)[0].r, width);
+      result.end();
+    }
+  });
   return out;
-}
-
-/// The bilinear fetch at a point, relative to the centre of pixel x, y.
-Tap fetch(const Rgba8Image& image, const Luma& luma, int x, int y, float dx, float dy) {
-  const float left = std::floor(dx), top = std::floor(dy);
-  x += static_cast<int>(left), y += static_cast<int>(top);
-  const float u = dx - left, v = dy - top;
-  const Rgba8 p[4] = {pixel_at(image, x, y), pixel_at(image, x + 1, y), pixel_at(image, x, y + 1),
-                      pixel_at(image, x + 1, y + 1)};
-  const auto mix = [&](float a, float b, float c, float d) {
-    const float upper = a + (b - a) * u, lower = c + (d - c) * u;
-    return upper + (lower - upper) * v;
-  };
-  return {{mix(p[0].r, p[1].r, p[2].r, p[3].r), mix(p[0].g, p[1].g, p[2].g, p[3].g),
-           mix(p[0].b, p[1].b, p[2].b, p[3].b), mix(p[0].a, p[1].a, p[2].a, p[3].a)},
-          mix(*luma.at(x, y), *luma.at(x + 1, y), *luma.at(x, y + 1), *luma.at(x + 1, y + 1))};
-}
-
-/// One pixel of the console path: two taps half a pixel along the edge, and two farther ones where those stay within
-/// the lumas around.
-Rgba8 console_pixel(const Rgba8Image& image, const Luma& luma, const FxaaOptions& options, int x, int y) {
-  const Rgba8 here = image(x, y);
-  const std::uint8_t* p = luma.at(x, y);
-  const std::ptrdiff_t s = luma.stride();
-  // Lumas at the four corners of the pixel; the nudge (1/384 in the original) keeps the direction from being zero.
-  const auto corner = [&](std::ptrdiff_t dx, std::ptrdiff_t dy) {
-    return static_cast<float>(p[0] + p[dx] + p[dy] + p[dx + dy]) / 4;
-  };
-  const float nw = corner(-1, -s), ne = corner(1, -s) + 255.0f / 384, sw = corner(-1, s), se = corner(1, s);
-  const float high = std::max({nw, ne, sw, se}), low = std::min({nw, ne, sw, se});
-  const float m = p[0];
-  const float wanted = std::max(static_cast<float>(options.least) * 255, high * static_cast<float>(options.threshold));
-  if (std::max(high, m) - std::min(low, m) < wanted) return here;
-
-  float dx = (sw - ne) + (se - nw), dy = (sw - ne) - (se - nw);
-  const float length = std::sqrt(dx * dx + dy * dy);
-  if (!(length > 0)) return here;
-  dx /= length, dy /= length;
-  const Tap near =
-      mean(fetch(image, luma, x, y, -dx * 0.5f, -dy * 0.5f), fetch(image, luma, x, y, dx * 0.5f, dy * 0.5f));
-
-  const float scale = std::min(std::abs(dx), std::abs(dy)) * options.sharpness;
-  const auto stretched = [&](float v) { return v == 0 ? 0.0f : 2 * std::clamp(v / scale, -2.0f, 2.0f); };
-  const float fx = stretched(dx), fy = stretched(dy);
-  const Tap far = mean(near, mean(fetch(image, luma, x, y, -fx, -fy), fetch(image, luma, x, y, fx, fy)));
-  const Tap& c = far.luma < low || far.luma > high ? near : far;
-  return {rounded_code(c.rgba[0]), rounded_code(c.rgba[1]), rounded_code(c.rgba[2]), rounded_code(c.rgba[3])};
 }
 
 }  // namespace
 
 int fxaa_reach(const FxaaOptions& options) {
-  constexpr int console_reach = 5;
-  if (options.preset == FxaaOptions::console) return console_reach;
+  if (options.preset == FxaaOptions::console) return FxaaConsoleRows::reach;
   // The last distance is taken without looking.
   const std::span<const int> distances = distances_of(options.preset);
   return (distances[distances.size() - 2] + 1) / 2 + 1;
@@ -240,15 +206,7 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
   if (image.empty()) return image;
   const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels);
   Rgba8Image out = sized_like(image, std::move(memory));
-  if (options.preset == FxaaOptions::console) {
-    for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
-      for (int y = begin; y < end; ++y) {
-        luma.make_around(y);
-        for (int x = 0; x < image.width(); ++x) out(x, y) = console_pixel(image, luma, options, x, y);
-      }
-    });
-    return out;
-  }
+  if (options.preset == FxaaOptions::console) return apply_console(image, options, std::move(out));
 
   const FxaaContrast contrast = contrast_of(options);
   const std::span<const int> distances = distances_of(options.preset);
@@ -274,7 +232,8 @@ namespace {
 constexpr std::string_view presets[] = {"10", "11", "12", "13", "14", "15", "20", "21", "22",
                                         "23", "24", "25", "26", "27", "28", "29", "39", "console"};
 
-/// The contrast that is treated, by the names and values of the original's comments.
+/// The contrast that is treated, by the names and values of the original's
+/// comments.
 struct Threshold {
   std::string_view name;
   double share, least;

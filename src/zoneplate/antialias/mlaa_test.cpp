@@ -54,11 +54,11 @@ TEST(Mlaa, LinesAreFoundWhereverTheyBeginAndEnd) {
     });
   };
   for (const bool is_level : {true, false})
-    for (int begin = 1; begin < 75; begin += 3)
-      for (const int length : {1, 2, 7, 8, 9, 14}) {
+    for (int begin = 1; begin < 75; begin += 9)
+      for (const int length : {1, 7, 8, 14}) {
         const MlaaOptions options{.kind = Kind::Reshetov};
         const Rgba8Image out = apply_mlaa(bar(begin, begin + length, is_level), options);
-        const Rgba8Image first = apply_mlaa(bar(0 + 1, 1 + length, is_level), options);
+        const Rgba8Image first = apply_mlaa(bar(1, 1 + length, is_level), options);
         for (int i = -1; i <= length; ++i)
           for (int j = 38; j < 43; ++j) {
             const auto at = [&](const Rgba8Image& image, int along) {

@@ -246,6 +246,16 @@ std::vector<std::string> scenes_of(const std::vector<std::string>& operands) {
   return out;
 }
 
+/// Says what is wrong with the name of any scene before the first is drawn.
+void check_scenes(const CompareArgs& args) {
+  std::error_code ignored;
+  for (const std::string& name : args.scenes) {
+    if (args.render.load.format.empty() && check_builtin_scene(name)) continue;
+    if (name != "-" && !std::filesystem::exists(name, ignored))
+      load_scene(name, args.render.load);  // fails, and knows how to say it
+  }
+}
+
 void compare_all(const CompareArgs& args, const TrialOptions& options) {
   static_cast<void>(
       plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));  // fails at once where plots cannot be drawn, not after the work
@@ -290,6 +300,7 @@ void run_compare(std::span<const std::string> arguments) {
     throw Error(Trouble::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
   const TrialOptions options = trial_options(args);
   check_folder(args.render.output);
+  check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   with_threads(args.render.threads, [&] { compare_all(args, options); });
 }

@@ -72,6 +72,30 @@ void apply(const BuiltinMaker& maker, std::string_view setting, std::vector<std:
               fmt::format("scene {}: unknown parameter '{}'; it has {}", maker.name, name, list_of(maker.params)));
 }
 
+/// A scene and the values of its parameters.
+struct Choice {
+  BuiltinMaker maker;
+  std::vector<std::int64_t> values;
+};
+
+std::optional<Choice> find_choice(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  for (const auto& maker_of : makers) {
+    Choice choice{maker_of(), {}};
+    if (text.compare(0, colon, choice.maker.name) != 0) continue;
+    for (const BuiltinParam& p : choice.maker.params) choice.values.push_back(p.otherwise);
+    std::string_view rest = colon == std::string::npos ? std::string_view{} : std::string_view(text).substr(colon + 1);
+    for (bool more = colon != std::string::npos; more;) {
+      const std::size_t comma = rest.find(',');
+      apply(choice.maker, rest.substr(0, comma), choice.values);
+      more = comma != std::string_view::npos;
+      if (more) rest = rest.substr(comma + 1);
+    }
+    return choice;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::span<const BuiltinScene> builtin_scenes() {
@@ -95,23 +119,12 @@ const BuiltinScene* find_builtin_scene(std::string_view text) {
   return nullptr;
 }
 
+bool check_builtin_scene(const std::string& text) { return find_choice(text).has_value(); }
+
 std::optional<Scene> make_builtin_scene(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  for (const auto& maker_of : makers) {
-    const BuiltinMaker maker = maker_of();
-    if (text.compare(0, colon, maker.name) != 0) continue;
-    std::vector<std::int64_t> values;
-    for (const BuiltinParam& p : maker.params) values.push_back(p.otherwise);
-    std::string_view rest = colon == std::string::npos ? std::string_view{} : std::string_view(text).substr(colon + 1);
-    for (bool more = colon != std::string::npos; more;) {
-      const std::size_t comma = rest.find(',');
-      apply(maker, rest.substr(0, comma), values);
-      more = comma != std::string_view::npos;
-      if (more) rest = rest.substr(comma + 1);
-    }
-    return maker.make(values);
-  }
-  return std::nullopt;
+  const std::optional<Choice> choice = find_choice(text);
+  if (!choice) return std::nullopt;
+  return choice->maker.make(choice->values);
 }
 
 Camera camera_at(float3 eye, float3 target, float vertical_fov, float near, float far) {

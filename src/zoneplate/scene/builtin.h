@@ -23,6 +23,11 @@ std::span<const BuiltinScene> builtin_scenes();
 /// The row of a text such as `teapot` or `sphere:triangles=1000`; null if no built-in scene has that name.
 const BuiltinScene* find_builtin_scene(std::string_view text);
 
+/// Whether a text such as `sphere:triangles=1000` names a built-in scene, without making it.
+///
+/// Errors    as make_builtin_scene.
+bool check_builtin_scene(const std::string& text);
+
 /// Makes the scene of a text such as `teapot` or `sphere:triangles=1000`; nothing if no built-in scene has that name.
 ///
 /// Errors    Trouble::Usage naming an unknown parameter or a value out of range.

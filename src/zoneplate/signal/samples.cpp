@@ -1,6 +1,7 @@
 #include "zoneplate/signal/samples.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "zoneplate/base/error.h"
@@ -104,11 +105,13 @@ SamplePattern named_pattern(const std::string& name, int samples) {
   if (name == "rotated") return rotated_grid(root);
   if (name == "nrooks") return rooks(samples);
   SamplePattern out;
+  // Sobol's points lie at the corners of the cells of which each has one; the first one at the pixel's own.
+  const double half_cell = 0.5 / std::bit_ceil(static_cast<unsigned>(samples));
   for (unsigned i = 0; i < static_cast<unsigned>(samples); ++i) {
     if (name == "halton")
       out.push_back(at(radical_inverse(2, i + 1), radical_inverse(3, i + 1)));
     else if (name == "sobol")
-      out.push_back(at(radical_inverse(2, i), sobol_y(i)));
+      out.push_back(at(radical_inverse(2, i) + half_cell, sobol_y(i) + half_cell));
     else
       throw Error(Trouble::Usage,
                   "unknown sample pattern " + name + "; there are grid, rotated, halton, sobol, nrooks");

@@ -23,7 +23,8 @@ SamplePattern standard_pattern(int n);
 SamplePattern grid_pattern(int n);
 
 /// A named pattern of `samples` positions in [0, 1)², rounded down to 1/256 pixel: "grid" (a square number),
-/// "rotated" (the square grid turned by atan(1/n)), "halton" (bases 2 and 3), "sobol", "nrooks".
+/// "rotated" (the square grid turned by atan(1/n)), "halton" (bases 2 and 3), "sobol" (in the middle of its cells, of
+/// which 2^k samples have one each on every lattice of 2^k), "nrooks".
 ///
 /// Errors    Trouble::Usage for an unknown name or a number of samples that the pattern does not have.
 SamplePattern named_pattern(const std::string& name, int samples);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <span>
 
 #include "zoneplate/base/error.h"
 
@@ -41,14 +43,33 @@ TEST(Samples, PatternsAreStratified) {
       EXPECT_EQ(rows.size(), static_cast<std::size_t>(n)) << name;
       EXPECT_EQ(columns.size(), static_cast<std::size_t>(n)) << name;
     }
-  // Sobol's first 16 samples: one in each cell of 4 × 4, of 2 × 8, of 16 × 1.
-  for (const auto& [w, h] : {std::pair{4, 4}, {2, 8}, {16, 1}, {1, 16}}) {
-    std::set<int> cells;
-    for (const SamplePosition s : named_pattern("sobol", 16)) cells.insert(s.x * w / 256 * h + s.y * h / 256);
-    EXPECT_EQ(cells.size(), 16u) << w << " × " << h;
-  }
   EXPECT_THROW(named_pattern("grid", 5), Error);
   EXPECT_THROW(named_pattern("spiral", 4), Error);
+}
+
+TEST(Samples, SobolHasOneInTheMiddleOfEveryCell) {
+  // 2^k samples: one in each cell of every lattice of 2^a × 2^(k - a), none on a cell's border, so that their mean is
+  // the pixel's middle, and no sample lies at the pixel's corner, which is as much its neighbours'.
+  for (int k = 0; k <= 7; ++k) {
+    const int n = 1 << k;
+    const SamplePattern pattern = named_pattern("sobol", n);
+    for (int w = 1; w <= n; w *= 2) {
+      std::set<int> cells;
+      for (const SamplePosition s : pattern) cells.insert(s.x * w / 256 * (n / w) + s.y * (n / w) / 256);
+      EXPECT_EQ(cells.size(), static_cast<std::size_t>(n)) << w << " × " << n / w;
+    }
+    int x = 0, y = 0;
+    for (const SamplePosition s : pattern) {
+      EXPECT_EQ(s.x % (256 / n), 128 / n);
+      EXPECT_EQ(s.y % (256 / n), 128 / n);
+      x += s.x, y += s.y;
+    }
+    EXPECT_EQ(x, 128 * n);
+    EXPECT_EQ(y, 128 * n);
+  }
+  // Of other numbers: the first ones of the next power of two.
+  const SamplePattern eight = named_pattern("sobol", 8), five = named_pattern("sobol", 5);
+  EXPECT_TRUE(std::ranges::equal(five, std::span(eight).first(5)));
 }
 
 }  // namespace
