@@ -8,6 +8,8 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
+#if HWY_HAVE_FLOAT64
+
 using D = hn::CappedTag<double, 4>;
 using V = hn::Vec<D>;
 constexpr D d;
@@ -106,6 +108,15 @@ void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles
   // Nothing is read behind the last triangle's corners, nor written behind its normals.
   scalar::flat_normal_kernels.make(corners + i * stride, stride, triangles - i, normal + 9 * i);
 }
+
+#else
+
+/// Highway has no vectors of doubles here.
+void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles, float* normal) {
+  scalar::flat_normal_kernels.make(corners, stride, triangles, normal);
+}
+
+#endif
 
 }  // namespace
 }  // namespace zoneplate::HWY_NAMESPACE
