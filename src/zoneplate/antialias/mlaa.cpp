@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "zoneplate/antialias/codes.h"
+#include "zoneplate/antialias/mlaa_kernels.h"
 #include "zoneplate/antialias/smaa_tables.h"
 #include "zoneplate/render/method.h"
 
@@ -42,26 +43,16 @@ class MlaaAreas {
   std::vector<Codes> codes_;
 };
 
-/// A border is an edge where its difference of luma reaches the threshold and half of the greatest of the pixel's four.
 EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int border) {
   constexpr float white = 255 * 10000;
   const float threshold = std::round(static_cast<float>(options.threshold) * white);
   const auto width = static_cast<std::size_t>(image.width());
   const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const MlaaKernels& edge_kernels = pick(options.isa, scalar::mlaa_kernels);
   EdgePlane edges(image.width(), image.height(), border);
   detect_edges<float>(
       edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },
-      [&](const EdgeRows<float>& rows, std::uint8_t* out) {
-        const float *above = rows.row[1], *here = rows.row[2], *below = rows.row[3];
-        for (std::size_t x = 0; x < width; ++x) {
-          const float l = here[x], left = std::abs(l - *(here + x - 1)), top = std::abs(l - above[x]);
-          const float greatest =
-              std::max(std::max(left, top), std::max(std::abs(l - here[x + 1]), std::abs(l - below[x])));
-          const bool is_left = left >= threshold && 2 * left >= greatest,
-                     is_top = top >= threshold && 2 * top >= greatest;
-          out[x] = static_cast<std::uint8_t>(is_left | is_top << 1);
-        }
-      });
+      [&](const EdgeRows<float>& rows, std::uint8_t* out) { edge_kernels.luma_edges(rows, threshold, out, width); });
   edges.extend();
   return edges;
 }

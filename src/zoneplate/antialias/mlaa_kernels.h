@@ -3,9 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/antialias/smaa_kernels.h"
+
 namespace zoneplate {
 
 struct MlaaKernels {
+  /// Bit 0 of `edges`: left, bit 1: top: where luma (SmaaKernels::luma_row) differs by `threshold` at least and by half
+  /// of the greatest of the pixel's four differences.
+  void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
   /// Where red, green or blue of a pixel differ by `least` at least from those before it (bit 0 of `edges`; never at
   /// the first pixel) and above it (bit 1).
   ///

@@ -7,6 +7,35 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Stores 1 where `left` and 2 where `top` as bytes, one a lane.
+template <class D>
+HWY_INLINE void store_edges(D d, hn::Mask<D> left, hn::Mask<D> top, std::uint8_t* edges) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const auto bits = hn::Or(hn::IfThenElseZero(left, hn::Set(d, 1)), hn::IfThenElseZero(top, hn::Set(d, 2)));
+  hn::StoreU(hn::DemoteTo(bytes, bits), bytes, edges);
+}
+
+template <class D>
+HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t i) {
+  const hn::RebindToSigned<D> di;
+  const float *above = rows.row[1] + i, *here = rows.row[2] + i, *below = rows.row[3] + i;
+  const auto m = hn::LoadU(d, here), least = hn::Set(d, threshold);
+  const auto to = [&](const float* other) HWY_ATTR { return hn::Abs(hn::Sub(m, hn::LoadU(d, other))); };
+  const auto left = to(here - 1), top = to(above);
+  const auto greatest = hn::Max(hn::Max(left, top), hn::Max(to(here + 1), to(below)));
+  const auto is_left = hn::And(hn::Ge(left, least), hn::Ge(hn::Add(left, left), greatest));
+  const auto is_top = hn::And(hn::Ge(top, least), hn::Ge(hn::Add(top, top), greatest));
+  store_edges(di, hn::RebindMask(di, is_left), hn::RebindMask(di, is_top), edges + i);
+}
+
+void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
+  const hn::CappedTag<float, 8> full;
+  const hn::CappedTag<float, 1> one;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_edges_some(full, rows, threshold, edges, i);
+  for (; i < n; ++i) luma_edges_some(one, rows, threshold, edges, i);
+}
+
 template <class D>
 HWY_INLINE hn::Vec<D> load_pixels(D d, const std::uint8_t* p) {
   const hn::Repartition<std::uint8_t, D> bytes;
@@ -25,12 +54,10 @@ HWY_INLINE hn::Mask<D> differ(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> mask) 
 template <class D>
 HWY_INLINE void edges_some(D d, const std::uint8_t* above, const std::uint8_t* here, hn::Vec<D> mask,
                            std::uint8_t* edges, std::size_t i) {
-  const hn::Rebind<std::uint8_t, D> bytes;
   const auto m = load_pixels(d, here + 4 * i);
   const auto left = differ(d, m, load_pixels(d, here + 4 * i - 4), mask);
   const auto top = differ(d, m, load_pixels(d, above + 4 * i), mask);
-  const auto bits = hn::Or(hn::IfThenElseZero(left, hn::Set(d, 1)), hn::IfThenElseZero(top, hn::Set(d, 2)));
-  hn::StoreU(hn::DemoteTo(bytes, bits), bytes, edges + i);
+  store_edges(d, left, top, edges + i);
 }
 
 void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, std::uint8_t* edges, std::size_t n) {
@@ -52,5 +79,6 @@ void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const MlaaKernels MlaaKernels::HWY_NAMESPACE = {.edges_row = HWY_NAMESPACE::edges_row};
+const MlaaKernels MlaaKernels::HWY_NAMESPACE = {.luma_edges = HWY_NAMESPACE::luma_edges,
+                                                .edges_row = HWY_NAMESPACE::edges_row};
 }  // namespace zoneplate

@@ -34,13 +34,21 @@ TEST(Mlaa, KernelsFindTheEdgesOfTheirTwins) {
   for (std::uint32_t i = 0; i < codes.size(); ++i)
     codes[i] = static_cast<std::uint8_t>(100 + hash(i) % (i % 5 == 0 ? 40 : 17));
   const std::uint8_t *above = &codes[0], *here = &codes[840];
+  std::vector<float> luma(4 * 210);
+  for (std::uint32_t i = 0; i < luma.size(); ++i) luma[i] = static_cast<float>(hash(i, 1) % 64);
+  const EdgeRows<float> rows{{&luma[2], &luma[212], &luma[422], &luma[632]}};
   for (const Isa isa : supported_isas())
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found = expected;
       scalar::mlaa_kernels.edges_row(above, here, 16, expected.data(), n);
       pick(isa, scalar::mlaa_kernels).edges_row(above, here, 16, found.data(), n);
       ASSERT_EQ(found, expected) << name_of(isa);
+      std::vector<std::uint8_t> lines(n + 1, 9), others = lines;
+      scalar::mlaa_kernels.luma_edges(rows, 25, lines.data(), n);
+      pick(isa, scalar::mlaa_kernels).luma_edges(rows, 25, others.data(), n);
+      ASSERT_EQ(others, lines) << name_of(isa);
       if (n < 200) continue;
+      for (const int edges : {0, 1, 2, 3}) EXPECT_GT(std::ranges::count(lines, edges), 5);
       for (const int edges : {0, 1, 2, 3}) EXPECT_GT(std::ranges::count(found, edges), 10);
     }
 }

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "zoneplate/base/isa.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/metrics/charts_for_test.h"
 #include "zoneplate/metrics/flip_color.h"
 #include "zoneplate/metrics/flip_filters.h"
+#include "zoneplate/metrics/flip_kernels.h"
 #include "zoneplate/metrics/magma.h"
 
 namespace zoneplate::metrics {
@@ -68,6 +71,37 @@ TEST(Flip, IsTheSameWhateverTileAPixelIsIn) {
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 256; ++x) ASSERT_EQ(map(x, y), other(x + 20, y)) << x << ' ' << y;
   }
+}
+
+TEST(Flip, OnePixelsDifferenceIsSeenAsFarAsFiltersReachAndNoFarther) {
+  // Tiles around which the pictures agree are not looked at: what others make of them must be no more than 0 either.
+  const ChartPair pair = chart_pair(1);
+  LinearImage changed = pair.reference;
+  changed(64, 61) = {5, 0, 0, 1};
+  const Plane<float> map = flip_map(pair.reference, changed, 30);
+  const int reach = make_flip_filters(30).reach();
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const int far = std::max(std::abs(x - 64), std::abs(y - 61));
+      if (far <= 1) {
+        EXPECT_GT(map(x, y), 0.01) << x << ' ' << y;
+      } else if (far > reach) {
+        EXPECT_EQ(map(x, y), 0) << x << ' ' << y;
+      }
+    }
+}
+
+TEST(Flip, KernelsSumAsTheirTwins) {
+  std::vector<double> from(400);
+  for (std::uint32_t i = 0; i < from.size(); ++i) from[i] = hash(i) * 0x1p-32 - 0.5;
+  const double taps[] = {0.3, -0.1, 0.7, 0.2, -0.9};
+  for (const Isa isa : supported_isas())
+    for (std::size_t n = 0; n <= 70; ++n) {
+      std::vector<double> expected(80, 7), found = expected;
+      scalar::flip_kernels.weighted_sums(from.data(), 71, taps, 5, expected.data(), n);
+      pick(isa, scalar::flip_kernels).weighted_sums(from.data(), 71, taps, 5, found.data(), n);
+      ASSERT_EQ(found, expected) << name_of(isa) << ' ' << n;
+    }
 }
 
 TEST(Flip, FiltersSumAsPromised) {
