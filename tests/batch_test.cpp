@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "zoneplate/report/json_for_test.h"
 
 namespace {
 
@@ -42,7 +43,7 @@ class Batch : public testing::Test {
     lines.clear();
     std::istringstream out(text_of(place / "out.txt"));
     for (std::string line; std::getline(out, line);)
-      if (line.starts_with("{")) lines.push_back(nlohmann::json::parse(line));
+      if (line.starts_with("{")) lines.push_back(zoneplate::parsed_json(line));
     complaint = text_of(place / "err.txt");
     return WEXITSTATUS(status);
   }
@@ -103,13 +104,17 @@ TEST_F(Batch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
 TEST_F(Batch, AManifestsBadLinesAreNamed) {
   write("jobs.jsonl",
         "{\"input\":\"teapot\",\"output\":\"a.png\"}\n{]\n{\"output\":\"b.png\"}\n"
-        "{\"input\":\"teapot\",\"output\":\"b.png\",\"siz\":\"8x8\"}\n");
+        "{\"input\":\"teapot\",\"output\":\"b.png\",\"siz\":\"8x8\"}\n"
+        "{\"input\":\"tea\\u0000pot\",\"output\":\"b.png\"}\n"
+        "{\"input\":\"teapot\",\"output\":\"b.png\",\"manifest\":\"jobs.jsonl\"}\n");
   EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8"), 5);
-  ASSERT_EQ(lines.size(), 4u);
+  ASSERT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines[0]["status"], "done");
   EXPECT_NE(complaint.find("jobs.jsonl: line 2:"), std::string::npos) << complaint;
   EXPECT_NE(complaint.find("jobs.jsonl: line 3: has no input"), std::string::npos) << complaint;
-  EXPECT_NE(lines[3]["error"].get<std::string>().find("did you mean --size"), std::string::npos);
+  EXPECT_NE(complaint.find("jobs.jsonl: line 4: unknown option --siz; did you mean --size"), std::string::npos);
+  EXPECT_NE(complaint.find("jobs.jsonl: line 5: input has a character of code 0"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("jobs.jsonl: line 6: manifest is for all jobs together"), std::string::npos) << complaint;
 }
 
 TEST_F(Batch, TheShardIsReadFromTheScheduler) {

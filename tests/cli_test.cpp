@@ -8,9 +8,10 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
+
+#include "zoneplate/report/json_for_test.h"
 
 namespace {
 
@@ -147,7 +148,7 @@ TEST_F(Cli, JsonIsOneLineThatTellsWhatWasDone) {
   const Result result = run(with(small, {"-o", "a.png", "--json", "--aov", "depth,object-id", "-t", "2"}));
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1);
-  const auto json = nlohmann::json::parse(result.out);
+  const auto json = zoneplate::parsed_json(result.out);
   EXPECT_EQ(json["output"], "a.png");
   EXPECT_EQ(json["width"], 32);
   EXPECT_EQ(json["height"], 24);
@@ -163,7 +164,7 @@ TEST_F(Cli, JsonIsOneLineThatTellsWhatWasDone) {
 TEST_F(Cli, JsonMakesWayForAPictureOnStdout) {
   const Result result = run(with(small, {"-o", "-", "--json"}));
   EXPECT_TRUE(is_png(result.out));
-  EXPECT_EQ(nlohmann::json::parse(result.err)["output"], "-");
+  EXPECT_EQ(zoneplate::parsed_json(result.err)["output"], "-");
 }
 
 TEST_F(Cli, ProgressIsForTerminalsUnlessAskedFor) {
@@ -173,7 +174,7 @@ TEST_F(Cli, ProgressIsForTerminalsUnlessAskedFor) {
   int count = 0;
   while (std::getline(lines, line)) {
     ++count;
-    EXPECT_TRUE(nlohmann::json::parse(line).contains("stage"));
+    EXPECT_TRUE(zoneplate::parsed_json(line).contains("stage"));
   }
   EXPECT_GE(count, 3);
   EXPECT_EQ(run({"triangles", "--size", "32,24", "-o", "a.png"}).err, "");
@@ -182,13 +183,13 @@ TEST_F(Cli, ProgressIsForTerminalsUnlessAskedFor) {
 TEST_F(Cli, ListAndInfoSpeakTextAndJson) {
   EXPECT_NE(run({"list"}).out.find("msaa"), std::string::npos);
   EXPECT_EQ(run({"list", "scenes"}).out.find("msaa"), std::string::npos);
-  const auto list = nlohmann::json::parse(run({"list", "--json"}).out);
+  const auto list = zoneplate::parsed_json(run({"list", "--json"}).out);
   EXPECT_EQ(list["methods"][0]["name"], "none");
   EXPECT_GE(list["scenes"].size(), 6u);
   EXPECT_EQ(list["formats"]["models"][0]["extension"], ".gltf");
 
   EXPECT_NE(run({"info", "triangles"}).out.find("2 drawn"), std::string::npos);
-  const auto info = nlohmann::json::parse(run({"info", "triangles", "--json"}).out);
+  const auto info = zoneplate::parsed_json(run({"info", "triangles", "--json"}).out);
   EXPECT_EQ(info["triangles"], 2);
   EXPECT_EQ(info["vertices"], 6);
   EXPECT_EQ(info["cameras"].size(), 1u);

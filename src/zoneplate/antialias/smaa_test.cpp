@@ -1,5 +1,6 @@
 #include "zoneplate/antialias/smaa.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"

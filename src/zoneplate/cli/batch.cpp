@@ -16,43 +16,6 @@
 namespace zoneplate::cli {
 namespace {
 
-// The jobs of a manifest: each is what the command line says, with options of its own over that.
-class Jobs {
- public:
-  explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
-  Jobs(const Jobs&) = delete;
-  Jobs& operator=(const Jobs&) = delete;
-
-  RenderArgs read(const JsonValue& job, const std::string& place) {
-    const JsonView view(job, place);
-    args_ = common_;
-    args_.input.clear();
-    for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
-    if (args_.input.empty()) view.fail("has no input");
-    args_.inputs = {args_.input};
-    check_args(args_);
-    return args_;
-  }
-
- private:
-  void set(const std::string& key, const JsonValue& value, const JsonView& view) {
-    using Kind = JsonValue::Kind;
-    if (value.kind != Kind::Boolean && value.kind != Kind::Text && value.kind != Kind::Number)
-      view.fail(key + " is neither a text, nor a number, nor true or false");
-    const std::string text = value.kind == Kind::Number ? fmt::format("{}", value.number) : value.text;
-    if (key == "input" && value.kind != Kind::Boolean)
-      args_.input = text;
-    else if (value.kind != Kind::Boolean)
-      set_option(syntax_, key, text);
-    else if (value.boolean)
-      set_option(syntax_, key, std::nullopt);
-  }
-
-  const RenderArgs& common_;
-  RenderArgs args_;
-  Syntax syntax_;  ///< whose options set args_
-};
-
 // A line of the manifest that is not empty, and what messages call it.
 struct Line {
   std::string text, place;
@@ -68,11 +31,63 @@ std::vector<Line> lines_of(const std::string& path) {
     const std::string_view line = text.substr(at, end - at);
     ++number;
     if (line.find_first_not_of(" \t\r") != line.npos)
-      lines.push_back({std::string(line), fmt::format("{}: line {}:", path == "-" ? "standard input" : path, number)});
+      lines.push_back({std::string(line), fmt::format("{}: line {}", path == "-" ? "standard input" : path, number)});
     at = end + 1;
   }
   return lines;
 }
+
+// The jobs of a manifest: each is what the command line says, with options of its own over that.
+class Jobs {
+ public:
+  explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
+  Jobs(const Jobs&) = delete;
+  Jobs& operator=(const Jobs&) = delete;
+
+  // Errors    Trouble::Input or Usage, naming the line.
+  RenderArgs read(const Line& line) {
+    ImportBudget budget(line.place, common_.load.limits);
+    const JsonValue job =
+        parse_json({reinterpret_cast<const std::uint8_t*>(line.text.data()), line.text.size()}, budget);
+    try {
+      return read(job, JsonView(job, line.place));
+    } catch (const Error& error) {
+      if (error.trouble() != Trouble::Usage) throw;
+      throw Error(Trouble::Usage, line.place + ": " + error.what());
+    }
+  }
+
+ private:
+  RenderArgs read(const JsonValue& job, const JsonView& view) {
+    args_ = common_;
+    args_.input.clear();
+    args_.manifest.clear();
+    for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
+    if (args_.input.empty()) view.fail("has no input");
+    args_.inputs = {args_.input};
+    check_args(args_);
+    return args_;
+  }
+
+  void set(const std::string& key, const JsonValue& value, const JsonView& view) {
+    using Kind = JsonValue::Kind;
+    if (value.kind != Kind::Boolean && value.kind != Kind::Text && value.kind != Kind::Number)
+      view.fail(key + " is neither a text, nor a number, nor true or false");
+    const std::string text = value.kind == Kind::Number ? fmt::format("{}", value.number) : value.text;
+    if (text.find('\0') != text.npos) view.fail(key + " has a character of code 0");
+    if (key == "manifest" || key == "shard") view.fail(key + " is for all jobs together, not for one");
+    if (key == "input" && value.kind != Kind::Boolean)
+      args_.input = text;
+    else if (value.kind != Kind::Boolean)
+      set_option(syntax_, key, text);
+    else if (value.boolean)
+      set_option(syntax_, key, std::nullopt);
+  }
+
+  const RenderArgs& common_;
+  RenderArgs args_;
+  Syntax syntax_;  ///< whose options set args_
+};
 
 // One job after the other; each failure is told and kept, and the next job begun.
 class Batch {
@@ -146,11 +161,7 @@ void render_batch(const RenderArgs& common) {
   Jobs jobs(common);
   for (const Line& line : lines_of(common.manifest)) {
     if (!common.shard.has(number++)) continue;
-    batch.run(line.place, [&] {
-      ImportBudget budget(line.place, common.load.limits);
-      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(line.text.data());
-      return jobs.read(parse_json({bytes, line.text.size()}, budget), line.place);
-    });
+    batch.run(line.place, [&] { return jobs.read(line); });
   }
   batch.finish();
 }

@@ -1,11 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/bench_limits.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -18,7 +17,7 @@ TEST(Bench, TellsOneLineOfJsonASceneAndNumberOfSamples) {
   std::string line;
   std::vector<int> samples;
   while (std::getline(lines, line)) {
-    const auto json = nlohmann::json::parse(line);
+    const auto json = parsed_json(line);
     EXPECT_EQ(json["scene"], "tri10k");
     EXPECT_GT(json["median_ms"].get<double>(), 0);
     EXPECT_GE(json["median_ms"].get<double>(), json["min_ms"].get<double>());

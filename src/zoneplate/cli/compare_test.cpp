@@ -6,13 +6,13 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/cli/compare_report.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/metrics/metrics.h"
+#include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -57,7 +57,7 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
       run(std::string("compare triangles cyclic --aa none,ssaa:n=2,ssaa:pattern=halton,samples=8 -o out") + small);
   ASSERT_EQ(answer.code, 0) << answer.out;
   EXPECT_EQ(answer.out, text_of("out/compare.txt"));
-  const auto json = nlohmann::json::parse(text_of("out/compare.json"));
+  const auto json = parsed_json(text_of("out/compare.json"));
   EXPECT_EQ(json["format"], "zoneplate-compare");
   EXPECT_EQ(json["version"], report_version);
   ASSERT_EQ(json["scenes"].size(), 2u);
@@ -101,8 +101,8 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
 
 TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   ASSERT_EQ(run(std::string("compare cyclic --aa fxaa -o out") + small).code, 0);
-  const auto json = nlohmann::json::parse(text_of("out/compare.json"));
-  const auto own = nlohmann::json::parse(
+  const auto json = parsed_json(text_of("out/compare.json"));
+  const auto own = parsed_json(
       run("metrics out/cyclic/reference.png out/cyclic/fxaa.png --metric psnr,flip,edge_error --json --threshold "
           "psnr=1,flip=1,edge_error=1")
           .out);
@@ -111,7 +111,7 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   // A picture is a reference too; and against itself a method is without error.
   const Answer again = run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
   ASSERT_EQ(again.code, 0) << again.out;
-  EXPECT_EQ(nlohmann::json::parse(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
+  EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
 }
 
 TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {

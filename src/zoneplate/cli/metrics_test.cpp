@@ -6,11 +6,11 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "zoneplate/base/file.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/metrics/magma.h"
+#include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -56,7 +56,7 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 TEST_F(MetricsVerb, SamePicturesAreZeroAndInfinite) {
   const Answer answer = run("grey.png grey.png --json");
   EXPECT_EQ(answer.code, 0);
-  const auto json = nlohmann::json::parse(answer.out);
+  const auto json = parsed_json(answer.out);
   EXPECT_EQ(json["same"], true);
   EXPECT_EQ(json["metrics"]["mse"]["value"], 0);
   EXPECT_EQ(json["metrics"]["psnr"]["value"], "inf");
@@ -112,7 +112,7 @@ TEST_F(MetricsVerb, JudgesSequencesAndFolders) {
   }
   const Answer answer = run("a b --metric flicker,mae --json");
   EXPECT_EQ(answer.code, 1);
-  const auto json = nlohmann::json::parse(answer.out.substr(0, answer.out.find('\n')));
+  const auto json = parsed_json(answer.out.substr(0, answer.out.find('\n')));
   EXPECT_EQ(json["pictures"], 3);
   EXPECT_NEAR(json["metrics"]["flicker"]["value"].get<double>(), 0.2, 1e-6);
   EXPECT_EQ(json["metrics"]["mae"]["worst"], 1);
@@ -122,7 +122,7 @@ TEST_F(MetricsVerb, JudgesSequencesAndFolders) {
 
 TEST_F(MetricsVerb, ParametersReachTheirMetric) {
   const auto value = [&](const std::string& metric) {
-    const auto json = nlohmann::json::parse(run("black.png grey.png --threshold flip=1 --json --metric " + metric).out);
+    const auto json = parsed_json(run("black.png grey.png --threshold flip=1 --json --metric " + metric).out);
     return json["metrics"]["flip"]["value"].get<double>();
   };
   save("black.png", 0, 32);

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "zoneplate/base/file.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/report/child.h"
+#include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate::cli {
 
@@ -53,7 +53,7 @@ class SignalVerb : public testing::Test {
   template <class Run>
   static nlohmann::json json(Run run, Words words) {
     words.emplace_back("--json");
-    return nlohmann::json::parse(out(run, words));
+    return parsed_json(out(run, words));
   }
   /// The message of the error that is thrown, which has to be of this kind.
   template <class Run>

@@ -73,7 +73,7 @@ TEST_F(SignalResample, ReadsAndWritesPipes) {
   ASSERT_EQ(std::system(command.c_str()), 0);
   out(run_signal_resample, {at("in.png"), "--size", "0.5", "-o", at("plain.png")});
   EXPECT_EQ(text("piped.png"), text("plain.png"));
-  EXPECT_EQ(nlohmann::json::parse(text("numbers.json"))["width"], 16);
+  EXPECT_EQ(parsed_json(text("numbers.json"))["width"], 16);
 }
 
 using SignalDecimate = SignalVerb;

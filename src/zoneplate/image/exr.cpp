@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -136,7 +138,29 @@ std::int64_t size_of_bytes(exr_const_context_t, void* user) {
 }
 void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
 
-/// An open file, decoded into planes of its data window. It lives in the child.
+/// Numbers by rows, zero at first. They take memory where they are written, so that a picture of which nothing is there
+/// takes none.
+class Channel {
+ public:
+  Channel() = default;
+  explicit Channel(const Window& window)
+      : width_(static_cast<std::size_t>(window.width())),
+        values_(static_cast<float*>(std::calloc(static_cast<std::size_t>(window.pixels()), sizeof(float)))) {
+    if (!values_) throw std::bad_alloc();
+  }
+  explicit operator bool() const { return values_ != nullptr; }
+  float& operator()(std::size_t x, std::size_t y) { return values_.get()[y * width_ + x]; }
+  float operator()(std::size_t x, std::size_t y) const { return values_.get()[y * width_ + x]; }
+
+ private:
+  struct Free {
+    void operator()(float* values) const { std::free(values); }
+  };
+  std::size_t width_ = 0;
+  std::unique_ptr<float, Free> values_;
+};
+
+/// An open file, decoded into the channels of its data window. It lives in the child.
 class ExrReader {
  public:
   ExrReader(const Library& library, std::span<const std::uint8_t> bytes, const Window& window)
@@ -151,9 +175,6 @@ class ExrReader {
     set_up.dwa_quality = -1;
     library_.check(library_.start_read(&context_, "memory", &set_up));
     find_channels();
-    for (std::size_t slot = 0; slot < planes_.size(); ++slot)
-      if (slot == 0 || slot == 3 || !is_grey_)
-        planes_[slot] = {static_cast<int>(window.width()), static_cast<int>(window.height()), slot == 3 ? 1.0f : 0.0f};
   }
   ~ExrReader() { library_.finish(&context_); }
   ExrReader(const ExrReader&) = delete;
@@ -172,12 +193,13 @@ class ExrReader {
 
   /// A row of the data window, from one column on.
   void copy_row(int y, int first, std::span<Linear> out) const {
-    const auto value = [&](std::size_t slot, int x) {
-      const float v = planes_[slot](x, y);
+    const auto value = [&](std::size_t slot, std::size_t x) {
+      if (!channels_[slot]) return slot == 3 ? 1.0f : 0.0f;
+      const float v = channels_[slot](x, static_cast<std::size_t>(y));
       return std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
     };
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const int x = first + static_cast<int>(i);
+      const std::size_t x = static_cast<std::size_t>(first) + i;
       out[i].r = value(0, x);
       out[i].g = is_grey_ ? out[i].r : value(1, x);
       out[i].b = is_grey_ ? out[i].r : value(2, x);
@@ -207,8 +229,11 @@ class ExrReader {
     is_grey_ = !find("R") && !find("G") && !find("B");
     if (is_grey_ && !find("Y")) throw Refusal{"has no channel R, G, B or Y"};
     for (const std::string_view name : {"R", "G", "B", "A", "Y"})
-      if (const auto* c = find(name); c && slot_of(name) && (c->x_sampling != 1 || c->y_sampling != 1))
-        throw Refusal{"has fewer samples in channel " + std::string(name) + " than pixels, which is not read"};
+      if (const auto* c = find(name); c && slot_of(name)) {
+        if (c->x_sampling != 1 || c->y_sampling != 1)
+          throw Refusal{"has fewer samples in channel " + std::string(name) + " than pixels, which is not read"};
+        channels_[*slot_of(name)] = Channel(window_);
+      }
   }
 
   /// Decodes a part whose first pixel is (x, y) of the data window.
@@ -224,8 +249,9 @@ class ExrReader {
     for (int i = 0; i < pipeline.channel_count; ++i) {
       exr_coding_channel_info_t& channel = pipeline.channels[i];
       const std::optional<std::size_t> slot = slot_of(channel.channel_name);
-      channel.decode_to_ptr =
-          slot ? reinterpret_cast<std::uint8_t*>(&planes_[*slot](static_cast<int>(x), static_cast<int>(y))) : nullptr;
+      channel.decode_to_ptr = slot && channels_[*slot] ? reinterpret_cast<std::uint8_t*>(&channels_[*slot](
+                                                             static_cast<std::size_t>(x), static_cast<std::size_t>(y)))
+                                                       : nullptr;
       channel.user_pixel_stride = sizeof(float);
       channel.user_line_stride = static_cast<std::int32_t>(window_.width()) * std::int32_t{sizeof(float)};
       channel.user_data_type = EXR_PIXEL_FLOAT;
@@ -263,7 +289,7 @@ class ExrReader {
   Window window_;
   exr_context_t context_ = nullptr;
   bool is_grey_ = false;
-  std::array<Plane<float>, 4> planes_;  ///< red or grey, green, blue, alpha
+  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha, of those that there are
 };
 
 /// Gives the rows of the display window, with what the data window has of them, to `send(row)`.

@@ -1,6 +1,7 @@
 #include "zoneplate/image/exr.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <bit>
 #include <cmath>
@@ -126,6 +127,24 @@ TEST(Exr, RefusalsNameTheCause) {
   EXPECT_EQ(error_of({1, 2, 3}), "a.exr: EXR: the header is wrong");
   const float values[4] = {};
   EXPECT_EQ(error_of(encode_exr(2, 2, {{"Z", ExrType::Float, values}})), "a.exr: EXR: has no channel R, G, B or Y");
+}
+
+TEST(Exr, AClaimOfManyPixelsTakesNoMemory) {
+  Bytes bytes = exr_of(make_image(2, 2), ExrType::Float);
+  for (const std::string name : {"displayWindow", "dataWindow"}) {
+    const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+    const std::int32_t window[4] = {0, 0, 8191, 8191};
+    std::memcpy(&*(at + static_cast<std::ptrdiff_t>(name.size()) + 1 + 6 + 4), window, sizeof window);
+  }
+  bytes.resize(bytes.size() + (1 << 17));  // room for the table of its parts
+  const auto most_of_children = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    return usage.ru_maxrss;  // KiB
+  };
+  const long before = most_of_children();
+  EXPECT_TRUE(error_of(bytes, 1 << 28).starts_with("a.exr: EXR: is corrupt"));
+  EXPECT_LT(most_of_children() - before, 200 << 10);
 }
 
 TEST(Exr, DamageEndsInOneLine) {

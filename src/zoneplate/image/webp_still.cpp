@@ -3,6 +3,8 @@
 #include <webp/decode.h>
 #include <webp/encode.h>
 
+#include <memory>
+
 #include "zoneplate/base/error.h"
 
 namespace zoneplate {
@@ -21,6 +23,15 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   const auto pixels = static_cast<std::uint64_t>(features.width) * static_cast<std::uint64_t>(features.height);
   if (pixels > max_pixels)
     fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");
+  // Few bytes may well be a picture of one colour, but what is not one must not take its memory: libwebp's own is
+  // taken as it is written.
+  constexpr std::uint64_t most_per_byte = 256;
+  if (pixels / most_per_byte > bytes.size()) {
+    int2 size;
+    const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> decoded(
+        WebPDecodeRGBA(bytes.data(), bytes.size(), &size.x, &size.y), &WebPFree);
+    if (!decoded) fail("the WebP file is corrupt or cut off");
+  }
   Rgba8Image image(features.width, features.height);
   static_assert(sizeof(Rgba8) == 4, "libwebp writes rows as they lie");
   auto* const out = reinterpret_cast<std::uint8_t*>(image.values().data());

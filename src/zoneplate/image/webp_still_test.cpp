@@ -1,6 +1,7 @@
 #include "zoneplate/image/webp_still.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/math/random.h"
@@ -37,6 +38,22 @@ TEST(WebpStill, WithoutAlphaEveryPixelIsOpaque) {
 TEST(WebpStill, RefusesWhatTheFormatCannotHold) {
   EXPECT_THROW(encode_webp(Rgba8Image(16384, 1), false), Error);
   EXPECT_THROW(decode_webp(encode_webp(make_image(), true), "a", 850), Error);
+}
+
+TEST(WebpStill, AClaimOfManyPixelsTakesNoMemory) {
+  // 16384 x 16384 pixels without loss, of which nothing is there.
+  std::vector<std::uint8_t> bytes = {'R',  'I', 'F', 'F', 26, 0, 0,    0,    'W',  'E',  'B',  'P',
+                                     'V',  'P', '8', 'L', 13, 0, 0,    0,    0x2f, 0xff, 0xff, 0xff,
+                                     0x0f, 0,   0,   0,   0,  0, 0xff, 0xff, 0xff, 0xff};
+  ASSERT_EQ(find_webp_size(bytes), (int2{16384, 16384}));
+  const auto most_memory = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // KiB
+  };
+  const long before = most_memory();
+  EXPECT_THROW(decode_webp(bytes, "a", 1 << 28), Error);
+  EXPECT_LT(most_memory() - before, 200 << 10);
 }
 
 }  // namespace

@@ -4,7 +4,12 @@
 
 #include <limits>
 
+#include "zoneplate/report/json_for_test.h"
+
 namespace zoneplate {
+
+nlohmann::json parsed_json(std::string_view text) { return nlohmann::json::parse(text); }
+
 namespace {
 
 TEST(Json, WritesEveryKind) {

@@ -11,6 +11,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/finite.h"
+#include "zoneplate/scene/flat_normals.h"
 #include "zoneplate/scene/gltf_accessor.h"
 #include "zoneplate/scene/gltf_draco.h"
 #include "zoneplate/scene/gltf_topology.h"
@@ -174,7 +175,7 @@ void normalize_normals(Mesh& m) {
   std::vector<float3> sum(m.normal.size());
   for (std::size_t k = 0; m.topology == Topology::Triangles && k + 2 < m.index.size(); k += 3) {
     const float3 a = m.position[m.index[k]], b = m.position[m.index[k + 1]], c = m.position[m.index[k + 2]];
-    const float3 n = face_normal(a, b, c);
+    const float3 n = flat_normal(a, b, c);
     for (std::size_t j = 0; j < 3; ++j) sum[m.index[k + j]] += n;
   }
   for (std::size_t i = 0; i < sum.size(); ++i)

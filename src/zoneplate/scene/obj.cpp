@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "zoneplate/base/error.h"
@@ -30,6 +31,7 @@ class Libraries {
 
   /// What an mtllib statement says: one name that may hold spaces, or several.
   void add(const std::string& statement) {
+    if (!statements_.insert(statement).second) return;
     if (folder_.find_file("", statement)) return open(statement);
     LineWords words(statement);
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) open(std::string(word));
@@ -71,7 +73,7 @@ class Libraries {
             fmt::format("{}: material library {} not found in the model's folder", folder_.budget().file(), name));
       return;
     }
-    if (!opened_.try_emplace(*path, true).second) return;
+    if (!opened_.insert(*path).second) return;
     const FileBytes file(*path, folder_.budget().limits().memory);
     const std::size_t slash = name.find_last_of("/\\");
     const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
@@ -90,7 +92,7 @@ class Libraries {
   ObjFolder& folder_;
   std::size_t missing_ = 0, undefined_ = 0;
   std::unordered_map<std::string, Found> materials_;
-  std::unordered_map<std::string, bool> opened_;
+  std::unordered_set<std::string> statements_, opened_;
 };
 
 void report_notes(const ObjFile& file, const std::string& name, std::vector<std::string>& warnings) {

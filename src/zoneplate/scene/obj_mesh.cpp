@@ -146,7 +146,7 @@ class Builder {
   }
   float4 color_of(std::size_t position) const {
     const float4 c = file_.colors[position];
-    return {linear(c.x), linear(c.y), linear(c.z), std::clamp(c.w, 0.0f, 1.0f)};
+    return {linear(c.x), linear(c.y), linear(c.z), c.w < 1 ? std::max(c.w, 0.0f) : 1.0f};  // NaN hides nothing
   }
 
   std::uint32_t vertex(std::uint32_t chunk, std::uint32_t corner) {

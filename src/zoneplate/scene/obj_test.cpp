@@ -155,6 +155,8 @@ TEST_F(ObjModel, ReadsVertexColours) {
   EXPECT_EQ(mesh.color,
             (std::vector<float4>{{1, decode_srgb(0.5f), 0, 1}, {1, 0, 1, 0.25f}, {1, 1, 1, 1}, {1, 1, 1, 1}}));
   EXPECT_TRUE(load(square + "f 1 2 3").meshes.at(0).color.empty());
+  const Mesh odd = load("v 0 0 0 nan inf -inf nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").meshes.at(0);
+  EXPECT_EQ(odd.color[0], (float4{0, 1, 0, 1}));
 }
 
 TEST_F(ObjModel, CutsConcavePolygonsRightly) {

@@ -12,10 +12,10 @@
 #include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/finite.h"
+#include "zoneplate/scene/flat_normals.h"
 #include "zoneplate/scene/mtl_material.h"
 #include "zoneplate/scene/ply_mesh.h"
 #include "zoneplate/scene/smooth_normals.h"
-#include "zoneplate/scene/tangent.h"
 
 namespace zoneplate {
 namespace {
@@ -78,16 +78,27 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
   std::vector<float3> sum(mesh.normal.size());
   for (std::size_t k = 0; k + 2 < mesh.index.size(); k += 3) {
     const float3 n =
-        face_normal(mesh.position[mesh.index[k]], mesh.position[mesh.index[k + 1]], mesh.position[mesh.index[k + 2]]);
+        flat_normal(mesh.position[mesh.index[k]], mesh.position[mesh.index[k + 1]], mesh.position[mesh.index[k + 2]]);
     for (std::size_t c = 0; c < 3; ++c) sum[mesh.index[k + c]] += n;
   }
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (mesh.normal[i] == float3{}) mesh.normal[i] = normalize(sum[i], {0, 1, 0});
 }
 
+/// The vertices, and beside them the triangles if they are plain: of either, finding the memory takes longest.
+void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
+  const bool are_plain = found.faces && are_plain_triangles(*found.faces);
+  if (are_plain) budget.take(found.faces->count() * 3 * sizeof(std::uint32_t));
+  parallel_for(2, [&](std::size_t i) {
+    if (i == 0) mesh = read_ply_vertices(*found.vertices, budget);
+    if (i == 1 && are_plain) faces.index = read_plain_triangles(*found.faces, found.vertices->count());
+  });
+  budget.check_time();
+}
+
 /// The primitives that the elements make, with what is per corner left in `faces`.
 void choose_primitives(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
-  if (found.faces) faces = read_ply_faces(*found.faces, mesh, budget);
+  if (found.faces && faces.index.empty()) faces = read_ply_faces(*found.faces, mesh, budget);
   if (faces.index.empty() && found.strips) faces.index = read_ply_strips(*found.strips, mesh, budget);
   mesh.index = std::move(faces.index);
   if (!mesh.index.empty() || faces.too_short > 0) return;
@@ -134,8 +145,9 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
 
   Scene scene;
   const Found found = find_elements(header, body, budget);
-  Mesh mesh = read_ply_vertices(*found.vertices, budget);
+  Mesh mesh;
   PlyFaces faces;
+  read_arrays(found, mesh, faces, budget);
   choose_primitives(found, mesh, faces, budget);
   warn(scene, budget, faces.too_short, "faces have fewer than 3 corners and are dropped");
   warn(scene, budget, faces.too_concave, "faces have too many corners to be cut rightly");

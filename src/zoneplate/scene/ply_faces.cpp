@@ -48,41 +48,6 @@ void report(const std::vector<std::optional<BadIndex>>& found, const PlyRows& ro
 
 std::size_t blocks(std::size_t count) { return (count + PlyRows::block - 1) / PlyRows::block; }
 
-/// The common case at full speed: nothing but triangles, of 32-bit indices in this machine's order.
-bool read_plain_triangles(const PlyRows& rows, std::size_t indices, const Mesh& vertices, ImportBudget& budget,
-                          std::vector<std::uint32_t>& index) {
-  const PlyType type = rows.element->properties[indices].type;
-  if (rows.stride == 0 || rows.order != PlyOrder::Little || (type != PlyType::Int32 && type != PlyType::Uint32))
-    return false;
-  std::vector<PlyPlace> places(rows.element->properties.size());
-  place_ply_row(rows, rows.data, places);
-  if (places[indices].count != 3) return false;
-
-  const std::uint8_t* const first = places[indices].at;
-  const auto limit = static_cast<std::uint32_t>(vertices.position.size());
-  budget.take(rows.count() * 3 * sizeof(std::uint32_t));
-  reserve_large(index, 3 * rows.count());
-  index.resize(3 * rows.count());
-  std::vector<std::optional<BadIndex>> found(blocks(rows.count()));
-  parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
-    bool are_there = true;
-    for (std::size_t i = begin; i < end; ++i) {
-      std::uint32_t v[3];
-      std::memcpy(v, first + i * rows.stride, sizeof v);
-      are_there = are_there && v[0] < limit && v[1] < limit && v[2] < limit;
-      if (!are_there) {
-        for (std::size_t k = 3; k-- > 0;)
-          if (v[k] >= limit)
-            found[begin / PlyRows::block] = {i, read_ply_value(first + i * rows.stride + 4 * k, type, rows.order)};
-        return;
-      }
-      std::memcpy(&index[3 * i], v, sizeof v);
-    }
-  });
-  report(found, rows, vertices, budget);
-  return true;
-}
-
 /// A face of more corners than this is dropped: no polygon is, and it would hold up the others of its block.
 constexpr std::uint32_t most_corners = 1 << 20;
 /// A face of more corners than this may take long: the time is looked at before it.
@@ -202,15 +167,48 @@ std::vector<T> joined(std::vector<PlyFaces>& parts, std::vector<T> PlyFaces::*li
   return out;
 }
 
+/// Where the first row's indices are, if all are three 32-bit ones in this machine's order; else nothing.
+const std::uint8_t* first_plain_triangle(const PlyRows& rows) {
+  std::optional<std::size_t> indices = find(*rows.element, "vertex_indices", true);
+  if (!indices) indices = find(*rows.element, "vertex_index", true);
+  if (!indices || rows.stride == 0 || rows.count() == 0 || rows.order != PlyOrder::Little) return nullptr;
+  const PlyType type = rows.element->properties[*indices].type;
+  if (type != PlyType::Int32 && type != PlyType::Uint32) return nullptr;
+  if (find(*rows.element, "texcoord", true) || find(*rows.element, "red", false)) return nullptr;
+  std::vector<PlyPlace> places(rows.element->properties.size());
+  place_ply_row(rows, rows.data, places);
+  return places[*indices].count == 3 ? places[*indices].at : nullptr;
+}
+
 }  // namespace
+
+bool are_plain_triangles(const PlyRows& rows) { return first_plain_triangle(rows) != nullptr; }
+
+std::vector<std::uint32_t> read_plain_triangles(const PlyRows& rows, std::size_t vertices) {
+  const std::uint8_t* const first = first_plain_triangle(rows);
+  const auto limit = static_cast<std::uint32_t>(std::min<std::size_t>(vertices, 0xffffffffu));
+  std::vector<std::uint32_t> index;
+  reserve_large(index, 3 * rows.count());
+  index.resize(3 * rows.count());
+  std::atomic<bool> are_there = true;
+  parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t most = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      std::uint32_t v[3];
+      std::memcpy(v, first + i * rows.stride, sizeof v);
+      most = std::max({most, v[0], v[1], v[2]});
+      std::memcpy(&index[3 * i], v, sizeof v);
+    }
+    if (most >= limit) are_there = false;
+  });
+  if (!are_there) index.clear();
+  return index;
+}
 
 PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget) {
   const std::size_t indices = find_indices(*rows.element, budget);
-  const bool have_more =
-      find(*rows.element, "texcoord", true) || (find(*rows.element, "red", false) && vertices.color.empty());
   PlyFaces out;
   if (rows.count() == 0) return out;
-  if (!have_more && read_plain_triangles(rows, indices, vertices, budget, out.index)) return out;
 
   std::atomic<std::uint64_t> made = 0;
   const std::uint64_t most = budget.memory_left();

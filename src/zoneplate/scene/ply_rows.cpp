@@ -224,6 +224,14 @@ const std::uint8_t* place_ply_row(const PlyRows& rows, const std::uint8_t* row, 
   return row;
 }
 
+bool are_floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties) {
+  if (rows.stride == 0 || rows.order == PlyOrder::Big) return false;
+  for (std::size_t c = 0; c < properties.size(); ++c)
+    if (properties[c] != properties[0] + c || rows.element->properties[properties[c]].type != PlyType::Float)
+      return false;
+  return true;
+}
+
 void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, std::size_t property, float* out,
                      std::size_t stride) {
   const PlyType type = rows.element->properties[property].type;

@@ -58,6 +58,11 @@ void for_ply_rows(const PlyRows& rows, std::size_t begin, std::size_t end, const
   }
 }
 
+/// Whether these properties of all rows are floats of this machine that follow each other, so that they can be copied.
+///
+/// Requires  properties that are no lists.
+bool are_floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties);
+
 /// The values of a property in the rows [begin, end) as floats, into out[0], out[stride], ...
 ///
 /// Requires  a property that is no list; rows of one block, as parallel_ranges gives them.

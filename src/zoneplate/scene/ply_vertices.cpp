@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 #include <string_view>
 
@@ -40,6 +41,15 @@ std::optional<std::array<std::size_t, n>> find_all(const PlyElement& element, co
 template <class V, std::size_t n>
 void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& properties, std::vector<V>& out) {
   static_assert(sizeof(V) == n * sizeof(float));
+  if (are_floats_in_a_row(rows, properties)) {
+    std::vector<PlyPlace> places(rows.element->properties.size());
+    place_ply_row(rows, rows.data, places);
+    const std::uint8_t* const first = places[properties[0]].at;
+    parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) std::memcpy(&out[i], first + i * rows.stride, sizeof(V));
+    });
+    return;
+  }
   parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = 0; c < n; ++c)
       read_ply_column(rows, begin, end, properties[c], reinterpret_cast<float*>(&out[begin]) + c, n);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <random>
 
 #include "zoneplate/scene/damage_for_test.h"
@@ -28,7 +28,7 @@ Scene read(const Bytes& bytes, const LoadLimits& limits = {}) {
   ImportBudget budget("file", limits);
   const ByteSource source = [&](void* out, std::size_t size) {
     if (size > bytes.size() - at) throw Error(Trouble::Input, "file: ends early");
-    std::memcpy(out, bytes.data() + at, size);
+    std::copy_n(bytes.data() + at, size, static_cast<std::uint8_t*>(out));
     at += size;
   };
   return read_scene(source, budget);

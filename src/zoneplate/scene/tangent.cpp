@@ -245,42 +245,7 @@ void append_copy(std::vector<V>& values, std::size_t i) {
   if (!values.empty()) values.push_back(V(values[i]));
 }
 
-template <class V>
-void unindex(std::vector<V>& values, const std::vector<std::uint32_t>& index) {
-  if (values.empty()) return;
-  std::vector<V> out(index.size());
-  for (std::size_t k = 0; k < index.size(); ++k) out[k] = values[index[k]];
-  values = std::move(out);
-}
-
 }  // namespace
-
-float3 face_normal(float3 a, float3 b, float3 c) {
-  // The longest side is made 1 first, so that squares neither overflow nor vanish.
-  float3 d1 = b - a, d2 = c - a;
-  const float size = std::max(
-      {std::abs(d1.x), std::abs(d1.y), std::abs(d1.z), std::abs(d2.x), std::abs(d2.y), std::abs(d2.z), FLT_MIN});
-  d1 = {d1.x / size, d1.y / size, d1.z / size};
-  d2 = {d2.x / size, d2.y / size, d2.z / size};
-  const float3 normal = normalize(cross(d1, d2), {0, 1, 0});
-  return is_finite(normal) ? normal : float3{0, 1, 0};
-}
-
-void make_flat_normals(Mesh& mesh) {
-  assert(mesh.topology == Topology::Triangles);
-  mesh.normal.clear();
-  unindex(mesh.position, mesh.index);
-  unindex(mesh.tangent, mesh.index);
-  unindex(mesh.uv0, mesh.index);
-  unindex(mesh.uv1, mesh.index);
-  unindex(mesh.color, mesh.index);
-  for (std::size_t k = 0; k < mesh.index.size(); ++k) mesh.index[k] = static_cast<std::uint32_t>(k);
-  mesh.normal.resize(mesh.position.size());
-  for (std::size_t k = 0; k + 2 < mesh.position.size(); k += 3) {
-    const float3 normal = face_normal(mesh.position[k], mesh.position[k + 1], mesh.position[k + 2]);
-    for (std::size_t c = 0; c < 3; ++c) mesh.normal[k + c] = normal;
-  }
-}
 
 void make_tangents(Mesh& mesh, int uv_set) {
   const std::vector<float2>& uv = uv_set == 0 ? mesh.uv0 : mesh.uv1;

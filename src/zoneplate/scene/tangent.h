@@ -4,16 +4,6 @@
 
 namespace zoneplate {
 
-/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; +Y where it has none.
-///
-/// Requires  finite points.
-float3 face_normal(float3 a, float3 b, float3 c);
-
-/// Replaces the normals by flat ones: every triangle gets its own three vertices. Degenerate triangles get +Y.
-///
-/// Requires  triangles.
-void make_flat_normals(Mesh& mesh);
-
 /// Replaces the tangents by MikkTSpace's for the given uv set; vertices are split where tangents differ.
 ///
 /// Triangles around a vertex form one group where they are joined by edges and their uv are not mirrored against

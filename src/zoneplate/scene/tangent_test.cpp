@@ -35,30 +35,6 @@ Mesh square(const std::vector<float2>& uv) {
   return flat_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, uv, {0, 1, 2, 0, 2, 3});
 }
 
-TEST(FlatNormals, EveryTriangleGetsItsOwn) {
-  Mesh m;
-  m.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  m.uv0 = {{0, 0}, {1, 0}, {2, 0}, {3, 0}};
-  m.index = {0, 1, 2, 0, 3, 1};
-  make_flat_normals(m);
-  EXPECT_EQ(m.index, (Index{0, 1, 2, 3, 4, 5}));
-  EXPECT_EQ(m.normal, (std::vector<float3>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}}));
-  EXPECT_EQ(m.uv0[4], (float2{3, 0}));
-  EXPECT_EQ(m.position[5], (float3{1, 0, 0}));
-}
-
-TEST(FlatNormals, TinyHugeAndDegenerateTriangles) {
-  Mesh m;
-  m.position = {{0, 0, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}, {0, 0, 0}, {1e30f, 0, 0}, {0, 0, 1e30f},
-                {1, 1, 1}, {2, 2, 2},      {3, 3, 3},      {5, 5, 5}, {5, 5, 5},     {5, 5, 5}};
-  m.index = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-  make_flat_normals(m);
-  EXPECT_EQ(m.normal[0], (float3{0, 0, 1}));
-  EXPECT_EQ(m.normal[3], (float3{0, -1, 0}));
-  EXPECT_EQ(m.normal[6], (float3{0, 1, 0}));
-  EXPECT_EQ(m.normal[9], (float3{0, 1, 0}));
-}
-
 /// An image laid upright on the square: u to the right, v downwards. Its top is +Y = cross(normal, tangent).
 TEST(Tangents, UprightImageHasAPositiveSign) {
   Mesh m = square({{0, 1}, {1, 1}, {1, 0}, {0, 0}});
