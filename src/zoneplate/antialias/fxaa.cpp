@@ -1,13 +1,11 @@
-// FXAA 3.11: find the direction of an edge by luma, walk along it to its ends,
-// and fetch each pixel's colour up to half a pixel across it.
+// FXAA 3.11: find the direction of an edge by luma, walk along it to its ends, and fetch each pixel's colour up to half
+// a pixel across it.
 //
-// Smooths every edge that can be seen, whatever made it, at the lowest price of
-// all. Weak where an edge is nearly level: the walk ends after a dozen pixels;
-// and it takes fine text and single pixels towards their neighbours.
+// Smooths every edge that can be seen, whatever made it, at the lowest price of all. Weak where an edge is nearly
+// level: the walk ends after a dozen pixels; and it takes fine text and single pixels towards their neighbours.
 //
-// Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the
-// quality path with its presets and the console path. Colours are mixed as
-// codes, as there, unless light is asked for.
+// Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the quality path with its presets and the console
+// path. Colours are mixed as codes, as there, unless light is asked for.
 #include "zoneplate/antialias/fxaa.h"
 
 #include <algorithm>
@@ -31,8 +29,8 @@ namespace zoneplate {
 namespace antialias {
 namespace {
 
-/// A preset's search: the distances from the pixel at which it looks, in half
-/// pixels, and the last one, which it takes without looking.
+/// A preset's search: the distances from the pixel at which it looks, in half pixels, and the last one, which it takes
+/// without looking.
 ///
 /// Source    the steps of FXAA 3.11, FXAA_QUALITY__P0 and so on, added up.
 struct Search {
@@ -67,8 +65,7 @@ std::span<const int> distances_of(int preset) {
   return {search->distance.begin(), end};
 }
 
-/// What of `share` × greatest and `least` the contrast must reach, as the
-/// greatest whole contrast that does not.
+/// What of `share` × greatest and `least` the contrast must reach, as the greatest whole contrast that does not.
 FxaaContrast contrast_of(const FxaaOptions& options) {
   const auto below = [](double v) { return static_cast<int>(std::ceil(v)) - 1; };
   const auto is_right = [&](int factor) {
@@ -109,8 +106,8 @@ class Luma {
   RollingRows<std::uint8_t> rows_;
 };
 
-/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are
-/// large, for the luma within reach of both is made by each of two.
+/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, for the luma within reach of both
+/// is made by each of two.
 template <class Body>
 void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const Body& body) {
   constexpr std::size_t rows = 128;
@@ -232,8 +229,7 @@ namespace {
 constexpr std::string_view presets[] = {"10", "11", "12", "13", "14", "15", "20", "21", "22",
                                         "23", "24", "25", "26", "27", "28", "29", "39", "console"};
 
-/// The contrast that is treated, by the names and values of the original's
-/// comments.
+/// The contrast that is treated, by the names and values of the original's comments.
 struct Threshold {
   std::string_view name;
   double share, least;

@@ -1,19 +1,12 @@
 #include <hwy/highway.h>
 
+#include "zoneplate/antialias/edges_simd.h"
 #include "zoneplate/antialias/mlaa_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Stores 1 where `left` and 2 where `top` as bytes, one a lane.
-template <class D>
-HWY_INLINE void store_edges(D d, hn::Mask<D> left, hn::Mask<D> top, std::uint8_t* edges) {
-  const hn::Rebind<std::uint8_t, D> bytes;
-  const auto bits = hn::Or(hn::IfThenElseZero(left, hn::Set(d, 1)), hn::IfThenElseZero(top, hn::Set(d, 2)));
-  hn::StoreU(hn::DemoteTo(bytes, bits), bytes, edges);
-}
 
 template <class D>
 HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t i) {

@@ -1,5 +1,6 @@
 #include <hwy/highway.h>
 
+#include "zoneplate/antialias/edges_simd.h"
 #include "zoneplate/antialias/smaa_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,15 +28,6 @@ void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
   std::size_t i = 0;
   for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_some(full, rgba, luma, i);
   for (; i < n; ++i) luma_some(one, rgba, luma, i);
-}
-
-/// Stores 1 where `left` and 2 where `top` as bytes, one a lane.
-template <class D, class M>
-HWY_INLINE void store_edges(D du, M left, M top, std::uint8_t* edges) {
-  const hn::RebindToSigned<D> di;
-  const hn::Rebind<std::uint8_t, D> bytes;
-  const auto bits = hn::Or(hn::IfThenElseZero(left, hn::Set(du, 1u)), hn::IfThenElseZero(top, hn::Set(du, 2u)));
-  hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(di, bits)), bytes, edges);
 }
 
 template <class D>

@@ -61,7 +61,6 @@ class Jobs {
   RenderArgs read(const JsonValue& job, const JsonView& view) {
     args_ = common_;
     args_.input.clear();
-    args_.manifest.clear();
     for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
     if (args_.input.empty()) view.fail("has no input");
     args_.inputs = {args_.input};

@@ -88,11 +88,13 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
 /// The vertices, and beside them the triangles if they are plain: of either, finding the memory takes longest.
 void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   const bool are_plain = found.faces && are_plain_triangles(*found.faces);
-  if (are_plain) budget.take(found.faces->count() * 3 * sizeof(std::uint32_t));
+  const std::uint64_t bytes = are_plain ? found.faces->count() * 3 * sizeof(std::uint32_t) : 0;
+  budget.take(bytes);
   parallel_for(2, [&](std::size_t i) {
     if (i == 0) mesh = read_ply_vertices(*found.vertices, budget);
     if (i == 1 && are_plain) faces.index = read_plain_triangles(*found.faces, found.vertices->count());
   });
+  if (faces.index.empty()) budget.give_back(bytes);
   budget.check_time();
 }
 

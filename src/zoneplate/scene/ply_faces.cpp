@@ -24,9 +24,13 @@ std::optional<std::size_t> find(const PlyElement& element, std::string_view name
   return std::nullopt;
 }
 
-std::size_t find_indices(const PlyElement& element, const ImportBudget& budget) {
-  for (const std::string_view name : {"vertex_indices", "vertex_index"})
-    if (const auto found = find(element, name, true)) return *found;
+std::optional<std::size_t> find_indices(const PlyElement& element) {
+  const auto found = find(element, "vertex_indices", true);
+  return found ? found : find(element, "vertex_index", true);
+}
+
+std::size_t need_indices(const PlyElement& element, const ImportBudget& budget) {
+  if (const auto found = find_indices(element)) return *found;
   throw Error(Trouble::Input, fmt::format("{}: element {}: has no list vertex_indices", budget.file(), element.name));
 }
 
@@ -169,15 +173,13 @@ std::vector<T> joined(std::vector<PlyFaces>& parts, std::vector<T> PlyFaces::*li
 
 /// Where the first row's indices are, if all are three 32-bit ones in this machine's order; else nothing.
 const std::uint8_t* first_plain_triangle(const PlyRows& rows) {
-  std::optional<std::size_t> indices = find(*rows.element, "vertex_indices", true);
-  if (!indices) indices = find(*rows.element, "vertex_index", true);
+  const std::optional<std::size_t> indices = find_indices(*rows.element);
   if (!indices || rows.stride == 0 || rows.count() == 0 || rows.order != PlyOrder::Little) return nullptr;
   const PlyType type = rows.element->properties[*indices].type;
   if (type != PlyType::Int32 && type != PlyType::Uint32) return nullptr;
   if (find(*rows.element, "texcoord", true) || find(*rows.element, "red", false)) return nullptr;
-  std::vector<PlyPlace> places(rows.element->properties.size());
-  place_ply_row(rows, rows.data, places);
-  return places[*indices].count == 3 ? places[*indices].at : nullptr;
+  const PlyPlace place = first_ply_row(rows)[*indices];
+  return place.count == 3 ? place.at : nullptr;
 }
 
 }  // namespace
@@ -206,7 +208,7 @@ std::vector<std::uint32_t> read_plain_triangles(const PlyRows& rows, std::size_t
 }
 
 PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget) {
-  const std::size_t indices = find_indices(*rows.element, budget);
+  const std::size_t indices = need_indices(*rows.element, budget);
   PlyFaces out;
   if (rows.count() == 0) return out;
 
@@ -235,7 +237,7 @@ PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget&
 }
 
 std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget) {
-  const std::size_t indices = find_indices(*rows.element, budget);
+  const std::size_t indices = need_indices(*rows.element, budget);
   const PlyType type = rows.element->properties[indices].type;
   std::vector<std::uint32_t> out, strip;
   budget.take(3 * sizeof(std::uint32_t) * (rows.size / size_of(type)));

@@ -224,12 +224,18 @@ const std::uint8_t* place_ply_row(const PlyRows& rows, const std::uint8_t* row, 
   return row;
 }
 
-bool are_floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties) {
-  if (rows.stride == 0 || rows.order == PlyOrder::Big) return false;
+std::vector<PlyPlace> first_ply_row(const PlyRows& rows) {
+  std::vector<PlyPlace> places(rows.element->properties.size());
+  place_ply_row(rows, rows.data, places);
+  return places;
+}
+
+const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties) {
+  if (rows.stride == 0 || rows.order == PlyOrder::Big) return nullptr;
   for (std::size_t c = 0; c < properties.size(); ++c)
     if (properties[c] != properties[0] + c || rows.element->properties[properties[c]].type != PlyType::Float)
-      return false;
-  return true;
+      return nullptr;
+  return first_ply_row(rows)[properties[0]].at;
 }
 
 void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, std::size_t property, float* out,
@@ -241,9 +247,7 @@ void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, st
     });
     return;
   }
-  std::vector<PlyPlace> places(rows.element->properties.size());
-  place_ply_row(rows, rows.data, places);
-  const std::uint8_t* at = places[property].at + begin * rows.stride;
+  const std::uint8_t* at = first_ply_row(rows)[property].at + begin * rows.stride;
   if (type == PlyType::Float && rows.order != PlyOrder::Big) {
     for (std::size_t i = 0; i < end - begin; ++i, at += rows.stride) std::memcpy(out + i * stride, at, sizeof(float));
   } else if (type == PlyType::Uint8) {

@@ -46,6 +46,11 @@ PlyRows find_ply_rows(const PlyElement& element, PlyOrder order, std::span<const
 /// Requires  `places` has room for every property of the element.
 const std::uint8_t* place_ply_row(const PlyRows& rows, const std::uint8_t* row, std::span<PlyPlace> places);
 
+/// The places in the first row, after which those of a row that is like it come `stride` bytes further on each.
+///
+/// Requires  a row, and a stride.
+std::vector<PlyPlace> first_ply_row(const PlyRows& rows);
+
 /// Calls `body(i, places)` for the rows [begin, end) of a block, as parallel_ranges gives them.
 template <class Body>
 void for_ply_rows(const PlyRows& rows, std::size_t begin, std::size_t end, const Body& body) {
@@ -58,10 +63,11 @@ void for_ply_rows(const PlyRows& rows, std::size_t begin, std::size_t end, const
   }
 }
 
-/// Whether these properties of all rows are floats of this machine that follow each other, so that they can be copied.
+/// Where the first row has these properties, if they are floats of this machine that follow each other in all rows, so
+/// that they can be copied; else null.
 ///
 /// Requires  properties that are no lists.
-bool are_floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties);
+const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties);
 
 /// The values of a property in the rows [begin, end) as floats, into out[0], out[stride], ...
 ///

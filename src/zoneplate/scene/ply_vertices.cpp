@@ -41,10 +41,7 @@ std::optional<std::array<std::size_t, n>> find_all(const PlyElement& element, co
 template <class V, std::size_t n>
 void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& properties, std::vector<V>& out) {
   static_assert(sizeof(V) == n * sizeof(float));
-  if (are_floats_in_a_row(rows, properties)) {
-    std::vector<PlyPlace> places(rows.element->properties.size());
-    place_ply_row(rows, rows.data, places);
-    const std::uint8_t* const first = places[properties[0]].at;
+  if (const std::uint8_t* const first = floats_in_a_row(rows, properties)) {
     parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) std::memcpy(&out[i], first + i * rows.stride, sizeof(V));
     });
