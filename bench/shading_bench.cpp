@@ -100,6 +100,7 @@ struct Surface {
       for (int k = 0; k < 3; ++k) screen_corners.vertex[k][i] = &screen[k], corners.record[k][i] = record[k];
     }
     std::fill(std::begin(batch.one_triangle), std::end(batch.one_triangle), has_rows);
+    batch.run_end[0] = points / Batch::group;
     std::fill(std::begin(corners.one_instance), std::end(corners.one_instance), true);
     find_weights();
   }

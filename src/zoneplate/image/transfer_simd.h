@@ -16,9 +16,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// x clamped to [0, 1]; 0 where it is not a number.
 template <class D>
 HWY_INLINE hn::Vec<D> clamp_unit(D d, hn::Vec<D> x) {
-  const auto one = hn::Set(d, 1.0f);
-  x = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+#if HWY_ARCH_X86  // where a maximum with what is not a number is the second operand
+  return hn::Min(hn::Max(x, zero), one);
+#else
+  x = hn::IfThenElse(hn::Gt(x, zero), x, zero);
   return hn::IfThenElse(hn::Lt(x, one), x, one);
+#endif
 }
 
 template <class D>

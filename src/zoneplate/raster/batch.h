@@ -29,9 +29,10 @@ struct Batch {
 
   /// The group's points share their triangle and lie side by side in a row, a pixel apart: what is said by triangle
   /// then stands at the first point of the group `told_group` only, the first of those that follow each other and share
-  /// the triangle.
+  /// the triangle; `run_end`, known there, is the group after them.
   bool one_triangle[groups] = {};
   std::uint8_t told_group[groups] = {};
+  std::uint8_t run_end[groups] = {};
 
   /// dbdx and dbdy of all of the group's points are those of the point before it.
   bool repeats_slopes[groups] = {};
@@ -52,6 +53,8 @@ struct Batch {
   std::size_t told(std::size_t i) const {
     return one_triangle[i / group] ? static_cast<std::size_t>(told_group[i / group]) * group : i;
   }
+  /// The group after `first` and those that share its triangle; `first` shares none with the group before it.
+  int after_run(int first) const { return one_triangle[first] ? run_end[first] : first + 1; }
 };
 
 /// What shading gives for a batch. Colour is linear and premultiplied. The rest is filled when asked for.

@@ -122,17 +122,21 @@ void fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int b
   const VF lane = hn::Iota(d, 0), dzdx = hn::Set(d, t.dzdx);
   const VF z_low = hn::Set(d, t.z_low), z_high = hn::Set(d, t.z_high);
   const VI id = hn::Set(di, t.id);
-  for (int s = 0; s < tile.sample_count; ++s)
-    for (int y = by; y < by + 8; ++y) {
-      const VF row = hn::Set(d, t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y));
-      for (int x = bx; x < bx + 8; x += lanes) {
-        const VF column = hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), lane);
-        const VF z = hn::Min(hn::Max(hn::Add(row, hn::Mul(dzdx, column)), z_low), z_high);
-        const int at = s * tile_pixels + y * tile_size + x;
-        hn::Store(z, d, tile.depth + at);
-        hn::Store(id, di, tile.id + at);
+  const float dzdy = t.dzdy;
+  const int first_y = by - t.origin_y;
+  for (int x = bx; x < bx + 8; x += lanes) {
+    const VF across = hn::Mul(dzdx, hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), lane));
+    for (int s = 0; s < tile.sample_count; ++s) {
+      const float base = t.z[s];
+      float* const depth = tile.depth + s * tile_pixels + by * tile_size + x;
+      std::int32_t* const ids = tile.id + s * tile_pixels + by * tile_size + x;
+      for (int y = 0; y < 8; ++y) {
+        const VF row = hn::Set(d, base + dzdy * static_cast<float>(first_y + y));
+        hn::Store(hn::Min(hn::Max(hn::Add(row, across), z_low), z_high), d, depth + y * tile_size);
+        hn::Store(id, di, ids + y * tile_size);
       }
     }
+  }
 }
 
 HWY_INLINE hn::Mask<F> inside(VI e0, VI e1, VI e2) {
@@ -305,16 +309,21 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
 
 void find_owners(const TileVisibility& tile, std::int32_t* owners) {
   const I d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int row = 0; row < tile_pixels / 8; ++row) {
-    owners[row] = tile.block_owner[row / 64 * 8 + row % 8];
-    if (owners[row] != many_triangles) continue;
-    const VI first = hn::Set(d, tile.id[row * 8]);
-    VI differs = hn::Zero(d);
-    for (int s = 0; s < tile.sample_count; ++s)
-      for (int x = 0; x < 8; x += lanes)
-        differs = hn::Or(differs, hn::Xor(first, hn::Load(d, tile.id + s * tile_pixels + row * 8 + x)));
-    if (hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)))) owners[row] = tile.id[row * 8];
+  const int lanes = static_cast<int>(hn::Lanes(d)), samples = tile.sample_count;
+  for (int block = 0; block < TileVisibility::blocks; ++block) {
+    const int first_row = block / 8 * 64 + block % 8;
+    const std::int32_t owner = tile.block_owner[block];
+    for (int row = first_row; row < first_row + 64; row += 8) owners[row] = owner;
+    if (owner != many_triangles) continue;
+    for (int row = first_row; row < first_row + 64; row += 8) {
+      const std::int32_t* const id = tile.id + row * 8;
+      const VI first = hn::Set(d, id[0]);
+      VI differs = hn::Zero(d);
+      for (int s = 0; s < samples; ++s)
+        for (int x = 0; x < 8; x += lanes)
+          differs = hn::Or(differs, hn::Xor(first, hn::Load(d, id + s * tile_pixels + x)));
+      if (hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)))) owners[row] = id[0];
+    }
   }
 }
 

@@ -294,14 +294,16 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
              sum, batch, first, last);
 }
 
-/// x and y of the group's points from those of the first.
-HWY_INLINE void spread_places(Batch& batch, int first) {
+/// x and y of all points from those of each group's first.
+HWY_INLINE void spread_places(Batch& batch, int first, int last) {
   const IntTag d;
   const I steps = hn::Mul(hn::Iota(d, 0), hn::Set(d, 256));
-  const std::int32_t x = batch.x[first], y = batch.y[first];
-  for (int i = 0; i < Batch::group; i += lanes) {
-    hn::Store(hn::Add(hn::Set(d, x + i * 256), steps), d, batch.x + first + i);
-    hn::Store(hn::Set(d, y), d, batch.y + first + i);
+  for (int group = first; group < last; group += Batch::group) {
+    const std::int32_t x = batch.x[group], y = batch.y[group];
+    for (int i = group; i < group + Batch::group; i += lanes) {
+      hn::Store(hn::Add(hn::Set(d, x + (i - group) * 256), steps), d, batch.x + i);
+      hn::Store(hn::Set(d, y), d, batch.y + i);
+    }
   }
 }
 
@@ -316,10 +318,9 @@ bool interpolate_rows(const BatchCorners& corners, const Screen& screen, Viewpor
   } else if (!t.needs_clipping) {
     interpolate_run(t, screen, viewport, batch, first, last);
   }
-  for (int group = first; group < last; group += Batch::group) {
-    batch.repeats_slopes[group / Batch::group] = t.is_affine && group > first;
-    spread_places(batch, group);
-  }
+  batch.repeats_slopes[first / Batch::group] = false;
+  for (int g = first / Batch::group + 1; g < last / Batch::group; ++g) batch.repeats_slopes[g] = t.is_affine;
+  spread_places(batch, first, last);
   return t.needs_clipping;
 }
 
@@ -341,11 +342,10 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   const Screen screen(viewport, spacing);
   std::uint32_t clipped = 0;
   const int groups = batch.padded() / Batch::group;
-  for (int g = 0; g < groups;) {
-    const int first = g++;
+  for (int first = 0, g; first < groups; first = g) {
+    g = batch.after_run(first);
     bool is_clipped;
     if (batch.one_triangle[first]) {
-      while (g < groups && batch.one_triangle[g] && batch.told_group[g] == first) ++g;
       is_clipped = interpolate_rows(corners, screen, viewport, batch, first * Batch::group, g * Batch::group);
     } else {
       is_clipped = interpolate_points(corners, screen, batch, first * Batch::group);

@@ -36,6 +36,7 @@ struct Rows {
       const int t = g / 4, first = g * Batch::group;
       batch.one_triangle[g] = true;
       batch.told_group[g] = static_cast<std::uint8_t>(4 * t);
+      batch.run_end[g] = static_cast<std::uint8_t>(4 * t + 4);
       batch.x[first] = viewport.width * 128 - 900 + 128, batch.y[first] = viewport.height * 128 + 128 + 256 * (g % 4);
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < Batch::group; ++i) corners.vertex[k][first + i] = &vertex[t][k];

@@ -12,7 +12,9 @@ PointBatcher::PointBatcher(const ProjectedDraws& projected, const PointShader& s
       interpolate_(interpolate_kernels(isa)),
       target_(target),
       has_ends_(
-          std::any_of(projected.draws.begin(), projected.draws.end(), [](const Draw& d) { return !d.ends.empty(); })) {}
+          std::any_of(projected.draws.begin(), projected.draws.end(), [](const Draw& d) { return !d.ends.empty(); })),
+      has_one_material_(std::all_of(projected.draws.begin(), projected.draws.end(),
+                                    [&](const Draw& d) { return d.material == projected.draws[0].material; })) {}
 
 /// The list's numbers, those of one material together.
 template <class T>
@@ -24,6 +26,7 @@ std::span<const std::uint32_t> PointBatcher::order_by_material(std::span<const T
   if (list.empty()) return as_is;
   find_draw(list[0].id);
   one_material_ = known_.draw->material;
+  if (has_one_material_) return as_is;
   std::size_t same = 1;
   while (same < list.size() && (list[same].id == list[same - 1].id || material_of(list[same].id) == one_material_))
     ++same;
@@ -111,16 +114,15 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
   batch_.one_instance = false;
   corners_.screen = nullptr;
   std::fill_n(batch_.one_triangle, numbers.size(), true);
-  std::int32_t told = -1;  // no triangle
-  std::uint8_t told_group = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const PointRow& row = rows[numbers[i]];
-    if (row.id != told) {
-      put_triangle(i * Batch::group, row.id);
-      told = row.id, told_group = static_cast<std::uint8_t>(i);
+  for (std::size_t first = 0, i = 0; first < numbers.size(); first = i) {
+    const std::int32_t id = rows[numbers[first]].id;
+    put_triangle(first * Batch::group, id);
+    for (; i < numbers.size() && rows[numbers[i]].id == id; ++i) {
+      const PointRow& row = rows[numbers[i]];
+      batch_.told_group[i] = static_cast<std::uint8_t>(first);
+      batch_.x[i * Batch::group] = row.x, batch_.y[i * Batch::group] = row.y;
     }
-    batch_.told_group[i] = told_group;
-    batch_.x[i * Batch::group] = row.x, batch_.y[i * Batch::group] = row.y;
+    batch_.run_end[first] = static_cast<std::uint8_t>(i);
   }
   interpolate();
 }
@@ -252,9 +254,7 @@ std::int32_t PointBatcher::is_front(std::size_t told, const TriangleFacing& faci
 
 /// The points of the rows from a group on of one triangle, which needs clipping. Gives the group after them.
 int PointBatcher::interpolate_clipped_rows(int group, float spacing) {
-  const int groups = batch_.padded() / Batch::group;
-  int last = group + 1;
-  while (last < groups && batch_.one_triangle[last] && batch_.told_group[last] == batch_.told_group[group]) ++last;
+  const int last = batch_.run_end[group];
   const std::size_t told = batch_.told(static_cast<std::size_t>(group) * Batch::group);
   const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
   batch_.is_front[told] = is_front(told, facing);

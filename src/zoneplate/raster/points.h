@@ -41,7 +41,8 @@ class PointBatcher {
   /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
   void shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data);
 
-  /// The colours of rows: `use(row, shaded, i)` is called for each with the place i of its first point in `shaded`.
+  /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
+  /// colours follow each other in `shaded`.
   template <class Use>
   void shade(std::span<const PointRow> rows, Use use);
 
@@ -103,7 +104,8 @@ class PointBatcher {
   const PointShader& shader_;
   const InterpolateKernels& interpolate_;
   const Target& target_;
-  const bool has_ends_;  ///< some draw has lines or points
+  const bool has_ends_;          ///< some draw has lines or points
+  const bool has_one_material_;  ///< all draws share theirs
   std::uint64_t shaded_ = 0;
 
   std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
@@ -130,7 +132,7 @@ void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
     const auto numbers = order.subspan(first, count);
     fill(rows, numbers);
     shader_.shade(batch_, {}, shaded_batch_);
-    for (std::size_t i = 0; i < count; ++i) use(rows[numbers[i]], shaded_batch_, static_cast<int>(i) * Batch::group);
+    use(numbers, shaded_batch_);
     first += count;
   }
 }

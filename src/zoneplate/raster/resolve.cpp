@@ -34,8 +34,10 @@ Linear at(const Shaded& color, int first, std::size_t i) {
 }
 Linear divided(Linear c, float weight) { return {c.r / weight, c.g / weight, c.b / weight, c.a / weight}; }
 
-void resolve(const Shaded& color, int first, float weight, Linear8& out) {
-  for (std::size_t i = 0; i < size; ++i) out.set(i, divided(Linear{0, 0, 0, 0} + at(color, first, i) * weight, weight));
+void resolve(const Shaded& color, int first, int rows, float weight, Linear8* const* out) {
+  for (int row = 0; row < rows; ++row, first += Batch::group)
+    for (std::size_t i = 0; i < size; ++i)
+      out[row]->set(i, divided(Linear{0, 0, 0, 0} + at(color, first, i) * weight, weight));
 }
 
 Layers get(const Layers8& layers, std::size_t i) {

@@ -37,8 +37,8 @@ struct alignas(64) Layers8 {
 ///
 /// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
 struct ResolveKernels {
-  /// out = (0 + color × weight) / weight: one surface owns all samples.
-  void (*resolve)(const Shaded& color, int first, float weight, Linear8& out);
+  /// out = (0 + color × weight) / weight: one surface owns all samples. Of rows whose points follow each other.
+  void (*resolve)(const Shaded& color, int first, int rows, float weight, Linear8* const* out);
   /// Layers::put_under for eight points.
   void (*put_under)(const Shaded& color, int first, Layers8& layers);
   /// The same for rows whose points follow each other from the first on.

@@ -45,15 +45,16 @@ struct Mean {
   HWY_INLINE V operator()(V sum) const { return is_one ? sum : hn::Div(sum, weight); }
 };
 
-void resolve(const Shaded& color, int first, float weight, Linear8& out) {
+void resolve(const Shaded& color, int first, int rows, float weight, Linear8* const* out) {
   const V zero = hn::Zero(d), w = hn::Set(d, weight);
+  const auto each_row = [&](auto mean) HWY_ATTR {
+    for (int row = 0; row < rows; ++row)
+      each_channel(color, first + row * Batch::group, *out[row],
+                   [&](V c, float* to, std::size_t) HWY_ATTR { hn::Store(mean(c), d, to); });
+  };
   // What a power of two multiplies and divides is as before.
-  if (is_power_of_two(weight))
-    return each_channel(color, first, out,
-                        [&](V c, float* to, std::size_t) HWY_ATTR { hn::Store(hn::Add(zero, c), d, to); });
-  each_channel(color, first, out, [&](V c, float* to, std::size_t) HWY_ATTR {
-    hn::Store(hn::Div(hn::Add(zero, hn::Mul(c, w)), w), d, to);
-  });
+  if (is_power_of_two(weight)) return each_row([&](V c) HWY_ATTR { return hn::Add(zero, c); });
+  each_row([&](V c) HWY_ATTR { return hn::Div(hn::Add(zero, hn::Mul(c, w)), w); });
 }
 
 /// What stands in front, and behind it what is seen through it.

@@ -25,10 +25,13 @@ TEST(Resolve, KernelsGiveTheScalarTwinsBits) {
   const float weights[] = {0.3f, -0.1f, 0.7f};
   for (const Isa isa : supported_isas()) {
     const ResolveKernels &one = scalar::resolve_kernels, &other = resolve_kernels(isa);
-    Linear8 a{}, b{};
+    Linear8 a{}, b{}, c{}, d{};
+    Linear8 *const first[] = {&a, &c}, *const second[] = {&b, &d};
     for (const float weight : {1.0f, 0.7f, 4.0f, 6.0f}) {
-      one.resolve(color, 24, weight, a), other.resolve(color, 24, weight, b);
+      one.resolve(color, 24, 2, weight, first), other.resolve(color, 24, 2, weight, second);
       EXPECT_EQ(a, b) << name_of(isa) << " " << weight;
+      EXPECT_EQ(c, d) << name_of(isa) << " " << weight;
+      EXPECT_FALSE(a == c);
     }
     one.add(color, 64, 0.3f, a), other.add(color, 64, 0.3f, b);
     EXPECT_EQ(a, b) << name_of(isa);
@@ -75,7 +78,8 @@ TEST(Resolve, MeansAndLayersAreTheDefinitions) {
   static Shaded color;
   color.r[8] = 0.5f, color.a[8] = 1;
   Linear8 out;
-  scalar::resolve_kernels.resolve(color, 8, 4, out);
+  Linear8* const row = &out;
+  scalar::resolve_kernels.resolve(color, 8, 1, 4, &row);
   EXPECT_EQ(out.get(0), (Linear{0.5f, 0, 0, 1}));
   color.r[16] = 0.25f, color.a[16] = 0.5f;
   Layers8 layers;

@@ -145,35 +145,47 @@ void TileRenderer::render_plain() {
 /// Eight pixels that one triangle owns go on together, the others one by one; where nothing is seen colours begin as
 /// nothing.
 void TileRenderer::find_rows() {
+  static constexpr Linear8 nothing{};
+  const bool is_per_sample = target_.is_per_sample, lists = lists_points();
   rows_.clear();
   points_.clear();
   coverage_.find_owners(visibility_, row_owner_);
   for (int block = 0; block < TileVisibility::blocks; ++block) {
-    const int x = block % 8 * 8;
+    const int x = block % 8 * 8, first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
     const bool is_whole = is_whole_row(block % 8);
-    for (int y = std::max(block / 8 * 8, top_); y < std::min(block / 8 * 8 + 8, bottom_); ++y) {
-      const std::int32_t owner = row_owner_[y * 8 + block % 8];
-      if (owner == no_triangle) {
-        color_[static_cast<std::size_t>(y * 8 + block % 8)] = {};
-        continue;
-      }
-      if (owner != many_triangles && is_whole) {
-        const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
-        if (target_.is_per_sample) {
-          add_row_of_samples(pixel, owner);
+    const std::int32_t middle_x = (tile_x_ + x) * 256 + 128, middle_y = tile_y_ * 256 + 128;
+    PointRow rows[8];
+    PointRow* next = rows;
+    const auto put_row = [&](int y, std::uint32_t pixel, std::int32_t owner) {
+      *next++ = {middle_x, middle_y + y * 256, owner, pixel};
+    };
+    const auto first_pixel = static_cast<std::uint32_t>(first * tile_size + x);
+    if (const std::int32_t owner = block_owner_[block];
+        is_whole && !is_per_sample && owner != many_triangles && owner != no_triangle) {
+      auto pixel = first_pixel;
+      for (int y = first; y < last; ++y, pixel += tile_size) put_row(y, pixel, owner);
+    } else {
+      auto pixel = first_pixel;
+      for (int y = first; y < last; ++y, pixel += tile_size) {
+        const std::int32_t row_owner = row_owner_[pixel / 8];
+        if (row_owner == no_triangle) {
+          color_[pixel / 8] = nothing;
+        } else if (row_owner != many_triangles && is_whole) {
+          if (is_per_sample) {
+            add_row_of_samples(pixel, row_owner);
+          } else {
+            put_row(y, pixel, row_owner);
+          }
+        } else if (lists) {
+          list_row(x, y);
         } else {
-          rows_.push_back({(tile_x_ + x) * 256 + 128, (tile_y_ + y) * 256 + 128, owner, pixel});
+          color_[pixel / 8] = nothing;
+          for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
+            add_pixel(static_cast<std::uint32_t>(y * tile_size + i));
         }
-        continue;
       }
-      if (lists_points()) {
-        list_row(x, y);
-        continue;
-      }
-      color_[static_cast<std::size_t>(y * 8 + block % 8)] = {};
-      for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
-        add_pixel(static_cast<std::uint32_t>(y * tile_size + i));
     }
+    rows_.insert(rows_.end(), rows, next);
   }
 }
 
@@ -187,22 +199,33 @@ void TileRenderer::add_row_of_samples(std::uint32_t pixel, std::int32_t id) {
 
 void TileRenderer::shade_rows() {
   if (!target_.is_per_sample) {
-    shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
-      resolve_.resolve(color, first, weight_sum_, color_[row.pixel / 8]);
-      if (target_.sample_color)
-        for (int s = 0; s < pass_samples_; ++s) store_row(row.pixel, s, color, first);
-      if (has_layers()) resolve_.resolve(color, first, 1, base_[row.pixel / 8]);
+    shader_.shade(rows_, [&](std::span<const std::uint32_t> numbers, const Shaded& color) {
+      const auto resolve = [&](float weight, std::vector<Linear8>& to) {
+        Linear8* out[Batch::groups];
+        for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = &to[rows_[numbers[i]].pixel / 8];
+        resolve_.resolve(color, 0, static_cast<int>(numbers.size()), weight, out);
+      };
+      resolve(weight_sum_, color_);
+      if (has_layers()) resolve(1, base_);
+      if (!target_.sample_color) return;
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        for (int s = 0; s < pass_samples_; ++s)
+          store_row(rows_[numbers[i]].pixel, s, color, static_cast<int>(i) * Batch::group);
     });
     return;
   }
   // A row's samples follow one another, and those of one material keep their order.
   const auto samples = static_cast<std::size_t>(pass_samples_);
   std::size_t s = 0;
-  shader_.shade(rows_, [&](const PointRow& row, const Shaded& color, int first) {
-    resolve_.add(color, first, weights_[s], sum_[row.pixel / 8]);
-    if (target_.sample_color) store_row(row.pixel, static_cast<int>(s), color, first);
-    s = s + 1 == samples ? 0 : s + 1;
-    if (s == 0) resolve_.divide(sum_[row.pixel / 8], weight_sum_, color_[row.pixel / 8]);
+  shader_.shade(rows_, [&](std::span<const std::uint32_t> numbers, const Shaded& color) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const std::uint32_t pixel = rows_[numbers[i]].pixel;
+      const int first = static_cast<int>(i) * Batch::group;
+      resolve_.add(color, first, weights_[s], sum_[pixel / 8]);
+      if (target_.sample_color) store_row(pixel, static_cast<int>(s), color, first);
+      s = s + 1 == samples ? 0 : s + 1;
+      if (s == 0) resolve_.divide(sum_[pixel / 8], weight_sum_, color_[pixel / 8]);
+    }
   });
 }
 

@@ -63,7 +63,8 @@ void TileRenderer::store_row(std::uint32_t pixel, int sample, const Shaded& colo
   const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
   const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
   Linear8 same;
-  resolve_.resolve(color, first, 1, same);
+  Linear8* const out = &same;
+  resolve_.resolve(color, first, 1, 1, &out);
   resolve_.put(same, &(*target_.sample_color)[static_cast<std::size_t>(first_sample_ + sample)](x, y));
 }
 

@@ -39,8 +39,10 @@ void TileRenderer::shade_list() {
       pass_samples_ == 1 && static_cast<std::size_t>(list_.count) == Batch::group * listed_rows_.size();
   if (are_whole_rows) {
     shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
+      Linear8* row[Batch::groups];
       for (std::size_t i = 0; i < count; i += Batch::group)
-        resolve_.resolve(colors, static_cast<int>(i), weight_sum_, color_[PointList::pixel(list_.at[first + i]) / 8]);
+        row[i / Batch::group] = &color_[PointList::pixel(list_.at[first + i]) / 8];
+      resolve_.resolve(colors, 0, static_cast<int>(count) / Batch::group, weight_sum_, row);
       store_listed(colors, first, count);
     });
   } else {

@@ -18,7 +18,7 @@ template <class F>
 template <class F>
 [[gnu::always_inline]] inline F power(F x, Exponent exponent) {
   if (exponent.whole == 0) return pow(x, F(exponent.value));
-  int left = exponent.whole;
+  auto left = static_cast<unsigned>(exponent.whole);
   for (; left % 2 == 0; left /= 2) x = x * x;
   F result = x;
   for (left /= 2; left > 0; left /= 2) {

@@ -139,8 +139,9 @@ HWY_INLINE bool blends(const Taps& taps, int i) {
 }
 
 template <class Code>
-void mix_codes(const Code* of, const Taps& taps, float* const out[4], int count) {
+void mix_codes(const Code* of, const Taps& taps, float* const to[4], int count) {
   const TexelCodes<Code> codes{of};
+  float* const out[4] = {to[0], to[1], to[2], to[3]};
   for (int i = 0; i < count; i += 8) {
     const bool has_second = blends(taps, i);
     for (int n = 0; n < 8 / points; n += 2) {

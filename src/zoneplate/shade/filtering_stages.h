@@ -88,10 +88,9 @@ template <class F>
   return {first, select(is_same, Int(0), weight), is_same};
 }
 
-/// log2 of the footprint in texels of level 0, clamped to ±64.
-template <class F, class View>
-[[gnu::always_inline]] inline F footprint_level(const View& t, const Footprint& p, int i) {
-  const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0]));
+/// log2 of the footprint in texels of level 0, which is w × h, clamped to ±64.
+template <class F>
+[[gnu::always_inline]] inline F footprint_level(F w, F h, const Footprint& p, int i) {
   const F sx = F::load(p.dudx + i) * w, tx = F::load(p.dvdx + i) * h;
   const F sy = F::load(p.dudy + i) * w, ty = F::load(p.dvdy + i) * h;
   const F square = max(sx * sx + tx * tx, sy * sy + ty * ty);
@@ -126,9 +125,9 @@ struct Levels {
   typename F::Bool is_minified;
 };
 
-template <class F, class View, class Filter>
-[[gnu::always_inline]] inline Levels<F> find_levels(const View& t, const Filter& f, F detail) {
-  const F clamped = min(max(detail, F(0.0f)), F(static_cast<float>(t.levels - 1)));
+template <class F, class Filter>
+[[gnu::always_inline]] inline Levels<F> find_levels(F last_level, const Filter& f, F detail) {
+  const F clamped = min(max(detail, F(0.0f)), last_level);
   const F fine = f.has_levels ? floor(f.blends_levels ? clamped : clamped + F(0.5f)) : F(0.0f);
   const F blend = f.has_levels && f.blends_levels ? clamped - fine : F(0.0f);
   return {truncate(fine), blend, detail > F(0.0f)};
@@ -137,6 +136,7 @@ template <class F, class View, class Filter>
 /// Where points look: the levels, and how to weigh them.
 template <class F>
 struct Lookup {
+  F last_level;
   LevelPlace<F> place[2];
   typename F::Int first;  ///< the first level
   typename F::Int blend;  ///< weight of the second level, in 1/32768
@@ -162,7 +162,7 @@ template <class F, class View, class Filter>
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F detail, Lookup<F>& at) {
   using Int = typename F::Int;
-  const Levels<F> levels = find_levels<F>(t, f, detail);
+  const Levels<F> levels = find_levels<F>(at.last_level, f, detail);
   const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
   if (!levels.first.equals(at.first)) place_lookup(t, f, levels.first, at);
   at.blend = min(truncate(levels.blend * F(32768.0f) + F(0.5f)), Int(32767));
@@ -173,13 +173,15 @@ template <class F, class View, class Filter>
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline Lookup<F> begin_lookup(const View& t, const Filter& f) {
   Lookup<F> at;
+  at.last_level = F(static_cast<float>(t.levels - 1));
   place_lookup(t, f, typename F::Int(0), at);
   return at;
 }
 
+/// Asks for the lower texels of one or both ends of the points, which mostly are a row.
 template <class F, class Filter>
-[[gnu::always_inline]] inline void store_level(const Filter& f, const WrappedPoint<F>& p, const LevelPlace<F>& place,
-                                               Taps& out, int which, int i) {
+[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedPoint<F>& p,
+                                               const LevelPlace<F>& place, Taps& out, int which, int i) {
   using Int = typename F::Int;
   const bool nearest = may_be_nearest(f), repeats_v = !f.mirror_v && !f.clamp_v;
   const AxisTaps<F> x = axis_taps(p.u, place.width, place.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
@@ -187,8 +189,12 @@ template <class F, class Filter>
   const Int upper = place.offset + y.first * place.pitch + x.first;
   const Int below = repeats_v && !nearest ? place.pitch : select(y.is_same, Int(0), place.pitch);
   upper.store(out.upper[which] + i);
-  (upper + below).store(out.lower[which] + i);
   x.weight.store_by_fours(y.weight, out.side[which], i);
+  const Int lower = upper + below;
+  lower.store(out.lower[which] + i);
+  fetch.ask_for(lower.first());
+  // A row of the second level has half as many texels.
+  if (which == 0) fetch.ask_for(out.lower[which][i + F::lanes - 1]);
 }
 
 /// The taps of points at (u, v), the i-th of `out` and on.
@@ -197,19 +203,19 @@ template <class F, class Filter>
                                               Taps& out, int i) {
   at.blend.store_by_fours(at.blend, out.blend, i);
   const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
-  for (int which = 0; which < (f.has_levels && f.blends_levels ? 2 : 1); ++which) {
-    store_level<F>(f, p, at.place[which], out, which, i);
-    for (const int end : {0, F::lanes - 1}) fetch.ask_for(out.lower[which][i + end]);
-  }
+  for (int which = 0; which < (f.has_levels && f.blends_levels ? 2 : 1); ++which)
+    store_level<F>(fetch, f, p, at.place[which], out, which, i);
 }
 
+/// `at` is a copy: its pointers are read once, not again after each store.
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint& at, Taps& out,
+[[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint at, Taps& out,
                                                  int count) {
-  // Apart from the addresses, because both are long chains of operations that wait for each other.
   const auto repeats = [&](int i) { return at.repeats != nullptr && at.repeats[i / 8]; };
+  // Apart from the addresses, because both are long chains of operations that wait for each other.
+  const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0]));
   for (int i = 0; i < count; i += F::lanes)
-    if (!repeats(i)) footprint_level<F>(t, at, i).store(out.detail + i);
+    if (!repeats(i)) footprint_level(w, h, at, i).store(out.detail + i);
   const TexelFetch fetch(t);
   Lookup<F> lookup = begin_lookup<F>(t, f);
   for (int i = 0; i < count; i += F::lanes) {

@@ -67,14 +67,6 @@ template <class F>
   for (int k = i + Batch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
 }
 
-/// The end of the groups from point i on that share a triangle.
-[[gnu::always_inline]] inline int run_end(const Batch& batch, int i, int count) {
-  const int first = i / Batch::group;
-  int g = first + 1;
-  while (g * Batch::group < count && batch.one_triangle[g] && batch.told_group[g] == batch.told_group[first]) ++g;
-  return g * Batch::group;
-}
-
 /// A quad at points [i, end), of one triangle.
 template <class F>
 [[gnu::always_inline]] inline void interpolate_run(const Batch& batch, const Corners& corners,
@@ -89,7 +81,8 @@ template <class F>
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
     if (second == 0 && third == 0 && quad.dx[c].is_none()) {
       float* const value = quad.value[c].of(p);
-      for (int k = i; k < end; k += F::lanes) F(v0[c] + 0.0f).store(value + k);
+      const F same(v0[c] + 0.0f);
+      for (int k = i; k < end; k += F::lanes) same.store(value + k);
       continue;
     }
     const Linear<F> line{F(v0[c]), F(second), F(third)};
@@ -123,7 +116,7 @@ template <class F>
 void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
   for (int i = 0; i < p.count;) {
     if (batch.one_triangle[i / Batch::group]) {
-      const int end = run_end(batch, i, p.count);
+      const int end = batch.run_end[i / Batch::group] * Batch::group;
       for (int n = 0; n < what.quads; ++n) interpolate_run<F>(batch, corners, what.quad[n], i, end, p);
       i = end;
     } else {
@@ -210,7 +203,7 @@ template <class F>
 }
 
 /// True if the normal is the same all over the triangle that is told of at a point.
-[[gnu::always_inline]] inline bool is_flat(const Corners& corners, std::size_t told) {
+inline bool is_flat(const Corners& corners, std::size_t told) {
   const float *const v0 = corners.record[0][told], *const v1 = corners.record[1][told];
   const float* const v2 = corners.record[2][told];
   bool is_same = true;
@@ -220,14 +213,7 @@ template <class F>
 
 template <class F>
 void find_normals(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
-  Vector<F> flat{F(0.0f), F(0.0f), F(0.0f)};
-  int flat_group = -1;  // where the triangle is told of that `flat` belongs to
-  for (int i = 0; i < p.count; i += F::lanes) {
-    const int told_group = batch.one_triangle[i / Batch::group] ? batch.told_group[i / Batch::group] : -1;
-    if (told_group >= 0 && told_group == flat_group) {
-      flat.store(p.normal, i);
-      continue;
-    }
+  for (int i = 0; i < p.count;) {
     const int group = i / Batch::group;
     Vector<F> n = Vector<F>::load(p.normal, i);
     const bool keeps =
@@ -237,8 +223,10 @@ void find_normals(const Batch& batch, const Corners& corners, const Placement* p
     // Adding +0 leaves no trace of which way was taken.
     const Vector<F> normal = normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i);
     normal.store(p.normal, i);
-    if (told_group >= 0 && is_flat(corners, static_cast<std::size_t>(told_group * Batch::group)))
-      flat = normal, flat_group = told_group;
+    i += F::lanes;
+    if (batch.one_triangle[group] && batch.told_group[group] == group &&
+        is_flat(corners, static_cast<std::size_t>(group) * Batch::group))
+      for (const int end = batch.run_end[group] * Batch::group; i < end; i += F::lanes) normal.store(p.normal, i);
   }
 }
 
@@ -259,28 +247,41 @@ void bend_normals(const Batch& batch, const float* const texel[4], float scale, 
   }
 }
 
-/// The way to the viewer, of any length.
+/// Where the viewer is, seen from points. What is the same for all of them is read once, before their loop.
 template <class F>
-[[gnu::always_inline]] inline Vector<F> way_to_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
-  using Int = typename F::Int;
-  if (v.is_orthographic) return Vector<F>::all(v.towards);
-  if (!v.has_rays) return Vector<F>::all(v.eye) - Vector<F>::load(p.position, i);
-  const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
-  return Vector<F>::all(v.ray) + Vector<F>::all(v.ray_dx) * x + Vector<F>::all(v.ray_dy) * y;
-}
+struct Viewer {
+  bool is_orthographic, has_rays;
+  Vector<F> towards, eye, ray, ray_dx, ray_dy;
 
-/// The direction to the viewer.
-template <class F>
-[[gnu::always_inline]] inline Vector<F> towards_viewer(const Viewpoint& v, const Batch& batch, const Points& p, int i) {
-  if (v.is_orthographic) return Vector<F>::all(v.towards);
-  return normalize(way_to_viewer<F>(v, batch, p, i));
-}
+  [[gnu::always_inline]] explicit Viewer(const Viewpoint& v)
+      : is_orthographic(v.is_orthographic),
+        has_rays(v.has_rays),
+        towards(Vector<F>::all(v.towards)),
+        eye(Vector<F>::all(v.eye)),
+        ray(Vector<F>::all(v.ray)),
+        ray_dx(Vector<F>::all(v.ray_dx)),
+        ray_dy(Vector<F>::all(v.ray_dy)) {}
+
+  /// The way to the viewer, of any length.
+  [[gnu::always_inline]] Vector<F> way(const Batch& batch, const Points& p, int i) const {
+    using Int = typename F::Int;
+    if (is_orthographic) return towards;
+    if (!has_rays) return eye - Vector<F>::load(p.position, i);
+    const F x = F::from(Int::load(batch.x + i)), y = F::from(Int::load(batch.y + i));
+    return ray + ray_dx * x + ray_dy * y;
+  }
+  /// The direction to the viewer.
+  [[gnu::always_inline]] Vector<F> direction(const Batch& batch, const Points& p, int i) const {
+    return is_orthographic ? towards : normalize(way(batch, p, i));
+  }
+};
 
 template <class F>
 void default_normals(const Viewpoint& viewpoint, const Batch& batch, Points& p) {
+  const Viewer<F> viewer(viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i);
-    select(dot(n, n) > F(0.5f), n, towards_viewer<F>(viewpoint, batch, p, i)).store(p.normal, i);
+    select(dot(n, n) > F(0.5f), n, viewer.direction(batch, p, i)).store(p.normal, i);
   }
 }
 

@@ -110,13 +110,14 @@ struct Cosines {
 template <class F, Highlight highlight>
 [[gnu::always_inline]] inline void find_cosines(const Illumination& s, const PreparedLight& of, bool is_sun,
                                                 const Batch& batch, const Points& p, Cosines& out) {
+  const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), l = arriving<F>(of, is_sun, p, i).from;
     lambert(dot(n, l)).store(out.diffuse + i);
     if constexpr (highlight == Highlight::Phong)
-      max(phong_cosine(n, l, towards_viewer<F>(s.viewpoint, batch, p, i)), F(0.0f)).store(out.highlight + i);
+      max(phong_cosine(n, l, viewer.direction(batch, p, i)), F(0.0f)).store(out.highlight + i);
     if constexpr (highlight == Highlight::BlinnPhong)
-      halfway_cosine_square(n, l, way_to_viewer<F>(s.viewpoint, batch, p, i)).store(out.highlight + i);
+      halfway_cosine_square(n, l, viewer.way(batch, p, i)).store(out.highlight + i);
   }
 }
 
@@ -178,8 +179,9 @@ template <class F, Highlight highlight, class Kind>
   finish(s, kind, p, sum, base, out, i);
 }
 
+/// `s` is a copy, and so is each light: what stands in them is read once, not again after each store.
 template <class F, Highlight highlight, class Kind>
-void light_phong(const Illumination& s, const Kind& kind, const Batch& batch, const Points& p, Shaded& out) {
+void light_phong(const Illumination s, const Kind& kind, const Batch& batch, const Points& p, Shaded& out) {
   if (kind.lights == 0) {
     for (int i = 0; i < p.count; i += F::lanes)
       show_gathered<F, highlight>(s, kind, p, {zeros<F>(), zeros<F>()}, out, i);
@@ -188,7 +190,7 @@ void light_phong(const Illumination& s, const Kind& kind, const Batch& batch, co
   Cosines cosines;
   alignas(64) Points::Array diffuse[3], specular[3];
   for (int k = 0; k < kind.lights; ++k) {
-    const PreparedLight& light = s.light[k];
+    const PreparedLight light = s.light[k];
     find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
     if constexpr (highlight != Highlight::None) raise_cosines<F, highlight>(s.exponent, cosines, p.count);
     for (int i = 0; i < p.count; i += F::lanes) {
@@ -223,9 +225,10 @@ template <class F>
 void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
   const auto environment = Vector<F>::all(s.environment);
   const AnyIllumination kind(s);
+  const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
-    const auto v = s.needs_viewer ? towards_viewer<F>(s.viewpoint, batch, p, i) : zeros<F>();
+    const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
     const F metallic = s.has_material_texture ? F::load(p.metallic + i) : F(s.metallic);
     const F roughness = s.has_material_texture ? F::load(p.roughness + i) : F(s.roughness);
     const Metallic<F> m = make_metallic(base, metallic, roughness);

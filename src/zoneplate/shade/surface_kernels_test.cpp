@@ -62,6 +62,7 @@ struct Bench {
     for (int g = 0; g < Batch::groups; ++g) {
       batch.one_triangle[g] = g % 4 != 3;
       batch.told_group[g] = static_cast<std::uint8_t>(g % 4 == 3 ? g : g / 4 * 4);
+      batch.run_end[g] = static_cast<std::uint8_t>(g / 4 * 4 + 3);
       batch.repeats_slopes[g] = g / 4 % 2 == 1 && (g % 4 == 1 || g % 4 == 2);
       if (batch.repeats_slopes[g]) repeat_slopes(batch.told_group[g] * Batch::group, g * Batch::group);
       corners.one_instance[g] = batch.one_triangle[g] || g % 3 != 0;

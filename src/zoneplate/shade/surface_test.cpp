@@ -520,7 +520,7 @@ TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
       alone.pad();
       // As eight points of any triangles, and as eight of one that is told of once.
       for (const bool is_shared : {false, true}) {
-        alone.batch.one_triangle[0] = is_shared;
+        alone.batch.one_triangle[0] = is_shared, alone.batch.run_end[0] = 1;
         const auto outcome = shade(scene, surroundings, alone);
         ASSERT_EQ(std::memcmp(&together->shaded.r[i], &outcome->shaded.r[0], sizeof(float)), 0) << i;
         ASSERT_EQ(outcome->color(), together->color(i)) << i;

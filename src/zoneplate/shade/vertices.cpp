@@ -97,11 +97,10 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
     }
   };
   std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
-  const auto groups = static_cast<std::size_t>(batch.padded() / Batch::group);
-  for (std::size_t g = 0; g < groups; ++g) {
-    const std::size_t first = g * Batch::group;
+  for (int g = 0; g < batch.padded() / Batch::group; g = batch.after_run(g)) {
+    const std::size_t first = static_cast<std::size_t>(g) * Batch::group;
     if (batch.one_triangle[g]) {
-      if (batch.told_group[g] == g) find(first);
+      find(first);
       continue;
     }
     std::uint32_t difference = 0;
