@@ -21,6 +21,11 @@ struct Spread {
   float z_least, z_greatest;
 };
 
+/// The least and the greatest value of each edge in a square of pixels, less a x + b y at its first one.
+struct Reach {
+  std::int32_t least[3], greatest[3];
+};
+
 Spread spread_of(const TileTriangle& t, int samples) {
   Spread r;
   r.z_least = r.z_greatest = t.z[0];
@@ -38,17 +43,24 @@ Spread spread_of(const TileTriangle& t, int samples) {
   return r;
 }
 
+Reach reach_of(const TileTriangle& t, const Spread& spread, int size) {
+  Reach r;
+  for (int k = 0; k < 3; ++k) {
+    r.greatest[k] = (greatest(t.a[k], 0) + greatest(t.b[k], 0)) * (size - 1) + spread.c_greatest[k];
+    r.least[k] = (least(t.a[k], 0) + least(t.b[k], 0)) * (size - 1) + spread.c_least[k];
+  }
+  return r;
+}
+
 enum class Block { Outside, Partial, Inside };
 
-/// Where the square of `size` pixels at pixel (x, y) lies, by the least and greatest values of the edges in it.
-Block classify(const TileTriangle& t, const Spread& spread, int x, int y, int size = 8) {
+/// Where the square at pixel (x, y) lies.
+HWY_INLINE Block classify(const TileTriangle& t, const Reach& reach, int x, int y) {
   bool inside = true;
   for (int k = 0; k < 3; ++k) {
     const std::int32_t corner = t.a[k] * x + t.b[k] * y;
-    const std::int32_t up = (greatest(t.a[k], 0) + greatest(t.b[k], 0)) * (size - 1);
-    const std::int32_t down = (least(t.a[k], 0) + least(t.b[k], 0)) * (size - 1);
-    if (corner + up + spread.c_greatest[k] < 0) return Block::Outside;
-    inside = inside && corner + down + spread.c_least[k] >= 0;
+    if (corner + reach.greatest[k] < 0) return Block::Outside;
+    inside = inside && corner + reach.least[k] >= 0;
   }
   return inside ? Block::Inside : Block::Partial;
 }
@@ -187,12 +199,13 @@ bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, c
 
 bool draw(const TileTriangle& t, TileVisibility& tile) {
   const Spread spread = spread_of(t, tile.sample_count);
+  const Reach reach = reach_of(t, spread, 8);
   const Step step(t);
-  const bool covers_tile = classify(t, spread, 0, 0, tile_size) == Block::Inside;
+  const bool covers_tile = classify(t, reach_of(t, spread, tile_size), 0, 0) == Block::Inside;
   bool has_risen = false;
   for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      const Block place = covers_tile ? Block::Inside : classify(t, spread, bx, by);
+      const Block place = covers_tile ? Block::Inside : classify(t, reach, bx, by);
       const int block = by + bx / 8;
       if (place == Block::Outside) continue;
       const std::uint64_t bit = std::uint64_t{1} << block;
@@ -224,11 +237,12 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   const F d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Spread spread = spread_of(t, tile.sample_count);
+  const Reach reach = reach_of(t, spread, 8);
   const Step step(t);
   int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      if (classify(t, spread, bx, y & ~7) == Block::Outside) continue;
+      if (classify(t, reach, bx, y & ~7) == Block::Outside) continue;
       std::uint64_t samples[8] = {};
       for (int s = 0; s < tile.sample_count; ++s)
         for (int x = 0; x < 8; x += lanes) {
@@ -249,11 +263,12 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_
   const F d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Spread spread = spread_of(t, tile.sample_count);
+  const Reach reach = reach_of(t, spread, 8);
   const Step step(t);
   int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      if (!(blocks >> ((y & ~7) + bx / 8) & 1) || classify(t, spread, bx, y & ~7) == Block::Outside) continue;
+      if (!(blocks >> ((y & ~7) + bx / 8) & 1) || classify(t, reach, bx, y & ~7) == Block::Outside) continue;
       VF low = step.z_high, high = step.z_low;
       bool all = true, any = false;
       for (int s = 0; s < tile.sample_count; ++s)
@@ -292,10 +307,11 @@ void find_nearest(const TileVisibility& tile, float* nearest) {
 int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const float* nearest, BlockLayer* out,
                    std::uint64_t& others) {
   const Spread spread = spread_of(t, tile.sample_count);
+  const Reach reach = reach_of(t, spread, 8);
   int count = 0;
   for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      const Block place = classify(t, spread, bx, by);
+      const Block place = classify(t, reach, bx, by);
       const int block = by + bx / 8;
       if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_far[block]) continue;
       const float low = least_depth(t, spread, bx, by);
