@@ -93,6 +93,8 @@ HWY_INLINE Pixels shown_pixels(const DisplayStep& step, const Color& color, V al
     return {step.is_encoded ? each(mapped, encoded) : mapped, one};
   }
 
+  if (hn::AllTrue(d, hn::Eq(a, zero)))
+    return {{hn::Set(d, step.code[0]), hn::Set(d, step.code[1]), hn::Set(d, step.code[2])}, hn::Set(d, step.code[3])};
   const auto is_seen = hn::Gt(a, zero);
   const Color mapped = tone_map<mapping>(
       each(color, [&](V x) { return hn::IfThenElseZero(is_seen, hn::Mul(hn::Div(x, a), exposure)); }));

@@ -116,13 +116,17 @@ struct Step {
   }
 };
 
-float farthest(const TileVisibility& tile, int x, int y) {
+/// The least depth of the block's samples, of which none is below `bound`: one that is not above it ends the search.
+float farthest(const TileVisibility& tile, int x, int y, float bound) {
   const F d;
-  VF low = hn::Load(d, tile.depth + y * tile_size + x);
-  for (int s = 0; s < tile.sample_count; ++s)
-    for (int row = y; row < y + 8; ++row)
-      for (int column = x; column < x + 8; column += static_cast<int>(hn::Lanes(d)))
-        low = hn::Min(low, hn::Load(d, tile.depth + s * tile_pixels + row * tile_size + column));
+  const float* plane = tile.depth + y * tile_size + x;
+  VF low = hn::Load(d, plane);
+  for (int s = 0; s < tile.sample_count; ++s, plane += tile_pixels) {
+    for (int row = 0; row < 8; ++row)
+      for (int column = 0; column < 8; column += static_cast<int>(hn::Lanes(d)))
+        low = hn::Min(low, hn::Load(d, plane + row * tile_size + column));
+    if (!hn::AllTrue(d, hn::Gt(low, hn::Set(d, bound)))) return bound;
+  }
   return hn::GetLane(hn::MinOfLanes(d, low));
 }
 
@@ -155,11 +159,27 @@ HWY_INLINE hn::Mask<F> inside(VI e0, VI e1, VI e2) {
   return hn::Not(hn::MaskFromVec(hn::BitCast(F(), hn::BroadcastSignBit(hn::Or(hn::Or(e0, e1), e2)))));
 }
 
+/// A triangle's constants by sample, each a vector of one number.
+struct SampleVectors {
+  static constexpr int lanes = static_cast<int>(hn::MaxLanes(I()));
+  alignas(64) std::int32_t c[3][TileTriangle::max_samples][lanes];
+  alignas(64) float z[TileTriangle::max_samples][lanes];
+
+  HWY_INLINE SampleVectors(const TileTriangle& t, int samples) {
+    const F d;
+    const I di;
+    for (int s = 0; s < samples; ++s) {
+      for (int k = 0; k < 3; ++k) hn::Store(hn::Set(di, t.c[k][s]), di, c[k][s]);
+      hn::Store(hn::Set(d, t.z[s]), d, z[s]);
+    }
+  }
+};
+
 /// Draws rows [top, bottom] of a block. Gives true if the triangle won every sample.
 ///
 /// What Step::wins computes, with everything taken out of the loop over samples that is the same for all of them.
-bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, const TileVisibility& tile, int bx,
-                int top, int bottom) {
+bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, const SampleVectors& by_sample,
+                const TileVisibility& tile, int bx, int top, int bottom) {
   const F d;
   const I di;
   bool all = true;
@@ -174,13 +194,15 @@ bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, c
                  hn::Add(e2, hn::Set(di, spread.c_greatest[2])));
       const int samples = hn::AllFalse(d, some) ? 0 : tile.sample_count;
       all = all && samples > 0;
-      const float down = t.dzdy * static_cast<float>(y - t.origin_y);
+      const VF down = hn::Set(d, t.dzdy * static_cast<float>(y - t.origin_y));
       float* depth = tile.depth + y * tile_size + x;
       std::int32_t* id = tile.id + y * tile_size + x;
       for (int s = 0; s < samples; ++s, depth += tile_pixels, id += tile_pixels) {
-        const auto covered = inside(hn::Add(e0, hn::Set(di, t.c[0][s])), hn::Add(e1, hn::Set(di, t.c[1][s])),
-                                    hn::Add(e2, hn::Set(di, t.c[2][s])));
-        const VF z = hn::Min(hn::Max(hn::Add(hn::Set(d, t.z[s] + down), across), step.z_low), step.z_high);
+        const auto covered =
+            inside(hn::Add(e0, hn::Load(di, by_sample.c[0][s])), hn::Add(e1, hn::Load(di, by_sample.c[1][s])),
+                   hn::Add(e2, hn::Load(di, by_sample.c[2][s])));
+        const VF base = hn::Add(hn::Load(d, by_sample.z[s]), down);
+        const VF z = hn::Min(hn::Max(hn::Add(base, across), step.z_low), step.z_high);
         const VF held = hn::Load(d, depth);
         const VI owner = hn::Load(di, id);
         const auto lower_id = hn::RebindMask(d, hn::Lt(step.id, owner));
@@ -201,6 +223,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
   const Spread spread = spread_of(t, tile.sample_count);
   const Reach reach = reach_of(t, spread, 8);
   const Step step(t);
+  const SampleVectors by_sample(t, tile.sample_count);
   const bool covers_tile = classify(t, reach_of(t, spread, tile_size), 0, 0) == Block::Inside;
   bool has_risen = false;
   for (int by = t.first_y & ~7; by <= t.last_y; by += 8)
@@ -213,7 +236,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       if (nearest < tile.block_far[block]) continue;
       if (tile.stale & bit) {
         tile.stale &= ~bit;
-        tile.block_far[block] = farthest(tile, bx, by);
+        tile.block_far[block] = farthest(tile, bx, by, tile.block_far[block]);
         has_risen = true;
         if (nearest < tile.block_far[block]) continue;
       }
@@ -226,7 +249,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       }
       tile.open_block(block);
       const int top = greatest(by, t.first_y), bottom = least(by + 7, t.last_y);
-      const bool all = draw_block(t, spread, step, tile, bx, top, bottom);
+      const bool all = draw_block(t, spread, step, by_sample, tile, bx, top, bottom);
       tile.stale |= bit;
       if (place == Block::Inside && all) tile.block_owner[block] = t.id;
     }

@@ -2,6 +2,7 @@
 
 #include <hwy/highway.h>
 
+#include "zoneplate/math/elementary_simd.h"
 #include "zoneplate/raster/coverage.h"
 #include "zoneplate/raster/packing_simd.h"
 
@@ -28,82 +29,108 @@ struct Owned {
 /// floor((x + n / 2) / n) of whole numbers, n <= 16, where `half` is n / 2 + 1/64 and `inverse` 1 / n: what is added
 /// keeps the product's rounding from going below a whole number, and is too little to reach the next.
 HWY_INLINE VI mean(VI x, VF half, VF inverse) {
-  return hn::ConvertTo(i32, hn::Mul(hn::Add(hn::ConvertTo(f32, x), half), inverse));
+  return truncated(f32, hn::Mul(hn::Add(hn::ConvertTo(f32, x), half), inverse));
 }
+
+/// The bit of each sample.
+struct SampleBits {
+  alignas(64) std::int32_t bit[PointList::most_samples][lanes];
+};
+constexpr SampleBits make_sample_bits() {
+  SampleBits b{};
+  for (int s = 0; s < PointList::most_samples; ++s)
+    for (std::int32_t& bit : b.bit[s]) bit = 1 << s;
+  return b;
+}
+constexpr SampleBits sample_bits = make_sample_bits();
+
+HWY_INLINE VI bit_of(int s) { return hn::Load(i32, sample_bits.bit[s]); }
 
 /// A vector's width of pixels.
 class Pixels {
  public:
   HWY_INLINE Pixels(const OwnerRow& row, int first)
-      : row_(row),
-        id_(row.id + first),
-        wanted_(hn::Ne(hn::And(hn::ShiftRightSame(set(static_cast<std::int32_t>(row.wanted)), first), bit_of_lane()),
-                       hn::Zero(i32))),
+      : id_(row.id + first),
+        samples_(row.sample_count),
+        is_per_sample_(row.is_per_sample),
+        first_place_(row.first_place),
+        more_places_(row.more_places),
         x_(hn::Add(set(row.x + first * 256), hn::ShiftLeft<8>(hn::Iota(i32, 0)))),
-        at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))) {}
+        y_(set(row.y)),
+        at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))),
+        listed_(hn::VecFromMask(
+            i32, hn::Eq(hn::And(hn::ShiftRightSame(set(static_cast<std::int32_t>(row.wanted)), first), bit_of_lane()),
+                        hn::Zero(i32)))) {}
 
-  HWY_INLINE VI owner(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
-  HWY_INLINE MI is_there(VI owner) const { return hn::AndNot(hn::Eq(owner, set(no_triangle)), wanted_); }
+  /// Lists the owners of sample s where it is the first that they own.
+  HWY_INLINE void list(int s, PointList& out) {
+    const VI owner = owner_of(s), bit = bit_of(s);
+    const MI is_new = hn::Eq(hn::And(listed_, bit), hn::Zero(i32));
+    const MI mask = hn::AndNot(hn::Eq(owner, set(no_triangle)), is_new);
+    if (hn::AllFalse(i32, mask)) return;
+    Owned owned{bit, set(first_place_[s])};
+    if (!is_per_sample_) {
+      for (int t = s + 1; t < samples_; ++t) {
+        const VI is_own = hn::VecFromMask(i32, hn::Eq(owner, owner_of(t)));
+        owned.samples = hn::Or(owned.samples, hn::And(is_own, bit_of(t)));
+        owned.places = hn::Add(owned.places, hn::And(is_own, set(more_places_[t])));
+      }
+      listed_ = hn::Or(listed_, hn::IfThenElseZero(mask, owned.samples));
+    }
+    put(mask, owner, owned, out);
+  }
+
+ private:
+  HWY_INLINE VI owner_of(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
 
   /// Adds those of the mask.
   HWY_INLINE void put(MI mask, VI owner, const Owned& owned, PointList& out) const {
     VI x = set(128), y = set(128);
-    if (row_.sample_count > 1 || row_.is_per_sample) {
+    if (samples_ > 1 || is_per_sample_) {
       const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
       const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
-      const VI all = set((1 << row_.sample_count) - 1), low = set(4095);
-      const MI is_centre = row_.is_per_sample ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
+      const VI all = set((1 << samples_) - 1), low = set(4095);
+      const MI is_centre = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
       x = hn::IfThenElse(is_centre, x, mean(hn::And(owned.places, low), half, inverse));
       y = hn::IfThenElse(is_centre, y, mean(hn::And(hn::ShiftRight<12>(owned.places), low), half, inverse));
     }
-    x = hn::Add(x_, x), y = hn::Add(set(row_.y), y);
+    x = hn::Add(x_, x), y = hn::Add(y_, y);
     const VI at = hn::Add(at_, hn::ShiftLeft<12>(owned.samples));
-    std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + out.count;
+    const int count = out.count;
+    std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + count;
     if (hn::AllTrue(i32, mask)) {
-      hn::StoreU(x, i32, out.x + out.count), hn::StoreU(y, i32, out.y + out.count);
-      hn::StoreU(owner, i32, out.id + out.count), hn::StoreU(at, i32, to);
-      out.count += lanes;
+      hn::StoreU(x, i32, out.x + count), hn::StoreU(y, i32, out.y + count);
+      hn::StoreU(owner, i32, out.id + count), hn::StoreU(at, i32, to);
+      out.count = count + lanes;
       return;
     }
     const Packing packing(mask);
-    packing.store(x, out.x + out.count), packing.store(y, out.y + out.count);
-    packing.store(owner, out.id + out.count), packing.store(at, to);
-    out.count += packing.count();
+    packing.store(x, out.x + count), packing.store(y, out.y + count);
+    packing.store(owner, out.id + count), packing.store(at, to);
+    out.count = count + packing.count();
   }
 
- private:
   static HWY_INLINE VI bit_of_lane() {
     alignas(64) static constexpr std::int32_t bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     return hn::Load(i32, bits);
   }
-  const OwnerRow& row_;
   const std::int32_t* id_;
-  MI wanted_;
-  VI x_, at_;
+  int samples_;
+  bool is_per_sample_;
+  const std::int32_t *first_place_, *more_places_;
+  VI x_, y_, at_;
+  VI listed_;  ///< the samples whose owners are listed, or not wanted: a bit each
 };
-
-HWY_INLINE void list_first_at(const Pixels& pixels, const OwnerRow& row, int s, PointList& out) {
-  const VI owner = pixels.owner(s);
-  MI mask = pixels.is_there(owner);
-  Owned owned{set(1 << s), set(row.first_place[s])};
-  if (row.is_per_sample) {
-    if (!hn::AllFalse(i32, mask)) pixels.put(mask, owner, owned, out);
-    return;
-  }
-  for (int t = 0; t < s; ++t) mask = hn::AndNot(hn::Eq(owner, pixels.owner(t)), mask);
-  if (hn::AllFalse(i32, mask)) return;
-  for (int t = s + 1; t < row.sample_count; ++t) {
-    const MI is_own = hn::Eq(owner, pixels.owner(t));
-    owned.samples = hn::Or(owned.samples, hn::IfThenElseZero(is_own, set(1 << t)));
-    owned.places = hn::Add(owned.places, hn::IfThenElseZero(is_own, set(row.more_places[t])));
-  }
-  pixels.put(mask, owner, owned, out);
-}
 
 // Vectors of fewer than eight lanes keep the order of eight: by first samples, and of those by pixels.
 void list(const OwnerRow& row, PointList& out) {
-  for (int s = 0; s < row.sample_count; ++s)
-    for (int first = 0; first < Batch::group; first += lanes) list_first_at(Pixels(row, first), row, s, out);
+  if constexpr (lanes == Batch::group) {
+    Pixels pixels(row, 0);
+    for (int s = 0; s < row.sample_count; ++s) pixels.list(s, out);
+  } else {
+    Pixels left(row, 0), right(row, lanes);
+    for (int s = 0; s < row.sample_count; ++s) left.list(s, out), right.list(s, out);
+  }
 }
 
 using Quad = hn::FixedTag<float, 4>;

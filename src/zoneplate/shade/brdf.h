@@ -149,28 +149,38 @@ inline constexpr float scale_and_bias_fit[5][6] = {
     {-6.757923f, 27.54618f, -146.1094f, 473.533f, -553.8303f, 195.7494f},
     {3.39516f, -10.8005f, 53.47554f, -174.0905f, 193.1336f, -60.68471f}};
 
-template <class F>
-[[gnu::always_inline]] inline F evaluate(const float (&fit)[5][6], F roughness, F t) {
-  F sum(0.0f);
-  for (int i = 4; i >= 0; --i) {
-    F row(fit[i][5]);
-    for (int j = 4; j >= 0; --j) row = row * t + F(fit[i][j]);
-    sum = sum * roughness + row;
-  }
-  return sum;
-}
-
+/// Both fits for one roughness: what is left are polynomials in 1 - n·v.
+///
 /// Requires  roughness in [least_roughness, 1], nv in [0, 1].
 /// Exact     scale + bias and bias within 0.04 of their integrals, 0.005 in the root mean square.
 /// Source    the split into scale and bias: Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013 (its own fits are for
 ///           another geometry term, and off by 0.17 here).
 template <class F>
-[[gnu::always_inline]] inline SpecularShare<F> specular_share(F roughness, F nv) {
-  const F t = F(1.0f) - nv;
-  const F total = min(max(evaluate(scale_and_bias_fit, roughness, t), F(0.0f)), F(1.0f));
-  const F bias = min(max(evaluate(bias_fit, roughness, t), F(0.0f)), total);
-  return {total - bias, bias};
-}
+struct SpecularFit {
+  F total[6], bias[6];
+
+  [[gnu::always_inline]] explicit SpecularFit(F roughness) {
+    for (int j = 0; j < 6; ++j) total[j] = of(scale_and_bias_fit, j, roughness), bias[j] = of(bias_fit, j, roughness);
+  }
+  [[gnu::always_inline]] SpecularShare<F> at(F nv) const {
+    const F t = F(1.0f) - nv;
+    const F both = min(max(evaluate(total, t), F(0.0f)), F(1.0f));
+    const F least = min(max(evaluate(bias, t), F(0.0f)), both);
+    return {both - least, least};
+  }
+
+ private:
+  [[gnu::always_inline]] static F of(const float (&fit)[5][6], int j, F roughness) {
+    F sum(fit[4][j]);
+    for (int i = 3; i >= 0; --i) sum = sum * roughness + F(fit[i][j]);
+    return sum;
+  }
+  [[gnu::always_inline]] static F evaluate(const F (&polynomial)[6], F t) {
+    F sum = polynomial[5];
+    for (int j = 4; j >= 0; --j) sum = sum * t + polynomial[j];
+    return sum;
+  }
+};
 
 /// The same for a given f0, with the light that bounces between microfacets more than once.
 ///
@@ -191,9 +201,10 @@ template <class F>
 ///
 /// Source    glTF 2.0, appendix B.2: mix(dielectric, metal, metallic).
 template <class F>
-[[gnu::always_inline]] inline Vector<F> metallic_environment(Vector<F> base, F metallic, F roughness, F nv) {
+[[gnu::always_inline]] inline Vector<F> metallic_environment(Vector<F> base, F metallic, const SpecularFit<F>& fit,
+                                                             F nv) {
   const F one(1.0f);
-  const SpecularShare<F> share = specular_share(max(roughness, F(least_roughness)), nv);
+  const SpecularShare<F> share = fit.at(nv);
   const F coat = specular_albedo(share, F(0.04f));
   const auto channel = [&](F color) {
     const F c = min(color, one);

@@ -159,7 +159,7 @@ TEST(Brdf, AWhiteFurnaceStaysWhite) {
   for (const double metallic : {0.0, 0.3, 1.0})
     for (const double roughness : {0.0, 0.2, 0.5, 1.0})
       for (const double nv : {0.0, 0.1, 0.5, 1.0}) {
-        const V c = metallic_environment<F>({1.0, 1.0, 1.0}, metallic, roughness, nv);
+        const V c = metallic_environment<F>({1.0, 1.0, 1.0}, metallic, SpecularFit<F>(roughness), nv);
         EXPECT_NEAR(c.x.v, 1, 1e-12) << metallic << " " << roughness << " " << nv;
       }
 }
@@ -169,7 +169,7 @@ TEST(Brdf, TheSpecularShareIsNearItsIntegral) {
   int count = 0;
   for (const double roughness : {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0})
     for (const double nv : {0.02, 0.1, 0.2, 0.4, 0.7, 1.0}) {
-      const auto share = specular_share<F>(roughness, nv);
+      const auto share = SpecularFit<F>(roughness).at(nv);
       const double black = share.bias.v - integral(0, roughness, nv);
       const double white = share.scale.v + share.bias.v - integral(1, roughness, nv);
       EXPECT_LT(std::abs(black), 0.04) << roughness << " " << nv;
@@ -183,7 +183,7 @@ TEST(Brdf, TheSpecularShareIsNearItsIntegral) {
 TEST(Brdf, MoreBouncesOnlyAddWhatWasLost) {
   for (const double roughness : {0.1, 0.5, 1.0})
     for (const double nv : {0.1, 0.5, 1.0}) {
-      const auto share = specular_share<F>(roughness, nv);
+      const auto share = SpecularFit<F>(roughness).at(nv);
       EXPECT_NEAR(specular_albedo<F>(share, 1.0).v, 1, 1e-12);
       double last = 0;
       for (const double f0 : {0.02, 0.04, 0.2, 0.5, 0.9}) {

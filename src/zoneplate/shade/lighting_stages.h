@@ -222,15 +222,21 @@ void light_phong(const Illumination& s, const Batch& batch, const Points& p, Sha
 }
 
 template <class F>
+[[gnu::always_inline]] inline SpecularFit<F> specular_fit(F roughness) {
+  return SpecularFit<F>(max(roughness, F(least_roughness)));
+}
+
+template <class F, bool has_texture>
 void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
   const auto environment = Vector<F>::all(s.environment);
   const AnyIllumination kind(s);
   const Viewer<F> viewer(s.viewpoint);
+  const SpecularFit<F> one_fit = specular_fit(F(s.roughness));
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
-    const F metallic = s.has_material_texture ? F::load(p.metallic + i) : F(s.metallic);
-    const F roughness = s.has_material_texture ? F::load(p.roughness + i) : F(s.roughness);
+    const F metallic = has_texture ? F::load(p.metallic + i) : F(s.metallic);
+    const F roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
     const Metallic<F> m = make_metallic(base, metallic, roughness);
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
@@ -239,10 +245,17 @@ void light_metallic(const Illumination& s, const Batch& batch, const Points& p, 
     }
     if (s.has_environment) {
       const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
-      sum = sum + unoccluded(kind, p, environment, i) * metallic_environment(base, metallic, roughness, nv);
+      const SpecularFit<F> fit = has_texture ? specular_fit(roughness) : one_fit;
+      sum = sum + unoccluded(kind, p, environment, i) * metallic_environment(base, metallic, fit, nv);
     }
     finish(s, kind, p, sum, base, out, i);
   }
+}
+
+template <class F>
+void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+  if (s.has_material_texture) return light_metallic<F, true>(s, batch, p, out);
+  light_metallic<F, false>(s, batch, p, out);
 }
 
 template <class F>

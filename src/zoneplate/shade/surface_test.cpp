@@ -501,7 +501,7 @@ TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
         word = hash(word, number);
       }
   }
-  EXPECT_EQ(word, 1196327486u);
+  EXPECT_EQ(word, 2234562064u);
 }
 
 TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
