@@ -21,7 +21,6 @@ struct BenchArgs {
   BenchWork work;   // but for the scene and the samples
   int samples = 0;  // 0: 1 and 4
   int threads = 0;
-  int anisotropy = 0;  // taken for the sake of the harness: a scene has its own
   std::string peer = "zoneplate";
   bool wants_json = false;
 };
@@ -45,7 +44,7 @@ Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming
                       {"h", work.size.y},
                       {"samples", work.samples},
                       {"max_samples", 16},
-                      {"aniso", args.anisotropy},
+                      {"aniso", t.anisotropy},
                       {"triangles", t.best.triangles},
                       {"threads", thread_limit()},
                       {"frames", static_cast<std::uint64_t>(t.frame_ms.size())},
@@ -127,14 +126,14 @@ Syntax syntax_of(BenchArgs& args) {
        whole(args.samples, 1, 16)},
       {"--size", "WxH", "Size of the picture; default 1920x1080", "Work", true,
        [&](const std::string& text) { args.work.size = parse_size(text, 16384); }},
+      {"--aniso", "N", "Anisotropy of the textures' filters, 1 to 16; default: the scene's own", "Work", false,
+       whole(args.work.anisotropy, 1, 16)},
       {"--threads", "N", "Threads; default: as many as there are processors", "Work", true,
        whole(args.threads, 1, 1024)},
       {"--frames", "N", "Frames at most; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
       {"--warmup", "N", "Frames before the clock starts; default 2", "Work", false, whole(args.work.warm_up, 1, 1000)},
       {"--budget-ms", "MS", "No new frame after this time (three are drawn in any case); default 4000", "Work", false,
        [&](const std::string& text) { args.work.budget_ms = parse_number(text, 1, 1e7); }},
-      {"--aniso", "N", "Noted in the result only: a scene has its own filters", "Result", false,
-       whole(args.anisotropy, 0, 16)},
       {"--peer", "NAME", "How the result calls this program; default zoneplate", "Result", false,
        [&](const std::string& text) { args.peer = text; }},
       {"--json", "", "One line of JSON a scene", "Result", true, [&](auto&) { args.wants_json = true; }}};

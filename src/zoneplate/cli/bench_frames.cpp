@@ -40,8 +40,14 @@ float4 background_of(const std::string& scene) {
 BenchTiming time_frames(const BenchWork& work) {
   std::optional<Scene> found = make_builtin_scene(work.scene);
   if (!found) throw Error(Trouble::Input, work.scene + ": no such built-in scene (zoneplate list scenes)");
+  if (found->cameras.empty()) throw Error(Trouble::Input, work.scene + ": has no camera of its own");
+  BenchTiming timing;
+  for (Material& material : found->materials) {
+    int& anisotropy = material.base_color_texture.sampler.anisotropy;
+    if (work.anisotropy > 0) anisotropy = work.anisotropy;
+    timing.anisotropy = std::max(timing.anisotropy, anisotropy);
+  }
   const Scene& scene = *found;
-  if (scene.cameras.empty()) throw Error(Trouble::Input, work.scene + ": has no camera of its own");
   RenderOptions options{.width = work.size.x, .height = work.size.y, .raw_colors = true};
   const TextureSet textures(scene, options.raw_colors);
   options.textures = &textures;
@@ -54,7 +60,6 @@ BenchTiming time_frames(const BenchWork& work) {
   RasterMemory memory;
   options.memory = &memory;
 
-  BenchTiming timing;
   const auto frame = [&] {
     RenderCounts counts;
     const Stopwatch whole;

@@ -12,6 +12,7 @@ struct BenchWork {
   std::string scene;
   int samples = 1;
   int2 size{1920, 1080};
+  int anisotropy = 0;  ///< of the textures' filters; 0: the scene's own
   int frames = 30, warm_up = 2;
   double budget_ms = 4000;  ///< no new frame after this time; three are drawn in any case
 };
@@ -24,6 +25,7 @@ struct BenchTiming {
   double others_busy = 0;                ///< processors that others kept busy meanwhile
   double geometry_ms = 0, tiles_ms = 0;  ///< the least
   double encode_ms = 0;                  ///< the picture as PNG, the least of three
+  int anisotropy = 1;                    ///< the greatest of a base colour's filters
   RenderCounts best;                     ///< of the frame that took least
 };
 

@@ -34,6 +34,21 @@ TEST(Bench, TellsOneLineOfJsonASceneAndNumberOfSamples) {
   EXPECT_EQ(samples, (std::vector{1, 4}));
 }
 
+TEST(Bench, TheCityWithoutAnisotropyIsTheTrilinearOne) {
+  const auto shaded = [](std::vector<std::string> arguments, int anisotropy) {
+    arguments.insert(arguments.end(), {"--samples", "1", "--size", "64x36", "--frames", "1", "--warmup", "1"});
+    testing::internal::CaptureStdout();
+    run_bench(arguments);
+    const auto json = parsed_json(testing::internal::GetCapturedStdout());
+    EXPECT_EQ(json["aniso"], anisotropy);
+    return json["shaded"].get<int>();
+  };
+  const int points = shaded({"--scene", "city"}, 8);
+  EXPECT_GT(points, 0);
+  EXPECT_EQ(shaded({"--scene", "city", "--aniso", "1"}, 1), points);
+  EXPECT_EQ(shaded({"--scene", "city-trilinear"}, 1), points);
+}
+
 TEST(Bench, TellsTheStagesBesideTheMachinesLimits) {
   testing::internal::CaptureStdout();
   run_bench(std::vector<std::string>{"tri10k", "--size", "96x54", "--frames", "1", "--samples", "1"});

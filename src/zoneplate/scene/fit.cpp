@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t direction_count = 22, block = 4096;
+constexpr std::size_t direction_count = 22, block = 1024;
 using Directions = std::array<float3, direction_count>;
 using Reach = std::array<float, direction_count>;
 
