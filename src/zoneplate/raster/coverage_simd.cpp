@@ -34,11 +34,9 @@ Spread spread_of(const TileTriangle& t, int samples) {
     r.z_least = t.z[s] < r.z_least ? t.z[s] : r.z_least;
   }
   for (int k = 0; k < 3; ++k) {
-    r.c_least[k] = r.c_greatest[k] = t.c[k][0];
-    for (int s = 1; s < samples; ++s) {
-      r.c_least[k] = least(r.c_least[k], t.c[k][s]);
-      r.c_greatest[k] = greatest(r.c_greatest[k], t.c[k][s]);
-    }
+    std::int32_t low = t.c[k][0], high = low;
+    for (int s = 0; s < samples; ++s) low = least(low, t.c[k][s]), high = greatest(high, t.c[k][s]);
+    r.c_least[k] = low, r.c_greatest[k] = high;
   }
   return r;
 }

@@ -46,23 +46,16 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
                  .id = aligned(id_storage_),
                  .block_far = block_far_,
                  .block_owner = block_owner_};
-  list_sums_.resize(tile_pixels);
-  first_point_.resize(tile_pixels + 1);
-  fragments_.resize(tile_pixels);
-  sum_.resize(tile_pixels / 8);
   color_.resize(tile_pixels / 8);
-  base_.resize(tile_pixels / 8);
-  covered_.resize(tile_pixels);
-  nearest_.resize(tile_pixels);
 }
 
 void TileRenderer::render(std::size_t tile) {
   watch_.lap_ms();
   gather(tile);
   if (is_plain()) return render_plain();
-  std::fill(sum_.begin(), sum_.end(), Linear8{});
-  std::fill(covered_.begin(), covered_.end(), 0.0f);
-  std::fill(nearest_.begin(), nearest_.end(), Nearest{0, no_triangle});
+  sum_.assign(tile_pixels / 8, Linear8{});
+  covered_.assign(tile_pixels, 0.0f);
+  nearest_.assign(tile_pixels, Nearest{0, no_triangle});
   const int total = static_cast<int>(target_.samples.size());
   const int step = target_.is_per_sample ? samples_per_pass : total;
   for (int first = 0; first < total; first += step) render_pass(first, std::min(step, total - first));
@@ -124,6 +117,9 @@ void TileRenderer::begin_pass(int first_sample, int sample_count) {
 void TileRenderer::render_plain() {
   if (sources_[0].empty() && sources_[1].empty() && !has_layers() && !has_fragments()) return write_background();
   begin_pass(0, static_cast<int>(target_.samples.size()));
+  // Found when first asked for: most pictures need neither, and new memory costs.
+  if (target_.is_per_sample) sum_.resize(tile_pixels / 8);
+  if (has_layers()) base_.resize(tile_pixels / 8);
   draw_opaque();
   draw_masked();
   times_.visibility += watch_.lap_ms();
@@ -254,7 +250,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
 
 /// first_point_: by pixel; past the last point where a pixel has none.
 void TileRenderer::find_first_points() {
-  std::fill(first_point_.begin(), first_point_.end(), static_cast<std::uint32_t>(points_.size()));
+  first_point_.assign(tile_pixels + 1, static_cast<std::uint32_t>(points_.size()));
   for (std::size_t p = points_.size(); p-- > 0;) first_point_[points_[p].pixel] = static_cast<std::uint32_t>(p);
 }
 
@@ -326,6 +322,7 @@ void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_
 
 void TileRenderer::find_points() {
   points_.clear();
+  first_point_.resize(tile_pixels + 1);
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) {
     first_point_[pixel] = static_cast<std::uint32_t>(points_.size());
     if (!is_wanted(static_cast<int>(pixel % tile_size), static_cast<int>(pixel / tile_size))) continue;

@@ -11,6 +11,7 @@ namespace zoneplate {
 void TileRenderer::collect_layers(Surface surface, int top, int bottom, const std::uint8_t* rows) {
   layers_.clear();
   layer_depths_.clear();
+  fragments_.resize(tile_pixels);
   for (const Triangle* t : sources_[static_cast<std::size_t>(surface)]) {
     if (t->max_y - tile_y_ < top || t->min_y - tile_y_ >= bottom) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);

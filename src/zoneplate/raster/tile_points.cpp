@@ -53,6 +53,7 @@ void TileRenderer::shade_list() {
 }
 
 void TileRenderer::sum_list() {
+  list_sums_.resize(tile_pixels);
   for (const std::uint32_t pixel : listed_rows_) std::fill_n(&list_sums_[pixel], Batch::group, Linear{0, 0, 0, 0});
   shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
     const std::uint32_t* const at = list_.at + first;
