@@ -1,6 +1,7 @@
 #include "zoneplate/cli/bench_limits.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -73,7 +74,7 @@ MachineLimits measure_limits() {
   };
   const double gigabytes = static_cast<double>(share * threads) * 1e-9;
   out.write_gb_s = gigabytes / least_ms(5, on_all(share, [&](std::byte* p) { std::memset(p, 1, share); })) * 1e3;
-  volatile std::uint32_t result = 0;
+  std::atomic<std::uint32_t> result = 0;  // so that nothing is left out; of all threads
   const LimitKernels& kernels = limit_kernels(best_isa());
   out.read_gb_s = gigabytes * 1e3 / least_ms(5, on_all(share, [&](std::byte* p) {
                                                result =
