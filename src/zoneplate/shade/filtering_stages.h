@@ -211,17 +211,22 @@ template <class F, class Filter>
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint at, Taps& out,
                                                  int count) {
-  const auto repeats = [&](int i) { return at.repeats != nullptr && at.repeats[i / 8]; };
+  static constexpr bool none[Taps::groups] = {};
+  const bool* const repeats = at.repeats != nullptr ? at.repeats : none;
+  const int groups = count / 8;
   // Apart from the addresses, because both are long chains of operations that wait for each other.
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0]));
-  for (int i = 0; i < count; i += F::lanes)
-    if (!repeats(i)) footprint_level(w, h, at, i).store(out.detail + i);
+  for (int g = 0; g < groups; ++g) {
+    if (repeats[g]) continue;
+    for (int i = 8 * g; i < 8 * g + 8; i += F::lanes) footprint_level(w, h, at, i).store(out.detail + i);
+  }
   const TexelFetch fetch(t);
   Lookup<F> lookup = begin_lookup<F>(t, f);
-  for (int i = 0; i < count; i += F::lanes) {
-    if (!repeats(i)) find_lookup<F>(t, f, F::load(out.detail + i), lookup);
-    store_taps<F>(fetch, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
-  }
+  for (int g = 0; g < groups; ++g)
+    for (int i = 8 * g; i < 8 * g + 8; i += F::lanes) {
+      if (!repeats[g]) find_lookup<F>(t, f, F::load(out.detail + i), lookup);
+      store_taps<F>(fetch, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
+    }
 }
 
 /// The stage `find_taps` of shade/filtering.h.
