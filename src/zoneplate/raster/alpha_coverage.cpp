@@ -19,7 +19,7 @@ Batch moved(const Batch& batch, const float (&change)[2][Batch::room]) {
 
 }  // namespace
 
-int AlphaDigits::digits() const { return std::bit_width(static_cast<unsigned>(samples_)); }
+int AlphaDigits::digits() const { return static_cast<int>(std::bit_width(static_cast<unsigned>(samples_))); }
 
 float AlphaDigits::alpha(const Batch& batch, float* out) const {
   const float cutoff = inner_.alpha(batch, out);
