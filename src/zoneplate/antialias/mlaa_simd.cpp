@@ -22,11 +22,7 @@ HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, float threshol
 }
 
 void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  const hn::CappedTag<float, 8> full;
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) luma_edges_some(full, rows, threshold, edges, i);
-  for (; i < n; ++i) luma_edges_some(one, rows, threshold, edges, i);
+  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 template <class D>

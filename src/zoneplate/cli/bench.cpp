@@ -126,7 +126,7 @@ Syntax syntax_of(BenchArgs& args) {
        whole(args.samples, 1, 16)},
       {"--size", "WxH", "Size of the picture; default 1920x1080", "Work", true,
        [&](const std::string& text) { args.work.size = parse_size(text, 16384); }},
-      {"--aniso", "N", "Anisotropy of the textures' filters, 1 to 16; default: the scene's own", "Work", false,
+      {"--aniso", "N", "Anisotropy of base colours' filters, 1 to 16; default: the scene's own", "Work", false,
        whole(args.work.anisotropy, 1, 16)},
       {"--threads", "N", "Threads; default: as many as there are processors", "Work", true,
        whole(args.threads, 1, 1024)},

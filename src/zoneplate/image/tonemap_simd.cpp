@@ -93,6 +93,7 @@ HWY_INLINE Pixels shown_pixels(const DisplayStep& step, const Color& color, V al
     return {step.is_encoded ? each(mapped, encoded) : mapped, one};
   }
 
+  // Where nothing is, there is the background alone.
   if (hn::AllTrue(d, hn::Eq(a, zero)))
     return {{hn::Set(d, step.code[0]), hn::Set(d, step.code[1]), hn::Set(d, step.code[2])}, hn::Set(d, step.code[3])};
   const auto is_seen = hn::Gt(a, zero);

@@ -141,47 +141,56 @@ void TileRenderer::render_plain() {
 /// Eight pixels that one triangle owns go on together, the others one by one; where nothing is seen colours begin as
 /// nothing.
 void TileRenderer::find_rows() {
-  static constexpr Linear8 nothing{};
-  const bool is_per_sample = target_.is_per_sample, lists = lists_points();
   rows_.clear();
   points_.clear();
   coverage_.find_owners(visibility_, row_owner_);
   for (int block = 0; block < TileVisibility::blocks; ++block) {
-    const int x = block % 8 * 8, first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
-    const bool is_whole = is_whole_row(block % 8);
-    const std::int32_t middle_x = (tile_x_ + x) * 256 + 128, middle_y = tile_y_ * 256 + 128;
-    PointRow rows[8];
-    PointRow* next = rows;
-    const auto put_row = [&](int y, std::uint32_t pixel, std::int32_t owner) {
-      *next++ = {middle_x, middle_y + y * 256, owner, pixel};
-    };
-    const auto first_pixel = static_cast<std::uint32_t>(first * tile_size + x);
-    if (const std::int32_t owner = block_owner_[block];
-        is_whole && !is_per_sample && owner != many_triangles && owner != no_triangle) {
-      auto pixel = first_pixel;
-      for (int y = first; y < last; ++y, pixel += tile_size) put_row(y, pixel, owner);
+    const std::int32_t owner = block_owner_[block];
+    const bool is_one = owner != many_triangles && owner != no_triangle;
+    if (is_one && is_whole_row(block % 8) && !target_.is_per_sample) {
+      add_block_of_rows(block, owner);
     } else {
-      auto pixel = first_pixel;
-      for (int y = first; y < last; ++y, pixel += tile_size) {
-        const std::int32_t row_owner = row_owner_[pixel / 8];
-        if (row_owner == no_triangle) {
-          color_[pixel / 8] = nothing;
-        } else if (row_owner != many_triangles && is_whole) {
-          if (is_per_sample) {
-            add_row_of_samples(pixel, row_owner);
-          } else {
-            put_row(y, pixel, row_owner);
-          }
-        } else if (lists) {
-          list_row(x, y);
-        } else {
-          color_[pixel / 8] = nothing;
-          for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
-            add_pixel(static_cast<std::uint32_t>(y * tile_size + i));
-        }
-      }
+      find_rows_of(block);
     }
-    rows_.insert(rows_.end(), rows, next);
+  }
+}
+
+PointRow TileRenderer::row_at(std::uint32_t pixel, std::int32_t id) const {
+  const auto x = static_cast<std::int32_t>(pixel % tile_size), y = static_cast<std::int32_t>(pixel / tile_size);
+  return {(tile_x_ + x) * 256 + 128, (tile_y_ + y) * 256 + 128, id, pixel};
+}
+
+/// The rows of a block that one triangle owns: not looked at one by one.
+void TileRenderer::add_block_of_rows(int block, std::int32_t id) {
+  const int first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
+  PointRow row = row_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
+  PointRow rows[8];
+  PointRow* end = rows;
+  for (int y = first; y < last; ++y, row.y += 256, row.pixel += tile_size) *end++ = row;
+  rows_.insert(rows_.end(), rows, end);
+}
+
+void TileRenderer::find_rows_of(int block) {
+  static constexpr Linear8 nothing{};
+  const int x = block % 8 * 8, first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
+  const bool is_whole = is_whole_row(block % 8), lists = lists_points();
+  for (int y = first; y < last; ++y) {
+    const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
+    const std::int32_t owner = row_owner_[pixel / 8];
+    const bool is_row = owner != many_triangles && is_whole;
+    if (owner == no_triangle) {
+      color_[pixel / 8] = nothing;
+    } else if (is_row && target_.is_per_sample) {
+      add_row_of_samples(pixel, owner);
+    } else if (is_row) {
+      rows_.push_back(row_at(pixel, owner));
+    } else if (lists) {
+      list_row(x, y);
+    } else {
+      color_[pixel / 8] = nothing;
+      for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)
+        add_pixel(static_cast<std::uint32_t>(y * tile_size + i));
+    }
   }
 }
 

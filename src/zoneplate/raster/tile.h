@@ -72,6 +72,9 @@ class TileRenderer {
   bool is_plain() const;
   void render_plain();
   void find_rows();
+  void find_rows_of(int block);
+  void add_block_of_rows(int block, std::int32_t id);
+  PointRow row_at(std::uint32_t pixel, std::int32_t id) const;
   void shade_rows();
   void add_row_of_samples(std::uint32_t pixel, std::int32_t id);
   void add_pixel(std::uint32_t pixel);

@@ -151,7 +151,8 @@ inline constexpr float scale_and_bias_fit[5][6] = {
 
 /// Both fits for one roughness: what is left are polynomials in 1 - n·v.
 ///
-/// Requires  roughness in [least_roughness, 1], nv in [0, 1].
+/// Requires  roughness in [0, 1], nv in [0, 1].
+/// Edges     roughness below least_roughness counts as that.
 /// Exact     scale + bias and bias within 0.04 of their integrals, 0.005 in the root mean square.
 /// Source    the split into scale and bias: Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013 (its own fits are for
 ///           another geometry term, and off by 0.17 here).
@@ -160,7 +161,8 @@ struct SpecularFit {
   F total[6], bias[6];
 
   [[gnu::always_inline]] explicit SpecularFit(F roughness) {
-    for (int j = 0; j < 6; ++j) total[j] = of(scale_and_bias_fit, j, roughness), bias[j] = of(bias_fit, j, roughness);
+    const F r = max(roughness, F(least_roughness));
+    for (int j = 0; j < 6; ++j) total[j] = of(scale_and_bias_fit, j, r), bias[j] = of(bias_fit, j, r);
   }
   [[gnu::always_inline]] SpecularShare<F> at(F nv) const {
     const F t = F(1.0f) - nv;

@@ -221,17 +221,12 @@ void light_phong(const Illumination& s, const Batch& batch, const Points& p, Sha
   light_phong<F, Highlight::BlinnPhong>(s, batch, p, out);
 }
 
-template <class F>
-[[gnu::always_inline]] inline SpecularFit<F> specular_fit(F roughness) {
-  return SpecularFit<F>(max(roughness, F(least_roughness)));
-}
-
 template <class F, bool has_texture>
 void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
   const auto environment = Vector<F>::all(s.environment);
   const AnyIllumination kind(s);
   const Viewer<F> viewer(s.viewpoint);
-  const SpecularFit<F> one_fit = specular_fit(F(s.roughness));
+  const SpecularFit<F> one_fit{F(s.roughness)};
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
@@ -245,7 +240,7 @@ void light_metallic(const Illumination& s, const Batch& batch, const Points& p, 
     }
     if (s.has_environment) {
       const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
-      const SpecularFit<F> fit = has_texture ? specular_fit(roughness) : one_fit;
+      const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
       sum = sum + unoccluded(kind, p, environment, i) * metallic_environment(base, metallic, fit, nv);
     }
     finish(s, kind, p, sum, base, out, i);
