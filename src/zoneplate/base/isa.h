@@ -13,12 +13,8 @@ inline constexpr Isa all_isas[] = {Isa::Scalar, Isa::Sse4, Isa::Avx2, Isa::Avx51
 /// The sets that this machine can run, Scalar first.
 std::span<const Isa> supported_isas();
 
-/// The set that is used unless another is asked for. AVX-512 is asked for: no machine that has it has run its tests
-/// yet.
-inline Isa best_isa() {
-  const Isa last = supported_isas().back();
-  return last == Isa::Avx512 ? Isa::Avx2 : last;
-}
+/// The set that is used unless another is asked for.
+inline Isa best_isa() { return supported_isas().back(); }
 
 /// "scalar", "sse4", "avx2", "avx512", "neon", "wasm".
 const char* name_of(Isa isa);

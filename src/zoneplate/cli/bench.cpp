@@ -37,7 +37,7 @@ Json stages_json(const BenchTiming& t) {
 Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming& t) {
   return Json::Object{{"peer", args.peer},
                       {"api", "zoneplate"},
-                      {"renderer", name_of(best_isa())},
+                      {"renderer", name_of(work.isa)},
                       {"version", version},
                       {"scene", work.scene},
                       {"w", work.size.x},
@@ -92,13 +92,13 @@ std::string timing_text(const BenchWork& work, const BenchTiming& t, const Machi
   return text + stage_text("(encode)", t.encode_ms, pixels, "pixel", 0, limits);
 }
 
-std::string limits_text(const MachineLimits& l) {
+std::string limits_text(const MachineLimits& l, Isa isa) {
   return fmt::format(
       "{} threads, {}. Memory: {:.1f} GB/s read, {:.1f} written; 1920x1080 of colour and depth cleared in {:.2f} ms, "
       "in "
       "new memory\nin {:.1f} ms. Eight words gathered from 8 KiB in {:.1f} ns, from 256 KiB in {:.1f}, from 4 MiB in "
       "{:.1f}.\n",
-      thread_limit(), name_of(best_isa()), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
+      thread_limit(), name_of(isa), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
       l.gather_l2_ns, l.gather_l3_ns);
 }
 
@@ -109,6 +109,7 @@ Syntax syntax_of(BenchArgs& args) {
                 .examples =
                     "  zoneplate bench\n"
                     "  zoneplate bench fill --samples 4 --threads 1\n"
+                    "  zoneplate bench city --isa avx2\n"
                     "  zoneplate bench tri1m --json\n"};
   syntax.notes =
       "The least of all frames is shown: what the work takes when nothing else runs. Of that frame the\n"
@@ -130,6 +131,8 @@ Syntax syntax_of(BenchArgs& args) {
        whole(args.work.anisotropy, 1, 16)},
       {"--threads", "N", "Threads; default: as many as there are processors", "Work", true,
        whole(args.threads, 1, 1024)},
+      {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default the best there is", "Work", false,
+       [&](const std::string& text) { args.work.isa = parse_isa(text); }},
       {"--frames", "N", "Frames at most; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
       {"--warmup", "N", "Frames before the clock starts; default 2", "Work", false, whole(args.work.warm_up, 1, 1000)},
       {"--budget-ms", "MS", "No new frame after this time (three are drawn in any case); default 4000", "Work", false,
@@ -153,7 +156,7 @@ void run_bench(std::span<const std::string> arguments) {
   const bool wants_json = args.wants_json || names_one;
   with_threads(args.threads, [&] {
     MachineLimits limits;
-    if (!wants_json) print(limits_text(limits = measure_limits()));
+    if (!wants_json) print(limits_text(limits = measure_limits(), args.work.isa));
     for (const std::string& scene : args.scenes)
       for (const int samples : counts) {
         BenchWork work = args.work;

@@ -48,7 +48,7 @@ BenchTiming time_frames(const BenchWork& work) {
     timing.anisotropy = std::max(timing.anisotropy, anisotropy);
   }
   const Scene& scene = *found;
-  RenderOptions options{.width = work.size.x, .height = work.size.y, .raw_colors = true};
+  RenderOptions options{.width = work.size.x, .height = work.size.y, .raw_colors = true, .isa = work.isa};
   const TextureSet textures(scene, options.raw_colors);
   options.textures = &textures;
   const VertexRecords records(scene);

@@ -47,6 +47,15 @@ TEST(Bench, AnisotropyIsTheScenesUnlessAskedFor) {
   EXPECT_EQ(anisotropy({"--scene", "fill", "--aniso", "4"}), 4);
 }
 
+TEST(Bench, ItsInstructionSetIsTheOneAskedFor) {
+  for (const Isa isa : supported_isas()) {
+    testing::internal::CaptureStdout();
+    run_bench(std::vector<std::string>{"--scene", "tri10k", "--size", "64x36", "--frames", "1", "--samples", "1",
+                                       "--isa", name_of(isa)});
+    EXPECT_EQ(parsed_json(testing::internal::GetCapturedStdout())["renderer"], name_of(isa));
+  }
+}
+
 TEST(Bench, TellsTheStagesBesideTheMachinesLimits) {
   testing::internal::CaptureStdout();
   run_bench(std::vector<std::string>{"tri10k", "--size", "96x54", "--frames", "1", "--samples", "1"});

@@ -84,16 +84,6 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
   return found;
 }
 
-Isa parse_isa(const std::string& text) {
-  std::vector<std::string_view> names;
-  for (const Isa each : all_isas) names.push_back(name_of(each));
-  const Isa isa = all_isas[parse_choice(text, names)];
-  const auto supported = supported_isas();
-  if (std::find(supported.begin(), supported.end(), isa) == supported.end())
-    throw Error(Trouble::Usage, fmt::format("this machine has no {}", text));
-  return isa;
-}
-
 std::vector<Option> input_options(RenderArgs& a) {
   const std::string group = "Input";
   return {
@@ -270,8 +260,8 @@ std::vector<Option> run_options(RenderArgs& a) {
       {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
-       "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best but avx512", group,
-       false, [&](auto& text) { a.options.isa = parse_isa(text); }},
+       "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best there is", group, false,
+       [&](auto& text) { a.options.isa = parse_isa(text); }},
       {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
        [&](auto&) { a.wants_json = true; }},
       {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; default auto", group, false,

@@ -161,4 +161,14 @@ std::size_t parse_choice(const std::string& text, std::span<const std::string_vi
                                                          fmt::join(names, ", "), near));
 }
 
+Isa parse_isa(const std::string& text) {
+  std::vector<std::string_view> names;
+  for (const Isa each : all_isas) names.push_back(name_of(each));
+  const Isa isa = all_isas[parse_choice(text, names)];
+  const auto supported = supported_isas();
+  if (std::find(supported.begin(), supported.end(), isa) == supported.end())
+    throw Error(Trouble::Usage, fmt::format("this machine has no {}", text));
+  return isa;
+}
+
 }  // namespace zoneplate::cli

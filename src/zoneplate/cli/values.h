@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate::cli {
@@ -38,5 +39,8 @@ std::size_t parse_choice(const std::string& text, std::span<const std::string_vi
 inline std::size_t parse_choice(const std::string& text, std::initializer_list<std::string_view> names) {
   return parse_choice(text, std::span(names.begin(), names.size()));
 }
+
+/// The instruction set of a name, which must be one that this machine has.
+Isa parse_isa(const std::string& text);
 
 }  // namespace zoneplate::cli
