@@ -41,6 +41,9 @@ HWY_INLINE Ints<D> truncated(D, hn::Vec<D> x) {
 #if HWY_TARGET <= HWY_AVX2
   if constexpr (hn::MaxLanes(D()) == 8) return Ints<D>{_mm256_cvttps_epi32(x.raw)};
 #endif
+#if HWY_TARGET <= HWY_AVX3
+  if constexpr (hn::MaxLanes(D()) == 16) return Ints<D>{_mm512_cvttps_epi32(x.raw)};
+#endif
 #endif
   return hn::ConvertTo(di, x);
 }

@@ -7,11 +7,15 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// hn::Combine; of 256 bits in one instruction, where that clears the upper half first.
+/// hn::Combine; of 256 bits and more in one instruction, where that clears the upper half first.
 template <class D, class Half>
 HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
   using T = hn::TFromD<D>;
+#if HWY_TARGET <= HWY_AVX3
+  if constexpr (sizeof(hn::Vec<D>) == 64 && !hwy::IsFloat<T>())
+    return hn::Vec<D>{_mm512_inserti64x4(_mm512_castsi256_si512(lower.raw), upper.raw, 1)};
+#endif
   if constexpr (sizeof(hn::Vec<D>) == 32) {
     if constexpr (hwy::IsSame<T, float>()) {
       return hn::Vec<D>{_mm256_insertf128_ps(_mm256_castps128_ps256(lower.raw), upper.raw, 1)};
@@ -36,6 +40,14 @@ HWY_INLINE V every_second_word(V upper, V lower) {
     return hn::BitCast(
         d, hn::Vec<decltype(f)>{_mm256_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, chosen)});
   }
+#if HWY_TARGET <= HWY_AVX3
+  if constexpr (sizeof(V) == 64) {
+    constexpr int chosen = first == 0 ? 0x88 : 0xdd;
+    const hn::RebindToFloat<decltype(d)> f;
+    return hn::BitCast(
+        d, hn::Vec<decltype(f)>{_mm512_shuffle_ps(hn::BitCast(f, lower).raw, hn::BitCast(f, upper).raw, chosen)});
+  }
+#endif
 #endif
   return first == 0 ? hn::ConcatEven(d, upper, lower) : hn::ConcatOdd(d, upper, lower);
 }

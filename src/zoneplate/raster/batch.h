@@ -19,9 +19,13 @@ struct Batch {
   static constexpr int group = 8;
   static constexpr int groups = capacity / group;
 
+  /// Loops over a batch may go in vectors of as many points at most: what stands between padded() and its next multiple
+  /// may be read and written, and means nothing.
+  static constexpr int most_lanes = 16;
+
   /// The length of arrays by point: a cache line more, so that what stands at one place in many of them does not crowd
   /// into the same few lines of the first cache.
-  static constexpr int room = capacity + 16;
+  static constexpr int room = capacity + most_lanes;
 
   int count = 0;
   int material = 0;           ///< index into Scene::materials

@@ -50,7 +50,8 @@ struct Taps {
   std::int32_t down(int level, int i) const { return side[level][by_fours(i) + 4]; }
 };
 
-/// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity.
+/// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity; what stands in a footprint's
+/// arrays up to the next multiple of 16 may be read.
 ///
 /// The level is log2 of the footprint: D = ½ log2 max(|∂(s,t)/∂x|², |∂(s,t)/∂y|²) with (s, t) in texels of level 0,
 /// clamped to the levels there are. D > 0 minifies, else the picture is magnified. The coordinate is wrapped before

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "zoneplate/shade/filtering.h"
@@ -26,8 +27,9 @@ template <class F, class View>
 template <class F, class View>
 [[gnu::always_inline]] inline LevelPlace<F> place_levels(const View& t, typename F::Int level) {
   using Int = typename F::Int;
-  const Int w = Int::gather(t.width, level), h = Int::gather(t.height, level);
-  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::gather(t.offset, level)};
+  static_assert(View::max_levels == 16);
+  const Int w = Int::look_up(t.width, level), h = Int::look_up(t.height, level);
+  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::look_up(t.offset, level)};
 }
 
 /// A coordinate brought into [0, 1]; NaN gives 0.
@@ -212,21 +214,39 @@ template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint at, Taps& out,
                                                  int count) {
   static constexpr bool none[Taps::groups] = {};
+  static constexpr int step = F::lanes < 8 ? 8 : F::lanes;
   const bool* const repeats = at.repeats != nullptr ? at.repeats : none;
-  const int groups = count / 8;
+  // True if all points from i on, of one group or two, are at the levels of those before them. A vector of two groups
+  // repeats what it was if that was of one footprint.
+  const auto is_known = [&](int i) {
+    const int g = i / 8;
+    if constexpr (step == 8) return repeats[g];
+    return repeats[g] && repeats[g + 1] && repeats[g - 1];
+  };
   // Apart from the addresses, because both are long chains of operations that wait for each other.
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0]));
-  for (int g = 0; g < groups; ++g) {
-    if (repeats[g]) continue;
-    for (int i = 8 * g; i < 8 * g + 8; i += F::lanes) footprint_level(w, h, at, i).store(out.detail + i);
+  int told = 0;
+  for (int i = 0; i < count; i += step) {
+    if (is_known(i)) continue;
+    for (int k = i; k < i + step; k += F::lanes) footprint_level(w, h, at, k).store(out.detail + k);
+    if constexpr (step == 8) continue;
+    for (int k = i; k < i + step; k += 8) {
+      if (repeats[k / 8]) {
+        std::copy_n(out.detail + told, 8, out.detail + k);
+      } else {
+        told = k;
+      }
+    }
   }
   const TexelFetch fetch(t);
   Lookup<F> lookup = begin_lookup<F>(t, f);
-  for (int g = 0; g < groups; ++g)
-    for (int i = 8 * g; i < 8 * g + 8; i += F::lanes) {
-      if (!repeats[g]) find_lookup<F>(t, f, F::load(out.detail + i), lookup);
-      store_taps<F>(fetch, f, lookup, F::load(at.u + i), F::load(at.v + i), out, i);
+  for (int i = 0; i < count; i += step) {
+    const bool is_same = is_known(i);
+    for (int k = i; k < i + step; k += F::lanes) {
+      if (!is_same) find_lookup<F>(t, f, F::load(out.detail + k), lookup);
+      store_taps<F>(fetch, f, lookup, F::load(at.u + k), F::load(at.v + k), out, k);
     }
+  }
 }
 
 /// The stage `find_taps` of shade/filtering.h.

@@ -34,6 +34,8 @@ struct Int {
     list[first] = static_cast<std::int16_t>(v), list[first + 4] = static_cast<std::int16_t>(second.v);
   }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
+  /// The same of a table of 16.
+  static Int look_up(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
   bool equals(Int other) const { return v == other.v; }
   bool is_uniform() const { return true; }
@@ -101,5 +103,6 @@ struct Lane {
 };
 
 using Float = Lane<float>;
+using WideFloat = Float;
 
 }  // namespace zoneplate::scalar

@@ -12,21 +12,24 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, 8>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-
-struct Bool {
+template <class FloatTag>
+struct BoolVector {
+  using Bool = BoolVector;
   hn::Mask<FloatTag> v;
   friend HWY_INLINE Bool operator&(Bool a, Bool b) { return {hn::And(a.v, b.v)}; }
   friend HWY_INLINE Bool operator|(Bool a, Bool b) { return {hn::Or(a.v, b.v)}; }
 };
 
-struct Int {
+template <class FloatTag>
+struct IntVector {
+  using IntTag = hn::RebindToSigned<FloatTag>;
+  using Int = IntVector;
+  using Bool = BoolVector<FloatTag>;
   static constexpr int lanes = static_cast<int>(hn::MaxLanes(IntTag()));
   hn::Vec<IntTag> v;
-  Int() = default;
-  HWY_INLINE Int(std::int32_t x) : v(hn::Set(IntTag(), x)) {}
-  HWY_INLINE explicit Int(hn::Vec<IntTag> x) : v(x) {}
+  IntVector() = default;
+  HWY_INLINE IntVector(std::int32_t x) : v(hn::Set(IntTag(), x)) {}
+  HWY_INLINE explicit IntVector(hn::Vec<IntTag> x) : v(x) {}
   static HWY_INLINE Int load(const std::int32_t* p) { return Int(hn::LoadU(IntTag(), p)); }
   HWY_INLINE void store(std::int32_t* p) const { hn::StoreU(v, IntTag(), p); }
   HWY_INLINE void store_by_fours(Int second, std::int16_t* list, int i) const {
@@ -34,6 +37,14 @@ struct Int {
     hn::StoreU(hn::ReorderDemote2To(narrow, v, second.v), narrow, list + 2 * i);
   }
   static HWY_INLINE Int gather(const std::int32_t* table, Int i) { return Int(hn::GatherIndex(IntTag(), table, i.v)); }
+  static HWY_INLINE Int look_up(const std::int32_t* table, Int i) {
+    if constexpr (lanes == 4) return gather(table, i);
+    const IntTag d;
+    const auto at = hn::IndicesFromVec(d, hn::And(i.v, hn::Set(d, lanes - 1)));
+    const auto first = hn::TableLookupLanes(hn::LoadU(d, table), at);
+    if constexpr (lanes == 16) return Int(first);
+    return select(i > Int(lanes - 1), Int(hn::TableLookupLanes(hn::LoadU(d, table + lanes), at)), Int(first));
+  }
   HWY_INLINE std::int32_t first() const { return hn::GetLane(v); }
   HWY_INLINE bool equals(Int other) const { return hn::AllTrue(IntTag(), hn::Eq(v, other.v)); }
   HWY_INLINE bool is_uniform() const { return hn::AllTrue(IntTag(), hn::Eq(v, hn::Set(IntTag(), hn::GetLane(v)))); }
@@ -66,14 +77,16 @@ HWY_INLINE hn::Vec<D> load_two_quads(D d, const float* const* record, int place)
   }
 }
 
-struct Float {
-  using Bool = HWY_NAMESPACE::Bool;
-  using Int = HWY_NAMESPACE::Int;
+template <class FloatTag>
+struct FloatVector {
+  using Float = FloatVector;
+  using Bool = BoolVector<FloatTag>;
+  using Int = IntVector<FloatTag>;
   static constexpr int lanes = static_cast<int>(hn::MaxLanes(FloatTag()));
   hn::Vec<FloatTag> v;
-  Float() = default;
-  HWY_INLINE Float(float x) : v(hn::Set(FloatTag(), x)) {}
-  HWY_INLINE explicit Float(hn::Vec<FloatTag> x) : v(x) {}
+  FloatVector() = default;
+  HWY_INLINE FloatVector(float x) : v(hn::Set(FloatTag(), x)) {}
+  HWY_INLINE explicit FloatVector(hn::Vec<FloatTag> x) : v(x) {}
   static HWY_INLINE Float load(const float* p) { return Float(hn::LoadU(FloatTag(), p)); }
   HWY_INLINE void store(float* p) const { hn::StoreU(v, FloatTag(), p); }
   static HWY_INLINE Float gather(const float* table, Int i) { return Float(hn::GatherIndex(FloatTag(), table, i.v)); }
@@ -111,6 +124,10 @@ struct Float {
   friend HWY_INLINE Float pow(Float a, Float b) { return Float(HWY_NAMESPACE::pow(FloatTag(), a.v, b.v)); }
   static HWY_INLINE Float from(Int i) { return Float(hn::ConvertTo(FloatTag(), i.v)); }
 };
+
+/// As many lanes as a group of points has at most, and as many as a vector has.
+using Float = FloatVector<hn::CappedTag<float, 8>>;
+using WideFloat = FloatVector<hn::CappedTag<float, 16>>;
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

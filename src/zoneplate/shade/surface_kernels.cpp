@@ -5,6 +5,6 @@
 
 namespace zoneplate::scalar {
 
-const SurfaceKernels surface_kernels = stages::all<Float>();
+const SurfaceKernels surface_kernels = stages::all<Float, WideFloat>();
 
 }  // namespace zoneplate::scalar

@@ -51,7 +51,8 @@ struct Coordinates {
 
 /// The stages between the vertices and the colour; each acts on all of a batch's points, entry by entry.
 ///
-/// Requires  counts are multiples of 8, at most Points::capacity.
+/// Requires  counts are multiples of 8, at most Points::capacity; arrays have room up to the next multiple of
+///           Batch::most_lanes.
 struct SurfaceKernels {
   // Arithmetic on single arrays: out = in × factor + offset; values ×= by; out = value; values clamped to [0, 1].
   void (*scale)(float* out, const float* in, float factor, float offset, int count);

@@ -4,5 +4,5 @@
 #include "zoneplate/shade/surface_stages.h"
 
 namespace zoneplate {
-const SurfaceKernels SurfaceKernels::HWY_NAMESPACE = stages::all<HWY_NAMESPACE::Float>();
+const SurfaceKernels SurfaceKernels::HWY_NAMESPACE = stages::all<HWY_NAMESPACE::Float, HWY_NAMESPACE::WideFloat>();
 }  // namespace zoneplate

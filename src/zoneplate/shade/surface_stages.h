@@ -6,13 +6,13 @@
 namespace zoneplate::stages {
 
 /// The stages of shade/surface_kernels.h for one lane type of shade/lanes.h.
-template <class F>
+template <class F, class Wide>
 constexpr SurfaceKernels all() {
   return {
-      .scale = &scale<F>,
-      .multiply = &multiply<F>,
-      .fill = &fill<F>,
-      .saturate = &saturate<F>,
+      .scale = &scale<Wide>,
+      .multiply = &multiply<Wide>,
+      .fill = &fill<Wide>,
+      .saturate = &saturate<Wide>,
       .interpolate = &interpolate<F>,
       .map_coordinates = &map_coordinates<F>,
       .place_positions = &place_positions<F>,
@@ -21,9 +21,9 @@ constexpr SurfaceKernels all() {
       .find_normals = &find_normals<F>,
       .bend_normals = &bend_normals<F>,
       .default_normals = &default_normals<F>,
-      .light_phong = &light_phong<F>,
-      .light_metallic = &light_metallic<F>,
-      .unlit = &unlit<F>,
+      .light_phong = &light_phong<Wide>,
+      .light_metallic = &light_metallic<Wide>,
+      .unlit = &unlit<Wide>,
   };
 }
 

@@ -77,7 +77,12 @@ struct Outcome {
 std::unique_ptr<Outcome> shade(const Scene& scene, const Surroundings& surroundings, const Hand& hand) {
   auto outcome = std::make_unique<Outcome>();
   std::memset(static_cast<void*>(outcome.get()), 0, sizeof *outcome);
-  SurfaceShader(scene, surroundings).shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, outcome->shaded);
+  Shaded& shaded = outcome->shaded;
+  SurfaceShader(scene, surroundings).shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
+  // What lies behind the points means nothing.
+  float* const arrays = shaded.r;
+  for (std::size_t a = 0; a < sizeof shaded / (Batch::room * sizeof(float)); ++a)
+    std::fill(arrays + a * Batch::room + hand.batch.padded(), arrays + (a + 1) * Batch::room, 0.0f);
   return outcome;
 }
 
