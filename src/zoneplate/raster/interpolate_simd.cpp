@@ -11,13 +11,64 @@ namespace {
 
 using FloatTag = hn::CappedTag<float, 8>;
 using IntTag = hn::RebindToSigned<FloatTag>;
-using HalfInt = hn::Half<IntTag>;
-using HalfFloat = hn::Half<FloatTag>;
-using DoubleTag = hn::Rebind<double, HalfInt>;
 using F = hn::Vec<FloatTag>;
 using I = hn::Vec<IntTag>;
-using D = hn::Vec<DoubleTag>;
 constexpr int lanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+
+/// As many doubles as a vector has floats: in two vectors, or in one where that has 512 bits.
+struct Doubles {
+  using Tag = hn::CappedTag<double, static_cast<std::size_t>(lanes)>;
+  static constexpr int size = static_cast<int>(hn::MaxLanes(Tag())), parts = lanes / size;
+  hn::Vec<Tag> v[parts];
+
+  template <class Make>
+  static HWY_INLINE Doubles make(Make part) {
+    Doubles out;
+    for (int p = 0; p < parts; ++p) out.v[p] = part(p);
+    return out;
+  }
+  static HWY_INLINE Doubles all(double x) {
+    return make([&](int) HWY_ATTR { return hn::Set(Tag(), x); });
+  }
+  /// 0, 1, 2 ...
+  static HWY_INLINE Doubles steps() {
+    return make([&](int p) HWY_ATTR { return hn::Iota(Tag(), p * size); });
+  }
+  static HWY_INLINE Doubles load(const double* from) {
+    return make([&](int p) HWY_ATTR { return hn::Load(Tag(), from + p * size); });
+  }
+  HWY_INLINE void store(double* to) const {
+    for (int p = 0; p < parts; ++p) hn::Store(v[p], Tag(), to + p * size);
+  }
+  // What does not fit the vectors that there are is not compiled, for these are templates.
+  template <class Ints>
+  static HWY_INLINE Doubles of(Ints x) {
+    if constexpr (parts == 1) {
+      return {{hn::PromoteTo(Tag(), x)}};
+    } else {
+      const hn::Half<IntTag> half;
+      return {{hn::PromoteTo(Tag(), hn::LowerHalf(half, x)), hn::PromoteTo(Tag(), hn::UpperHalf(half, x))}};
+    }
+  }
+  template <class D = FloatTag>
+  HWY_INLINE F to_floats() const {
+    if constexpr (parts == 1) {
+      return hn::DemoteTo(D(), v[0]);
+    } else {
+      const hn::Half<D> half;
+      return combined(D(), hn::DemoteTo(half, v[1]), hn::DemoteTo(half, v[0]));
+    }
+  }
+  friend HWY_INLINE Doubles operator+(const Doubles& a, const Doubles& b) {
+    return make([&](int p) HWY_ATTR { return hn::Add(a.v[p], b.v[p]); });
+  }
+  friend HWY_INLINE Doubles operator-(const Doubles& a, const Doubles& b) {
+    return make([&](int p) HWY_ATTR { return hn::Sub(a.v[p], b.v[p]); });
+  }
+  friend HWY_INLINE Doubles operator*(const Doubles& a, const Doubles& b) {
+    return make([&](int p) HWY_ATTR { return hn::Mul(a.v[p], b.v[p]); });
+  }
+};
 
 /// One corner of the triangles of several points.
 struct Corner {
@@ -61,13 +112,6 @@ HWY_INLINE Corner turned_corners(const Vertices& v) {
           hn::BitCast(FloatTag(), hn::InterleaveUpper(d, zw01, zw23))};
 }
 
-HWY_INLINE D low(I v) { return hn::PromoteTo(DoubleTag(), hn::LowerHalf(HalfInt(), v)); }
-HWY_INLINE D high(I v) { return hn::PromoteTo(DoubleTag(), hn::UpperHalf(HalfInt(), v)); }
-
-HWY_INLINE F to_floats(D l, D h) {
-  return combined(FloatTag(), hn::DemoteTo(HalfFloat(), h), hn::DemoteTo(HalfFloat(), l));
-}
-
 /// The edge functions at points, and their sum or what has its sign.
 struct Edges {
   F e[3], sum;
@@ -93,20 +137,16 @@ HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
   const I far_x = hn::Or(hn::Or(beyond(dx[0]), beyond(dx[1])), beyond(dx[2]));
   const I far_y = hn::Or(hn::Or(beyond(dy[0]), beyond(dy[1])), beyond(dy[2]));
   if (hn::AllTrue(di, hn::Eq(hn::Or(far_x, far_y), hn::Zero(di)))) return near_edges_at(dx, dy);
-  const D xl[3] = {low(dx[0]), low(dx[1]), low(dx[2])}, xh[3] = {high(dx[0]), high(dx[1]), high(dx[2])};
-  const D yl[3] = {low(dy[0]), low(dy[1]), low(dy[2])}, yh[3] = {high(dy[0]), high(dy[1]), high(dy[2])};
-  D l[3], h[3];
-  for (int k = 0; k < 3; ++k) {
-    const int m = (k + 1) % 3, n = (k + 2) % 3;
-    l[k] = hn::Sub(hn::Mul(xl[m], yl[n]), hn::Mul(yl[m], xl[n]));
-    h[k] = hn::Sub(hn::Mul(xh[m], yh[n]), hn::Mul(yh[m], xh[n]));
-  }
-  return {{to_floats(l[0], h[0]), to_floats(l[1], h[1]), to_floats(l[2], h[2])},
-          to_floats(hn::Add(hn::Add(l[0], l[1]), l[2]), hn::Add(hn::Add(h[0], h[1]), h[2]))};
+  const Doubles x[3] = {Doubles::of(dx[0]), Doubles::of(dx[1]), Doubles::of(dx[2])};
+  const Doubles y[3] = {Doubles::of(dy[0]), Doubles::of(dy[1]), Doubles::of(dy[2])};
+  const auto edge = [&](int m, int n) HWY_ATTR { return x[m] * y[n] - y[m] * x[n]; };
+  const Doubles e[3] = {edge(1, 2), edge(2, 0), edge(0, 1)};
+  return {{e[0].to_floats(), e[1].to_floats(), e[2].to_floats()}, (e[0] + e[1] + e[2]).to_floats()};
 }
 
-HWY_INLINE F clamped(F b, F limit) {
-  const FloatTag d;
+template <class V>
+HWY_INLINE V clamped(V b, V limit) {
+  const hn::DFromV<V> d;
   return hn::Add(hn::Min(hn::Max(b, hn::Zero(d)), limit), hn::Zero(d));
 }
 
@@ -123,40 +163,44 @@ HWY_INLINE void store_front(const Edges& e, const std::int32_t* is_mirrored, std
 
 struct Screen {
   I centre_x, centre_y;
-  F step;
+  float step;
   bool has_slopes;
   Screen(Viewport viewport, float spacing)
       : centre_x(hn::Set(IntTag(), viewport.width * 128)),
         centre_y(hn::Set(IntTag(), viewport.height * 128)),
-        step(hn::Set(FloatTag(), 256.0f * spacing)),
+        step(256.0f * spacing),
         has_slopes(spacing != 0) {}
 };
 
 /// The weights of points, from their edge functions.
+template <class V>
 struct Weights {
-  F b1, b2, inverse;
+  V b1, b2, inverse;
 };
 
-HWY_INLINE Weights store_weights(F q1, F q2, F inverse, float* b1_out, float* b2_out) {
-  const FloatTag d;
-  const F one = hn::Set(d, 1.0f);
-  const F b1 = clamped(hn::Mul(q1, inverse), one), b2 = clamped(hn::Mul(q2, inverse), hn::Sub(one, b1));
-  hn::Store(b1, d, b1_out);
-  hn::Store(b2, d, b2_out);
+template <class V>
+HWY_INLINE Weights<V> store_weights(V q1, V q2, V inverse, float* b1_out, float* b2_out) {
+  const hn::DFromV<V> d;
+  const V one = hn::Set(d, 1.0f);
+  const V b1 = clamped(hn::Mul(q1, inverse), one), b2 = clamped(hn::Mul(q2, inverse), hn::Sub(one, b1));
+  hn::StoreU(b1, d, b1_out);
+  hn::StoreU(b2, d, b2_out);
   return {b1, b2, inverse};
 }
 
-HWY_INLINE F inverse_of(F sum) {
-  const FloatTag d;
-  const F one = hn::Set(d, 1.0f);
+template <class V>
+HWY_INLINE V inverse_of(V sum) {
+  const hn::DFromV<V> d;
+  const V one = hn::Set(d, 1.0f);
   return hn::Div(one, hn::IfThenElse(hn::Eq(sum, hn::Zero(d)), one, sum));
 }
 
 /// Slopes: those of q_1, q_2 and of the sum of all three.
-HWY_INLINE void store_slopes(const Weights& w, F by, F g1, F g2, F all, float* out1, float* out2) {
-  const FloatTag d;
-  hn::Store(hn::Mul(hn::Sub(g1, hn::Mul(w.b1, all)), by), d, out1);
-  hn::Store(hn::Mul(hn::Sub(g2, hn::Mul(w.b2, all)), by), d, out2);
+template <class V>
+HWY_INLINE void store_slopes(const Weights<V>& w, V by, V g1, V g2, V all, float* out1, float* out2) {
+  const hn::DFromV<V> d;
+  hn::StoreU(hn::Mul(hn::Sub(g1, hn::Mul(w.b1, all)), by), d, out1);
+  hn::StoreU(hn::Mul(hn::Sub(g2, hn::Mul(w.b2, all)), by), d, out2);
 }
 
 /// Points of several triangles, from i on; true if one of these needs clipping.
@@ -178,14 +222,14 @@ HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const
   const F q[3] = {hn::Mul(edges.e[0], inv_w[0]), hn::Mul(edges.e[1], inv_w[1]), hn::Mul(edges.e[2], inv_w[2])};
   F sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
   if (has_affine) sum = hn::IfThenElse(is_affine, edges.sum, sum);
-  const Weights w = store_weights(q[1], q[2], inverse_of(sum), batch.b[0] + i, batch.b[1] + i);
+  const Weights<F> w = store_weights(q[1], q[2], inverse_of(sum), batch.b[0] + i, batch.b[1] + i);
   if (screen.has_slopes) {
     const auto slope = [&](const I(&at)[3], int m, int n, int k)
                            HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), inv_w[k]); };
     const auto store = [&](F g0, F g1, F g2, float(&out)[2][Batch::room]) HWY_ATTR {
       F all = hn::Add(hn::Add(g0, g1), g2);
       if (has_affine) all = hn::IfThenZeroElse(is_affine, all);
-      store_slopes(w, hn::Mul(w.inverse, screen.step), g1, g2, all, out[0] + i, out[1] + i);
+      store_slopes(w, hn::Mul(w.inverse, hn::Set(d, screen.step)), g1, g2, all, out[0] + i, out[1] + i);
     };
     store(slope(dy, 1, 2, 0), slope(dy, 2, 0, 1), slope(dy, 0, 1, 2), batch.dbdx);
     store(slope(dx, 2, 1, 0), slope(dx, 0, 2, 1), slope(dx, 1, 0, 2), batch.dbdy);
@@ -197,7 +241,7 @@ HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const
 /// What the rows of one triangle have in common: E_k = a_k x + (b_k y + c_k), all of it exact, and the slopes of q_k.
 struct RowTriangle {
   double a[3] = {}, b[3] = {}, c[3] = {};
-  alignas(32) double way[3][lanes];  ///< a_k × the way from a vector's first pixel to each
+  alignas(64) double way[3][lanes];  ///< a_k × the way from a vector's first pixel to each
   float inv_w[3] = {}, gx[3] = {}, gy[3] = {}, sum_x = 0, sum_y = 0;
   float inverse = 0;  ///< of an affine triangle, of the sum of the E_k
   std::int32_t is_clockwise = 0;
@@ -212,8 +256,7 @@ struct RowTriangle {
     }
     is_affine = !needs_clipping && inv_w[0] == inv_w[1] && inv_w[1] == inv_w[2];
     if (is_affine) inv_w[0] = inv_w[1] = inv_w[2] = 1;
-    const DoubleTag dd;
-    const D steps = hn::Mul(hn::Iota(dd, 0.0), hn::Set(dd, 256.0));
+    const Doubles steps = Doubles::steps() * Doubles::all(256);
     for (int k = 0; k < 3; ++k) {
       const ScreenVertex &m = *vertex[(k + 1) % 3], &n = *vertex[(k + 2) % 3];
       a[k] = static_cast<double>(m.y - n.y);
@@ -221,8 +264,7 @@ struct RowTriangle {
       c[k] = static_cast<double>(m.x) * static_cast<double>(n.y) - static_cast<double>(m.y) * static_cast<double>(n.x);
       gx[k] = static_cast<float>(m.y - n.y) * inv_w[k];
       gy[k] = static_cast<float>(n.x - m.x) * inv_w[k];
-      hn::Store(hn::Mul(hn::Set(dd, a[k]), steps), dd, way[k]);
-      hn::Store(hn::Mul(hn::Set(dd, a[k]), hn::Add(steps, hn::Set(dd, 128.0 * lanes))), dd, way[k] + lanes / 2);
+      (Doubles::all(a[k]) * steps).store(way[k]);
     }
     const double area = (c[0] + c[1]) + c[2];
     is_clockwise = area > 0 ? 1 : 0;
@@ -234,18 +276,16 @@ struct RowTriangle {
 
 /// Edge function k at the points from i on of the group that begins at `first`.
 HWY_INLINE F edge_of_row(const RowTriangle& t, int k, Viewport viewport, const Batch& batch, int first, int i) {
-  const DoubleTag d;
   const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
   const double px = static_cast<double>(batch.x[first] - viewport.width * 128 + (i - first) * 256);
-  const D at = hn::Set(d, t.a[k] * px + (t.b[k] * py + t.c[k]));
-  return to_floats(hn::Add(at, hn::Load(d, t.way[k])), hn::Add(at, hn::Load(d, t.way[k] + lanes / 2)));
+  return (Doubles::all(t.a[k] * px + (t.b[k] * py + t.c[k])) + Doubles::load(t.way[k])).to_floats();
 }
 
 /// The groups from `first` to `last` of an affine triangle.
 HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& screen, Viewport viewport, Batch& batch,
                                        int first, int last) {
   const FloatTag d;
-  const F inverse = hn::Set(d, t.inverse), by = hn::Mul(inverse, screen.step);
+  const F inverse = hn::Set(d, t.inverse), by = hn::Mul(inverse, hn::Set(FloatTag(), screen.step));
   const auto slope = [&](float g) HWY_ATTR { return hn::Mul(hn::Set(d, g), by); };
   const F dx1 = slope(t.gx[1]), dx2 = slope(t.gx[2]), dy1 = slope(t.gy[1]), dy2 = slope(t.gy[2]);
   for (int group = first; group < last; group += Batch::group)
@@ -260,21 +300,42 @@ HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& scree
 
 /// The slopes of q_1, q_2 and of all three, the same at all points.
 struct RunSlopes {
-  F gx[2], gy[2], all_x, all_y;
+  float gx[2], gy[2], all_x, all_y;
 };
 
-/// Points [first, last) from their q_1 and q_2, which stand in b, and their sum.
+/// Points from i on as long as they are a vector, of those before `last`, from their q_1 and q_2, which stand in b, and
+/// their sum. Gives the point after them.
+template <class Tag>
+HWY_INLINE int finish_vectors(Tag d, const RunSlopes& t, const Screen& screen, const float* sum, Batch& batch, int i,
+                              int last) {
+  using V = hn::Vec<Tag>;
+  constexpr int size = static_cast<int>(hn::MaxLanes(Tag()));
+  const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
+  const V gx0 = same(t.gx[0]), gx1 = same(t.gx[1]), all_x = same(t.all_x);
+  const V gy0 = same(t.gy[0]), gy1 = same(t.gy[1]), all_y = same(t.all_y), step = same(screen.step);
+  const bool has_slopes = screen.has_slopes;
+  for (; i + size <= last; i += size) {
+    float *const b1 = batch.b[0] + i, *const b2 = batch.b[1] + i;
+    const Weights<V> w = store_weights(hn::LoadU(d, b1), hn::LoadU(d, b2), inverse_of(hn::LoadU(d, sum + i)), b1, b2);
+    if (!has_slopes) continue;
+    const V by = hn::Mul(w.inverse, step);
+    store_slopes(w, by, gx0, gx1, all_x, batch.dbdx[0] + i, batch.dbdx[1] + i);
+    store_slopes(w, by, gy0, gy1, all_y, batch.dbdy[0] + i, batch.dbdy[1] + i);
+  }
+  return i;
+}
+
+/// Points [first, last).
 HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float* sum, Batch& batch, int first,
                            int last) {
   const FloatTag d;
-  for (int i = first; i < last; i += lanes) {
-    float *const b1 = batch.b[0] + i, *const b2 = batch.b[1] + i;
-    const Weights w = store_weights(hn::Load(d, b1), hn::Load(d, b2), inverse_of(hn::Load(d, sum + i)), b1, b2);
-    if (!screen.has_slopes) continue;
-    const F by = hn::Mul(w.inverse, screen.step);
-    store_slopes(w, by, t.gx[0], t.gx[1], t.all_x, batch.dbdx[0] + i, batch.dbdx[1] + i);
-    store_slopes(w, by, t.gy[0], t.gy[1], t.all_y, batch.dbdy[0] + i, batch.dbdy[1] + i);
-  }
+  const hn::CappedTag<float, 16> wide;
+  // Vectors of two groups begin at every second.
+  constexpr int step = static_cast<int>(hn::MaxLanes(wide));
+  int i = first;
+  if (first % step != 0) i = finish_vectors(d, t, screen, sum, batch, i, first + Batch::group);
+  i = finish_vectors(wide, t, screen, sum, batch, i, last);
+  if (i < last) finish_vectors(d, t, screen, sum, batch, i, last);
 }
 
 /// The same of another. In two steps, because both are long chains of operations that wait for each other.
@@ -290,8 +351,7 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
       hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
       hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
     }
-  finish_run({{same(t.gx[1]), same(t.gx[2])}, {same(t.gy[1]), same(t.gy[2])}, same(t.sum_x), same(t.sum_y)}, screen,
-             sum, batch, first, last);
+  finish_run({{t.gx[1], t.gx[2]}, {t.gy[1], t.gy[2]}, t.sum_x, t.sum_y}, screen, sum, batch, first, last);
 }
 
 /// x and y of all points from those of each group's first.
@@ -356,34 +416,27 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   return clipped;
 }
 
-/// x px + (y py + one), rounded once. The planes of eight points, or of all.
-HWY_INLINE F plane_at(D x_low, D x_high, D y_low, D y_high, D one_low, D one_high, I px, I py) {
-  const D l = hn::Add(hn::Mul(x_low, low(px)), hn::Add(hn::Mul(y_low, low(py)), one_low));
-  const D h = hn::Add(hn::Mul(x_high, high(px)), hn::Add(hn::Mul(y_high, high(py)), one_high));
-  return to_floats(l, h);
+/// x px + (y py + one), rounded once. The planes of some points, or of all.
+HWY_INLINE F plane_at(const Doubles& x, const Doubles& y, const Doubles& one, I px, I py) {
+  return (x * Doubles::of(px) + (y * Doubles::of(py) + one)).to_floats();
 }
 
 void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
-  const DoubleTag dd;
   const IntTag di;
   const Screen screen(viewport, spacing);
-  constexpr int half = lanes / 2;
   for (int i = 0; i < Batch::group; i += lanes) {
     const I px = hn::Sub(hn::Load(di, g.px + i), screen.centre_x),
             py = hn::Sub(hn::Load(di, g.py + i), screen.centre_y);
-    const auto both = [&](const double* p)
-                          HWY_ATTR { return to_floats(hn::Load(dd, p + i), hn::Load(dd, p + i + half)); };
     F q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
-      q[k] = plane_at(hn::Load(dd, g.x[k] + i), hn::Load(dd, g.x[k] + i + half), hn::Load(dd, g.y[k] + i),
-                      hn::Load(dd, g.y[k] + i + half), hn::Load(dd, g.one[k] + i), hn::Load(dd, g.one[k] + i + half),
-                      px, py);
-      gx[k] = both(g.x[k]), gy[k] = both(g.y[k]);
+      const Doubles x = Doubles::load(g.x[k] + i), y = Doubles::load(g.y[k] + i);
+      q[k] = plane_at(x, y, Doubles::load(g.one[k] + i), px, py);
+      gx[k] = x.to_floats(), gy[k] = y.to_floats();
     }
     const F inverse = inverse_of(hn::Add(hn::Add(q[0], q[1]), q[2]));
-    const Weights w = store_weights(q[1], q[2], inverse, g.b[0] + i, g.b[1] + i);
+    const Weights<F> w = store_weights(q[1], q[2], inverse, g.b[0] + i, g.b[1] + i);
     if (!screen.has_slopes) continue;
-    const F by = hn::Mul(inverse, screen.step);
+    const F by = hn::Mul(inverse, hn::Set(FloatTag(), screen.step));
     store_slopes(w, by, gx[1], gx[2], hn::Add(hn::Add(gx[0], gx[1]), gx[2]), g.dbdx[0] + i, g.dbdx[1] + i);
     store_slopes(w, by, gy[1], gy[2], hn::Add(hn::Add(gy[0], gy[1]), gy[2]), g.dbdy[0] + i, g.dbdy[1] + i);
   }
@@ -392,26 +445,25 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
 void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
                               int first, int last) {
   const FloatTag d;
-  const DoubleTag dd;
   const IntTag di;
   const Screen screen(viewport, spacing);
-  D x[3], y[3], one[3];
-  F gx[3], gy[3];
+  Doubles x[3], y[3], one[3];
+  float gx[3], gy[3];
   for (int k = 0; k < 3; ++k) {
-    x[k] = hn::Set(dd, planes.x[k]), y[k] = hn::Set(dd, planes.y[k]), one[k] = hn::Set(dd, planes.one[k]);
-    gx[k] = to_floats(x[k], x[k]), gy[k] = to_floats(y[k], y[k]);
+    x[k] = Doubles::all(planes.x[k]), y[k] = Doubles::all(planes.y[k]), one[k] = Doubles::all(planes.one[k]);
+    gx[k] = static_cast<float>(planes.x[k]), gy[k] = static_cast<float>(planes.y[k]);
   }
   alignas(64) float sum[Batch::room];
   for (int i = first; i < last; i += lanes) {
     const I px = hn::Sub(hn::Load(di, batch.x + i), screen.centre_x);
     const I py = hn::Sub(hn::Load(di, batch.y + i), screen.centre_y);
     F q[3];
-    for (int k = 0; k < 3; ++k) q[k] = plane_at(x[k], x[k], y[k], y[k], one[k], one[k], px, py);
+    for (int k = 0; k < 3; ++k) q[k] = plane_at(x[k], y[k], one[k], px, py);
     hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
     hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
   }
-  const auto all = [&](const F(&g)[3]) HWY_ATTR { return hn::Add(hn::Add(g[0], g[1]), g[2]); };
-  finish_run({{gx[1], gx[2]}, {gy[1], gy[2]}, all(gx), all(gy)}, screen, sum, batch, first, last);
+  finish_run({{gx[1], gx[2]}, {gy[1], gy[2]}, (gx[0] + gx[1]) + gx[2], (gy[0] + gy[1]) + gy[2]}, screen, sum, batch,
+             first, last);
 }
 
 }  // namespace

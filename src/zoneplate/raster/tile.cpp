@@ -164,10 +164,9 @@ PointRow TileRenderer::row_at(std::uint32_t pixel, std::int32_t id) const {
 void TileRenderer::add_block_of_rows(int block, std::int32_t id) {
   const int first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
   PointRow row = row_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
-  PointRow rows[8];
-  PointRow* end = rows;
-  for (int y = first; y < last; ++y, row.y += 256, row.pixel += tile_size) *end++ = row;
-  rows_.insert(rows_.end(), rows, end);
+  const std::size_t count = rows_.size();
+  rows_.resize(count + static_cast<std::size_t>(last - first));
+  for (std::size_t i = count; i < rows_.size(); ++i, row.y += 256, row.pixel += tile_size) rows_[i] = row;
 }
 
 void TileRenderer::find_rows_of(int block) {
