@@ -13,8 +13,13 @@ HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
   using T = hn::TFromD<D>;
 #if HWY_TARGET <= HWY_AVX3
-  if constexpr (sizeof(hn::Vec<D>) == 64 && !hwy::IsFloat<T>())
-    return hn::Vec<D>{_mm512_inserti64x4(_mm512_castsi256_si512(lower.raw), upper.raw, 1)};
+  if constexpr (sizeof(hn::Vec<D>) == 64) {
+    if constexpr (hwy::IsSame<T, float>()) {
+      return hn::Vec<D>{_mm512_insertf32x8(_mm512_castps256_ps512(lower.raw), upper.raw, 1)};
+    } else if constexpr (!hwy::IsFloat<T>()) {
+      return hn::Vec<D>{_mm512_inserti64x4(_mm512_castsi256_si512(lower.raw), upper.raw, 1)};
+    }
+  }
 #endif
   if constexpr (sizeof(hn::Vec<D>) == 32) {
     if constexpr (hwy::IsSame<T, float>()) {

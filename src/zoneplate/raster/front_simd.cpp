@@ -53,7 +53,7 @@ class Front {
 
  private:
   HWY_INLINE void list(MI mask, VI number, std::int32_t* to, std::int32_t& count) {
-    const Packing packing(mask);
+    const Packing<I> packing(mask);
     packing.store(number, to + count);
     count += packing.count();
   }
@@ -89,7 +89,7 @@ class Front {
     if (hn::AllFalse(i32, small)) return;
     result_.drawn += hn::CountTrue(i32, small);
     if (run_.sample_count == 1 && cover(c, e, width, height, hn::Abs(area), small)) return;
-    waiting_.add(c, Packing(small));
+    waiting_.add(c, Packing<I>(small));
     if (waiting_.count >= Waiting::enough) draw_waiting(false);
   }
 
@@ -151,7 +151,7 @@ class Front {
       const VI place = exponent_of(hn::Xor(bits, rest));
       const VI x = hn::Add(px, hn::And(hn::ShiftLeft<8>(place), step));
       const VI y = hn::Add(py, hn::And(hn::ShiftLeft<6>(place), step));
-      samples_.add(c, x, y, Packing(mask));
+      samples_.add(c, x, y, Packing<I>(mask));
       bits = rest;
     }
   }
@@ -190,9 +190,7 @@ class Front {
     r.store_edge<1>(c, t);
     r.store_edge<2>(c, t);
     r.store_rest(c, e, t);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(i32, mask, bits);
-    for (std::uint32_t left = bits[0]; left; left &= left - 1)
+    for (std::uint32_t left = bits_of(i32, mask); left; left &= left - 1)
       r.copy(__builtin_ctz(left), run_.records[result_.kept_count++]);
   }
 

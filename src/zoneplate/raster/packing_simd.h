@@ -10,6 +10,39 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+
+/// The lanes of a mask, a bit each.
+template <class D>
+HWY_INLINE std::uint32_t bits_of(D, hn::Mask<D> mask) {
+  return mask.raw;
+}
+
+/// Moves the lanes of a mask of words to the front. Whole vectors are stored.
+template <class D>
+class Packing {
+ public:
+  HWY_INLINE explicit Packing(hn::Mask<D> mask) : mask_(mask) {}
+  HWY_INLINE void store(hn::Vec<D> v, std::int32_t* to) const { hn::StoreU(hn::Compress(v, mask_), D(), to); }
+  HWY_INLINE void store(hn::Vec<hn::Rebind<float, D>> v, float* to) const {
+    store(hn::BitCast(D(), v), reinterpret_cast<std::int32_t*>(to));
+  }
+  HWY_INLINE std::int32_t count() const { return __builtin_popcount(bits_of(D(), mask_)); }
+
+ private:
+  hn::Mask<D> mask_;
+};
+
+#else
+
+/// The lanes of a mask, a bit each.
+template <class D>
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
 /// For every mask of lanes: the lanes that are set, in order, then the others. (Highway's own table is copied to the
 /// stack at each use by GCC 12.)
 struct Orders {
@@ -28,32 +61,27 @@ constexpr Orders make_orders() {
 }
 constexpr Orders orders = make_orders();
 
-/// Moves the lanes of a mask to the front. Whole vectors are stored.
+/// Moves the lanes of a mask of words to the front. Whole vectors are stored.
+template <class D>
 class Packing {
-  using I = hn::CappedTag<std::int32_t, 8>;
-  static constexpr I i32{};
-
  public:
-  HWY_INLINE explicit Packing(hn::Mask<I> mask) : bits_(bits_of(mask)), order_(order_of(bits_)) {}
-  HWY_INLINE void store(hn::Vec<I> v, std::int32_t* to) const { hn::StoreU(hn::TableLookupLanes(v, order_), i32, to); }
-  HWY_INLINE void store(hn::Vec<hn::Rebind<float, I>> v, float* to) const {
-    store(hn::BitCast(i32, v), reinterpret_cast<std::int32_t*>(to));
+  HWY_INLINE explicit Packing(hn::Mask<D> mask) : bits_(bits_of(D(), mask)), order_(order_of(bits_)) {}
+  HWY_INLINE void store(hn::Vec<D> v, std::int32_t* to) const { hn::StoreU(hn::TableLookupLanes(v, order_), D(), to); }
+  HWY_INLINE void store(hn::Vec<hn::Rebind<float, D>> v, float* to) const {
+    store(hn::BitCast(D(), v), reinterpret_cast<std::int32_t*>(to));
   }
   HWY_INLINE std::int32_t count() const { return __builtin_popcount(bits_); }
 
  private:
-  static HWY_INLINE std::uint32_t bits_of(hn::Mask<I> mask) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(i32, mask, bits);
-    return bits[0];
-  }
-  static HWY_INLINE decltype(hn::IndicesFromVec(i32, hn::Zero(i32))) order_of(std::uint32_t bits) {
-    const hn::Rebind<std::uint8_t, I> bytes;
-    return hn::IndicesFromVec(i32, hn::PromoteTo(i32, hn::LoadU(bytes, orders.lane[bits])));
+  static HWY_INLINE decltype(hn::IndicesFromVec(D(), hn::Zero(D()))) order_of(std::uint32_t bits) {
+    const hn::Rebind<std::uint8_t, D> bytes;
+    return hn::IndicesFromVec(D(), hn::PromoteTo(D(), hn::LoadU(bytes, orders.lane[bits])));
   }
   std::uint32_t bits_;
-  decltype(hn::IndicesFromVec(i32, hn::Zero(i32))) order_;
+  decltype(hn::IndicesFromVec(D(), hn::Zero(D()))) order_;
 };
+
+#endif
 
 }  // namespace
 }  // namespace zoneplate::HWY_NAMESPACE

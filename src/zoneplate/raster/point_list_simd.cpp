@@ -104,7 +104,7 @@ class Pixels {
       out.count = count + lanes;
       return;
     }
-    const Packing packing(mask);
+    const Packing<I> packing(mask);
     packing.store(x, out.x + count), packing.store(y, out.y + count);
     packing.store(owner, out.id + count), packing.store(at, to);
     out.count = count + packing.count();

@@ -82,47 +82,47 @@ void PointBatcher::put_triangle(std::size_t i, std::int32_t id) {
   const Draw& draw = *known_.draw;
   const auto local = static_cast<std::size_t>(id - known_.begin);
   const std::uint32_t* v = &draw.index[3 * local];
-  batch_.triangle[i] = static_cast<std::uint32_t>(id);
-  batch_.instance[i] = draw.instance;
+  batch_->triangle[i] = static_cast<std::uint32_t>(id);
+  batch_->instance[i] = draw.instance;
   corners_.is_mirrored[i] = draw.is_mirrored ? 1 : 0;
   for (std::size_t k = 0; k < 3; ++k) {
     corners_.vertex[k][i] = &known_.screen[v[k]];
     __builtin_prefetch(corners_.vertex[k][i]);
-    batch_.vertex[k][i] = draw.ends.empty() ? v[k] : draw.ends[local / 2 * 2 + std::min<std::size_t>(k, 1)];
+    batch_->vertex[k][i] = draw.ends.empty() ? v[k] : draw.ends[local / 2 * 2 + std::min<std::size_t>(k, 1)];
   }
 }
 
 void PointBatcher::fill(std::span<const Point> points, std::span<const std::uint32_t> numbers) {
   constexpr std::size_t ahead = 16;
-  batch_.count = static_cast<int>(numbers.size());
-  batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
-  batch_.one_instance = false;
+  batch_->count = static_cast<int>(numbers.size());
+  batch_->material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
+  batch_->one_instance = false;
   corners_.screen = nullptr;
-  std::fill(std::begin(batch_.one_triangle), std::end(batch_.one_triangle), false);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
+  std::fill(std::begin(batch_->one_triangle), std::end(batch_->one_triangle), false);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch_->padded()); ++i) {
     if (i + ahead < numbers.size()) fetch_ahead(points[numbers[i + ahead]].id);
     const Point& point = points[numbers[std::min(i, numbers.size() - 1)]];
     put_triangle(i, point.id);
-    batch_.x[i] = point.x, batch_.y[i] = point.y;
+    batch_->x[i] = point.x, batch_->y[i] = point.y;
   }
   interpolate();
 }
 
 void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers) {
-  batch_.count = static_cast<int>(numbers.size()) * Batch::group;
-  batch_.material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
-  batch_.one_instance = false;
+  batch_->count = static_cast<int>(numbers.size()) * Batch::group;
+  batch_->material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
+  batch_->one_instance = false;
   corners_.screen = nullptr;
-  std::fill_n(batch_.one_triangle, numbers.size(), true);
+  std::fill_n(batch_->one_triangle, numbers.size(), true);
   for (std::size_t first = 0, i = 0; first < numbers.size(); first = i) {
     const std::int32_t id = rows[numbers[first]].id;
     put_triangle(first * Batch::group, id);
     for (; i < numbers.size() && rows[numbers[i]].id == id; ++i) {
       const PointRow& row = rows[numbers[i]];
-      batch_.told_group[i] = static_cast<std::uint8_t>(first);
-      batch_.x[i * Batch::group] = row.x, batch_.y[i * Batch::group] = row.y;
+      batch_->told_group[i] = static_cast<std::uint8_t>(first);
+      batch_->x[i * Batch::group] = row.x, batch_->y[i * Batch::group] = row.y;
     }
-    batch_.run_end[first] = static_cast<std::uint8_t>(i);
+    batch_->run_end[first] = static_cast<std::uint8_t>(i);
   }
   interpolate();
 }
@@ -158,7 +158,7 @@ void PointBatcher::find_vertices(const PointList& list, std::size_t first) {
     if (i % 2 == 0 && first + i + ahead < total) ask_for_index(first + i + ahead);
     const std::uint32_t* const v = index + 3 * std::ptrdiff_t{list.id[first + i]};
     // The second vertex mostly lies beside one of the others.
-    for (std::size_t k = 0; k < 3; ++k) next_vertex_[k][i] = v[k];
+    for (std::size_t k = 0; k < 3; ++k) next_->vertex[k][i] = v[k];
     for (const std::uint32_t vertex : {v[0], v[2]}) {
       __builtin_prefetch(screen + vertex);
       __builtin_prefetch(memory + vertex * stride);
@@ -169,22 +169,24 @@ void PointBatcher::find_vertices(const PointList& list, std::size_t first) {
 /// Points of the draw that is known, whose vertices are found. Finds those of the next batch.
 void PointBatcher::fill(const PointList& list, std::size_t first, std::size_t count) {
   const Draw& draw = *known_.draw;
-  batch_.count = static_cast<int>(count);
-  batch_.material = draw.material;
-  batch_.one_instance = true;
+  std::swap(batch_, next_);
+  batch_->count = static_cast<int>(count);
+  batch_->material = draw.material;
+  batch_->one_instance = true;
   corners_.screen = known_.screen;
-  const auto padded = static_cast<std::size_t>(batch_.padded());
-  std::fill_n(batch_.one_triangle, padded / Batch::group, false);
-  std::fill_n(batch_.instance, padded, draw.instance);
-  std::fill_n(corners_.is_mirrored, padded, draw.is_mirrored ? 1 : 0);
+  const auto padded = static_cast<std::size_t>(batch_->padded());
+  std::fill_n(batch_->one_triangle, padded / Batch::group, false);
+  // As many as are known when this is compiled: that is done in vectors.
+  std::fill_n(batch_->instance, Batch::capacity, draw.instance);
+  std::fill_n(corners_.is_mirrored, Batch::capacity, draw.is_mirrored ? 1 : 0);
   const auto copy = [&](const auto* from, auto* to) {
     std::memcpy(to, from, count * sizeof(*to));
     std::fill(to + count, to + padded, to[count - 1]);
   };
-  copy(list.x + first, batch_.x);
-  copy(list.y + first, batch_.y);
-  copy(list.id + first, batch_.triangle);
-  for (std::size_t k = 0; k < 3; ++k) copy(next_vertex_[k], batch_.vertex[k]);
+  copy(list.x + first, batch_->x);
+  copy(list.y + first, batch_->y);
+  copy(list.id + first, batch_->triangle);
+  for (std::uint32_t(&v)[Batch::room] : batch_->vertex) std::fill(v + count, v + padded, v[count - 1]);
   if (first + count < static_cast<std::size_t>(list.count)) find_vertices(list, first + count);
   interpolate();
 }
@@ -208,7 +210,7 @@ void PointBatcher::shade_mixed(const PointList& list) {
   for (std::size_t i = 0; i < total; ++i) mixed_.push_back({list.x[i], list.y[i], list.id[i], 0, 0});
   unmixed_.resize((total + Batch::capacity - 1) / Batch::capacity);
   for_batches(mixed_, [&](std::span<const std::uint32_t> numbers) {
-    shader_.shade(batch_, {}, shaded_batch_);
+    shader_.shade(*batch_, {}, shaded_batch_);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       Shaded& to = unmixed_[numbers[i] / Batch::capacity];
       const std::size_t at = numbers[i] % Batch::capacity;
@@ -219,12 +221,12 @@ void PointBatcher::shade_mixed(const PointList& list) {
 }
 
 void PointBatcher::interpolate() {
-  const float spacing = shader_.wants_slopes(batch_.material) ? target_.spacing : 0.0f;
-  std::uint32_t clipped = interpolate_.interpolate(corners_, target_.viewport, spacing, batch_);
+  const float spacing = shader_.wants_slopes(batch_->material) ? target_.spacing : 0.0f;
+  std::uint32_t clipped = interpolate_.interpolate(corners_, target_.viewport, spacing, *batch_);
   while (clipped) {
     const int group = std::countr_zero(clipped);
     int last = group + 1;
-    if (batch_.one_triangle[group]) {
+    if (batch_->one_triangle[group]) {
       last = interpolate_clipped_rows(group, spacing);
     } else {
       interpolate_clipped(static_cast<std::size_t>(group), spacing);
@@ -254,11 +256,11 @@ std::int32_t PointBatcher::is_front(std::size_t told, const TriangleFacing& faci
 
 /// The points of the rows from a group on of one triangle, which needs clipping. Gives the group after them.
 int PointBatcher::interpolate_clipped_rows(int group, float spacing) {
-  const int last = batch_.run_end[group];
-  const std::size_t told = batch_.told(static_cast<std::size_t>(group) * Batch::group);
-  const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[told]));
-  batch_.is_front[told] = is_front(told, facing);
-  interpolate_.interpolate_clipped_rows(facing.planes, target_.viewport, spacing, batch_, group * Batch::group,
+  const int last = batch_->run_end[group];
+  const std::size_t told = batch_->told(static_cast<std::size_t>(group) * Batch::group);
+  const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_->triangle[told]));
+  batch_->is_front[told] = is_front(told, facing);
+  interpolate_.interpolate_clipped_rows(facing.planes, target_.viewport, spacing, *batch_, group * Batch::group,
                                         last * Batch::group);
   return last;
 }
@@ -269,27 +271,27 @@ void PointBatcher::interpolate_clipped(std::size_t group, float spacing) {
   bool is_clipped[Batch::group] = {};
   for (std::size_t i = 0; i < Batch::group; ++i) {
     for (std::size_t k = 0; k < 3; ++k)
-      is_clipped[i] = is_clipped[i] || corners_.of(k, first + i, batch_).needs_clipping();
+      is_clipped[i] = is_clipped[i] || corners_.of(k, first + i, *batch_).needs_clipping();
     if (!is_clipped[i]) continue;
-    const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_.triangle[first + i]));
+    const TriangleFacing& facing = know_clipped(static_cast<std::int32_t>(batch_->triangle[first + i]));
     put_planes(i, facing.planes);
-    batch_.is_front[first + i] = is_front(first + i, facing);
+    batch_->is_front[first + i] = is_front(first + i, facing);
   }
-  std::copy_n(batch_.x + first, Batch::group, clipped_.px);
-  std::copy_n(batch_.y + first, Batch::group, clipped_.py);
+  std::copy_n(batch_->x + first, Batch::group, clipped_.px);
+  std::copy_n(batch_->y + first, Batch::group, clipped_.py);
   interpolate_.interpolate_clipped(target_.viewport, spacing, clipped_);
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t i = 0; i < Batch::group; ++i) {
       if (!is_clipped[i]) continue;
-      batch_.b[k][first + i] = clipped_.b[k][i];
-      batch_.dbdx[k][first + i] = clipped_.dbdx[k][i], batch_.dbdy[k][first + i] = clipped_.dbdy[k][i];
+      batch_->b[k][first + i] = clipped_.b[k][i];
+      batch_->dbdx[k][first + i] = clipped_.dbdx[k][i], batch_->dbdy[k][first + i] = clipped_.dbdy[k][i];
     }
 }
 
 /// Of a line the weights of the quad's corners become those of its two ends.
 void PointBatcher::weigh_ends() {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch_.padded()); ++i) {
-    const auto id = static_cast<std::int32_t>(batch_.triangle[batch_.told(i)]);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch_->padded()); ++i) {
+    const auto id = static_cast<std::int32_t>(batch_->triangle[batch_->told(i)]);
     find_draw(id);
     const Draw& d = *known_.draw;
     if (d.ends.empty()) continue;
@@ -300,7 +302,7 @@ void PointBatcher::weigh_ends() {
       b[0][i] = (first * share[0] + b[0][i] * share[1]) + b[1][i] * share[2];
       b[1][i] = 0;
     };
-    weigh(batch_.b, 1), weigh(batch_.dbdx, 0), weigh(batch_.dbdy, 0);
+    weigh(batch_->b, 1), weigh(batch_->dbdx, 0), weigh(batch_->dbdy, 0);
   }
 }
 
@@ -313,7 +315,7 @@ void PointBatcher::shade(std::span<const Point> points, std::vector<Linear>& col
   if (wanted.uv) data->uv.resize(points.size());
   if (wanted.albedo) data->albedo.resize(points.size());
   for_batches(points, [&](std::span<const std::uint32_t> numbers) {
-    shader_.shade(batch_, wanted, shaded_batch_);
+    shader_.shade(*batch_, wanted, shaded_batch_);
     const Shaded& s = shaded_batch_;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::uint32_t at = numbers[i];
@@ -330,7 +332,7 @@ void PointBatcher::test_alpha(std::span<const Point> points, std::vector<std::ui
   is_there.resize(points.size());
   for_batches(points, [&](std::span<const std::uint32_t> numbers) {
     alignas(64) float alpha[Batch::room];
-    const float cutoff = shader_.alpha(batch_, alpha);
+    const float cutoff = shader_.alpha(*batch_, alpha);
     for (std::size_t i = 0; i < numbers.size(); ++i) is_there[numbers[i]] = alpha[i] >= cutoff;
   });
 }

@@ -113,9 +113,9 @@ class PointBatcher {
   int one_material_ = 0;                         ///< of a list of one
   Known known_;
   KnownClipped known_clipped_;
-  PointShader::VertexMemory vertex_memory_;                    ///< of the list's draw
-  alignas(64) std::uint32_t next_vertex_[3][Batch::capacity];  ///< of the list's next batch
-  Batch batch_;
+  PointShader::VertexMemory vertex_memory_;  ///< of the list's draw
+  Batch batches_[2];
+  Batch *batch_ = &batches_[0], *next_ = &batches_[1];  ///< of a list the next one's vertices are known
   BatchCorners corners_{};
   ClippedGroup clipped_{};
   Shaded shaded_batch_;
@@ -131,7 +131,7 @@ void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
     const std::size_t count = same_material(order, first, Batch::capacity / Batch::group);
     const auto numbers = order.subspan(first, count);
     fill(rows, numbers);
-    shader_.shade(batch_, {}, shaded_batch_);
+    shader_.shade(*batch_, {}, shaded_batch_);
     use(numbers, shaded_batch_);
     first += count;
   }
@@ -147,7 +147,7 @@ void PointBatcher::shade(const PointList& list, Use use) {
     for (std::size_t first = 0; first < total; first += capacity) {
       const std::size_t count = std::min(capacity, total - first);
       fill(list, first, count);
-      shader_.shade(batch_, {}, shaded_batch_);
+      shader_.shade(*batch_, {}, shaded_batch_);
       use(shaded_batch_, first, count);
     }
     return;
@@ -171,7 +171,7 @@ void PointBatcher::shade_in_order(std::span<const PointRow> rows, Use use) {
     };
     while (first + count < rows.size() && count < most && is_alike(first + count)) ++count;
     fill(rows, std::span<const std::uint32_t>(as_is_).subspan(first, count));
-    shader_.shade(batch_, {}, shaded_batch_);
+    shader_.shade(*batch_, {}, shaded_batch_);
     use(shaded_batch_, first, count);
     first += count;
   }

@@ -36,7 +36,7 @@ HWY_INLINE void project_lanes(D d, const float4x4& m, const float* p, Viewport v
 }
 
 void transform(const float4x4& m, const float3* p, std::size_t n, Viewport viewport, ScreenVertex* out) {
-  const hn::CappedTag<float, 8> wide;
+  const hn::CappedTag<float, 16> wide;
   const std::size_t lanes = hn::Lanes(wide);
   std::size_t i = 0;
   for (; i + lanes <= n; i += lanes) project_lanes(wide, m, &p[i].x, viewport, reinterpret_cast<float*>(out + i));

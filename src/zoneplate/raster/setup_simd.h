@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 // One triangle a lane.
-using F = hn::CappedTag<float, 8>;
+using F = hn::CappedTag<float, 16>;
 using I = hn::Rebind<std::int32_t, F>;
 using H = hn::Half<F>;
 using D = hn::Rebind<double, H>;
@@ -50,14 +50,20 @@ HWY_INLINE hn::Vec<hn::CappedTag<float, 4>> vertex(const ScreenVertex* screen, s
   return hn::LoadU(hn::CappedTag<float, 4>(), reinterpret_cast<const float*>(screen + i));
 }
 
-/// Vertex i, and beside it the one that is four triangles on where a vector has room for it.
+/// Vertex i, and beside it those that are four triangles on, eight and twelve, as far as a vector has room for them.
 template <class V>
 HWY_INLINE void load_row(const ScreenVertex* screen, const std::uint32_t* index, std::int32_t i, V& row) {
   const hn::DFromV<V> d;
-  if constexpr (hn::MaxLanes(d) == 8)
-    row = combined(d, vertex(screen, index[3 * i + 12]), vertex(screen, index[3 * i]));
-  else
+  if constexpr (hn::MaxLanes(d) == 4) {
     row = vertex(screen, index[3 * i]);
+  } else if constexpr (hn::MaxLanes(d) == 8) {
+    row = combined(d, vertex(screen, index[3 * i + 12]), vertex(screen, index[3 * i]));
+  } else {
+    hn::Vec<hn::Half<hn::DFromV<V>>> lower, upper;
+    load_row(screen, index, i, lower);
+    load_row(screen, index, i + 8, upper);
+    row = combined(d, upper, lower);
+  }
 }
 
 /// The vertices index[0], index[3], index[6] ..., by member.

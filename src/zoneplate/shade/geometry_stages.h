@@ -95,35 +95,39 @@ template <class F>
 }
 
 /// All quads of a vector of points of any triangles.
-template <class F>
-[[gnu::always_inline]] inline void interpolate_points(const Batch& batch, const Corners& corners,
+template <class F, class Records>
+[[gnu::always_inline]] inline void interpolate_points(const Batch& batch, const Records& records,
                                                       const Interpolation& what, int i, Points& p) {
-  const float* record[3][F::lanes];
-  for (int k = 0; k < 3; ++k) corners.find(batch, k, i, record[k]);
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
-    F v0[4], v1[4], v2[4];
-    F::load_quads(record[0], quad.place, v0);
-    F::load_quads(record[1], quad.place, v1);
-    F::load_quads(record[2], quad.place, v2);
+    F v[3][4];
+    for (int k = 0; k < 3; ++k) F::load_quads([&](int lane) { return records(k, i + lane) + quad.place; }, v[k]);
     for (int c = 0; c < 4; ++c)
       if (!quad.value[c].is_none())
-        store_float(batch, Linear<F>{v0[c], v1[c] - v0[c], v2[c] - v0[c]}, quad, c, i, i + F::lanes, p);
+        store_float(batch, Linear<F>{v[0][c], v[1][c] - v[0][c], v[2][c] - v[0][c]}, quad, c, i, i + F::lanes, p);
   }
 }
 
-template <class F>
-void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
+template <class F, class Records>
+[[gnu::always_inline]] inline void interpolate_all(const Batch& batch, const Corners& corners, const Records& records,
+                                                   const Interpolation& what, Points& p) {
   for (int i = 0; i < p.count;) {
     if (batch.one_triangle[i / Batch::group]) {
       const int end = batch.run_end[i / Batch::group] * Batch::group;
       for (int n = 0; n < what.quads; ++n) interpolate_run<F>(batch, corners, what.quad[n], i, end, p);
       i = end;
     } else {
-      interpolate_points<F>(batch, corners, what, i, p);
+      interpolate_points<F>(batch, records, what, i, p);
       i += F::lanes;
     }
   }
+}
+
+template <class F>
+void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
+  if (corners.first != nullptr)
+    return interpolate_all<F>(batch, corners, RecordsByVertex{batch, corners.first, corners.stride}, what, p);
+  interpolate_all<F>(batch, corners, RecordsByPoint{corners}, what, p);
 }
 
 template <class F>

@@ -65,9 +65,10 @@ struct Lane {
   static Lane load(const T* p) { return *p; }
   void store(T* p) const { *p = v; }
   static Lane gather(const T* table, Int i) { return table[i.v]; }
-  /// out[c]: the number at `place` + c of each lane's record.
-  static void load_quads(const float* const* record, int place, Lane (&out)[4]) {
-    for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(record[0][place + c]);
+  /// out[c]: of each lane's quad, which begins at at(lane), number c.
+  template <class At>
+  static void load_quads(const At& at, Lane (&out)[4]) {
+    for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(at(0)[c]);
   }
   friend Lane operator+(Lane a, Lane b) { return a.v + b.v; }
   friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }

@@ -65,13 +65,13 @@ struct IntVector {
   }
 };
 
-/// Four floats of a record; with eight lanes beside them those of the record four on.
-template <class D>
-HWY_INLINE hn::Vec<D> load_two_quads(D d, const float* const* record, int place) {
+/// A lane's quad; with eight lanes beside it that of the lane four on.
+template <class D, class At>
+HWY_INLINE hn::Vec<D> load_two_quads(D d, const At& at, int lane) {
   const hn::FixedTag<float, 4> quad;
-  const auto first = hn::LoadU(quad, record[0] + place);
+  const auto first = hn::LoadU(quad, at(lane));
   if constexpr (hn::MaxLanes(D()) == 8) {
-    return combined(d, hn::LoadU(quad, record[4] + place), first);
+    return combined(d, hn::LoadU(quad, at(lane + 4)), first);
   } else {
     return first;
   }
@@ -90,10 +90,11 @@ struct FloatVector {
   static HWY_INLINE Float load(const float* p) { return Float(hn::LoadU(FloatTag(), p)); }
   HWY_INLINE void store(float* p) const { hn::StoreU(v, FloatTag(), p); }
   static HWY_INLINE Float gather(const float* table, Int i) { return Float(hn::GatherIndex(FloatTag(), table, i.v)); }
-  static HWY_INLINE void load_quads(const float* const* record, int place, Float (&out)[4]) {
+  template <class At>
+  static HWY_INLINE void load_quads(const At& at, Float (&out)[4]) {
     const FloatTag d;
-    const auto r0 = load_two_quads(d, record, place), r1 = load_two_quads(d, record + 1, place);
-    const auto r2 = load_two_quads(d, record + 2, place), r3 = load_two_quads(d, record + 3, place);
+    const auto r0 = load_two_quads(d, at, 0), r1 = load_two_quads(d, at, 1);
+    const auto r2 = load_two_quads(d, at, 2), r3 = load_two_quads(d, at, 3);
     const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
     const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
     out[0].v = hn::InterleaveLower(d, xy02, xy13), out[1].v = hn::InterleaveUpper(d, xy02, xy13);

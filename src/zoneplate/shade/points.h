@@ -37,15 +37,20 @@ struct Corners {
   std::size_t stride = 0;
   const float* record[3][Batch::room];
   bool one_instance[Batch::groups];
+};
 
-  template <int lanes>
-  void find(const Batch& batch, int corner, int i, const float* (&out)[lanes]) const {
-    if (first != nullptr) {
-      for (int k = 0; k < lanes; ++k) out[k] = first + stride * batch.vertex[corner][i + k];
-    } else {
-      for (int k = 0; k < lanes; ++k) out[k] = record[corner][i + k];
-    }
-  }
+/// Finds the records of a batch's corners, of groups of several triangles: those that stand in one array by their
+/// vertices.
+struct RecordsByVertex {
+  const Batch& batch;
+  const float* first;
+  std::size_t stride;
+  const float* operator()(int corner, int i) const { return first + stride * batch.vertex[corner][i]; }
+};
+/// The same of others.
+struct RecordsByPoint {
+  const Corners& corners;
+  const float* operator()(int corner, int i) const { return corners.record[corner][i]; }
 };
 
 /// One placement of a mesh as kernels see it.
