@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -37,10 +38,18 @@ struct Bins {
 
     /// Empties the lists and makes them for that number of tiles.
     void clear(std::size_t tiles);
+    bool is_empty(std::size_t tile) const {
+      const auto& lists = this->tiles[tile];
+      return lists[0].empty() && lists[1].empty() && lists[2].empty() && fragments[tile] == nullptr;
+    }
   };
   std::vector<Worker> workers;
   std::uint64_t set_up = 0;  ///< triangles that survived culling and clipping
 
+  /// True if nothing touches a tile.
+  bool is_empty(std::size_t tile) const {
+    return std::all_of(workers.begin(), workers.end(), [&](const Worker& w) { return w.is_empty(tile); });
+  }
   std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 

@@ -51,6 +51,11 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
 
 void TileRenderer::render(std::size_t tile) {
   watch_.lap_ms();
+  if (wants_color_alone() && bins_.is_empty(tile)) {
+    write_background(tile);
+    times_.output += watch_.lap_ms();
+    return;
+  }
   gather(tile);
   if (is_plain()) return render_plain();
   sum_.assign(tile_pixels / 8, Linear8{});
@@ -99,12 +104,15 @@ void TileRenderer::sort_nearest_first(std::vector<const Triangle*>& list) {
   list.swap(sorted_);
 }
 
-bool TileRenderer::is_plain() const {
+bool TileRenderer::wants_color_alone() const {
   const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
                           target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.where && !target_.sample_triangle && !has_passes &&
-         !((target_.is_per_sample || target_.sample_color) && has_layers());
+  return !has_planes && !target_.where && !target_.sample_triangle && !has_passes;
+}
+
+bool TileRenderer::is_plain() const {
+  return wants_color_alone() && !((target_.is_per_sample || target_.sample_color) && has_layers());
 }
 
 void TileRenderer::begin_pass(int first_sample, int sample_count) {
@@ -115,7 +123,6 @@ void TileRenderer::begin_pass(int first_sample, int sample_count) {
 }
 
 void TileRenderer::render_plain() {
-  if (sources_[0].empty() && sources_[1].empty() && !has_layers() && !has_fragments()) return write_background();
   begin_pass(0, static_cast<int>(target_.samples.size()));
   // Found when first asked for: most pictures need neither, and new memory costs.
   if (target_.is_per_sample) sum_.resize(tile_pixels / 8);

@@ -63,12 +63,12 @@ class TileRenderer {
   void draw_fragments();
   bool opens_most_blocks();
   void open_blocks(const SampleFragments& part);
-  bool has_fragments() const;
   void draw_masked();
   void test_alpha();
   std::uint64_t rotated_samples(std::uint32_t pixel, int count) const;
 
-  /// True if the picture's colour is all that is wanted, and all of it can be had from the owners of the samples.
+  bool wants_color_alone() const;
+  /// True if that is so, and all of it can be had from the owners of the samples.
   bool is_plain() const;
   void render_plain();
   void find_rows();
@@ -100,7 +100,7 @@ class TileRenderer {
   void write_colors();
   template <class Pixel, class Make>
   void write_row(Plane<Pixel>& plane, int y, Make make);
-  void write_background();
+  void write_background(std::size_t tile);
 
   void find_points();
   void blend(int top, int bottom);

@@ -56,9 +56,4 @@ void TileRenderer::open_blocks(const SampleFragments& part) {
   }
 }
 
-bool TileRenderer::has_fragments() const {
-  return std::any_of(bins_.workers.begin(), bins_.workers.end(),
-                     [&](const Bins::Worker& worker) { return worker.fragments[tile_]; });
-}
-
 }  // namespace zoneplate

@@ -98,13 +98,23 @@ void TileRenderer::write_row(Plane<Pixel>& plane, int y, Make make) {
   if (right_ % 8 != 0 && (right_ / 8 != left_ / 8 || left_ % 8 == 0)) put_part(right_ / 8);
 }
 
-void TileRenderer::write_background() {
+/// Shows an empty tile, and those on its right as far as they are empty: memory likes long rows.
+void TileRenderer::write_background(std::size_t tile) {
   if (!target_.shown) return;
-  Rgba8 row[tile_size];
-  const auto count = static_cast<std::size_t>(right_ - left_);
-  std::fill_n(row, count, target_.presenter->background());
-  for (int y = top_; y < bottom_; ++y)
-    std::memcpy(&(*target_.shown)(tile_x_ + left_ - target_.x, tile_y_ + y - target_.y), row, count * sizeof(Rgba8));
+  const auto columns = static_cast<std::size_t>(bins_.columns);
+  if (tile % columns != 0 && bins_.is_empty(tile - 1)) return;
+  std::size_t end = tile + 1;
+  while (end % columns != 0 && bins_.is_empty(end)) ++end;
+
+  const auto at = [](int first, std::size_t number) { return (first + static_cast<int>(number)) * tile_size; };
+  const int left = std::max(at(bins_.first_column, tile % columns), target_.x);
+  const int right = std::min(at(bins_.first_column, tile % columns + (end - tile)), target_.x + target_.width);
+  const int y = at(bins_.first_row, tile / columns);
+  const int top = std::max(y, target_.y), bottom = std::min(y + tile_size, target_.y + target_.height);
+  const auto row = [&](int of) { return &(*target_.shown)(left - target_.x, of - target_.y); };
+  const auto count = static_cast<std::size_t>(right - left);
+  std::fill_n(row(top), count, target_.presenter->background());
+  for (int of = top + 1; of < bottom; ++of) std::memcpy(row(of), row(top), count * sizeof(Rgba8));
 }
 
 void TileRenderer::finish() {
