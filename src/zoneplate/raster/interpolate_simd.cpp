@@ -13,12 +13,19 @@ using FloatTag = hn::CappedTag<float, 8>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using F = hn::Vec<FloatTag>;
 using I = hn::Vec<IntTag>;
-constexpr int lanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 
-/// As many doubles as a vector has floats: in two vectors, or in one where that has 512 bits.
-struct Doubles {
-  using Tag = hn::CappedTag<double, static_cast<std::size_t>(lanes)>;
-  static constexpr int size = static_cast<int>(hn::MaxLanes(Tag())), parts = lanes / size;
+template <class D>
+constexpr int lanes_of = static_cast<int>(hn::MaxLanes(D()));
+template <class D>
+using IntsOf = hn::Vec<hn::RebindToSigned<D>>;
+constexpr int lanes = lanes_of<FloatTag>;
+
+/// As many doubles as a vector has floats: in two vectors, or in one where that has room for them.
+template <class D>
+struct DoublesOf {
+  using Doubles = DoublesOf;
+  using Tag = hn::CappedTag<double, hn::MaxLanes(D())>;
+  static constexpr int size = lanes_of<Tag>, parts = lanes_of<D> / size;
   hn::Vec<Tag> v[parts];
 
   template <class Make>
@@ -40,18 +47,15 @@ struct Doubles {
   HWY_INLINE void store(double* to) const {
     for (int p = 0; p < parts; ++p) hn::Store(v[p], Tag(), to + p * size);
   }
-  // What does not fit the vectors that there are is not compiled, for these are templates.
-  template <class Ints>
-  static HWY_INLINE Doubles of(Ints x) {
+  static HWY_INLINE Doubles of(IntsOf<D> x) {
     if constexpr (parts == 1) {
       return {{hn::PromoteTo(Tag(), x)}};
     } else {
-      const hn::Half<IntTag> half;
+      const hn::Half<hn::RebindToSigned<D>> half;
       return {{hn::PromoteTo(Tag(), hn::LowerHalf(half, x)), hn::PromoteTo(Tag(), hn::UpperHalf(half, x))}};
     }
   }
-  template <class D = FloatTag>
-  HWY_INLINE F to_floats() const {
+  HWY_INLINE hn::Vec<D> to_floats() const {
     if constexpr (parts == 1) {
       return hn::DemoteTo(D(), v[0]);
     } else {
@@ -70,10 +74,13 @@ struct Doubles {
   }
 };
 
+using Doubles = DoublesOf<FloatTag>;
+
 /// One corner of the triangles of several points.
+template <class D>
 struct Corner {
-  I x, y;
-  F inv_w;
+  IntsOf<D> x, y;
+  hn::Vec<D> inv_w;
 };
 
 /// The vertices of one corner, by address.
@@ -88,40 +95,41 @@ struct ByNumber {
   HWY_INLINE const ScreenVertex* operator[](int i) const { return screen + v[i]; }
 };
 
-/// Vertices i and i + 4 side by side, or vertex i where vectors have room for four lanes only.
+/// Vertices i, i + 4, i + 8 and i + 12 side by side, as far as a vector has room for them.
 template <class D, class Vertices>
-HWY_INLINE hn::Vec<D> two_vertices(D d, const Vertices& v, int i) {
+HWY_INLINE hn::Vec<D> several_vertices(D d, const Vertices& v, int i) {
   static_assert(sizeof(ScreenVertex) == 16);
-  const hn::FixedTag<std::int32_t, 4> block;
-  const auto first = hn::LoadU(block, reinterpret_cast<const std::int32_t*>(v[i]));
-  if constexpr (lanes == 8) {
-    return combined(d, hn::LoadU(block, reinterpret_cast<const std::int32_t*>(v[i + 4])), first);
+  if constexpr (lanes_of<D> == 4) {
+    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(v[i]));
   } else {
-    return first;
+    const hn::Half<D> half;
+    return combined(d, several_vertices(half, v, i + lanes_of<D> / 2), several_vertices(half, v, i));
   }
 }
 
-template <class Vertices>
-HWY_INLINE Corner turned_corners(const Vertices& v) {
-  const IntTag d;
-  const I v0 = two_vertices(d, v, 0), v1 = two_vertices(d, v, 1);
-  const I v2 = two_vertices(d, v, 2), v3 = two_vertices(d, v, 3);
-  const I xz01 = hn::InterleaveLower(d, v0, v2), xz23 = hn::InterleaveLower(d, v1, v3);
-  const I zw01 = hn::InterleaveUpper(d, v0, v2), zw23 = hn::InterleaveUpper(d, v1, v3);
+template <class D, class Vertices>
+HWY_INLINE Corner<D> turned_corners(const Vertices& v) {
+  const hn::RebindToSigned<D> d;
+  const auto v0 = several_vertices(d, v, 0), v1 = several_vertices(d, v, 1);
+  const auto v2 = several_vertices(d, v, 2), v3 = several_vertices(d, v, 3);
+  const auto xz01 = hn::InterleaveLower(d, v0, v2), xz23 = hn::InterleaveLower(d, v1, v3);
+  const auto zw01 = hn::InterleaveUpper(d, v0, v2), zw23 = hn::InterleaveUpper(d, v1, v3);
   return {hn::InterleaveLower(d, xz01, xz23), hn::InterleaveUpper(d, xz01, xz23),
-          hn::BitCast(FloatTag(), hn::InterleaveUpper(d, zw01, zw23))};
+          hn::BitCast(D(), hn::InterleaveUpper(d, zw01, zw23))};
 }
 
 /// The edge functions at points, and their sum or what has its sign.
+template <class D>
 struct Edges {
-  F e[3], sum;
+  hn::Vec<D> e[3], sum;
 };
 
-HWY_INLINE Edges near_edges_at(const I (&dx)[3], const I (&dy)[3]) {
-  const FloatTag d;
-  const F x[3] = {hn::ConvertTo(d, dx[0]), hn::ConvertTo(d, dx[1]), hn::ConvertTo(d, dx[2])};
-  const F y[3] = {hn::ConvertTo(d, dy[0]), hn::ConvertTo(d, dy[1]), hn::ConvertTo(d, dy[2])};
-  Edges out;
+template <class D>
+HWY_INLINE Edges<D> near_edges_at(const IntsOf<D> (&dx)[3], const IntsOf<D> (&dy)[3]) {
+  const D d;
+  const hn::Vec<D> x[3] = {hn::ConvertTo(d, dx[0]), hn::ConvertTo(d, dx[1]), hn::ConvertTo(d, dx[2])};
+  const hn::Vec<D> y[3] = {hn::ConvertTo(d, dy[0]), hn::ConvertTo(d, dy[1]), hn::ConvertTo(d, dy[2])};
+  Edges<D> out;
   for (int k = 0; k < 3; ++k) {
     const int m = (k + 1) % 3, n = (k + 2) % 3;
     out.e[k] = hn::Sub(hn::Mul(x[m], y[n]), hn::Mul(y[m], x[n]));
@@ -130,17 +138,19 @@ HWY_INLINE Edges near_edges_at(const I (&dx)[3], const I (&dy)[3]) {
   return out;
 }
 
-HWY_INLINE Edges edges_at(const I (&dx)[3], const I (&dy)[3]) {
+template <class D>
+HWY_INLINE Edges<D> edges_at(const IntsOf<D> (&dx)[3], const IntsOf<D> (&dy)[3]) {
   // Of corners that are near the point, less than 8 pixels, floats hold the products and their sums as exactly.
-  const IntTag di;
-  const auto beyond = [&](I v) HWY_ATTR { return hn::ShiftRight<11>(hn::Xor(v, hn::BroadcastSignBit(v))); };
-  const I far_x = hn::Or(hn::Or(beyond(dx[0]), beyond(dx[1])), beyond(dx[2]));
-  const I far_y = hn::Or(hn::Or(beyond(dy[0]), beyond(dy[1])), beyond(dy[2]));
-  if (hn::AllTrue(di, hn::Eq(hn::Or(far_x, far_y), hn::Zero(di)))) return near_edges_at(dx, dy);
-  const Doubles x[3] = {Doubles::of(dx[0]), Doubles::of(dx[1]), Doubles::of(dx[2])};
-  const Doubles y[3] = {Doubles::of(dy[0]), Doubles::of(dy[1]), Doubles::of(dy[2])};
+  const hn::RebindToSigned<D> di;
+  const auto beyond = [&](IntsOf<D> v) HWY_ATTR { return hn::ShiftRight<11>(hn::Xor(v, hn::BroadcastSignBit(v))); };
+  const auto far_x = hn::Or(hn::Or(beyond(dx[0]), beyond(dx[1])), beyond(dx[2]));
+  const auto far_y = hn::Or(hn::Or(beyond(dy[0]), beyond(dy[1])), beyond(dy[2]));
+  if (hn::AllTrue(di, hn::Eq(hn::Or(far_x, far_y), hn::Zero(di)))) return near_edges_at<D>(dx, dy);
+  using Many = DoublesOf<D>;
+  const Many x[3] = {Many::of(dx[0]), Many::of(dx[1]), Many::of(dx[2])};
+  const Many y[3] = {Many::of(dy[0]), Many::of(dy[1]), Many::of(dy[2])};
   const auto edge = [&](int m, int n) HWY_ATTR { return x[m] * y[n] - y[m] * x[n]; };
-  const Doubles e[3] = {edge(1, 2), edge(2, 0), edge(0, 1)};
+  const Many e[3] = {edge(1, 2), edge(2, 0), edge(0, 1)};
   return {{e[0].to_floats(), e[1].to_floats(), e[2].to_floats()}, (e[0] + e[1] + e[2]).to_floats()};
 }
 
@@ -151,25 +161,36 @@ HWY_INLINE V clamped(V b, V limit) {
 }
 
 /// is_front of triangles whose edge functions have these sums.
-HWY_INLINE void store_front(const Edges& e, const std::int32_t* is_mirrored, std::int32_t* out) {
+template <class D>
+HWY_INLINE void store_front(const Edges<D>& e, const std::int32_t* is_mirrored, std::int32_t* out) {
   // The sign of the sum survives the rounding to float.
-  const FloatTag d;
-  const IntTag di;
+  const D d;
+  const hn::RebindToSigned<D> di;
   const auto is_clockwise = hn::Gt(e.sum, hn::Zero(d));
-  const I clockwise = hn::IfThenElseZero(hn::RebindMask(di, is_clockwise), hn::Set(di, 1));
-  const auto is_front = hn::Eq(clockwise, hn::Load(di, is_mirrored));
-  hn::Store(hn::IfThenElseZero(is_front, hn::Set(di, 1)), di, out);
+  const auto clockwise = hn::IfThenElseZero(hn::RebindMask(di, is_clockwise), hn::Set(di, 1));
+  const auto is_front = hn::Eq(clockwise, hn::LoadU(di, is_mirrored));
+  hn::StoreU(hn::IfThenElseZero(is_front, hn::Set(di, 1)), di, out);
 }
 
 struct Screen {
-  I centre_x, centre_y;
+  std::int32_t centre_x, centre_y;
   float step;
   bool has_slopes;
   Screen(Viewport viewport, float spacing)
-      : centre_x(hn::Set(IntTag(), viewport.width * 128)),
-        centre_y(hn::Set(IntTag(), viewport.height * 128)),
+      : centre_x(viewport.width * 128),
+        centre_y(viewport.height * 128),
         step(256.0f * spacing),
         has_slopes(spacing != 0) {}
+
+  /// Places as they are told by the batch, from the picture's centre.
+  template <class DI>
+  HWY_INLINE hn::Vec<DI> x(DI d, const std::int32_t* from) const {
+    return hn::Sub(hn::LoadU(d, from), hn::Set(d, centre_x));
+  }
+  template <class DI>
+  HWY_INLINE hn::Vec<DI> y(DI d, const std::int32_t* from) const {
+    return hn::Sub(hn::LoadU(d, from), hn::Set(d, centre_y));
+  }
 };
 
 /// The weights of points, from their edge functions.
@@ -204,37 +225,39 @@ HWY_INLINE void store_slopes(const Weights<V>& w, V by, V g1, V g2, V all, float
 }
 
 /// Points of several triangles, from i on; true if one of these needs clipping.
-HWY_INLINE bool interpolate_at(const Corner (&c)[3], const Screen& screen, const BatchCorners& corners, Batch& batch,
+template <class D>
+HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, const BatchCorners& corners, Batch& batch,
                                int i) {
-  const FloatTag d;
-  const IntTag di;
-  const I px = hn::Sub(hn::Load(di, batch.x + i), screen.centre_x);
-  const I py = hn::Sub(hn::Load(di, batch.y + i), screen.centre_y);
-  const I dx[3] = {hn::Sub(c[0].x, px), hn::Sub(c[1].x, px), hn::Sub(c[2].x, px)};
-  const I dy[3] = {hn::Sub(c[0].y, py), hn::Sub(c[1].y, py), hn::Sub(c[2].y, py)};
-  const Edges edges = edges_at(dx, dy);
+  using V = hn::Vec<D>;
+  using Ints = IntsOf<D>;
+  const D d;
+  const hn::RebindToSigned<D> di;
+  const Ints px = screen.x(di, batch.x + i), py = screen.y(di, batch.y + i);
+  const Ints dx[3] = {hn::Sub(c[0].x, px), hn::Sub(c[1].x, px), hn::Sub(c[2].x, px)};
+  const Ints dy[3] = {hn::Sub(c[0].y, py), hn::Sub(c[1].y, py), hn::Sub(c[2].y, py)};
+  const Edges<D> edges = edges_at<D>(dx, dy);
   store_front(edges, corners.is_mirrored + i, batch.is_front + i);
-  F inv_w[3] = {c[0].inv_w, c[1].inv_w, c[2].inv_w};
+  V inv_w[3] = {c[0].inv_w, c[1].inv_w, c[2].inv_w};
   const auto is_affine = hn::And(hn::Eq(inv_w[0], inv_w[1]), hn::Eq(inv_w[1], inv_w[2]));
   const bool has_affine = !hn::AllFalse(d, is_affine);
   if (has_affine)
-    for (F& v : inv_w) v = hn::IfThenElse(is_affine, hn::Set(d, 1.0f), v);
-  const F q[3] = {hn::Mul(edges.e[0], inv_w[0]), hn::Mul(edges.e[1], inv_w[1]), hn::Mul(edges.e[2], inv_w[2])};
-  F sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
+    for (V& v : inv_w) v = hn::IfThenElse(is_affine, hn::Set(d, 1.0f), v);
+  const V q[3] = {hn::Mul(edges.e[0], inv_w[0]), hn::Mul(edges.e[1], inv_w[1]), hn::Mul(edges.e[2], inv_w[2])};
+  V sum = hn::Add(hn::Add(q[0], q[1]), q[2]);
   if (has_affine) sum = hn::IfThenElse(is_affine, edges.sum, sum);
-  const Weights<F> w = store_weights(q[1], q[2], inverse_of(sum), batch.b[0] + i, batch.b[1] + i);
+  const Weights<V> w = store_weights(q[1], q[2], inverse_of(sum), batch.b[0] + i, batch.b[1] + i);
   if (screen.has_slopes) {
-    const auto slope = [&](const I(&at)[3], int m, int n, int k)
+    const auto slope = [&](const Ints(&at)[3], int m, int n, int k)
                            HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), inv_w[k]); };
-    const auto store = [&](F g0, F g1, F g2, float(&out)[2][Batch::room]) HWY_ATTR {
-      F all = hn::Add(hn::Add(g0, g1), g2);
+    const auto store = [&](V g0, V g1, V g2, float(&out)[2][Batch::room]) HWY_ATTR {
+      V all = hn::Add(hn::Add(g0, g1), g2);
       if (has_affine) all = hn::IfThenZeroElse(is_affine, all);
       store_slopes(w, hn::Mul(w.inverse, hn::Set(d, screen.step)), g1, g2, all, out[0] + i, out[1] + i);
     };
     store(slope(dy, 1, 2, 0), slope(dy, 2, 0, 1), slope(dy, 0, 1, 2), batch.dbdx);
     store(slope(dx, 2, 1, 0), slope(dx, 0, 2, 1), slope(dx, 1, 0, 2), batch.dbdy);
   }
-  const F least = hn::Min(hn::Min(c[0].inv_w, c[1].inv_w), c[2].inv_w);
+  const V least = hn::Min(hn::Min(c[0].inv_w, c[1].inv_w), c[2].inv_w);
   return !hn::AllTrue(d, hn::Gt(least, hn::Zero(d)));
 }
 
@@ -384,18 +407,30 @@ bool interpolate_rows(const BatchCorners& corners, const Screen& screen, Viewpor
   return t.needs_clipping;
 }
 
-/// A group of points of several triangles; true if one of these needs clipping.
-bool interpolate_points(const BatchCorners& corners, const Screen& screen, Batch& batch, int first) {
+/// Points of several triangles in vectors; true if one of these needs clipping.
+template <class D>
+HWY_INLINE bool interpolate_vectors(const BatchCorners& corners, const Screen& screen, Batch& batch, int first,
+                                    int last) {
   bool is_clipped = false;
-  for (int i = first; i < first + Batch::group; i += lanes) {
-    Corner c[3];
+  for (int i = first; i < last; i += lanes_of<D>) {
+    Corner<D> c[3];
     for (int k = 0; k < 3; ++k)
-      c[k] = corners.screen ? turned_corners(ByNumber{corners.screen, batch.vertex[k] + i})
-                            : turned_corners(ByAddress{corners.vertex[k] + i});
-    is_clipped = interpolate_at(c, screen, corners, batch, i) || is_clipped;
+      c[k] = corners.screen ? turned_corners<D>(ByNumber{corners.screen, batch.vertex[k] + i})
+                            : turned_corners<D>(ByAddress{corners.vertex[k] + i});
+    is_clipped = interpolate_at<D>(c, screen, corners, batch, i) || is_clipped;
   }
-  batch.repeats_slopes[first / Batch::group] = false;
   return is_clipped;
+}
+
+/// The groups from `first` to `last` of points of several triangles, as many as a vector has or one; true if one of
+/// these needs clipping.
+bool interpolate_points(const BatchCorners& corners, const Screen& screen, Batch& batch, int first, int last) {
+  for (int g = first; g < last; ++g) batch.repeats_slopes[g] = false;
+  using Wide = hn::CappedTag<float, 16>;
+  const int begin = first * Batch::group, end = last * Batch::group;
+  if (lanes_of < Wide >> Batch::group && end - begin == lanes_of<Wide>)
+    return interpolate_vectors<Wide>(corners, screen, batch, begin, end);
+  return interpolate_vectors<FloatTag>(corners, screen, batch, begin, end);
 }
 
 std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
@@ -408,7 +443,8 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
     if (batch.one_triangle[first]) {
       is_clipped = interpolate_rows(corners, screen, viewport, batch, first * Batch::group, g * Batch::group);
     } else {
-      is_clipped = interpolate_points(corners, screen, batch, first * Batch::group);
+      if (g < groups && !batch.one_triangle[g]) ++g;
+      is_clipped = interpolate_points(corners, screen, batch, first, g);
     }
     if (is_clipped)
       for (int i = first; i < g; ++i) clipped |= 1u << i;
@@ -425,8 +461,7 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   const IntTag di;
   const Screen screen(viewport, spacing);
   for (int i = 0; i < Batch::group; i += lanes) {
-    const I px = hn::Sub(hn::Load(di, g.px + i), screen.centre_x),
-            py = hn::Sub(hn::Load(di, g.py + i), screen.centre_y);
+    const I px = screen.x(di, g.px + i), py = screen.y(di, g.py + i);
     F q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
       const Doubles x = Doubles::load(g.x[k] + i), y = Doubles::load(g.y[k] + i);
@@ -455,8 +490,7 @@ void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport
   }
   alignas(64) float sum[Batch::room];
   for (int i = first; i < last; i += lanes) {
-    const I px = hn::Sub(hn::Load(di, batch.x + i), screen.centre_x);
-    const I py = hn::Sub(hn::Load(di, batch.y + i), screen.centre_y);
+    const I px = screen.x(di, batch.x + i), py = screen.y(di, batch.y + i);
     F q[3];
     for (int k = 0; k < 3; ++k) q[k] = plane_at(x[k], y[k], one[k], px, py);
     hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);

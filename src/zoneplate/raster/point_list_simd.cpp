@@ -46,6 +46,29 @@ constexpr SampleBits sample_bits = make_sample_bits();
 
 HWY_INLINE VI bit_of(int s) { return hn::Load(i32, sample_bits.bit[s]); }
 
+/// The pixels of a row that are drawn, from one on.
+HWY_INLINE MI wanted_lanes(const OwnerRow& row, int first) {
+  alignas(64) static constexpr std::int32_t bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+  const VI wanted = set(static_cast<std::int32_t>(row.wanted >> first));
+  return hn::Ne(hn::And(wanted, hn::Load(i32, bits)), hn::Zero(i32));
+}
+
+/// Adds the points of those lanes.
+HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, PointList& out) {
+  const int count = out.count;
+  std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + count;
+  if (hn::AllTrue(i32, mask)) {
+    hn::StoreU(x, i32, out.x + count), hn::StoreU(y, i32, out.y + count);
+    hn::StoreU(owner, i32, out.id + count), hn::StoreU(at, i32, to);
+    out.count = count + lanes;
+    return;
+  }
+  const Packing<I> packing(mask);
+  packing.store(x, out.x + count), packing.store(y, out.y + count);
+  packing.store(owner, out.id + count), packing.store(at, to);
+  out.count = count + packing.count();
+}
+
 /// A vector's width of pixels.
 class Pixels {
  public:
@@ -58,9 +81,7 @@ class Pixels {
         x_(hn::Add(set(row.x + first * 256), hn::ShiftLeft<8>(hn::Iota(i32, 0)))),
         y_(set(row.y)),
         at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))),
-        listed_(hn::VecFromMask(
-            i32, hn::Eq(hn::And(hn::ShiftRightSame(set(static_cast<std::int32_t>(row.wanted)), first), bit_of_lane()),
-                        hn::Zero(i32)))) {}
+        listed_(hn::VecFromMask(i32, hn::Not(wanted_lanes(row, first)))) {}
 
   /// Lists the owners of sample s where it is the first that they own.
   HWY_INLINE void list(int s, PointList& out) {
@@ -85,35 +106,17 @@ class Pixels {
 
   /// Adds those of the mask.
   HWY_INLINE void put(MI mask, VI owner, const Owned& owned, PointList& out) const {
-    VI x = set(128), y = set(128);
-    if (samples_ > 1 || is_per_sample_) {
-      const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
-      const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
-      const VI all = set((1 << samples_) - 1), low = set(4095);
-      const MI is_centre = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
-      x = hn::IfThenElse(is_centre, x, mean(hn::And(owned.places, low), half, inverse));
-      y = hn::IfThenElse(is_centre, y, mean(hn::And(hn::ShiftRight<12>(owned.places), low), half, inverse));
-    }
-    x = hn::Add(x_, x), y = hn::Add(y_, y);
-    const VI at = hn::Add(at_, hn::ShiftLeft<12>(owned.samples));
-    const int count = out.count;
-    std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + count;
-    if (hn::AllTrue(i32, mask)) {
-      hn::StoreU(x, i32, out.x + count), hn::StoreU(y, i32, out.y + count);
-      hn::StoreU(owner, i32, out.id + count), hn::StoreU(at, i32, to);
-      out.count = count + lanes;
-      return;
-    }
-    const Packing<I> packing(mask);
-    packing.store(x, out.x + count), packing.store(y, out.y + count);
-    packing.store(owner, out.id + count), packing.store(at, to);
-    out.count = count + packing.count();
+    const VI centre = set(128);
+    const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
+    const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
+    const VI all = set((1 << samples_) - 1), low = set(4095);
+    const MI is_centre = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
+    const VI x = hn::IfThenElse(is_centre, centre, mean(hn::And(owned.places, low), half, inverse));
+    const VI y = hn::IfThenElse(is_centre, centre, mean(hn::And(hn::ShiftRight<12>(owned.places), low), half, inverse));
+    HWY_NAMESPACE::put(mask, hn::Add(x_, x), hn::Add(y_, y), owner, hn::Add(at_, hn::ShiftLeft<12>(owned.samples)),
+                       out);
   }
 
-  static HWY_INLINE VI bit_of_lane() {
-    alignas(64) static constexpr std::int32_t bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
-    return hn::Load(i32, bits);
-  }
   const std::int32_t* id_;
   int samples_;
   bool is_per_sample_;
@@ -122,9 +125,21 @@ class Pixels {
   VI listed_;  ///< the samples whose owners are listed, or not wanted: a bit each
 };
 
+/// The one sample of each of a vector's width of pixels, at their centres.
+HWY_INLINE void list_centres(const OwnerRow& row, int first, PointList& out) {
+  const VI pixel = hn::Iota(i32, first), owner = hn::LoadU(i32, row.id + first);
+  const MI mask = hn::And(hn::Ne(owner, set(no_triangle)), wanted_lanes(row, first));
+  if (hn::AllFalse(i32, mask)) return;
+  const VI x = hn::Add(set(row.x + 128), hn::ShiftLeft<8>(pixel));
+  const VI at = hn::Add(set(static_cast<std::int32_t>(row.pixel) + (1 << 12)), pixel);
+  put(mask, x, set(row.y + 128), owner, at, out);
+}
+
 // Vectors of fewer than eight lanes keep the order of eight: by first samples, and of those by pixels.
 void list(const OwnerRow& row, PointList& out) {
-  if constexpr (lanes == Batch::group) {
+  if (row.sample_count == 1 && !row.is_per_sample) {
+    for (int first = 0; first < Batch::group; first += lanes) list_centres(row, first, out);
+  } else if constexpr (lanes == Batch::group) {
     Pixels pixels(row, 0);
     for (int s = 0; s < row.sample_count; ++s) pixels.list(s, out);
   } else {

@@ -153,13 +153,15 @@ void PointBatcher::find_vertices(const PointList& list, std::size_t first) {
   if (first == 0)
     for (std::size_t i = 0; i < std::min(ahead, total); ++i) ask_for_index(i);
   const std::size_t count = std::min<std::size_t>(Batch::capacity, total - first);
+  const std::int32_t* const id = list.id + first;
+  std::uint32_t *const v0 = next_->vertex[0], *const v1 = next_->vertex[1], *const v2 = next_->vertex[2];
   for (std::size_t i = 0; i < count; ++i) {
     // Neighbours mostly lie near each other; to ask for every second one's indices is enough.
     if (i % 2 == 0 && first + i + ahead < total) ask_for_index(first + i + ahead);
-    const std::uint32_t* const v = index + 3 * std::ptrdiff_t{list.id[first + i]};
+    const std::uint32_t* const v = index + 3 * std::ptrdiff_t{id[i]};
+    v0[i] = v[0], v1[i] = v[1], v2[i] = v[2];
     // The second vertex mostly lies beside one of the others.
-    for (std::size_t k = 0; k < 3; ++k) next_->vertex[k][i] = v[k];
-    for (const std::uint32_t vertex : {v[0], v[2]}) {
+    for (const std::uint32_t vertex : {v0[i], v2[i]}) {
       __builtin_prefetch(screen + vertex);
       __builtin_prefetch(memory + vertex * stride);
     }

@@ -180,8 +180,10 @@ void TileRenderer::find_rows_of(int block) {
   static constexpr Linear8 nothing{};
   const int x = block % 8 * 8, first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
   const bool is_whole = is_whole_row(block % 8), lists = lists_points();
-  for (int y = first; y < last; ++y) {
-    const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
+  OwnerRow row = owner_row_at(x, first);
+  if (row.wanted == 0) return;
+  for (int y = first; y < last; ++y, row.id += tile_size, row.pixel += tile_size, row.y += 256) {
+    const std::uint32_t pixel = row.pixel;
     const std::int32_t owner = row_owner_[pixel / 8];
     const bool is_row = owner != many_triangles && is_whole;
     if (owner == no_triangle) {
@@ -191,7 +193,7 @@ void TileRenderer::find_rows_of(int block) {
     } else if (is_row) {
       rows_.push_back(row_at(pixel, owner));
     } else if (lists) {
-      list_row(x, y);
+      list_row(row);
     } else {
       color_[pixel / 8] = nothing;
       for (int i = std::max(x, left_); i < std::min(x + 8, right_); ++i)

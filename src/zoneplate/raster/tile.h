@@ -80,7 +80,8 @@ class TileRenderer {
   void add_pixel(std::uint32_t pixel);
   void resolve_points();
   bool lists_points() const;
-  void list_row(int x, int y);
+  OwnerRow owner_row_at(int x, int y) const;
+  void list_row(const OwnerRow& row);
   void shade_list();
   void sum_list();
   void store_listed(const Shaded& colors, std::size_t first, std::size_t count);

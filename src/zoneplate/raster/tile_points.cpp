@@ -13,22 +13,25 @@ constexpr int most_known_samples = 8;  ///< of whose sets the weights are found 
 
 bool TileRenderer::lists_points() const { return !has_layers() && pass_samples_ <= PointList::most_samples; }
 
-/// Lists the points of eight neighbouring pixels of a row.
-void TileRenderer::list_row(int x, int y) {
+/// What is said of the rows of a block from column x on; of the first of them so far.
+OwnerRow TileRenderer::owner_row_at(int x, int y) const {
   const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
-  const int first = std::max(left_ - x, 0), last = std::min(right_ - x, Batch::group);
-  if (first >= last) return;
-  point_lists_.list({.id = visibility_.id + pixel,
-                     .sample_count = pass_samples_,
-                     .first_place = places_.first.data() + first_sample_,
-                     .more_places = places_.more.data() + first_sample_,
-                     .pixel = pixel,
-                     .x = (tile_x_ + x) * 256,
-                     .y = (tile_y_ + y) * 256,
-                     .wanted = (1u << last) - (1u << first),
-                     .is_per_sample = target_.is_per_sample},
-                    list_);
-  listed_rows_.push_back(pixel);
+  const int first = std::max(left_ - x, 0), last = std::clamp(right_ - x, first, Batch::group);
+  return {.id = visibility_.id + pixel,
+          .sample_count = pass_samples_,
+          .first_place = places_.first.data() + first_sample_,
+          .more_places = places_.more.data() + first_sample_,
+          .pixel = pixel,
+          .x = (tile_x_ + x) * 256,
+          .y = (tile_y_ + y) * 256,
+          .wanted = (1u << last) - (1u << first),
+          .is_per_sample = target_.is_per_sample};
+}
+
+/// Lists the points of eight neighbouring pixels of a row.
+void TileRenderer::list_row(const OwnerRow& row) {
+  point_lists_.list(row, list_);
+  listed_rows_.push_back(row.pixel);
   if (list_.count >= PointList::enough) shade_list();
 }
 
