@@ -18,20 +18,11 @@ HWY_INLINE std::uint32_t bits_of(D, hn::Mask<D> mask) {
   return mask.raw;
 }
 
-/// Moves the lanes of a mask of words to the front. Whole vectors are stored.
+/// The lanes of a mask, in order, then any.
 template <class D>
-class Packing {
- public:
-  HWY_INLINE explicit Packing(hn::Mask<D> mask) : mask_(mask) {}
-  HWY_INLINE void store(hn::Vec<D> v, std::int32_t* to) const { hn::StoreU(hn::Compress(v, mask_), D(), to); }
-  HWY_INLINE void store(hn::Vec<hn::Rebind<float, D>> v, float* to) const {
-    store(hn::BitCast(D(), v), reinterpret_cast<std::int32_t*>(to));
-  }
-  HWY_INLINE std::int32_t count() const { return __builtin_popcount(bits_of(D(), mask_)); }
-
- private:
-  hn::Mask<D> mask_;
-};
+HWY_INLINE hn::Vec<D> order_of(D d, hn::Mask<D> mask, std::uint32_t) {
+  return hn::Compress(hn::Iota(d, 0), mask);
+}
 
 #else
 
@@ -61,11 +52,21 @@ constexpr Orders make_orders() {
 }
 constexpr Orders orders = make_orders();
 
+/// The lanes of a mask, in order, then the others.
+template <class D>
+HWY_INLINE hn::Vec<D> order_of(D d, hn::Mask<D>, std::uint32_t bits) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  return hn::PromoteTo(d, hn::LoadU(bytes, orders.lane[bits]));
+}
+
+#endif
+
 /// Moves the lanes of a mask of words to the front. Whole vectors are stored.
 template <class D>
 class Packing {
  public:
-  HWY_INLINE explicit Packing(hn::Mask<D> mask) : bits_(bits_of(D(), mask)), order_(order_of(bits_)) {}
+  HWY_INLINE explicit Packing(hn::Mask<D> mask)
+      : bits_(bits_of(D(), mask)), order_(hn::IndicesFromVec(D(), order_of(D(), mask, bits_))) {}
   HWY_INLINE void store(hn::Vec<D> v, std::int32_t* to) const { hn::StoreU(hn::TableLookupLanes(v, order_), D(), to); }
   HWY_INLINE void store(hn::Vec<hn::Rebind<float, D>> v, float* to) const {
     store(hn::BitCast(D(), v), reinterpret_cast<std::int32_t*>(to));
@@ -73,15 +74,9 @@ class Packing {
   HWY_INLINE std::int32_t count() const { return __builtin_popcount(bits_); }
 
  private:
-  static HWY_INLINE decltype(hn::IndicesFromVec(D(), hn::Zero(D()))) order_of(std::uint32_t bits) {
-    const hn::Rebind<std::uint8_t, D> bytes;
-    return hn::IndicesFromVec(D(), hn::PromoteTo(D(), hn::LoadU(bytes, orders.lane[bits])));
-  }
   std::uint32_t bits_;
   decltype(hn::IndicesFromVec(D(), hn::Zero(D()))) order_;
 };
-
-#endif
 
 }  // namespace
 }  // namespace zoneplate::HWY_NAMESPACE
