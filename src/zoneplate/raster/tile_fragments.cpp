@@ -16,6 +16,11 @@ void TileRenderer::draw_fragments() {
     for (const SampleFragments* part = worker.fragments[tile_]; part; part = part->previous) {
       if (!fills_blocks) open_blocks(*part);
       for (std::int32_t i = 0; i < part->count; ++i) {
+        // What comes next was written long ago.
+        if (i % 16 == 0 && part->previous) {
+          __builtin_prefetch(&part->previous->depth[i]);
+          __builtin_prefetch(&part->previous->what[i]);
+        }
         const std::uint32_t at = SampleFragments::at(part->what[i]) - first;
         if (at >= values) continue;  // of another pass
         const float z = part->depth[i];
