@@ -16,7 +16,7 @@ bool TileRenderer::lists_points() const { return !has_layers() && pass_samples_ 
 /// What is said of the rows of a block from column x on; of the first of them so far.
 OwnerRow TileRenderer::owner_row_at(int x, int y) const {
   const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
-  const int first = std::max(left_ - x, 0), last = std::clamp(right_ - x, first, Batch::group);
+  const int first = std::clamp(left_ - x, 0, Batch::group), last = std::clamp(right_ - x, first, Batch::group);
   return {.id = visibility_.id + pixel,
           .sample_count = pass_samples_,
           .first_place = places_.first.data() + first_sample_,
