@@ -32,6 +32,18 @@ HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
   return hn::Combine(d, upper, lower);
 }
 
+/// What quad(i), quad(i + 4), quad(i + 8) and quad(i + 12) give, four lanes each, side by side: as many as have room.
+template <class D, class Quad>
+HWY_INLINE hn::Vec<D> every_fourth_quad(D d, const Quad& quad, int i) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return quad(i);
+  } else {
+    const hn::Half<D> half;
+    constexpr int lanes = static_cast<int>(hn::MaxLanes(D()));
+    return combined(d, every_fourth_quad(half, quad, i + lanes / 2), every_fourth_quad(half, quad, i));
+  }
+}
+
 /// Every second word of each block of 128 bits, from word `first` on, of `lower` and then of `upper`.
 template <int first, class V>
 HWY_INLINE V every_second_word(V upper, V lower) {

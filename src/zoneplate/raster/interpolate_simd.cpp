@@ -95,23 +95,15 @@ struct ByNumber {
   HWY_INLINE const ScreenVertex* operator[](int i) const { return screen + v[i]; }
 };
 
-/// Vertices i, i + 4, i + 8 and i + 12 side by side, as far as a vector has room for them.
-template <class D, class Vertices>
-HWY_INLINE hn::Vec<D> several_vertices(D d, const Vertices& v, int i) {
-  static_assert(sizeof(ScreenVertex) == 16);
-  if constexpr (lanes_of<D> == 4) {
-    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(v[i]));
-  } else {
-    const hn::Half<D> half;
-    return combined(d, several_vertices(half, v, i + lanes_of<D> / 2), several_vertices(half, v, i));
-  }
-}
-
 template <class D, class Vertices>
 HWY_INLINE Corner<D> turned_corners(const Vertices& v) {
   const hn::RebindToSigned<D> d;
-  const auto v0 = several_vertices(d, v, 0), v1 = several_vertices(d, v, 1);
-  const auto v2 = several_vertices(d, v, 2), v3 = several_vertices(d, v, 3);
+  static_assert(sizeof(ScreenVertex) == 16);
+  const auto vertex = [&](int i) HWY_ATTR {
+    return hn::LoadU(hn::FixedTag<std::int32_t, 4>(), reinterpret_cast<const std::int32_t*>(v[i]));
+  };
+  const auto v0 = every_fourth_quad(d, vertex, 0), v1 = every_fourth_quad(d, vertex, 1);
+  const auto v2 = every_fourth_quad(d, vertex, 2), v3 = every_fourth_quad(d, vertex, 3);
   const auto xz01 = hn::InterleaveLower(d, v0, v2), xz23 = hn::InterleaveLower(d, v1, v3);
   const auto zw01 = hn::InterleaveUpper(d, v0, v2), zw23 = hn::InterleaveUpper(d, v1, v3);
   return {hn::InterleaveLower(d, xz01, xz23), hn::InterleaveUpper(d, xz01, xz23),

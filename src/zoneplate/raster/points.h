@@ -37,6 +37,7 @@ struct PointData {
 class PointBatcher {
  public:
   PointBatcher(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target);
+  PointBatcher(const PointBatcher&) = delete;  // it points into itself
 
   /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
   void shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data);

@@ -46,33 +46,13 @@ HWY_INLINE Extent extent_of(const Corners& c) {
           hn::Min(hn::Min(c.y[0], c.y[1]), c.y[2]), hn::Max(hn::Max(c.y[0], c.y[1]), c.y[2])};
 }
 
-HWY_INLINE hn::Vec<hn::CappedTag<float, 4>> vertex(const ScreenVertex* screen, std::uint32_t i) {
-  return hn::LoadU(hn::CappedTag<float, 4>(), reinterpret_cast<const float*>(screen + i));
-}
-
-/// Vertex i, and beside it those that are four triangles on, eight and twelve, as far as a vector has room for them.
-template <class V>
-HWY_INLINE void load_row(const ScreenVertex* screen, const std::uint32_t* index, std::int32_t i, V& row) {
-  const hn::DFromV<V> d;
-  if constexpr (hn::MaxLanes(d) == 4) {
-    row = vertex(screen, index[3 * i]);
-  } else if constexpr (hn::MaxLanes(d) == 8) {
-    row = combined(d, vertex(screen, index[3 * i + 12]), vertex(screen, index[3 * i]));
-  } else {
-    hn::Vec<hn::Half<hn::DFromV<V>>> lower, upper;
-    load_row(screen, index, i, lower);
-    load_row(screen, index, i + 8, upper);
-    row = combined(d, upper, lower);
-  }
-}
-
 /// The vertices index[0], index[3], index[6] ..., by member.
 HWY_INLINE void load(const ScreenVertex* screen, const std::uint32_t* index, VI& x, VI& y, VF& z, VF& w) {
-  VF r0, r1, r2, r3;
-  load_row(screen, index, 0, r0);
-  load_row(screen, index, 1, r1);
-  load_row(screen, index, 2, r2);
-  load_row(screen, index, 3, r3);
+  const auto vertex = [&](int triangle) HWY_ATTR {
+    return hn::LoadU(hn::FixedTag<float, 4>(), reinterpret_cast<const float*>(screen + index[3 * triangle]));
+  };
+  const VF r0 = every_fourth_quad(f, vertex, 0), r1 = every_fourth_quad(f, vertex, 1);
+  const VF r2 = every_fourth_quad(f, vertex, 2), r3 = every_fourth_quad(f, vertex, 3);
   const VF xy02 = hn::InterleaveLower(f, r0, r2), xy13 = hn::InterleaveLower(f, r1, r3);
   const VF zw02 = hn::InterleaveUpper(f, r0, r2), zw13 = hn::InterleaveUpper(f, r1, r3);
   x = hn::BitCast(i32, hn::InterleaveLower(f, xy02, xy13));

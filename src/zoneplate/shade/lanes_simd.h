@@ -65,18 +65,6 @@ struct IntVector {
   }
 };
 
-/// A lane's quad; with eight lanes beside it that of the lane four on.
-template <class D, class At>
-HWY_INLINE hn::Vec<D> load_two_quads(D d, const At& at, int lane) {
-  const hn::FixedTag<float, 4> quad;
-  const auto first = hn::LoadU(quad, at(lane));
-  if constexpr (hn::MaxLanes(D()) == 8) {
-    return combined(d, hn::LoadU(quad, at(lane + 4)), first);
-  } else {
-    return first;
-  }
-}
-
 template <class FloatTag>
 struct FloatVector {
   using Float = FloatVector;
@@ -93,8 +81,9 @@ struct FloatVector {
   template <class At>
   static HWY_INLINE void load_quads(const At& at, Float (&out)[4]) {
     const FloatTag d;
-    const auto r0 = load_two_quads(d, at, 0), r1 = load_two_quads(d, at, 1);
-    const auto r2 = load_two_quads(d, at, 2), r3 = load_two_quads(d, at, 3);
+    const auto quad = [&](int lane) HWY_ATTR { return hn::LoadU(hn::FixedTag<float, 4>(), at(lane)); };
+    const auto r0 = every_fourth_quad(d, quad, 0), r1 = every_fourth_quad(d, quad, 1);
+    const auto r2 = every_fourth_quad(d, quad, 2), r3 = every_fourth_quad(d, quad, 3);
     const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
     const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
     out[0].v = hn::InterleaveLower(d, xy02, xy13), out[1].v = hn::InterleaveUpper(d, xy02, xy13);

@@ -192,17 +192,19 @@ TEST(SurfaceKernels, EveryInstructionSetGivesTheSameBits) {
 }
 
 TEST(SurfaceKernels, NothingIsWrittenPastTheCountsVector) {
-  for (const Stage& stage : stages()) {
-    const auto untouched = std::make_unique<Bench>(24), actual = std::make_unique<Bench>(24);
-    stage.run(kernels(best_isa()), *actual);
-    const auto* before = reinterpret_cast<const float*>(&untouched->points.position);
-    const auto* after = reinterpret_cast<const float*>(&actual->points.position);
-    const std::size_t arrays = (sizeof(Points) - offsetof(Points, position)) / sizeof(Points::Array);
-    for (std::size_t a = 0; a < arrays; ++a)
-      for (std::size_t i = 32; i < Batch::room; ++i)
-        ASSERT_EQ(std::memcmp(before + a * Batch::room + i, after + a * Batch::room + i, sizeof(float)), 0)
-            << stage.name;
-  }
+  for (const Isa isa : supported_isas())
+    for (const Stage& stage : stages()) {
+      const auto untouched = std::make_unique<Bench>(24), actual = std::make_unique<Bench>(24);
+      stage.run(kernels(isa), *actual);
+      const auto* before = reinterpret_cast<const float*>(&untouched->points.position);
+      const auto* after = reinterpret_cast<const float*>(&actual->points.position);
+      const std::size_t arrays = (sizeof(Points) - offsetof(Points, position)) / sizeof(Points::Array);
+      const std::size_t end = isa == Isa::Avx512 ? 2 * Batch::most_lanes : 24;
+      for (std::size_t a = 0; a < arrays; ++a)
+        for (std::size_t i = end; i < Batch::room; ++i)
+          ASSERT_EQ(std::memcmp(before + a * Batch::room + i, after + a * Batch::room + i, sizeof(float)), 0)
+              << stage.name << " " << name_of(isa);
+    }
 }
 
 TEST(SurfaceKernels, TheFinishedColourIsFinite) {

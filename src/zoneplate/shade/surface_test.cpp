@@ -79,10 +79,10 @@ std::unique_ptr<Outcome> shade(const Scene& scene, const Surroundings& surroundi
   std::memset(static_cast<void*>(outcome.get()), 0, sizeof *outcome);
   Shaded& shaded = outcome->shaded;
   SurfaceShader(scene, surroundings).shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
-  // What lies behind the points means nothing.
-  float* const arrays = shaded.r;
+  // What lies behind the points within a vector means nothing.
+  const int end = hand.batch.padded(), whole = (end + Batch::most_lanes - 1) / Batch::most_lanes * Batch::most_lanes;
   for (std::size_t a = 0; a < sizeof shaded / (Batch::room * sizeof(float)); ++a)
-    std::fill(arrays + a * Batch::room + hand.batch.padded(), arrays + (a + 1) * Batch::room, 0.0f);
+    std::fill(shaded.r + a * Batch::room + end, shaded.r + a * Batch::room + whole, 0.0f);
   return outcome;
 }
 
