@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "zoneplate/base/deadline.h"
+
 namespace zoneplate {
 namespace {
 
@@ -17,8 +19,9 @@ namespace {
 struct Loop {
   const std::function<void(std::size_t)>& body;
   const std::size_t count;
-  std::exception_ptr error;      ///< the first one; guarded by the team's mutex
-  std::atomic<int> helpers = 0;  ///< threads at work on it, besides the one that began it
+  const Deadline* const deadline;  ///< of whoever began the loop
+  std::exception_ptr error;        ///< the first one; guarded by the team's mutex
+  std::atomic<int> helpers = 0;    ///< threads at work on it, besides the one that began it
   alignas(64) std::atomic<std::size_t> next = 0;
 };
 
@@ -120,13 +123,18 @@ Loop* Team::join_a_loop() {
 }
 
 void Team::work(Loop& loop) {
+  const Deadline* const outer = exchange_deadline(loop.deadline);
   try {
-    for (std::size_t i = loop.next++; i < loop.count; i = loop.next++) loop.body(i);
+    for (std::size_t i = loop.next++; i < loop.count; i = loop.next++) {
+      check_deadline();
+      loop.body(i);
+    }
   } catch (...) {
     loop.next = loop.count;
     const std::lock_guard lock(mutex_);
     if (!loop.error) loop.error = std::current_exception();
   }
+  exchange_deadline(outer);
 }
 
 /// Whoever began the loop may end its life with the last helper's leaving, so that nothing of it is touched after that.
@@ -138,7 +146,7 @@ void Team::leave(Loop& loop) {
 
 void Team::run(std::size_t count, const std::function<void(std::size_t)>& body) {
   start(count - 1);
-  Loop loop{.body = body, .count = count};
+  Loop loop{.body = body, .count = count, .deadline = current_deadline()};
   {
     const std::lock_guard lock(mutex_);
     open_.push_back(&loop);
@@ -163,7 +171,10 @@ void Team::run(std::size_t count, const std::function<void(std::size_t)>& body) 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   if (count > 1 && !place.team) return with_threads(0, [&] { parallel_for(count, body); });
   if (count > 1 && place.team->limit() > 1) return place.team->run(count, body);
-  for (std::size_t i = 0; i < count; ++i) body(i);
+  for (std::size_t i = 0; i < count; ++i) {
+    check_deadline();
+    body(i);
+  }
 }
 
 void parallel_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {

@@ -9,7 +9,8 @@ namespace zoneplate {
 /// Calls `body(i)` for every i in [0, count), on the threads of the innermost `with_threads`.
 ///
 /// Each call may run on any thread, in any order; a body writes only what belongs to its i. The first
-/// exception thrown by a body is rethrown here, after which the remaining calls may be skipped.
+/// exception thrown by a body is rethrown here, after which the remaining calls may be skipped. Limits on time
+/// (base/deadline.h) are checked before each call and hold on every thread.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Calls `body(begin, end)` over consecutive ranges of at most `grain` items that cover [0, count).

@@ -1,0 +1,54 @@
+#include "zoneplate/base/deadline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace zoneplate {
+
+using Clock = std::chrono::steady_clock;
+
+class Deadline {
+ public:
+  Deadline(double seconds, Trouble trouble, const std::string& message, const Deadline* outer)
+      : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))),
+        trouble_(trouble),
+        message_(message),
+        outer_(outer) {}
+
+  void check() const {
+    const Clock::time_point now = Clock::now();
+    for (const Deadline* limit = this; limit; limit = limit->outer_)
+      if (now > limit->end_) throw Error(limit->trouble_, limit->message_);
+  }
+
+ private:
+  Clock::time_point end_;
+  Trouble trouble_;
+  const std::string& message_;
+  const Deadline* outer_;
+};
+
+namespace {
+thread_local const Deadline* current = nullptr;
+}
+
+const Deadline* current_deadline() { return current; }
+
+const Deadline* exchange_deadline(const Deadline* deadline) { return std::exchange(current, deadline); }
+
+void with_deadline(double seconds, Trouble trouble, const std::string& message, const std::function<void()>& body) {
+  constexpr double longest = 1e9;  // seconds; what the clock's type holds is some 300 years
+  const Deadline deadline(std::min(seconds, longest), trouble, message, current);
+  struct Restore {
+    const Deadline* outer;
+    ~Restore() { current = outer; }
+  } const restore{exchange_deadline(&deadline)};
+  body();
+}
+
+void check_deadline() {
+  if (current) current->check();
+}
+
+}  // namespace zoneplate
