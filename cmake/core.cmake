@@ -21,7 +21,7 @@ add_subdirectory(/usr/src/googletest googletest EXCLUDE_FROM_ALL SYSTEM)
 
 foreach(list library_sources simd_sources test_sources)
   list(FILTER ${list} EXCLUDE REGEX "^src/zoneplate/(cli|metrics|report)/")
-  list(FILTER ${list} EXCLUDE REGEX "/(file|lost_bytes|memory_limit|apng|deflate|jpeg|png|webp|exr|hdr|draco|assimp|import_child|limited_child|sandbox|scene_bytes|gltf|load|image_file|mtl|obj|ply|stl)(_[a-z]+)*\\.cpp$")
+  list(FILTER ${list} EXCLUDE REGEX "/(file|library|lost_bytes|memory_limit|apng|deflate|jpeg|png|webp|exr|hdr|draco|assimp|import_child|limited_child|sandbox|scene_bytes|gltf|load|image_file|mtl|obj|ply|stl)(_[a-z]+)*\\.cpp$")
 endforeach()
 list(APPEND test_sources tests/pictures_test.cpp)
 

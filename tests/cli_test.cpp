@@ -241,9 +241,9 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        {"triangles", "-o", "a.png", "--crop", "799,0,2,1"},
        "--crop: the rectangle is not inside the picture of 800x600"},
       {2, {"triangles", "-o", "a.png", "--camera-index", "7"}, "--camera-index: the scene has cameras 0 to 0, not 7"},
-      {2,
+      {1,
        {"triangles", "-o", "a.png", "--size", "16384,16384", "--max-memory", "1G"},
-       "a picture of 16384x16384 needs 11264 MB, --max-memory allows 1024 MB"},
+       "triangles: a picture of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},
       {2, {"list", "method"}, "'method' is not one of methods, scenes, formats; did you mean methods?"},
       {2, {"info"}, "info takes one input: a model or a built-in scene"},
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
@@ -253,7 +253,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "formats)"},
       {3, {"missing.xyz", "-o", "a.png"}, "missing.xyz: no such file, and no built-in scene of that name"},
       {4, {"triangles", "-o", "folder.png"}, "folder.png: is a directory"},
-      {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: missing: No such file or directory"},
+      {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: cannot be written: missing: No such file or directory"},
   };
   for (const Refusal& refusal : refusals) {
     const Result result = run(refusal.words);

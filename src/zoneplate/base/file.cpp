@@ -108,7 +108,8 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   if (S_ISREG(status.st_mode) && status.st_size > 0 && !is_stdin) {
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit) throw too_large(path, limit);
-    void* place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
+    // Writable and private, though nothing is written: so the system counts it as data of the process.
+    void* place = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, fd, 0);
     if (place != MAP_FAILED) {
       bytes_ = {static_cast<const std::uint8_t*>(place), size};
       mapped_ = true;
@@ -177,8 +178,10 @@ void leave(Slot* slot) {
   if (slot) slot->entry.compare_exchange_strong(expected, Entry::Free);
 }
 
+}  // namespace
+
 /// A new file beside `target`, which it becomes by `commit`, or else disappears.
-class Temporary {
+class FileWriter::Temporary {
  public:
   Temporary(const std::filesystem::path& target, const std::string& asked) : target_(target.string()) {
     // Only part of a very long name is used, so that the temporary name is not too long either.
@@ -220,6 +223,8 @@ class Temporary {
   int fd_ = -1;
   bool is_committed_ = false;
 };
+
+namespace {
 
 /// While it lives, a write to a closed pipe is an error of this thread and not a signal.
 class PipeSignalBlocked {
@@ -287,26 +292,69 @@ std::filesystem::path follow_links(const std::string& asked) {
   throw write_error(asked, cause_of(ELOOP));
 }
 
+void check_name(const std::string& path) {
+  if (path.empty() || path.find('\0') != std::string::npos) throw write_error(path, "not a file name");
+}
+
+/// `status`: of what is there already; null where nothing is.
+void check_target(const std::string& path, const std::filesystem::path& target, const struct stat* status) {
+  if (status && S_ISDIR(status->st_mode)) throw write_error(path, "it is a directory");
+  if (status && ::access(path.c_str(), W_OK) != 0) throw write_error(path, cause_of(errno));
+  if (target.filename().empty()) throw write_error(path, "it names a directory");
+}
+
+bool is_written_in_place(const std::filesystem::path& target, const struct stat* status) {
+  return target == "/dev/stdout" || (status && (!S_ISREG(status->st_mode) || is_process_or_device(target)));
+}
+
 }  // namespace
 
-void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
-  if (path == "-") return write_all(STDOUT_FILENO, bytes, path);
-  if (path.empty() || path.find('\0') != std::string::npos) throw write_error(path, "not a file name");
-  const std::filesystem::path target = follow_links(path);
-  if (target == "/dev/stdout") return write_all(STDOUT_FILENO, bytes, path);
-
+FileWriter::FileWriter(std::string path) : path_(std::move(path)) {
+  if (path_ == "-") return;
+  check_name(path_);
+  const std::filesystem::path target = follow_links(path_);
   struct stat status {};
-  const bool is_there = ::stat(path.c_str(), &status) == 0;
-  if (is_there && S_ISDIR(status.st_mode)) throw write_error(path, "it is a directory");
-  if (is_there && (!S_ISREG(status.st_mode) || is_process_or_device(target))) return write_in_place(path, bytes);
-  if (is_there && ::access(path.c_str(), W_OK) != 0) throw write_error(path, cause_of(errno));
-  if (target.filename().empty()) throw write_error(path, "it names a directory");
+  const bool is_there = ::stat(path_.c_str(), &status) == 0;
+  check_target(path_, target, is_there ? &status : nullptr);
+  if (is_written_in_place(target, is_there ? &status : nullptr)) return;
 
   // The new file takes over the permissions of the one that it replaces, where the file system lets it.
-  Temporary file(target, path);
-  if (is_there) static_cast<void>(::fchmod(file.fd(), status.st_mode & 07777));
-  write_all(file.fd(), bytes, path);
-  file.commit(path);
+  file_ = std::make_unique<Temporary>(target, path_);
+  if (is_there) static_cast<void>(::fchmod(file_->fd(), status.st_mode & 07777));
+}
+
+FileWriter::~FileWriter() = default;
+
+void FileWriter::write(std::span<const std::uint8_t> bytes) {
+  if (file_)
+    write_all(file_->fd(), bytes, path_);
+  else
+    kept_.insert(kept_.end(), bytes.begin(), bytes.end());
+}
+
+void FileWriter::commit() {
+  if (file_) return file_->commit(path_);
+  if (path_ == "-" || follow_links(path_) == "/dev/stdout") return write_all(STDOUT_FILENO, kept_, path_);
+  write_in_place(path_, kept_);
+}
+
+void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
+  FileWriter file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void check_savable(const std::string& path) {
+  if (path == "-") return;
+  check_name(path);
+  const std::filesystem::path target = follow_links(path);
+  struct stat status {};
+  const bool is_there = ::stat(path.c_str(), &status) == 0;
+  if (!is_there && errno == ENAMETOOLONG) throw write_error(path, cause_of(ENAMETOOLONG));
+  check_target(path, target, is_there ? &status : nullptr);
+  if (is_written_in_place(target, is_there ? &status : nullptr)) return;
+  const std::string folder = target.has_parent_path() ? target.parent_path().string() : ".";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw write_error(path, folder + ": " + cause_of(errno));
 }
 
 void remove_temporaries() {

@@ -2,13 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace zoneplate {
 
-/// The bytes of a whole file, mapped read-only (or read, where it cannot be mapped, as a pipe or "-" for stdin).
+/// The bytes of a whole file, mapped (or read, where it cannot be mapped, as a pipe or "-" for stdin).
 ///
+/// The mapping counts as memory of the process (base/memory_limit.h).
 /// Errors    Trouble::Input naming the file and the cause: missing, a directory, not readable, larger than `limit`. Of
 /// one that is cut off while it is mapped: base/lost_bytes.h.
 class FileBytes {
@@ -30,11 +33,37 @@ class FileBytes {
   bool mapped_ = false;
 };
 
-/// Writes a file whole or not at all: to a temporary name in the same directory, then renamed. "-" is stdout.
+/// Writes a file in parts, whole or not at all: to a temporary name in the same directory, then renamed. "-" is stdout.
 ///
-/// A temporary that is left by an exception is removed; `remove_temporaries` does so from a signal handler.
-/// Errors    Trouble::Output naming the file and the cause; nothing is left behind under either name.
+/// What cannot be renamed (stdout, a device, a pipe) is kept in memory until `commit` writes it. A temporary that is
+/// not committed is removed; `remove_temporaries` does so from a signal handler.
+/// Errors    Trouble::Output naming the file and the cause, from every member; nothing is left behind under either
+/// name.
+class FileWriter {
+ public:
+  explicit FileWriter(std::string path);
+  ~FileWriter();
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  void write(std::span<const std::uint8_t> bytes);
+  void commit();
+
+ private:
+  class Temporary;
+  std::string path_;
+  std::unique_ptr<Temporary> file_;  ///< null for what cannot be renamed
+  std::vector<std::uint8_t> kept_;
+};
+
+/// The same of bytes that are there already.
 void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes);
+
+/// Checks, without writing, that a file can be saved under this name.
+///
+/// Errors    Trouble::Output naming the file and the cause: no folder, a folder or file without the right to write, a
+///           folder of that name, a name that is too long.
+void check_savable(const std::string& path);
 
 /// Removes the temporary files that are being written now; safe to call in a signal handler.
 void remove_temporaries();

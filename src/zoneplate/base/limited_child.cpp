@@ -55,7 +55,6 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
 }
 
 [[noreturn]] void be_child(int pipe, pid_t parent, int threads, const Task& task) {
-  is_child = true;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
@@ -63,8 +62,10 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
   ChildAnswer answer(pipe);
   try {
     if (task.open) task.open();
+    is_child = true;
     limit_resources(task.limits.memory, task.limits.seconds * threads);
-    if (!enter_sandbox()) throw Error(Trouble::Failed, task.place + ": the system has no filter for system calls");
+    if (task.limits.is_sandboxed && !enter_sandbox(task.limits.readable))
+      throw Error(Trouble::Failed, task.place + ": the system has no filter for system calls");
     with_threads(threads, [&] { task.work(answer); });
     ::_exit(0);
   } catch (const Error& error) {
@@ -77,15 +78,15 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
 }
 
 std::string cause_of(int status, const LimitedChild::Limits& limits) {
-  if (WIFEXITED(status)) return "its reader gave no answer";
+  if (WIFEXITED(status)) return limits.worker + " gave no answer";
   switch (WTERMSIG(status)) {
     case SIGSYS:
-      return "its reader asked the system for what no reader needs, and was ended";
+      return limits.worker + " made a system call that it has no right to, and was ended";
     case SIGXCPU:
     case SIGKILL:
-      return with_options("its reader ran out of time or memory", limits);
+      return with_options(limits.worker + " ran out of time or memory", limits);
     default:
-      return "its reader crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+      return limits.worker + " crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
   }
 }
 

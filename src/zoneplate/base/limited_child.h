@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace zoneplate {
 
@@ -25,11 +27,11 @@ bool is_limited_child();
 
 /// Work on data that may be hostile, in a process of its own, a copy of this one, that may be lost.
 ///
-/// The child has limits on memory and time and the filter of sandbox.h; it ends with its parent, and is killed with
+/// The child has limits on memory and time and the sandbox of sandbox.h; it ends with its parent, and is killed with
 /// this object. `work` makes its result first and writes it then: an Error that it throws before it writes is thrown
 /// here again, by the first `read`.
-/// Errors    Trouble::Input with `place` in front where the child crashes, runs out of memory or time, or asks the
-///           system for what a reader does not need; Trouble::Failed where no process can be started.
+/// Errors    Trouble::Input with `place` in front where the child crashes, runs out of memory or time, or makes a
+///           system call that a reader does not need; Trouble::Failed where no process can be started.
 class LimitedChild {
  public:
   struct Limits {
@@ -37,6 +39,9 @@ class LimitedChild {
     double seconds = 60;                            ///< of each thread's processor
     std::string options;                            ///< that raise the limits, as errors name them; may be empty
     std::function<void()> check_time;  ///< called while the parent waits; throws when it has waited too long
+    bool is_sandboxed = true;          ///< false: the limits alone
+    std::optional<std::vector<std::string>> readable = {};  ///< files and folders; nothing: all that its user may read
+    std::string worker = "its reader";                      ///< the subject of errors about the child's end
   };
 
   /// `open` runs in the child before its rights are taken, to open libraries.

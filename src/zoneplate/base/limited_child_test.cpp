@@ -70,7 +70,8 @@ TEST(LimitedChild, MayBeLost) {
   EXPECT_EQ(complaint_about(answer_one), "");
   EXPECT_EQ(complaint_about([](ChildAnswer&) { std::abort(); }), "model.xyz: its reader crashed (signal 6)");
   EXPECT_EQ(complaint_about([](ChildAnswer&) { ::_exit(3); }), "model.xyz: its reader gave no answer");
-  EXPECT_NE(complaint_about([](ChildAnswer&) { ::pause(); }).find("model.xyz: its reader asked"), std::string::npos);
+  EXPECT_NE(complaint_about([](ChildAnswer&) { ::pause(); }).find("model.xyz: its reader made a system call"),
+            std::string::npos);
   const auto loop = [](ChildAnswer&) {
     for (std::atomic<int> i = 0;; ++i) continue;
   };
@@ -132,7 +133,7 @@ TEST(LimitedChild, IsEndedByWhatNoReaderNeeds) {
       {"memory of others", [] { ::mmap(nullptr, 4096, PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1, 0); }}};
   for (const auto& [name, deed] : deeds) {
     const auto work = [&, act = deed](ChildAnswer& answer) { act(), answer_one(answer); };
-    EXPECT_EQ(complaint_about(work), "model.xyz: its reader asked the system for what no reader needs, and was ended")
+    EXPECT_EQ(complaint_about(work), "model.xyz: its reader made a system call that it has no right to, and was ended")
         << name;
   }
   EXPECT_NE(::access(file.c_str(), F_OK), 0);

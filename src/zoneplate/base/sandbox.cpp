@@ -1,10 +1,9 @@
 #include "zoneplate/base/sandbox.h"
 
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
+#include <linux/landlock.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -12,161 +11,153 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstddef>
-#include <cstdio>
-#include <vector>
+#include <cmath>
+
+#include "zoneplate/base/memory_limit.h"
 
 namespace zoneplate {
 namespace {
 
-#if defined(__x86_64__)
-constexpr std::uint32_t machine = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t machine = AUDIT_ARCH_AARCH64;
-#else
-constexpr std::uint32_t machine = 0;
-#endif
-
 /// Calls that reading, allocating and threads need, whatever their arguments.
-constexpr int free_calls[] = {
-    __NR_read,
-    __NR_readv,
-    __NR_pread64,
-    __NR_write,
-    __NR_writev,
-    __NR_close,
-    __NR_fstat,
-    __NR_newfstatat,
-    __NR_statx,
-    __NR_lseek,
-    __NR_munmap,
-    __NR_mremap,
-    __NR_madvise,
-    __NR_brk,
-    __NR_futex,
-    __NR_rseq,
-    __NR_set_robust_list,
-    __NR_rt_sigaction,
-    __NR_rt_sigprocmask,
-    __NR_rt_sigreturn,
-    __NR_sigaltstack,
-    __NR_sched_yield,
-    __NR_sched_getaffinity,
-    __NR_clock_gettime,
-    __NR_clock_nanosleep,
-    __NR_nanosleep,
-    __NR_gettimeofday,
-    __NR_getrandom,
-    __NR_readlinkat,
-    __NR_faccessat,
-    __NR_getcwd,
-    __NR_getpid,
-    __NR_gettid,
-    __NR_exit,
-    __NR_exit_group,
-    __NR_ppoll,
-    __NR_pipe2,  // asked by the threads of the address sanitizer
-    __NR_restart_syscall,
-    __NR_sysinfo,
-    __NR_getdents64,
-#if defined(__x86_64__)
-    __NR_stat,
-    __NR_lstat,
-    __NR_readlink,
-    __NR_access,
-    __NR_poll,
-#endif
+constexpr int allowed_calls[] = {
+    SCMP_SYS(read),
+    SCMP_SYS(readv),
+    SCMP_SYS(pread64),
+    SCMP_SYS(write),
+    SCMP_SYS(writev),
+    SCMP_SYS(close),
+    SCMP_SYS(fstat),
+    SCMP_SYS(newfstatat),
+    SCMP_SYS(statx),
+    SCMP_SYS(stat),
+    SCMP_SYS(lstat),
+    SCMP_SYS(lseek),
+    SCMP_SYS(munmap),
+    SCMP_SYS(mremap),
+    SCMP_SYS(madvise),
+    SCMP_SYS(brk),
+    SCMP_SYS(futex),
+    SCMP_SYS(rseq),
+    SCMP_SYS(set_robust_list),
+    SCMP_SYS(rt_sigaction),
+    SCMP_SYS(rt_sigprocmask),
+    SCMP_SYS(rt_sigreturn),
+    SCMP_SYS(sigaltstack),
+    SCMP_SYS(sched_yield),
+    SCMP_SYS(sched_getaffinity),
+    SCMP_SYS(clock_gettime),
+    SCMP_SYS(clock_nanosleep),
+    SCMP_SYS(nanosleep),
+    SCMP_SYS(gettimeofday),
+    SCMP_SYS(getrandom),
+    SCMP_SYS(getrusage),
+    SCMP_SYS(readlink),
+    SCMP_SYS(readlinkat),
+    SCMP_SYS(access),
+    SCMP_SYS(faccessat),
+    SCMP_SYS(getcwd),
+    SCMP_SYS(getpid),
+    SCMP_SYS(gettid),
+    SCMP_SYS(exit),
+    SCMP_SYS(exit_group),
+    SCMP_SYS(poll),
+    SCMP_SYS(ppoll),
+    SCMP_SYS(pipe2),  // called by the threads of the address sanitizer
+    SCMP_SYS(restart_syscall),
+    SCMP_SYS(sysinfo),
+    SCMP_SYS(getdents64),
 };
 
-/// A call that is free if its argument has these bits so.
-struct Condition {
-  unsigned argument;
-  std::uint32_t mask, value;
-};
-struct CheckedCall {
-  int number;
-  std::vector<Condition> all;
-};
-
-std::vector<CheckedCall> checked_calls() {
-  constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
-  const auto self = static_cast<std::uint32_t>(::getpid());
-  return {{__NR_openat, {{2, writing, O_RDONLY}}},
-          {__NR_mmap, {{2, PROT_EXEC, 0}, {3, MAP_SHARED, 0}}},
-          {__NR_mprotect, {{2, PROT_EXEC, 0}}},
-          {__NR_clone, {{0, CLONE_THREAD, CLONE_THREAD}}},
-          {__NR_tgkill, {{0, ~0u, self}}}};
-}
-
-/// Calls that are answered with an error, since whoever asks can do without.
+/// Calls that are answered with an error, since their callers manage without them.
 struct RefusedCall {
   int number, error;
 };
 constexpr RefusedCall refused_calls[] = {
-    {__NR_clone3, ENOSYS},  // whose arguments cannot be seen; `clone` is asked next
-    {__NR_prlimit64, EPERM},
-    {__NR_ioctl, ENOTTY},
-    {__NR_fcntl, EPERM},
-    {__NR_faccessat2, ENOSYS}};
+    {SCMP_SYS(clone3), ENOSYS},  // a filter cannot see its arguments; the C library calls `clone` next
+    {SCMP_SYS(openat2), ENOSYS}, {SCMP_SYS(prlimit64), EPERM},  {SCMP_SYS(ioctl), ENOTTY},
+    {SCMP_SYS(fcntl), EPERM},    {SCMP_SYS(faccessat2), ENOSYS}};
 
-/// The rules as a program for the kernel.
+/// A filter for system calls that is released at the end.
 class Filter {
  public:
-  Filter() {
-    load(offsetof(seccomp_data, arch));
-    skip_if_equal(machine, 1), answer(SECCOMP_RET_KILL_PROCESS);
-    load(offsetof(seccomp_data, nr));
-    for (const int call : free_calls) skip_unless_equal(static_cast<std::uint32_t>(call), 1), answer(SECCOMP_RET_ALLOW);
-    for (const RefusedCall& call : refused_calls) {
-      skip_unless_equal(static_cast<std::uint32_t>(call.number), 1);
-      answer(SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(call.error));
-    }
-    for (const CheckedCall& call : checked_calls()) {
-      skip_unless_equal(static_cast<std::uint32_t>(call.number), static_cast<std::uint8_t>(4 * call.all.size() + 1));
-      for (const Condition& c : call.all) {
-        load(offsetof(seccomp_data, args) + 8 * c.argument);  // the low half, on machines that store it first
-        code_.push_back(BPF_STMT(BPF_ALU | BPF_AND | BPF_K, c.mask));
-        skip_if_equal(c.value, 1), answer(SECCOMP_RET_KILL_PROCESS);
-      }
-      answer(SECCOMP_RET_ALLOW);
-    }
-    answer(SECCOMP_RET_KILL_PROCESS);
-  }
+  Filter() : filter_(::seccomp_init(SCMP_ACT_KILL_PROCESS)) {
+    if (!filter_) return;
+    is_complete_ = ::seccomp_attr_set(filter_, SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS) == 0;
+    for (const int call : allowed_calls) allow(call, {});
+    for (const RefusedCall& call : refused_calls)
+      note(::seccomp_rule_add(filter_, SCMP_ACT_ERRNO(static_cast<std::uint16_t>(call.error)), call.number, 0));
 
-  bool install() {
-    const sock_fprog program{static_cast<unsigned short>(code_.size()), code_.data()};
-    return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+    constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
+    allow(SCMP_SYS(openat), {SCMP_A2_32(SCMP_CMP_MASKED_EQ, writing, O_RDONLY)});
+    allow(SCMP_SYS(mmap),
+          {SCMP_A2_32(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0), SCMP_A3_32(SCMP_CMP_MASKED_EQ, MAP_SHARED, 0)});
+    allow(SCMP_SYS(mprotect), {SCMP_A2_32(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
+    allow(SCMP_SYS(clone), {SCMP_A0_32(SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD)});
+    allow(SCMP_SYS(tgkill), {SCMP_A0_32(SCMP_CMP_EQ, static_cast<std::uint32_t>(::getpid()))});
   }
+  ~Filter() { ::seccomp_release(filter_); }
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
+
+  bool install() { return is_complete_ && ::seccomp_load(filter_) == 0; }
 
  private:
-  void load(std::size_t offset) {
-    code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
+  void allow(int call, const std::vector<scmp_arg_cmp>& conditions) {
+    note(::seccomp_rule_add_array(filter_, SCMP_ACT_ALLOW, call, static_cast<unsigned>(conditions.size()),
+                                  conditions.data()));
   }
-  void skip_if_equal(std::uint32_t value, std::uint8_t count) {
-    code_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, count, 0));
-  }
-  void skip_unless_equal(std::uint32_t value, std::uint8_t count) {
-    code_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, count));
-  }
-  void answer(std::uint32_t action) { code_.push_back(BPF_STMT(BPF_RET | BPF_K, action)); }
+  void note(int error) { is_complete_ = is_complete_ && error == 0; }
 
-  std::vector<sock_filter> code_;
+  scmp_filter_ctx filter_;
+  bool is_complete_ = false;
 };
+
+/// The rights over files that the first version of Landlock knows.
+constexpr std::uint64_t first_rights = (std::uint64_t{1} << 13) - 1;
+
+long landlock_version() { return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION); }
+
+/// Confines this process to reading these files and folders. A path that does not exist is left out.
+void limit_files(const std::vector<std::string>& readable) {
+  constexpr std::uint64_t reading = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+  landlock_ruleset_attr all{};
+  all.handled_access_fs = first_rights;
+  const int rules = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &all, sizeof all.handled_access_fs, 0));
+  if (rules < 0) return;
+  for (const std::string& path : readable) {
+    const int file = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+    if (file < 0) continue;
+    landlock_path_beneath_attr rule{.allowed_access = reading, .parent_fd = file};
+    if (::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) != 0) {
+      rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;  // all that a file, which is no folder, may have
+      ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+    }
+    ::close(file);
+  }
+  ::syscall(SYS_landlock_restrict_self, rules, 0);
+  ::close(rules);
+}
 
 }  // namespace
 
-bool enter_sandbox() { return machine != 0 && Filter().install(); }
+SandboxSupport sandbox_support() {
+  return {.filters_calls = ::prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0, .limits_files = landlock_version() >= 1};
+}
+
+bool enter_sandbox(const std::optional<std::vector<std::string>>& readable) {
+  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
+  if (readable && landlock_version() >= 1) limit_files(*readable);
+  return Filter().install();
+}
 
 void limit_resources(std::uint64_t bytes, double seconds) {
-  // Of the seven numbers of /proc/self/statm the sixth counts the pages of data and stack that there are already.
-  unsigned long pages = 0;
-  if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(statm, "%*u %*u %*u %*u %*u %lu", &pages) != 1) pages = 0;
-    std::fclose(statm);
-  }
-  const rlim_t memory = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
-  const auto time = static_cast<rlim_t>(seconds) + 1;
-  const rlimit data{memory, memory}, processor{time, time}, none{0, 0};
+  limit_memory(bytes);
+  rlimit data{};
+  ::getrlimit(RLIMIT_DATA, &data);
+  data.rlim_max = data.rlim_cur;
+  constexpr double most_seconds = 1e9;
+  const rlim_t time = seconds < most_seconds ? static_cast<rlim_t>(seconds) + 1 : RLIM_INFINITY;
+  const rlimit processor{time, time}, none{0, 0};
   ::setrlimit(RLIMIT_DATA, &data);
   ::setrlimit(RLIMIT_CPU, &processor);
   ::setrlimit(RLIMIT_CORE, &none);

@@ -4,12 +4,14 @@
 
 #include <filesystem>
 #include <new>
+#include <optional>
+#include <utility>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/cli/frame_name.h"
-#include "zoneplate/cli/render_job.h"
+#include "zoneplate/cli/render_items.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/scene/gltf_json.h"
 
@@ -88,50 +90,90 @@ class Jobs {
   Syntax syntax_;  ///< whose options set args_
 };
 
-// One job after the other; each failure is told and kept, and the next job begun.
+// Does items in their order. Those that follow each other with one model are done together, in one process.
 class Batch {
  public:
   explicit Batch(const RenderArgs& common) : common_(common) {}
 
-  // Runs what `make` answers, or tells why it cannot be made.
+  // Adds the item that `make` returns; where it throws, the item has failed.
   template <class Make>
-  void run(const std::string& name, const Make& make) {
-    const Stopwatch watch;
-    Json::Object line;
+  void add(const std::string& name, const Make& make) {
     try {
       RenderArgs args = make();
       args.progress = ProgressKind::None;
-      if (args.skip_existing && !has_frame_number(args.output) && exists(args.output)) {
-        line = {{"input", args.input}, {"output", args.output}, {"status", "skipped"}};
-      } else {
-        check_writable(args.output);
-        const Summary summary = jobs_.run(args);
-        line = summary_json(args, summary);
-        line.emplace(line.begin() + 2, "status", "done");
-      }
-    } catch (const Error& error) {
-      line = failure(name, error.what());
-    } catch (const std::bad_alloc&) {
-      line = failure(name, "out of memory");
+      const bool is_alike = !items_.empty() && args.input != "-" && model_key(args) == model_key(items_.front().args) &&
+                            args.max_seconds == items_.front().args.max_seconds &&
+                            args.is_sandboxed == items_.front().args.is_sandboxed;
+      if (!is_alike || items_.size() >= most_together) flush();
+      items_.push_back({name, std::move(args)});
+    } catch (const std::exception& error) {
+      flush();
+      report(failure(name, error), Stopwatch());
     }
+  }
+
+  void finish() {
+    flush();
+    if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
+  }
+
+ private:
+  struct Item {
+    std::string name;
+    RenderArgs args;
+  };
+  static constexpr std::size_t most_together = 64;  // results appear while a long batch runs
+
+  void flush() {
+    std::vector<Item> items = std::exchange(items_, {});
+    std::vector<RenderArgs> to_render;
+    std::vector<bool> is_rendered;
+    for (const Item& item : items) {
+      is_rendered.push_back(!is_skipped(item.args));
+      if (is_rendered.back()) to_render.push_back(item.args);
+    }
+    std::optional<RenderItems> process;
+    if (!to_render.empty()) process.emplace(std::move(to_render));
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const Stopwatch watch;
+      report(is_rendered[i] ? render(items[i], *process) : skipped(items[i]), watch);
+    }
+  }
+
+  Json::Object render(const Item& item, RenderItems& process) {
+    try {
+      const Summary summary = process.next();
+      Json::Object line = summary_json(item.args, summary);
+      line.emplace(line.begin() + 2, "status", "done");
+      return line;
+    } catch (const std::exception& error) {
+      return failure(item.name, error);
+    }
+  }
+
+  static bool is_skipped(const RenderArgs& args) {
+    return args.skip_existing && !has_frame_number(args.output) && exists(args.output);
+  }
+  static Json::Object skipped(const Item& item) {
+    return {{"input", item.args.input}, {"output", item.args.output}, {"status", "skipped"}};
+  }
+
+  Json::Object failure(const std::string& name, const std::exception& error) {
+    ++failed_;
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    const std::string cause = is_memory ? name + ": out of memory" : error.what();
+    say_error(cause);
+    return {{"input", name}, {"output", Json()}, {"status", "failed"}, {"error", cause}};
+  }
+
+  void report(Json::Object line, const Stopwatch& watch) {
     line.emplace_back("seconds", watch.ms() / 1000);
     if (common_.verbosity != Verbosity::Quiet) print(Json(std::move(line)).text() + '\n');
     ++count_;
   }
 
-  void finish() const {
-    if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
-  }
-
- private:
-  Json::Object failure(const std::string& name, const std::string& error) {
-    ++failed_;
-    say_error(error);
-    return {{"input", name}, {"output", Json()}, {"status", "failed"}, {"error", error}};
-  }
-
   const RenderArgs& common_;
-  RenderJobs jobs_;
+  std::vector<Item> items_;  ///< with one model, not done yet
   std::uint64_t count_ = 0, failed_ = 0;
 };
 
@@ -149,10 +191,11 @@ void render_batch(const RenderArgs& common) {
   std::uint64_t number = 0;
   for (const std::string& input : common.inputs) {
     if (!common.shard.has(number++)) continue;
-    batch.run(input, [&] {
+    batch.add(input, [&] {
       RenderArgs args = common;
       args.input = input;
       if (!args.sequence.is_wanted()) args.output = frame_name(args.output, 0, model_of(input));
+      check_outputs(args);
       return args;
     });
   }
@@ -160,7 +203,11 @@ void render_batch(const RenderArgs& common) {
   Jobs jobs(common);
   for (const Line& line : lines_of(common.manifest)) {
     if (!common.shard.has(number++)) continue;
-    batch.run(line.place, [&] { return jobs.read(line); });
+    batch.add(line.place, [&] {
+      RenderArgs args = jobs.read(line);
+      check_outputs(args);
+      return args;
+    });
   }
   batch.finish();
 }

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
+#include <optional>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/item_process.h"
 #include "zoneplate/cli/render_picture.h"
 #include "zoneplate/cli/stage.h"
 #include "zoneplate/cli/values.h"
@@ -37,22 +40,41 @@ Rgba8Image blank(const SheetArgs& args) {
   return Rgba8Image(args.render.options.width, args.render.options.height, {255, 255, 255, 255});
 }
 
+// In the item's process: the model's picture, as RGBA codes.
+std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
+  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), render.method);
+  std::optional<Stage> stage;
+  within_import_time(render.input, render.load.limits, [&] { stage.emplace(load_scene(render.input, render.load)); });
+  sender.has_read();
+  render.view.up = render.up.value_or(stage->scene().up);
+  if (is_builtin_scene(render.input) && !stage->scene().cameras.empty()) render.view.index = 0;
+  const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
+  const Camera camera = choose_camera(stage->scene(), render.view, aspect);
+  render.options.environment = stage->light(camera, render.look);
+  Summary summary;
+  const Rendered picture = render_picture(render, stage->scene(), camera, *resolver, "", summary);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(picture.image.values().data());
+  return {first, first + picture.image.values().size_bytes()};
+}
+
 // A model's picture; where it has none, what stands in the way of it.
 Panel panel_of(const SheetArgs& args, const std::string& input, const std::string& name) {
   try {
     RenderArgs render = args.render;
     render.input = input;
-    const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), render.method);
-    Stage stage(load_scene(input, render.load));
-    render.view.up = render.up.value_or(stage.scene().up);
-    if (is_builtin_scene(input) && !stage.scene().cameras.empty()) render.view.index = 0;
-    const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
-    const Camera camera = choose_camera(stage.scene(), render.view, aspect);
-    render.options.environment = stage.light(camera, render.look);
-    Summary summary;
-    Rendered picture = render_picture(render, stage.scene(), camera, *resolver, "", summary);
-    return {std::move(picture.image), name};
-  } catch (const Error& error) {
+    ItemProcess process({.name = input,
+                         .load = render.load.limits,
+                         .seconds = render.max_seconds,
+                         .is_sandboxed = wants_sandbox(render.is_sandboxed),
+                         .readable = readable_paths(input, render.load)},
+                        1, [&](std::size_t, ItemSender& sender) { return render_cell(render, sender); });
+    const std::vector<std::uint8_t> codes = process.next({});
+    Rgba8Image image = blank(args);
+    if (codes.size() != image.values().size_bytes())
+      throw Error(Trouble::Failed, input + ": a picture of a wrong size");
+    std::memcpy(image.values().data(), codes.data(), codes.size());
+    return {std::move(image), name};
+  } catch (const std::exception& error) {
     std::string cause = error.what();
     if (cause.starts_with(input + ": ")) cause = cause.substr(input.size() + 2);
     return {blank(args), name + "\n" + cause};
@@ -101,10 +123,16 @@ Syntax make_syntax(SheetArgs& args) {
                      [&](auto& text) { args.render.method = text; }},
                     {"--background-color,--background", "COLOR", "Behind the models; default #444444", "Options", false,
                      [&](auto& text) { args.render.background = parse_color(text); }},
-                    {"--sandbox", "", "Read models in processes of their own that may do nothing but read", "Options",
-                     false, [&](auto&) { args.render.load.is_sandboxed = true; }},
-                    {"--max-memory", "BYTES", "Refuse scenes that need more, as 512M; default 4G", "Options", false,
-                     [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
+                    {"--max-memory", "BYTES", "Memory for one model and its picture, as 512M; default 4G", "Options",
+                     false, [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
+                    {"--max-import-seconds", "S", "Give up reading a model after this time; default 60", "Options",
+                     false, [&](auto& text) { args.render.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
+                    {"--max-seconds", "S", "Give up a model after this time; default no limit", "Options", false,
+                     [&](auto& text) { args.render.max_seconds = parse_number(text, 0.001, 1e9); }},
+                    {"--sandbox", "", "Read and render in processes that may do nothing else: the default", "Options",
+                     false, [&](auto&) { args.render.is_sandboxed = true; }},
+                    {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust",
+                     "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
                     {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Options", false,
                      [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
@@ -125,7 +153,8 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   check_picture_ending(args.output);
   if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
     throw Error(Trouble::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
-  check_writable(args.output);
+  args.render.output = args.output;
+  check_outputs(args.render);
 
   const std::vector<std::string> names = short_names(syntax.found_operands);
   std::vector<Panel> panels;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/apng.h"
 #include "zoneplate/image/webp.h"
-#include "zoneplate/report/child.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -26,12 +28,35 @@ const std::vector<std::string>& codec_of(const std::string& extension) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output) {
-  const std::string extension = std::filesystem::path(output).extension().string();
-  if (extension == ".apng" || extension == ".png") return encode_apng(film);
-  if (extension == ".webp") return encode_webp(film);
+Animation film_of(double rate) {
+  // A frame's length as a fraction of whole numbers.
+  Animation film;
+  const bool is_whole = rate == std::floor(rate);
+  film.seconds = is_whole ? 1 : 1000;
+  film.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
+  if (film.per < 1 || film.per > 65535)
+    throw Error(Trouble::Usage, "--frame-rate: wants a whole number, or one up to 65");
+  return film;
+}
 
-  const Rgba8Image& first = film.frames.front();
+bool is_encoded_by_ffmpeg(const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  return extension == ".gif" || extension == ".mp4" || extension == ".webm";
+}
+
+std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output) {
+  return std::filesystem::path(output).extension() == ".webp" ? encode_webp(film) : encode_apng(film);
+}
+
+FfmpegFilm::FfmpegFilm(std::string output, int width, int height, const Animation& timing)
+    : output_(std::move(output)),
+      width_(width),
+      height_(height),
+      per_(timing.per),
+      seconds_(timing.seconds),
+      frames_("ffmpeg") {}
+
+std::vector<std::uint8_t> FfmpegFilm::encode() const {
   std::vector<std::string> arguments = {"-v",
                                         "error",
                                         "-f",
@@ -39,9 +64,9 @@ std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& 
                                         "-pix_fmt",
                                         "rgba",
                                         "-s",
-                                        fmt::format("{}x{}", first.width(), first.height()),
+                                        fmt::format("{}x{}", width_, height_),
                                         "-r",
-                                        fmt::format("{}/{}", film.per, film.seconds),
+                                        fmt::format("{}/{}", per_, seconds_),
                                         "-i",
                                         "-",
                                         "-map_metadata",
@@ -52,13 +77,11 @@ std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& 
                                         "+bitexact",
                                         "-threads",
                                         "1"};
-  for (const std::string& word : codec_of(extension)) arguments.push_back(word);
+  for (const std::string& word : codec_of(std::filesystem::path(output_).extension().string()))
+    arguments.push_back(word);
   arguments.push_back("-");
-  std::string raw;
-  for (const Rgba8Image& frame : film.frames)
-    raw.append(reinterpret_cast<const char*>(frame.values().data()), frame.values().size() * sizeof(Rgba8));
-  const int milliseconds = 60'000 + static_cast<int>(raw.size() / 1000);
-  ChildAnswer answer = run_child("ffmpeg", arguments, raw, {.milliseconds = milliseconds});
+  const int milliseconds = 60'000 + static_cast<int>(std::min<std::uint64_t>(frames_.size() / 1000, 1'000'000'000));
+  ProgramResult answer = run_child("ffmpeg", arguments, frames_, {.milliseconds = milliseconds});
   if (answer.code != 0 || answer.out.empty())
     throw Error(Trouble::Failed,
                 fmt::format("ffmpeg: {}", answer.complaint.empty() ? "wrote nothing" : answer.complaint));

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/item_process.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/packed.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/report/json.h"
@@ -153,22 +157,39 @@ std::string info_text(const std::string& input, const Scene& scene) {
   return text;
 }
 
+// What is printed, and the warnings.
+std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& scene, bool wants_json) {
+  Packer out;
+  out.text(wants_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
+  out.value(std::uint64_t{scene.warnings.size()});
+  for (const std::string& warning : scene.warnings) out.text(warning);
+  return std::move(out).bytes();
+}
+
 }  // namespace
 
 void run_info(std::span<const std::string> arguments) {
   bool wants_json = false;
   LoadOptions options;
+  double max_seconds = std::numeric_limits<double>::infinity();
+  bool is_sandboxed = true;
   Syntax syntax{.verb = "info",
                 .summary = "Tell what is in a model: meshes, materials, textures, lights, cameras, bounds",
                 .operands = "IN",
                 .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
   syntax.options = {{"--json", "", "As one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
-                    {"--max-memory", "BYTES", "Refuse scenes that need more, as 512M; 4G", "Options", false,
+                    {"--max-memory", "BYTES", "Memory for reading, as 512M; default 4G", "Options", false,
                      [&](auto& text) { options.limits.memory = parse_bytes(text); }},
+                    {"--max-import-seconds", "S", "Give up reading after this time; default 60", "Options", false,
+                     [&](auto& text) { options.limits.seconds = parse_number(text, 0.001, 1e6); }},
+                    {"--max-seconds", "S", "Give up after this time; default no limit", "Options", false,
+                     [&](auto& text) { max_seconds = parse_number(text, 0.001, 1e9); }},
                     {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
                      [&](auto& text) { options.format = text; }},
-                    {"--sandbox", "", "Read it in a process of its own that may do nothing but read", "Options", false,
-                     [&](auto&) { options.is_sandboxed = true; }},
+                    {"--sandbox", "", "Read in a process that may do nothing else: the default", "Options", false,
+                     [&](auto&) { is_sandboxed = true; }},
+                    {"--no-sandbox", "", "Read with all rights of the user: for models that you trust", "Options",
+                     false, [&](auto&) { is_sandboxed = false; }},
                     {"--allow-path", "", "Let a model use files outside its own folder", "Options", false,
                      [&](auto&) { options.limits.allow_path = true; }}};
   if (!parse(syntax, arguments)) return;
@@ -176,10 +197,22 @@ void run_info(std::span<const std::string> arguments) {
     throw Error(Trouble::Usage, "info takes one input: a model or a built-in scene");
 
   const std::string& input = syntax.found_operands.front();
-  const Scene scene = load_scene(input, options);
-  print(wants_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
+  ItemProcess process({.name = input == "-" ? "standard input" : input,
+                       .load = options.limits,
+                       .seconds = max_seconds,
+                       .is_sandboxed = wants_sandbox(is_sandboxed),
+                       .readable = readable_paths(input, options)},
+                      1, [&](std::size_t, ItemSender& sender) {
+                        Scene scene;
+                        within_import_time(input, options.limits, [&] { scene = load_scene(input, options); });
+                        sender.has_read();
+                        return packed_info(input, scene, wants_json);
+                      });
+  const std::vector<std::uint8_t> answer = process.next({});
+  Unpacker told(answer);
+  print(told.text());
   if (!wants_json)
-    for (const std::string& warning : scene.warnings) say_warning(warning);
+    for (auto n = told.value<std::uint64_t>(); n > 0; --n) say_warning(told.text());
 }
 
 }  // namespace zoneplate::cli

@@ -3,7 +3,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/batch.h"
-#include "zoneplate/cli/render_job.h"
+#include "zoneplate/cli/render_items.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
 
@@ -16,7 +16,7 @@ void tell(const RenderArgs& args, const Summary& summary) {
     for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
     say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", args.output, summary.width, summary.height,
                          args.method, summary.counts.triangles, summary.threads, name_of(args.options.isa)));
-    say_note(fmt::format("{}{} MB at most", times, peak_memory() >> 20));
+    say_note(fmt::format("{}{} MB at most", times, summary.peak_memory >> 20));
   }
   if (!args.wants_json) return;
   const std::string line = Json(summary_json(args, summary)).text() + '\n';
@@ -38,10 +38,10 @@ void run_render(std::span<const std::string> arguments) {
     return;
   }
   static_cast<void>(make_resolver(antialias::methods(), args.method));
-  check_writable(args.output);
+  check_outputs(args);
   if (args.skip_existing && exists(args.output)) return;
   Summary summary;
-  with_threads(args.threads, [&] { summary = RenderJobs().run(args); });
+  with_threads(args.threads, [&] { summary = RenderItems({args}).next(); });
   if (args.verbosity != Verbosity::Quiet)
     for (const std::string& warning : summary.warnings) say_warning(warning);
   tell(args, summary);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ struct RenderArgs {
   LoadOptions load;
   std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
   int threads = 0;           ///< 0: as many as there are cores
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
+  bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
   bool wants_json = false;
   Verbosity verbosity = Verbosity::Normal;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal

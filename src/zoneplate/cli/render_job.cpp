@@ -11,45 +11,42 @@
 #include "zoneplate/scene/load.h"
 
 namespace zoneplate::cli {
-namespace {
 
-// What decides how a model is loaded.
-std::string key_of(const RenderArgs& args) {
+std::string model_key(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
-                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path,
-                     args.load.is_sandboxed);
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1), c.variant,
+                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path);
 }
 
-}  // namespace
-
 Stage& RenderJobs::stage_of(const RenderArgs& args) {
-  const std::string key = key_of(args);
+  const std::string key = model_key(args);
   if (stage_ && key == key_ && args.input != "-") return *stage_;
   stage_.reset();
-  stage_ = std::make_unique<Stage>(load_scene(args.input, args.load));
+  within_import_time(args.input, args.load.limits,
+                     [&] { stage_ = std::make_unique<Stage>(load_scene(args.input, args.load)); });
   key_ = key;
   return *stage_;
 }
 
-Summary RenderJobs::run(RenderArgs args) {
+Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Stopwatch total_watch;
   const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
   check_request(args, resolver->ask(0));
   Summary summary;
   summary.threads = thread_limit();
-  Progress progress(args.progress ? *args.progress : parse_progress("auto"));
-  progress.begin("read", 0);
+  out.progress("read", 0);
   if (args.sequence.is_wanted()) {
-    render_sequence(args, *resolver, summary);
+    render_sequence(args, *resolver, out, summary);
     summary.times = {{"total", total_watch.ms()}};
+    summary.peak_memory = peak_memory();
     return summary;
   }
 
   const Stopwatch read_watch;
   Stage& stage = stage_of(args);
   summary.times.emplace_back("read", read_watch.ms());
+  out.has_read();
   const Scene& scene = stage.scene();
   args.view.up = args.up.value_or(scene.up);
   const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
@@ -58,20 +55,21 @@ Summary RenderJobs::run(RenderArgs args) {
   const Camera camera = choose_camera(scene, args.view, aspect);
   args.options.environment = stage.light(camera, args.look);
   summary.warnings = scene.warnings;
-  progress.begin("render", 0.2);
+  out.progress("render", 0.2);
   const Rendered picture = render_picture(args, scene, camera, *resolver, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
-  progress.begin("encode", 0.8);
+  out.progress("encode", 0.8);
   const Stopwatch encode_watch;
   const std::vector<std::uint8_t> bytes = encode_picture(picture, args.named_output());
   summary.times.emplace_back("encode", encode_watch.ms());
-  progress.begin("write", 0.95);
+  out.progress("write", 0.95);
   const Stopwatch write_watch;
-  save_bytes(args.output, bytes);
-  for (const OutputFile& file : picture.layers) save_bytes(file.path, file.bytes);
+  out.file(-1, -1, bytes);
+  for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
   summary.times.emplace_back("write", write_watch.ms());
   summary.times.emplace_back("total", total_watch.ms());
+  summary.peak_memory = peak_memory();
   return summary;
 }
 
@@ -92,7 +90,7 @@ Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
                       {"threads", summary.threads},
                       {"isa", name_of(args.options.isa)},
                       {"ms", std::move(times)},
-                      {"peak_memory_bytes", peak_memory()},
+                      {"peak_memory_bytes", summary.peak_memory},
                       {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};
 }
 

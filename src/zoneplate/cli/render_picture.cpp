@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/frame_name.h"
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/jpeg_encode.h"
@@ -113,13 +113,14 @@ std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
 void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, const std::string& output,
                 Rendered& out) {
   DataChannels data;
-  for (const Aov* aov : args.aovs) {
+  for (std::size_t i = 0; i < args.aovs.size(); ++i) {
+    const Aov* const aov = args.aovs[i];
     if (is_exr(output)) {
       aov->add_channels(frame, scene, data);
       continue;
     }
     std::optional<std::vector<std::uint8_t>> pfm = is_pfm(output) ? encode_data_pfm(*aov, frame, scene) : std::nullopt;
-    out.layers.push_back({aov_path(output, aov->name), pfm ? std::move(*pfm) : aov->encode(frame, scene)});
+    out.layers.push_back({static_cast<int>(i), pfm ? std::move(*pfm) : aov->encode(frame, scene)});
   }
   if (is_exr(output)) out.exr = exr_of(out.linear, data);
 }
@@ -137,8 +138,8 @@ void check_memory(const RenderArgs& args, const Request& request) {
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
   if (need > args.load.limits.memory)
-    throw Error(Trouble::Usage, fmt::format("a picture of {}x{} needs {} MB, --max-memory allows {} MB", width, height,
-                                            need >> 20, args.load.limits.memory >> 20));
+    throw Error(Trouble::Failed, fmt::format("{}: a picture of {}x{} needs {} MB of memory, --max-memory allows {} MB",
+                                             args.input, width, height, need >> 20, args.load.limits.memory >> 20));
 }
 
 void count_times(Summary& summary) {
@@ -154,15 +155,18 @@ std::string aov_path(const std::string& output, std::string_view name) {
   return std::filesystem::path(output).replace_extension(fmt::format(".{}.{}", name, is_pfm(output) ? "pfm" : "png"));
 }
 
-void check_writable(const std::string& output) {
-  if (output == "-") {
-    if (::isatty(STDOUT_FILENO) == 1) throw Error(Trouble::Usage, "a picture will not be written to a terminal");
-    return;
-  }
-  const std::filesystem::path path(output);
-  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw Error(Trouble::Output, fmt::format("{}: {}: {}", output, folder, std::strerror(errno)));
+std::string output_path(const RenderArgs& args, int frame, int layer) {
+  const std::string model = std::filesystem::path(args.input).stem().string();
+  const std::string picture = frame < 0 ? args.output : frame_name(args.output, frame, model);
+  return layer < 0 ? picture : aov_path(picture, args.aovs.at(static_cast<std::size_t>(layer))->name);
+}
+
+void check_outputs(const RenderArgs& args) {
+  if (args.output == "-" && ::isatty(STDOUT_FILENO) == 1)
+    throw Error(Trouble::Usage, "a picture will not be written to a terminal");
+  const int frame = args.sequence.is_wanted() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
+  for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
+    check_savable(output_path(args, frame, layer));
 }
 
 void check_request(const RenderArgs& args, const Request& request) {

@@ -11,9 +11,9 @@
 
 namespace zoneplate::cli {
 
-/// A file of the result, ready to be written.
-struct OutputFile {
-  std::string path;
+/// A data pass as a file beside the picture's: its place among RenderArgs::aovs, and its bytes.
+struct LayerFile {
+  int aov = 0;
   std::vector<std::uint8_t> bytes;
 };
 
@@ -24,6 +24,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> times;
   std::vector<std::string> warnings;
   int frames = 1;
+  std::uint64_t peak_memory = 0;  ///< resident, of the process that did the work, in bytes
 };
 
 /// A picture, with the data passes that were asked for.
@@ -33,23 +34,27 @@ struct Rendered {
   LinearImage linear;   ///< where the output is a PFM or EXR: linear light over the background, before tone mapping
   std::vector<std::uint8_t> exr;  ///< the whole file, where the output is an EXR with data passes in it
   bool has_alpha = false;
-  std::vector<OutputFile> layers;
+  std::vector<LayerFile> layers;
 };
 
 /// Where a data pass goes: "chair.png" and "depth" give "chair.depth.png", as do pictures of other formats; beside a
 /// PFM it is one too, and in an EXR it is in the picture's own file.
 std::string aov_path(const std::string& output, std::string_view name);
 
-/// Fails at once, not after a long render, where the picture can never be written.
+/// Fails at once, not after a long render, where one of the item's files can never be written.
 ///
 /// Errors    Trouble::Output; Trouble::Usage for a terminal.
-void check_writable(const std::string& output);
+void check_outputs(const RenderArgs& args);
 
-/// Errors    Trouble::Usage where frame and picture need more than the limit, or the method would leave no trace in a
-///           file of light.
+/// The name of a file of the item. `frame`: its number in a sequence, or -1; `layer`: the place of a data pass among
+/// `args.aovs`, or -1 for the picture.
+std::string output_path(const RenderArgs& args, int frame, int layer);
+
+/// Errors    Trouble::Failed where frame and picture need more than the limit on memory; Trouble::Usage where the
+///           method would leave no trace in a file of linear values.
 void check_request(const RenderArgs& args, const Request& request);
 
-/// Renders a scene that is loaded and lit. The passes are named after `output`: "chair.png", "chair.depth.png".
+/// Renders a scene that is loaded and lit. The ending of `output` decides the formats of the picture and the passes.
 Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
                         const std::string& output, Summary& summary);
 

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <optional>
 
-#include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/cli/background.h"
 #include "zoneplate/cli/film.h"
 #include "zoneplate/cli/frame_name.h"
@@ -33,7 +30,7 @@ class Plan {
     // A turntable leaves the animation alone, unless one is asked for.
     const bool is_asked = args.load.choice.animation || args.has_animation_time;
     choice_ = args.load.choice;
-    Scene scene = source.load(choice_);
+    Scene scene = load(choice_);
     if (!choice_.animation && !scene.animations.empty() && (is_asked || !args.sequence.turntable))
       choice_.animation = SceneChoice::all_animations;
     for (std::size_t i = 0; choice_.animation && i < scene.animations.size(); ++i)
@@ -52,7 +49,7 @@ class Plan {
     if (!is_animated()) return *stage_;
     SceneChoice choice = choice_;
     choice.time = time_of(frame);
-    *stage_ = Stage(source_.load(choice));
+    *stage_ = Stage(load(choice));
     return *stage_;
   }
 
@@ -61,7 +58,7 @@ class Plan {
     if (!is_animated()) return stage_->scene();
     SceneChoice choice = choice_;
     choice.time = time_of(frame);
-    return memory = source_.load_shape(choice);
+    return memory = load_shape(choice);
   }
 
   // What the frames have in common is made once. `scene`: lit, a stage's.
@@ -91,10 +88,34 @@ class Plan {
   }
 
  private:
+  Scene load(const SceneChoice& choice) {
+    Scene scene;
+    within_import_time(args_.input, args_.load.limits, [&] { scene = source_.load(choice); });
+    return scene;
+  }
+  Scene load_shape(const SceneChoice& choice) {
+    Scene scene;
+    within_import_time(args_.input, args_.load.limits, [&] { scene = source_.load_shape(choice); });
+    return scene;
+  }
+
+  // The number of the animation's last frame.
+  int last_of_animation(int first) const {
+    const SequenceArgs& s = args_.sequence;
+    const double last = std::floor(end_ * s.rate + 1e-6);
+    if (!((last - first) / s.jump < most_frames))
+      throw Error(Trouble::Input,
+                  fmt::format("{}: its animation ends at {:.6g} s, which is more than {} frames: choose some of them "
+                              "with --frames or --frame-end",
+                              args_.input, end_, most_frames));
+    return static_cast<int>(std::max(last, -1.0));
+  }
+
   void list_frames() {
     const SequenceArgs& s = args_.sequence;
     const int first = s.first.value_or(0);
-    int last = s.turntable ? *s.turntable - 1 : static_cast<int>(std::floor(end_ * s.rate + 1e-6));
+    const bool has_last = s.turntable || s.count || s.last;
+    int last = s.turntable ? *s.turntable - 1 : has_last ? 0 : last_of_animation(first);
     if (s.count) last = first + (*s.count - 1) * s.jump;
     if (s.last) last = *s.last;
     if (last < first) throw Error(Trouble::Usage, fmt::format("there is no frame from {} to {}", first, last));
@@ -112,7 +133,7 @@ class Plan {
     for (int i = 0; i < poses; ++i) {
       SceneChoice choice = choice_;
       choice.time = args_.load.choice.time + end_ * i / (poses - 1);
-      Scene scene = source_.load_shape(choice);
+      Scene scene = load_shape(choice);
       const auto before = static_cast<int>(all.meshes.size());
       for (Mesh& mesh : scene.meshes) all.meshes.push_back(std::move(mesh));
       for (Instance instance : scene.instances) instance.mesh += before, all.instances.push_back(instance);
@@ -198,24 +219,13 @@ Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int fra
   return render_picture(args, scene, camera, resolver, output, summary);
 }
 
-// A frame's length as a fraction of whole numbers.
-Animation film_of(double rate) {
-  Animation film;
-  const bool is_whole = rate == std::floor(rate);
-  film.seconds = is_whole ? 1 : 1000;
-  film.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
-  if (film.per < 1 || film.per > 65535)
-    throw Error(Trouble::Usage, "--frame-rate: wants a whole number, or one up to 65");
-  return film;
-}
-
 void check_film(const RenderArgs& args, std::size_t frames) {
   if (!args.aovs.empty()) throw Error(Trouble::Usage, "--aov wants numbered frames, as chair.####.png");
   const std::uint64_t bytes = std::uint64_t{4} * frames * static_cast<std::uint64_t>(args.options.width) *
                               static_cast<std::uint64_t>(args.options.height);
-  if (bytes > args.load.limits.memory)
-    throw Error(Trouble::Usage, fmt::format("a film of {} frames needs {} MB, --max-memory allows {} MB", frames,
-                                            bytes >> 20, args.load.limits.memory >> 20));
+  if (!is_encoded_by_ffmpeg(args.output) && bytes > args.load.limits.memory)
+    throw Error(Trouble::Failed, fmt::format("{}: a film of {} frames needs {} MB of memory, --max-memory allows {} MB",
+                                             args.input, frames, bytes >> 20, args.load.limits.memory >> 20));
 }
 
 bool is_one_frame(const SequenceArgs& s) { return s.count == 1 || (s.first && s.first == s.last); }
@@ -228,7 +238,7 @@ bool is_film(const std::string& output) {
          extension == ".webp";
 }
 
-void render_sequence(RenderArgs args, Resolver& resolver, Summary& summary) {
+void render_sequence(RenderArgs args, Resolver& resolver, ItemSender& out, Summary& summary) {
   const bool has_number = has_frame_number(args.output);
   if (!has_number && !is_film(args.output) && !is_one_frame(args.sequence))
     throw Error(Trouble::Usage,
@@ -237,6 +247,7 @@ void render_sequence(RenderArgs args, Resolver& resolver, Summary& summary) {
                     ".webp, .gif, .mp4, .webm");
   SceneSource source(args.input, args.load);
   Plan plan(args, source);
+  out.has_read();
   const bool is_numbered = has_number || !is_film(args.output);
   summary.warnings = plan.stage(plan.frames().front()).scene().warnings;
   args.view.up = args.up.value_or(plan.stage(plan.frames().front()).scene().up);
@@ -244,23 +255,26 @@ void render_sequence(RenderArgs args, Resolver& resolver, Summary& summary) {
   if (!is_numbered) check_film(args, plan.frames().size());
   const Camera still = plan.still_camera(args.view, aspect);
 
-  const std::string model = std::filesystem::path(args.input).stem().string();
   Animation film = film_of(args.sequence.rate);
   Background background;
+  std::size_t done = 0;
   for (const int frame : plan.frames()) {
-    const std::string output = is_numbered ? frame_name(args.output, frame, model) : args.output;
-    if (is_numbered && args.skip_existing && std::filesystem::exists(output)) continue;
+    out.progress("render", static_cast<double>(done++) / static_cast<double>(plan.frames().size()));
+    const std::string output = is_numbered ? output_path(args, frame, -1) : args.output;
+    if (is_numbered && args.skip_existing && exists(output)) continue;
     Rendered picture = render_frame(args, plan, still, frame, output, resolver, summary);
     if (is_numbered) {
-      const auto write = [picture = std::make_shared<Rendered>(std::move(picture)), output] {
-        save_bytes(output, encode_picture(*picture, output));
-        for (const OutputFile& file : picture->layers) save_bytes(file.path, file.bytes);
+      const auto send = [&out, picture = std::make_shared<Rendered>(std::move(picture)), output, frame] {
+        out.file(frame, -1, encode_picture(*picture, output));
+        for (const LayerFile& file : picture->layers) out.file(frame, file.aov, file.bytes);
       };
       // PNG takes all threads by itself.
       if (extension_of(output) == ".png")
-        write();
+        send();
       else
-        background.run(write);
+        background.run(send);
+    } else if (is_encoded_by_ffmpeg(output)) {
+      out.film_frame(picture.image);
     } else {
       film.has_alpha = picture.has_alpha;
       film.frames.push_back(std::move(picture.image));
@@ -268,7 +282,7 @@ void render_sequence(RenderArgs args, Resolver& resolver, Summary& summary) {
   }
   background.wait();
   summary.frames = static_cast<int>(plan.frames().size());
-  if (!is_numbered) save_bytes(args.output, encode_film(film, args.output));
+  if (!film.frames.empty()) out.file(-1, -1, encode_film(film, args.output));
 }
 
 }  // namespace zoneplate::cli

@@ -15,6 +15,7 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/library.h"
 #include "zoneplate/base/limited_child.h"
 
 namespace zoneplate {
@@ -25,7 +26,6 @@ struct Refusal {
   std::string cause;
 };
 
-constexpr const char* library_name = "libOpenEXRCore-3_1.so.30";
 
 /// A rectangle of pixels, both corners in it.
 struct Window {
@@ -80,7 +80,7 @@ std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
 }
 
 /// The library's functions that are used here; it is opened by them, not with the program.
-struct Library {
+struct ExrLibrary {
   decltype(&exr_start_read) start_read = nullptr;
   decltype(&exr_finish) finish = nullptr;
   decltype(&exr_get_default_error_message) error_text = nullptr;
@@ -95,28 +95,21 @@ struct Library {
   decltype(&exr_decoding_run) decode = nullptr;
   decltype(&exr_decoding_destroy) end_decoding = nullptr;
 
-  explicit Library(const std::string& file) {
-    void* const opened = ::dlopen(library_name, RTLD_NOW | RTLD_LOCAL);
-    if (!opened)
-      throw Error(Trouble::Failed,
-                  file + ": an EXR picture wants the package libopenexr-3-1-30 (" + library_name + ")");
-    const auto find = [&](auto& function, const char* symbol) {
-      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(opened, symbol));
-      if (!function) throw Error(Trouble::Failed, std::string(library_name) + " has no " + symbol);
-    };
-    find(start_read, "exr_start_read");
-    find(finish, "exr_finish");
-    find(error_text, "exr_get_default_error_message");
-    find(storage, "exr_get_storage");
-    find(channels, "exr_get_channels");
-    find(scanlines_per_chunk, "exr_get_scanlines_per_chunk");
-    find(tile_sizes, "exr_get_tile_sizes");
-    find(scanline_chunk, "exr_read_scanline_chunk_info");
-    find(tile_chunk, "exr_read_tile_chunk_info");
-    find(begin_decoding, "exr_decoding_initialize");
-    find(choose_routines, "exr_decoding_choose_default_routines");
-    find(decode, "exr_decoding_run");
-    find(end_decoding, "exr_decoding_destroy");
+  explicit ExrLibrary(const std::string& file) {
+    const SharedLibrary library(Library::OpenExr, file + ": an EXR picture");
+    library.find(start_read, "exr_start_read");
+    library.find(finish, "exr_finish");
+    library.find(error_text, "exr_get_default_error_message");
+    library.find(storage, "exr_get_storage");
+    library.find(channels, "exr_get_channels");
+    library.find(scanlines_per_chunk, "exr_get_scanlines_per_chunk");
+    library.find(tile_sizes, "exr_get_tile_sizes");
+    library.find(scanline_chunk, "exr_read_scanline_chunk_info");
+    library.find(tile_chunk, "exr_read_tile_chunk_info");
+    library.find(begin_decoding, "exr_decoding_initialize");
+    library.find(choose_routines, "exr_decoding_choose_default_routines");
+    library.find(decode, "exr_decoding_run");
+    library.find(end_decoding, "exr_decoding_destroy");
   }
 
   void check(exr_result_t result) const {
@@ -163,7 +156,7 @@ class Channel {
 /// An open file, decoded into the channels of its data window. It lives in the child.
 class ExrReader {
  public:
-  ExrReader(const Library& library, std::span<const std::uint8_t> bytes, const Window& window)
+  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window)
       : library_(library), bytes_(bytes), window_(window) {
     exr_context_initializer_t set_up{};
     set_up.size = sizeof set_up;
@@ -284,7 +277,7 @@ class ExrReader {
       }
   }
 
-  const Library& library_;
+  const ExrLibrary& library_;
   std::span<const std::uint8_t> bytes_;
   Window window_;
   exr_context_t context_ = nullptr;
@@ -336,7 +329,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
       throw fail(std::to_string(window.width()) + " x " + std::to_string(window.height()) + " pixels, at most " +
                  std::to_string(max_pixels) + " are allowed");
 
-  const auto decode = [&](const Library& library, auto send) {
+  const auto decode = [&](const ExrLibrary& library, auto send) {
     try {
       ExrReader reader(library, bytes, windows->data);
       reader.read();
@@ -345,7 +338,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
       throw fail(refused.cause);
     }
   };
-  if (is_limited_child()) return decode(Library(name), take_row);
+  if (is_limited_child()) return decode(ExrLibrary(name), take_row);
 
   // The picture, and as much again for what is being unpacked of it.
   constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
@@ -355,7 +348,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
   limits.check_time = [&] {
     if (clock.ms() > limits.seconds * 1000) throw fail("takes longer than the limit");
   };
-  std::optional<Library> library;
+  std::optional<ExrLibrary> library;
   LimitedChild child(
       name + ": EXR", limits,
       [&](ChildAnswer& answer) {
@@ -378,7 +371,4 @@ LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& n
   });
   return image;
 }
-
-void open_exr_library() { static_cast<void>(::dlopen(library_name, RTLD_NOW | RTLD_LOCAL)); }
-
 }  // namespace zoneplate

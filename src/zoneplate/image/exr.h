@@ -37,7 +37,4 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
 /// Bytes that decoding takes beside what becomes of the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);
 
-/// Opens the library, where it is installed, for a process that may not open it later.
-void open_exr_library();
-
 }  // namespace zoneplate

@@ -10,7 +10,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -114,23 +116,21 @@ class Child {
   pid_t id_ = 0;
 };
 
-}  // namespace
-
-ChildAnswer run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
-                      const ChildLimits& limits) {
+ProgramResult run(const std::string& program, const std::vector<std::string>& arguments, int input,
+                  const ProgramLimits& limits) {
   const Stopwatch watch;
   const auto check_time = [&] {
     if (watch.ms() > limits.milliseconds) fail(program, "did not answer in time");
   };
-  const File in = file_of(program, input), complaints = file_of(program, "");
+  const File complaints = file_of(program, "");
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail(program, std::strerror(errno));
   const File out(ends[0]);
   File out_of_child(ends[1]);
-  Child child(program, arguments, in.number(), out_of_child.number(), complaints.number());
+  Child child(program, arguments, input, out_of_child.number(), complaints.number());
   out_of_child.close();
 
-  ChildAnswer answer;
+  ProgramResult answer;
   for (std::array<std::uint8_t, 65536> part;;) {
     check_time();
     pollfd waiting{out.number(), POLLIN, 0};
@@ -147,6 +147,39 @@ ChildAnswer run_child(const std::string& program, const std::vector<std::string>
   }
   answer.complaint = first_line_of(complaints);
   return answer;
+}
+
+}  // namespace
+
+ScratchFile::ScratchFile(std::string owner) : owner_(std::move(owner)) {
+  std::string name = (std::filesystem::temp_directory_path() / "zoneplate_XXXXXX").string();
+  number_ = ::mkostemp(name.data(), O_CLOEXEC);
+  if (number_ < 0) fail(owner_, "no temporary file: " + std::string(std::strerror(errno)));
+  ::unlink(name.c_str());
+}
+
+ScratchFile::~ScratchFile() { ::close(number_); }
+
+void ScratchFile::append(std::span<const std::uint8_t> bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t n = ::write(number_, bytes.data() + at, bytes.size() - at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail(owner_, "its temporary file cannot be written: " + std::string(std::strerror(errno)));
+    at += static_cast<std::size_t>(n);
+  }
+  size_ += bytes.size();
+}
+
+ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
+                        const ProgramLimits& limits) {
+  const File in = file_of(program, input);
+  return run(program, arguments, in.number(), limits);
+}
+
+ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const ScratchFile& input,
+                        const ProgramLimits& limits) {
+  if (::lseek(input.number(), 0, SEEK_SET) != 0) fail(program, std::strerror(errno));
+  return run(program, arguments, input.number(), limits);
 }
 
 }  // namespace zoneplate

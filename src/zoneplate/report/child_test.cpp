@@ -14,15 +14,15 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(Child, GivesInputAnswersAndCode) {
   const std::string text(3000000, 'x');
-  const ChildAnswer answer = run_child("cat", {}, text);
+  const ProgramResult answer = run_child("cat", {}, text);
   EXPECT_EQ(answer.code, 0);
   EXPECT_EQ(std::string(answer.out.begin(), answer.out.end()), text);
-  const ChildAnswer failed = run_child("ls", {"/no/such/file"}, "");
+  const ProgramResult failed = run_child("ls", {"/no/such/file"}, "");
   EXPECT_NE(failed.code, 0);
   EXPECT_TRUE(contains(failed.complaint, "No such file")) << failed.complaint;
   // Nothing of the environment comes along.
   ::setenv("ZONEPLATE_CHILD_TEST", "seen", 1);
-  const ChildAnswer variables = run_child("env", {}, "");
+  const ProgramResult variables = run_child("env", {}, "");
   EXPECT_FALSE(contains(std::string(variables.out.begin(), variables.out.end()), "ZONEPLATE_CHILD_TEST"));
 }
 

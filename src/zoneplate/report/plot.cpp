@@ -224,7 +224,7 @@ std::string script_of(std::span<const Plot> plots, int columns, const PlotSize& 
 std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const PlotSize& size,
                                 const Terminal& terminal) {
   // `-d` keeps settings of the machine's out.
-  const ChildAnswer answer = [&] {
+  const ProgramResult answer = [&] {
     try {
       return run_child("gnuplot", {"-d", "-"}, script_of(plots, columns, size, terminal));
     } catch (const Error& error) {

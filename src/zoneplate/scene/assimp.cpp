@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/image/exr.h"
+#include "zoneplate/base/library.h"
+#include "zoneplate/base/limited_child.h"
 #include "zoneplate/scene/assimp_files.h"
 #include "zoneplate/scene/assimp_scene.h"
 #include "zoneplate/scene/import_child.h"
@@ -13,7 +15,6 @@
 #if __has_include(<assimp/cimport.h>)
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
-#include <dlfcn.h>
 #endif
 
 namespace zoneplate {
@@ -44,25 +45,19 @@ constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
 
 #if __has_include(<assimp/cimport.h>)
 
-/// The functions of the library that are wanted; it stays open as long as the process.
-struct Library {
+/// The functions of the library that are used here.
+struct AssimpLibrary {
   decltype(&aiImportFileEx) import = nullptr;
   decltype(&aiGetErrorString) error = nullptr;
+
+  explicit AssimpLibrary(const std::string& file) {
+    const SharedLibrary library(Library::Assimp, file);
+    library.find(import, "aiImportFileEx");
+    library.find(error, "aiGetErrorString");
+  }
 };
 
-Library open_library(const std::string& file) {
-  const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, file + ": " + cause); };
-  constexpr const char* name = "libassimp.so.5";  // the version whose headers these are
-  void* const handle = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) fail("is read by the library assimp (package libassimp5), which is not here");
-  Library library;
-  library.import = reinterpret_cast<decltype(library.import)>(::dlsym(handle, "aiImportFileEx"));
-  library.error = reinterpret_cast<decltype(library.error)>(::dlsym(handle, "aiGetErrorString"));
-  if (library.import == nullptr || library.error == nullptr) fail("the library assimp lacks its functions");
-  return library;
-}
-
-Scene import(const Library& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
+Scene import(const AssimpLibrary& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
   const std::string folder = path == "-" ? "." : std::filesystem::path(path).parent_path().string();
   AssimpFiles files(path, folder, extension, budget);
   constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
@@ -79,11 +74,12 @@ Scene import(const Library& library, const std::string& path, std::string_view e
 
 #else
 
-struct Library {};
-Library open_library(const std::string& file) {
-  throw Error(Trouble::Input, file + ": wants the library assimp, which this program was built without");
-}
-Scene import(const Library&, const std::string&, std::string_view, ImportBudget&) { return {}; }
+struct AssimpLibrary {
+  explicit AssimpLibrary(const std::string& file) {
+    throw Error(Trouble::Input, file + ": needs the library assimp, which this program was built without");
+  }
+};
+Scene import(const AssimpLibrary&, const std::string&, std::string_view, ImportBudget&) { return {}; }
 
 #endif
 
@@ -93,18 +89,18 @@ std::span<const SceneFormat> assimp_formats() { return formats; }
 
 Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits) {
   ImportBudget budget(path == "-" ? "standard input" : path, limits);
-  Library library;
-  const auto open = [&] {
-    library = open_library(budget.file());
-    open_exr_library();
-  };
+  if (is_limited_child()) return import(AssimpLibrary(budget.file()), path, extension, budget);
+  std::optional<AssimpLibrary> library;
   LimitedChild child(
       budget.file(), child_limits(budget),
       [&](ChildAnswer& answer) {
-        const Scene scene = import(library, path, extension, budget);
+        const Scene scene = import(*library, path, extension, budget);
         write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
-      open);
+      [&] {
+        library.emplace(budget.file());
+        open_library(Library::OpenExr);
+      });
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }
 

@@ -1,37 +1,30 @@
 #include "zoneplate/scene/gltf_meshopt.h"
 
-#include <dlfcn.h>
 #include <meshoptimizer.h>
 
 #include <string>
-#include <type_traits>
+
+#include "zoneplate/base/library.h"
 
 namespace zoneplate {
 namespace {
 
-constexpr const char* library_name = "libmeshoptimizer.so.2d";
-
 /// The library's functions. It is opened by the first file that wants it: to open it with the program would take as
 /// long as a small picture.
-struct Library {
+struct MeshoptLibrary {
   decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;
   decltype(&meshopt_decodeFilterOct) octahedral = nullptr;
   decltype(&meshopt_decodeFilterQuat) quaternion = nullptr;
   decltype(&meshopt_decodeFilterExp) exponential = nullptr;
 
-  explicit Library(const JsonView& json) {
-    void* const opened = ::dlopen(library_name, RTLD_NOW | RTLD_LOCAL);
-    if (!opened) json.fail(std::string("wants the package libmeshoptimizer2d (") + library_name + ")");
-    const auto find = [&](auto& function, const char* symbol) {
-      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(::dlsym(opened, symbol));
-      if (!function) json.fail(std::string(library_name) + " has no " + symbol);
-    };
-    find(attributes, "meshopt_decodeVertexBuffer");
-    find(triangles, "meshopt_decodeIndexBuffer");
-    find(indices, "meshopt_decodeIndexSequence");
-    find(octahedral, "meshopt_decodeFilterOct");
-    find(quaternion, "meshopt_decodeFilterQuat");
-    find(exponential, "meshopt_decodeFilterExp");
+  explicit MeshoptLibrary(const std::string& place) {
+    const SharedLibrary library(Library::Meshoptimizer, place);
+    library.find(attributes, "meshopt_decodeVertexBuffer");
+    library.find(triangles, "meshopt_decodeIndexBuffer");
+    library.find(indices, "meshopt_decodeIndexSequence");
+    library.find(octahedral, "meshopt_decodeFilterOct");
+    library.find(quaternion, "meshopt_decodeFilterQuat");
+    library.find(exponential, "meshopt_decodeFilterExp");
   }
 };
 
@@ -63,7 +56,7 @@ std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const s
   budget.take(count * stride);
   std::vector<std::uint8_t> out(static_cast<std::size_t>(count * stride));
   const auto n = static_cast<std::size_t>(count), size = static_cast<std::size_t>(stride);
-  const Library library(json);
+  const MeshoptLibrary library(json.place());
   const auto decode = mode == "ATTRIBUTES"  ? library.attributes
                       : mode == "TRIANGLES" ? library.triangles
                                             : library.indices;
@@ -73,7 +66,4 @@ std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const s
   if (filter == "EXPONENTIAL") library.exponential(out.data(), n, size);
   return out;
 }
-
-void open_meshopt_library() { static_cast<void>(::dlopen(library_name, RTLD_NOW | RTLD_LOCAL)); }
-
 }  // namespace zoneplate

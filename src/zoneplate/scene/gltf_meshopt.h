@@ -16,7 +16,4 @@ namespace zoneplate {
 std::vector<std::uint8_t> decode_meshopt(const JsonView& extension, std::span<const std::uint8_t> packed,
                                          ImportBudget& budget);
 
-/// Opens the library, where it is installed, for a process that may not open it later.
-void open_meshopt_library();
-
 }  // namespace zoneplate

@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/image/exr.h"
+#include "zoneplate/base/library.h"
 #include "zoneplate/scene/assimp.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/gltf.h"
-#include "zoneplate/scene/gltf_meshopt.h"
 #include "zoneplate/scene/import_child.h"
 #include "zoneplate/scene/obj.h"
 #include "zoneplate/scene/ply.h"
@@ -103,8 +102,8 @@ Scene read_in_child(const std::string& name, const LoadOptions& options) {
         write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
       [] {
-        open_exr_library();
-        open_meshopt_library();
+        open_library(Library::OpenExr);
+        open_library(Library::Meshoptimizer);
       });
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }
@@ -124,6 +123,15 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
     }
   const bool has_child = options.is_sandboxed && !is_for_assimp(extension_of(name, options.format));
   return has_child ? read_in_child(name, options) : read_watched(name, options);
+}
+
+std::optional<std::vector<std::string>> readable_paths(const std::string& name, const LoadOptions& options) {
+  if (options.format.empty() && is_builtin_scene(name)) return std::vector<std::string>{};
+  if (options.limits.allow_path) return std::nullopt;
+  if (name == "-") return std::vector<std::string>{"."};
+  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+  // The model itself by its own name: a symbolic link may lead out of its folder.
+  return std::vector<std::string>{folder.empty() ? "." : folder.string(), name};
 }
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {

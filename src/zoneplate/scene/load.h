@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "zoneplate/base/lost_bytes.h"
 #include "zoneplate/scene/scene.h"
@@ -34,6 +36,10 @@ struct LoadOptions {
 /// Errors    Trouble::Input naming a file that is missing, of an unknown format or wrong inside; Trouble::Usage for
 ///           parameters of a built-in scene, a format that is not read, and standard input without one.
 Scene load_scene(const std::string& name, const LoadOptions& options = {});
+
+/// The files and folders that loading this scene may read: the model, what is below its folder, and nothing for a
+/// built-in scene; of standard input, the working directory. Nothing where every file may be read (allow_path).
+std::optional<std::vector<std::string>> readable_paths(const std::string& name, const LoadOptions& options);
 
 /// A model that stays open, to be loaded at several moments of its animation.
 ///

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+
+/// Shared libraries that few files need. Each is opened by the first such file: opening one takes as long as rendering
+/// a small picture.
+enum class Library { Assimp, Meshoptimizer, OpenExr };
+
+/// Thrown in a sandboxed child, which has no right to load code, for a library that its parent had not opened.
+class LibraryNeeded : public Error {
+ public:
+  LibraryNeeded(Library library, const std::string& message) : Error(Trouble::Input, message), library_(library) {}
+  Library library() const { return library_; }
+
+ private:
+  Library library_;
+};
+
+/// Opens a library for the rest of the process; its later children have it open too. False where it is not installed.
+bool open_library(Library library);
+
+/// The functions of an open library.
+class SharedLibrary {
+ public:
+  /// Opens the library if it is not open yet. `place` begins error messages.
+  ///
+  /// Errors    Trouble::Input naming the library and its package where it is not installed; LibraryNeeded.
+  SharedLibrary(Library library, const std::string& place);
+
+  /// Errors    Trouble::Input where the library has no such function.
+  template <class Function>
+  void find(Function*& function, const char* symbol) const {
+    function = reinterpret_cast<Function*>(address_of(symbol));
+  }
+
+ private:
+  using AnyFunction = void (*)();
+  AnyFunction address_of(const char* symbol) const;
+
+  Library library_;
+  std::string place_;
+};
+
+}  // namespace zoneplate
