@@ -145,6 +145,59 @@ TEST_F(Batch, TurntablesAreNumberedOrFilms) {
   EXPECT_NE(text_of(place / "t.webp").find("ANIM"), std::string::npos);
 }
 
+// A glTF of one triangle whose animation's last key is at `end` seconds.
+std::string animated_triangle(const std::string& end) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+  "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+  "accessors":[{"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[0,0,0]},
+  {"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[)" +
+         end + R"(]},{"componentType":5126,"count":2,"type":"VEC3"}],
+  "bufferViews":[{"buffer":0,"byteLength":8}],
+  "buffers":[{"byteLength":8,"uri":"data:application/octet-stream;base64,AAAAAMrySXE="}],
+  "animations":[{"samplers":[{"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]})";
+}
+
+TEST_F(Batch, AnItemFailsAloneWhateverItTakes) {
+  write("long.gltf", animated_triangle("1e30"));
+  const std::string long_name(300, 'x');
+  write("jobs.jsonl",
+        "{\"input\":\"teapot\",\"output\":\"a.png\"}\n"
+        "{\"input\":\"teapot\",\"output\":\"" +
+            long_name +
+            ".####.png\",\"frames\":2,\"skip-existing\":true}\n"
+            "{\"input\":\"sphere:triangles=50000000\",\"output\":\"b.png\",\"max-memory\":\"64M\"}\n"
+            "{\"input\":\"teapot\",\"output\":\"c.png\",\"aa\":\"ssaa:n=16\",\"size\":\"4000x4000\",\"max-seconds\":0."
+            "2}\n"
+            "{\"input\":\"long.gltf\",\"output\":\"d.####.png\",\"frame-start\":0}\n"
+            "{\"input\":\"teapot\",\"output\":\"none/e.png\"}\n"
+            "{\"input\":\"teapot\",\"output\":\"f.png\"}\n");
+  EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8 --aa none"), 5);
+  ASSERT_EQ(lines.size(), 7u) << complaint;
+  for (const std::size_t i : {0, 6}) EXPECT_EQ(lines[i]["status"], "done") << i;
+  const auto error = [&](std::size_t i) { return lines[i].value("error", ""); };
+  EXPECT_NE(error(1).find("File name too long"), std::string::npos) << error(1);
+  EXPECT_NE(error(2).find("sphere:triangles=50000000: "), std::string::npos) << error(2);
+  EXPECT_NE(error(2).find("more memory than the limit of 64 MB (--max-memory)"), std::string::npos) << error(2);
+  EXPECT_EQ(error(3), "teapot: takes longer than the limit of 0.2 s (--max-seconds)");
+  EXPECT_NE(error(4).find("long.gltf: its animation ends at 1e+30 s, which is more than 100000 frames"),
+            std::string::npos)
+      << error(4);
+  EXPECT_NE(error(5).find("none/e.png: cannot be written"), std::string::npos) << error(5);
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"a.png", "f.png"}));
+  EXPECT_EQ(run("long.gltf -o d.####.png --frame-start 0 --size 8x8"), 3) << complaint;
+}
+
+TEST_F(Batch, ASandboxedItemOpensTheLibraryThatItNeeds) {
+  ASSERT_EQ(run("checkerboard -o board.exr --size 16x16"), 0) << complaint;
+  write("quad.mtl", "newmtl a\nmap_Kd board.exr\n");
+  write("quad.obj",
+        "mtllib quad.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 "
+        "4/4\n");
+  EXPECT_EQ(run("quad.obj -o boxed.png --size 32x32"), 0) << complaint;
+  EXPECT_EQ(run("quad.obj -o open.png --size 32x32 --no-sandbox"), 0) << complaint;
+  EXPECT_EQ(text_of(place / "boxed.png"), text_of(place / "open.png"));
+}
+
 TEST_F(Batch, AContactSheetShowsEveryInputOrItsTrouble) {
   EXPECT_EQ(run("contact-sheet teapot nothing.obj triangles -o sheet.png --size 48x32"), 0) << complaint;
   EXPECT_EQ(pictures(), (std::vector<std::string>{"sheet.png"}));
