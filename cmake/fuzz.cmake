@@ -17,7 +17,7 @@ foreach(isa IN LISTS isas)
   target_sources(zoneplate_fuzzed PRIVATE $<TARGET_OBJECTS:zoneplate_fuzzed_${isa}>)
 endforeach()
 target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library}
-                      ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} z)
+                      ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
 set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr)
@@ -31,6 +31,9 @@ foreach(format IN LISTS fuzz_formats)
   target_link_libraries(fuzz_${format} PRIVATE zoneplate_fuzzed)
   target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
 endforeach()
+add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/item_messages.cpp src/zoneplate/cli/render_summary.cpp)
+target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
+target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)
 target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed)
 

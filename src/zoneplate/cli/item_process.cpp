@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 
 #include "zoneplate/base/deadline.h"
@@ -11,24 +10,13 @@
 #include "zoneplate/base/memory_limit.h"
 #include "zoneplate/base/sandbox.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/packed.h"
 
 namespace zoneplate::cli {
-
-enum class ItemSender::Kind : std::uint8_t { Progress, HasRead, File, FilmFrame, Result, Failed, NeedsLibrary };
-
-struct ItemSender::Header {
-  Kind kind;
-  std::int32_t frame, layer;
-  std::uint64_t size;
-};
 
 namespace {
 
 /// A process that does not end by itself when its time is up has so much longer, in seconds.
 constexpr double grace = 0.5;
-/// Of a message that is kept in memory: an error, a result, the name of a stage.
-constexpr std::uint64_t most_kept_bytes = std::uint64_t{1} << 30;
 
 std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.6g} MB", static_cast<double>(bytes) / (1 << 20)); }
 
@@ -48,32 +36,6 @@ std::string out_of_memory(const ItemLimits& limits, const std::bad_alloc& error,
 }
 
 }  // namespace
-
-void ItemSender::send(Kind kind, int frame, int layer, std::span<const std::uint8_t> bytes) {
-  const Header header{kind, frame, layer, bytes.size()};
-  const std::lock_guard lock(mutex_);
-  pipe_.write(&header, sizeof header);
-  pipe_.write(bytes.data(), bytes.size());
-}
-
-void ItemSender::progress(std::string_view stage, double done) {
-  send(Kind::Progress, static_cast<int>(done * 1000), 0,
-       {reinterpret_cast<const std::uint8_t*>(stage.data()), stage.size()});
-}
-
-void ItemSender::has_read() {
-  has_read_ = true;
-  send(Kind::HasRead, 0, 0, {});
-}
-
-void ItemSender::file(int frame, int layer, std::span<const std::uint8_t> bytes) {
-  send(Kind::File, frame, layer, bytes);
-}
-
-void ItemSender::film_frame(const Rgba8Image& image) {
-  send(Kind::FilmFrame, 0, 0,
-       {reinterpret_cast<const std::uint8_t*>(image.values().data()), image.values().size_bytes()});
-}
 
 ItemProcess::ItemProcess(ItemLimits limits, std::size_t jobs, Work work)
     : limits_(std::move(limits)), jobs_(jobs), work_(std::move(work)) {}
@@ -102,29 +64,23 @@ void ItemProcess::start(std::size_t first) {
 
 /// In the child. The first job that fails ends the process, so that every job begins in a sound one.
 void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
-  using Kind = ItemSender::Kind;
-  ItemSender sender(answer);
-  const auto fail = [&](Trouble trouble, const std::string& message) {
-    sender.send(Kind::Failed, static_cast<int>(trouble), 0,
-                {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
-  };
+  ItemSender sender([&](std::span<const std::uint8_t> bytes) { answer.write(bytes.data(), bytes.size()); });
   for (std::size_t job = first; job < jobs_; ++job) {
-    sender.has_read_ = false;
+    sender.begin_job();
     try {
       std::vector<std::uint8_t> result;
       with_deadline(limits_.seconds, Trouble::Failed, late_item(limits_), [&] { result = work_(job, sender); });
-      sender.send(Kind::Result, 0, 0, result);
+      sender.result(result);
       continue;
     } catch (const LibraryNeeded& needed) {
-      const std::string message = needed.what();
-      sender.send(Kind::NeedsLibrary, static_cast<int>(needed.library()), 0,
-                  {reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
+      sender.needs_library(needed.library(), needed.what());
     } catch (const Error& error) {
-      fail(error.trouble(), error.what());
+      sender.failure(error.trouble(), error.what());
     } catch (const std::bad_alloc& error) {
-      fail(sender.has_read_ ? Trouble::Failed : Trouble::Input, out_of_memory(limits_, error, sender.has_read_));
+      sender.failure(sender.is_past_reading() ? Trouble::Failed : Trouble::Input,
+                     out_of_memory(limits_, error, sender.is_past_reading()));
     } catch (const std::exception& error) {
-      fail(Trouble::Failed, limits_.name + ": " + error.what());
+      sender.failure(Trouble::Failed, limits_.name + ": " + error.what());
     }
     return;
   }
@@ -140,67 +96,27 @@ void ItemProcess::read(std::span<std::uint8_t> out) {
   }
 }
 
-std::optional<std::vector<std::uint8_t>> ItemProcess::receive(const ItemEvents& events) {
-  using Kind = ItemSender::Kind;
-  ItemSender::Header header;
-  read({reinterpret_cast<std::uint8_t*>(&header), sizeof header});
-  std::uint64_t left = header.size;
-  const ItemEvents::Read read_part = [&](std::span<std::uint8_t> out) {
-    if (out.size() > left) throw Error(Trouble::Failed, limits_.name + ": its process sent less than it announced");
-    read(out);
-    left -= out.size();
-  };
-  const auto kept = [&] {
-    if (left > most_kept_bytes) throw Error(Trouble::Failed, limits_.name + ": its process sent too much");
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(left));
-    read_part(bytes);
-    return bytes;
-  };
-  const auto text = [&] {
-    const std::vector<std::uint8_t> bytes = kept();
-    return std::string(bytes.begin(), bytes.end());
-  };
-  switch (header.kind) {
-    case Kind::Progress:
-      if (const std::string stage = text(); events.progress) events.progress(stage, header.frame / 1000.0);
-      return std::nullopt;
-    case Kind::HasRead:
-      has_read_ = true;
-      return std::nullopt;
-    case Kind::File:
-      if (events.file) events.file(header.frame, header.layer, header.size, read_part);
-      return std::nullopt;
-    case Kind::FilmFrame:
-      if (events.film_frame) events.film_frame(header.size, read_part);
-      return std::nullopt;
-    case Kind::Result:
-      return kept();
-    case Kind::Failed:
-      throw Error(header.frame >= 0 && header.frame <= static_cast<int>(Trouble::Output)
-                      ? static_cast<Trouble>(header.frame)
-                      : Trouble::Failed,
-                  text());
-    case Kind::NeedsLibrary: {
-      const std::string message = text();
-      if (header.frame < 0 || header.frame > static_cast<int>(Library::OpenExr) ||
-          !open_library(static_cast<Library>(header.frame)))
-        throw Error(Trouble::Input, message);
-      child_.reset();
-      start(next_ - 1);
-      return std::nullopt;
-    }
-  }
-  throw Error(Trouble::Failed, limits_.name + ": its process sent what is no message");
+void ItemProcess::begin_again_with(Library library, const std::string& message) {
+  if (!open_library(library)) throw Error(Trouble::Input, message);
+  child_.reset();
+  start(next_ - 1);
 }
 
-std::vector<std::uint8_t> ItemProcess::next(const ItemEvents& events) {
+std::vector<std::uint8_t> ItemProcess::next(ItemEvents events) {
   const std::size_t job = next_++;
   watch_ = Stopwatch();
   has_read_ = false;
+  std::optional<std::pair<Library, std::string>> needed;
+  events.has_read = [&] { has_read_ = true; };
+  events.needs_library = [&](Library library, const std::string& message) { needed.emplace(library, message); };
   try {
     if (!child_) start(job);
-    for (;;)
-      if (std::optional<std::vector<std::uint8_t>> result = receive(events)) return std::move(*result);
+    for (;;) {
+      std::optional<std::vector<std::uint8_t>> result =
+          receive_message(limits_.name, events, [&](std::span<std::uint8_t> out) { read(out); });
+      if (result) return std::move(*result);
+      if (needed) begin_again_with(needed->first, needed->second), needed.reset();
+    }
   } catch (...) {
     child_.reset();
     throw;

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -200,6 +201,41 @@ TEST(ItemProcess, HasNoRightsButToReadItsFolder) {
   EXPECT_EQ(ending_of([&](ItemSender&) { ::socket(AF_INET, SOCK_STREAM, 0); }, limits), ended);
   EXPECT_NE(::access((folder + "/in/b").c_str(), F_OK), 0);
   ASSERT_EQ(::system(("rm -r " + folder).c_str()), 0);
+}
+
+TEST(ItemMessages, BytesThatAreNoMessageAreAnError) {
+  ItemEvents events;
+  events.file = [](int, int, std::uint64_t size, const ItemEvents::Read& read) {
+    Bytes some(std::min<std::uint64_t>(size, 100));
+    read(some);
+  };
+  const auto receive = [&](const Bytes& bytes) {
+    std::size_t at = 0;
+    const auto source = [&](std::span<std::uint8_t> out) {
+      if (out.size() > bytes.size() - at) throw Error(Trouble::Input, "at its end");
+      std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), out.size(), out.begin());
+      at += out.size();
+    };
+    receive_message("model.xyz", events, source);
+  };
+  Bytes sent;
+  ItemSender sender([&](std::span<const std::uint8_t> bytes) { sent.insert(sent.end(), bytes.begin(), bytes.end()); });
+  sender.file(1, 2, Bytes(50));
+  EXPECT_NO_THROW(receive(sent));
+  for (std::size_t i = 0; i < 24; ++i) {
+    Bytes damaged = sent;
+    damaged[i] = 0xff;
+    if (const bool is_padding = (i > 0 && i < 4) || (i >= 12 && i < 16); is_padding)
+      EXPECT_NO_THROW(receive(damaged)) << i;
+    else if (const bool is_a_number = i >= 4 && i < 12 && i % 4 != 3; is_a_number)
+      EXPECT_NO_THROW(receive(damaged)) << i;
+    else
+      EXPECT_THROW(receive(damaged), Error) << i;
+  }
+  EXPECT_THROW(receive({sent.begin(), sent.end() - 1}), Error);
+  sent.clear();
+  sender.file(1, 2, Bytes(150));  // of which the receiver takes 100
+  EXPECT_THROW(receive(sent), Error);
 }
 
 TEST(Packed, ComesOutAsItWentIn) {

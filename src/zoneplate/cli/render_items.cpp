@@ -8,7 +8,6 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/cli/film.h"
-#include "zoneplate/cli/packed.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -19,33 +18,6 @@ ItemLimits limits_of(const RenderArgs& args) {
           .seconds = args.max_seconds,
           .is_sandboxed = wants_sandbox(args.is_sandboxed),
           .readable = readable_paths(args.input, args.load)};
-}
-
-std::vector<std::uint8_t> packed(const Summary& summary) {
-  Packer out;
-  out.value(summary.width), out.value(summary.height), out.value(summary.threads), out.value(summary.frames);
-  out.value(summary.counts);
-  out.value(summary.peak_memory);
-  out.value(std::uint64_t{summary.times.size()});
-  for (const auto& [name, ms] : summary.times) out.text(name), out.value(ms);
-  out.value(std::uint64_t{summary.warnings.size()});
-  for (const std::string& warning : summary.warnings) out.text(warning);
-  return std::move(out).bytes();
-}
-
-Summary unpacked(std::span<const std::uint8_t> bytes) {
-  Unpacker in(bytes);
-  Summary out;
-  out.width = in.value<int>(), out.height = in.value<int>(), out.threads = in.value<int>();
-  out.frames = in.value<int>();
-  out.counts = in.value<RenderCounts>();
-  out.peak_memory = in.value<std::uint64_t>();
-  for (auto n = in.value<std::uint64_t>(); n > 0; --n) {
-    std::string name = in.text();
-    out.times.emplace_back(std::move(name), in.value<double>());
-  }
-  for (auto n = in.value<std::uint64_t>(); n > 0; --n) out.warnings.push_back(in.text());
-  return out;
 }
 
 // Hands on so many bytes in parts, so that a large file is never whole in memory here.
@@ -67,7 +39,7 @@ RenderItems::RenderItems(std::vector<RenderArgs> items)
     : items_(std::move(items)),
       process_(limits_of(items_.front()), items_.size(),
                [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
-                 return packed(jobs->run(items_[i], sender));
+                 return pack_summary(jobs->run(items_[i], sender));
                }) {}
 
 Summary RenderItems::next() {
@@ -96,7 +68,7 @@ Summary RenderItems::next() {
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
   };
 
-  Summary summary = unpacked(process_.next(events));
+  Summary summary = unpack_summary(process_.next(std::move(events)));
   if (film) {
     const Stopwatch watch;
     progress.begin("encode", 1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/cli/render_args.h"
+#include "zoneplate/cli/render_summary.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::cli {
@@ -15,16 +16,6 @@ namespace zoneplate::cli {
 struct LayerFile {
   int aov = 0;
   std::vector<std::uint8_t> bytes;
-};
-
-/// What is told about a run. Times are in milliseconds, in the order of the work.
-struct Summary {
-  int width = 0, height = 0, threads = 0;
-  RenderCounts counts;
-  std::vector<std::pair<std::string, double>> times;
-  std::vector<std::string> warnings;
-  int frames = 1;
-  std::uint64_t peak_memory = 0;  ///< resident, of the process that did the work, in bytes
 };
 
 /// A picture, with the data passes that were asked for.

@@ -1,0 +1,40 @@
+// A fuzz target of libFuzzer: bytes that pretend to be the messages of an item's process, and the results in them.
+#include <algorithm>
+#include <cstdlib>
+
+#include "zoneplate/cli/item_messages.h"
+#include "zoneplate/cli/render_summary.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace zoneplate;
+  std::span<const std::uint8_t> left(data, size);
+  const auto source = [&](std::span<std::uint8_t> out) {
+    if (out.size() > left.size()) throw Error(Trouble::Input, "the pipe ends here");
+    std::copy_n(left.begin(), out.size(), out.begin());
+    left = left.subspan(out.size());
+  };
+  cli::ItemEvents events;
+  const auto take_all = [](std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+    std::uint8_t part[64];
+    for (; bytes > 0; bytes -= std::min<std::uint64_t>(bytes, sizeof part))
+      read({part, static_cast<std::size_t>(std::min<std::uint64_t>(bytes, sizeof part))});
+  };
+  events.progress = [](std::string_view, double done) {
+    if (!(done >= 0 && done <= 1)) std::abort();
+  };
+  events.file = [&](int frame, int layer, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+    if (frame < -1 || layer < -1) std::abort();
+    take_all(bytes, read);
+  };
+  events.film_frame = take_all;
+  events.has_read = [] {};
+  events.needs_library = [](Library library, const std::string&) {
+    if (library > Library::OpenExr) std::abort();
+  };
+  try {
+    for (;;)
+      if (const auto result = cli::receive_message("item", events, source)) cli::unpack_summary(*result);
+  } catch (const Error&) {
+  }
+  return 0;
+}

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/render/render.h"
+
+namespace zoneplate::cli {
+
+/// What is reported about a run. Times are in milliseconds, in the order of the work.
+struct Summary {
+  int width = 0, height = 0, threads = 0;
+  RenderCounts counts;
+  std::vector<std::pair<std::string, double>> times;
+  std::vector<std::string> warnings;
+  int frames = 1;
+  std::uint64_t peak_memory = 0;  ///< resident, of the process that did the work, in bytes
+};
+
+/// The summary as bytes, for the program's own process.
+std::vector<std::uint8_t> pack_summary(const Summary& summary);
+
+/// Errors    Trouble::Failed where the bytes end too early.
+Summary unpack_summary(std::span<const std::uint8_t> bytes);
+
+}  // namespace zoneplate::cli
