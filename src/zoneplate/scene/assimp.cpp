@@ -1,12 +1,15 @@
 #include "zoneplate/scene/assimp.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <new>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/exr.h"
 #include "zoneplate/scene/assimp_files.h"
 #include "zoneplate/scene/assimp_scene.h"
+#include "zoneplate/scene/find_flaw.h"
 #include "zoneplate/scene/import_child.h"
 #include "zoneplate/scene/scene_bytes.h"
 
@@ -44,36 +47,48 @@ constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
 
 #if __has_include(<assimp/cimport.h>)
 
+constexpr const char* library_name = "libassimp.so.5";  // the version whose headers these are
+
 /// The functions of the library that are wanted; it stays open as long as the process.
 struct Library {
   decltype(&aiImportFileEx) import = nullptr;
+  decltype(&aiReleaseImport) release = nullptr;
   decltype(&aiGetErrorString) error = nullptr;
 };
 
 Library open_library(const std::string& file) {
   const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, file + ": " + cause); };
-  constexpr const char* name = "libassimp.so.5";  // the version whose headers these are
-  void* const handle = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
+  void* const handle = ::dlopen(library_name, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) fail("is read by the library assimp (package libassimp5), which is not here");
   Library library;
   library.import = reinterpret_cast<decltype(library.import)>(::dlsym(handle, "aiImportFileEx"));
+  library.release = reinterpret_cast<decltype(library.release)>(::dlsym(handle, "aiReleaseImport"));
   library.error = reinterpret_cast<decltype(library.error)>(::dlsym(handle, "aiGetErrorString"));
-  if (library.import == nullptr || library.error == nullptr) fail("the library assimp lacks its functions");
+  if (library.import == nullptr || library.release == nullptr || library.error == nullptr)
+    fail("the library assimp lacks its functions");
   return library;
+}
+
+/// The library's own words, which may be several lines.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text.substr(0, 400);
 }
 
 Scene import(const Library& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
   const std::string folder = path == "-" ? "." : std::filesystem::path(path).parent_path().string();
   AssimpFiles files(path, folder, extension, budget);
   constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
-  const aiScene* const read = library.import(files.model_name().c_str(), steps, files.io());
-  if (read == nullptr && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos)
-    throw std::bad_alloc();
-  if (read == nullptr) throw Error(Trouble::Input, budget.file() + ": " + library.error());
+  const std::unique_ptr<const aiScene, decltype(library.release)> read(
+      library.import(files.model_name().c_str(), steps, files.io()), library.release);
+  if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
+  if (!read) throw Error(Trouble::Input, budget.file() + ": " + one_line(library.error()));
   Scene scene;
   ObjFolder textures(folder, budget, scene);
   convert_assimp_scene(*read, textures);
   if (scene.instances.empty()) throw Error(Trouble::Input, budget.file() + ": holds nothing to draw");
+  if (const auto flaw = find_flaw(scene)) throw Error(Trouble::Input, budget.file() + ": " + *flaw);
   return scene;
 }
 
@@ -93,6 +108,7 @@ std::span<const SceneFormat> assimp_formats() { return formats; }
 
 Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits) {
   ImportBudget budget(path == "-" ? "standard input" : path, limits);
+  if (is_limited_child()) return import(open_library(budget.file()), path, extension, budget);
   Library library;
   const auto open = [&] {
     library = open_library(budget.file());
@@ -106,6 +122,12 @@ Scene load_by_assimp(const std::string& path, std::string_view extension, const 
       },
       open);
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
+}
+
+void open_assimp_library() {
+#if __has_include(<assimp/cimport.h>)
+  static_cast<void>(::dlopen(library_name, RTLD_NOW | RTLD_LOCAL));
+#endif
 }
 
 }  // namespace zoneplate
