@@ -20,11 +20,14 @@ target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::
                       ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr)
+# Beside file formats: `scene`, what a child process answers, and `manifest`, the lines of a batch.
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr scene manifest)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
   if(format MATCHES "png|jpeg|webp|hdr|exr")
     set(kind image)
+  elseif(format MATCHES "scene|manifest")
+    set(kind ${format})
   endif()
   add_executable(fuzz_${format} fuzz/${kind}_fuzz.cpp)
   target_compile_definitions(fuzz_${format} PRIVATE ZONEPLATE_FUZZ_FORMAT="${format}")

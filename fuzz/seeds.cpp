@@ -8,8 +8,10 @@
 #include "zoneplate/image/png.h"
 #include "zoneplate/image/webp_still.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/scene/gltf.h"
 #include "zoneplate/scene/gltf_sample_for_test.h"
 #include "zoneplate/scene/mesh_samples_for_test.h"
+#include "zoneplate/scene/scene_bytes.h"
 
 namespace {
 
@@ -104,6 +106,43 @@ void write_light(const std::string& root) {
                    {{"note", "text"}}));
 }
 
+/// A scene as write_scene writes it.
+Bytes answer_of(const Scene& scene) {
+  Bytes out;
+  write_scene(scene, [&](const void* data, std::size_t size) {
+    const auto* at = static_cast<const std::uint8_t*>(data);
+    out.insert(out.end(), at, at + size);
+  });
+  return out;
+}
+
+void write_answers(const std::string& root) {
+  write(root + "/scene", "empty", answer_of({}));
+  Scene scene = load_gltf(root + "/gltf/triangle.glb");
+  write(root + "/scene", "triangle", answer_of(scene));
+  scene.objects.share(0);
+  scene.instances.push_back({0, 1, {}});
+  scene.images.push_back({"image", Rgba8Image(2, 2)});
+  scene.materials.emplace_back().base_color_texture.image = 0;
+  scene.lights.push_back({.name = "lamp", .kind = LightKind::Spot});
+  scene.cameras.push_back({.name = "eye", .is_orthographic = true});
+  scene.animations.push_back({"turn", 0, 1});
+  scene.variants = {"red"}, scene.warnings = {"passed over"};
+  write(root + "/scene", "everything", answer_of(scene));
+}
+
+void write_manifests(const std::string& root) {
+  write(root + "/manifest", "jobs",
+        bytes_of(R"({"input":"a.glb","output":"a.png","size":"64x64","frames":"0-3","skip-existing":true})"
+                 "\n"
+                 R"({"input":"sphere:triangles=1000","output":"b.exr","yaw":-12.5,"yaw":1e2})"
+                 "\n"));
+  write(root + "/manifest", "nested", bytes_of(R"({"a":[1,{"b":null,"c":["\u00e9","\n"]}],"d":18446744073709551615})"));
+  std::string many;
+  for (int i = 0; i < 100; ++i) many += (i == 0 ? "{\"k" : ",\"k") + std::to_string(i % 90) + "\":\"v\"";
+  write(root + "/manifest", "many", bytes_of(many + "}"));
+}
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -121,4 +160,6 @@ int main(int, char** argv) {
   write(root + "/stl", "binary.stl", binary_stl());
   write_images(root);
   write_light(root);
+  write_answers(root);
+  write_manifests(root);
 }

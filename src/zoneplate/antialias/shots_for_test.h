@@ -34,7 +34,7 @@ inline Scene facing_scene(Mesh mesh, Material material = {}) {
   material.double_sided = true;
   scene.materials.push_back(std::move(material));
   mesh.normal.assign(mesh.position.size(), {0, 0, 1});
-  scene.objects.emplace_back("mesh");
+  scene.objects.push_back("mesh");
   scene.meshes.push_back(std::move(mesh));
   scene.instances.push_back({});
   Camera camera;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/library.h"
 #include "zoneplate/base/limited_child.h"
@@ -234,6 +235,7 @@ class ExrReader {
     if (x < 0 || y < 0 || chunk.width < 1 || chunk.height < 1 || x + chunk.width > window_.width() ||
         y + chunk.height > window_.height())
       throw Refusal{"is corrupt: a part lies outside the picture"};
+    check_deadline();
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     library_.check(library_.begin_decoding(context_, 0, &chunk, &pipeline));
     const std::unique_ptr<exr_decode_pipeline_t, std::function<void(exr_decode_pipeline_t*)>> end(
@@ -292,6 +294,7 @@ void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
   std::vector<Linear> row(static_cast<std::size_t>(display.width()));
   const std::int64_t left = std::max(data.left, display.left), right = std::min(data.right, display.right);
   for (std::int64_t y = display.top; y <= display.bottom; ++y) {
+    check_deadline();
     std::fill(row.begin(), row.end(), Linear{0, 0, 0, 0});
     if (y >= data.top && y <= data.bottom && left <= right)
       reader.copy_row(static_cast<int>(y - data.top), static_cast<int>(left - data.left),
@@ -346,6 +349,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
   LimitedChild::Limits limits;
   limits.memory = 2 * sizeof(Linear) * windows->data.pixels() + 2 * bytes.size() + of_the_library;
   limits.check_time = [&] {
+    check_deadline();
     if (clock.ms() > limits.seconds * 1000) throw fail("takes longer than the limit");
   };
   std::optional<ExrLibrary> library;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
 
@@ -162,6 +163,8 @@ void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const st
   LineReader reader(packed);
   std::vector<Rgbe> line(static_cast<std::size_t>(scan.length()));
   for (int j = 0; j < scan.lines(); ++j) {
+    constexpr int lines_per_check = 16;
+    if (j % lines_per_check == 0) check_deadline();
     if (!reader.read(line))
       throw Error(Trouble::Input, name + ": HDR: scanline " + std::to_string(j) + " is corrupt or cut off");
     for (int i = 0; i < scan.length(); ++i) {

@@ -8,9 +8,12 @@
 
 #include <jerror.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <vector>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 
 namespace zoneplate {
@@ -37,12 +40,30 @@ void refuse_warning(j_common_ptr jpeg, int level) {
   if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_BOGUS_ICC) jump_back(jpeg);
 }
 
-/// A small file can hold very many passes over a large picture; no encoder writes more than some tens.
-void limit_scans(j_common_ptr jpeg) {
-  if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > 200) {
-    jpeg->err->msg_code = JERR_BAD_PROGRESSION;
-    jump_back(jpeg);
-  }
+/// A small file can hold very many passes over a large picture: encoders write some ten of them, and few more tens are
+/// taken of a picture so large that 200 would be 2^31 pixels.
+int most_scans(const jpeg_decompress_struct& jpeg) {
+  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31, least = 32, most = 200;
+  const std::uint64_t pixels = std::max<std::uint64_t>(std::uint64_t{jpeg.image_width} * jpeg.image_height, 1);
+  return static_cast<int>(std::clamp(most_pixels / pixels, least, most));
+}
+
+/// Called by libjpeg between rows of blocks, while scans are read and while pixels are made.
+///
+/// An exception cannot pass through its frames: after the jump whoever decodes asks for the time again.
+void check_progress(j_common_ptr jpeg) {
+  const auto* const decoder = reinterpret_cast<j_decompress_ptr>(jpeg);
+  const bool has_time = [] {
+    try {
+      check_deadline();
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }();
+  if (has_time && decoder->input_scan_number <= most_scans(*decoder)) return;
+  jpeg->err->msg_code = JERR_BAD_PROGRESSION;
+  jump_back(jpeg);
 }
 
 class Reader {
@@ -52,7 +73,7 @@ class Reader {
     report_.manager.error_exit = jump_back;
     report_.manager.emit_message = refuse_warning;
     check(guarded([this] { jpeg_create_decompress(&jpeg_); }));
-    progress_.progress_monitor = limit_scans;
+    progress_.progress_monitor = check_progress;
     jpeg_.progress = &progress_;
   }
   ~Reader() { jpeg_destroy_decompress(&jpeg_); }
@@ -87,7 +108,9 @@ class Reader {
   }
 
   void check(bool is_well) const {
-    if (!is_well) throw Error(Trouble::Input, name_ + ": JPEG: " + report_.message.data());
+    if (is_well) return;
+    check_deadline();
+    throw Error(Trouble::Input, name_ + ": JPEG: " + report_.message.data());
   }
 
   void check_size(std::uint64_t max_pixels) const {

@@ -165,5 +165,40 @@ TEST(Jpeg, DecodesSharedFiles) {
   }
 }
 
+/// A grey picture in as many scans as a coefficient and a bit at a time give: 1 + 63 * 3.
+Bytes in_many_scans(int size) {
+  std::vector<jpeg_scan_info> scans = {{1, {0}, 0, 0, 0, 0}};
+  for (int bit = 2; bit >= 0; --bit)
+    for (int k = 1; k < 64; ++k) scans.push_back({1, {0}, k, k, bit == 2 ? 0 : bit + 1, bit});
+  jpeg_error_mgr errors;
+  jpeg_compress_struct jpeg;
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* data = nullptr;
+  unsigned long bytes = 0;
+  jpeg_mem_dest(&jpeg, &data, &bytes);
+  jpeg.image_width = jpeg.image_height = static_cast<JDIMENSION>(size);
+  jpeg.input_components = 1;
+  jpeg.in_color_space = JCS_GRAYSCALE;
+  jpeg_set_defaults(&jpeg);
+  jpeg.scan_info = scans.data();
+  jpeg.num_scans = static_cast<int>(scans.size());
+  jpeg_start_compress(&jpeg, TRUE);
+  Bytes row(static_cast<std::size_t>(size), 77);
+  JSAMPROW pointer = row.data();
+  while (jpeg.next_scanline < jpeg.image_height) jpeg_write_scanlines(&jpeg, &pointer, 1);
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  const Bytes out(data, data + bytes);
+  std::free(data);
+  return out;
+}
+
+TEST(Jpeg, TakesFewerScansOfALargerPicture) {
+  EXPECT_EQ(decode_jpeg(in_many_scans(64), "small")(9, 9).r, 77);
+  // 2^31 / 3600^2 = 165.
+  EXPECT_THROW(decode_jpeg(in_many_scans(3600), "large"), Error);
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -11,6 +11,7 @@
 #include <new>
 #include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/png_parts.h"
 
@@ -135,7 +136,11 @@ class Reader {
       const int passes = png_set_interlace_handling(png_);
       png_read_update_info(png_, info_);
       for (int pass = 0; pass < passes; ++pass) {
-        for (int y = 0; y < height; ++y) png_read_row(png_, pixels + static_cast<std::size_t>(y) * stride, nullptr);
+        for (int y = 0; y < height; ++y) {
+          constexpr int rows_per_check = 16;
+          if (y % rows_per_check == 0) check_deadline();  // it throws from here, not from within libpng
+          png_read_row(png_, pixels + static_cast<std::size_t>(y) * stride, nullptr);
+        }
       }
       png_read_end(png_, nullptr);
     }));

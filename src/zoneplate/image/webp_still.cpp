@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 
 namespace zoneplate {
@@ -26,12 +27,14 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   // Few bytes may well be a picture of one colour, but what is not one must not take its memory: libwebp's own is
   // taken as it is written.
   constexpr std::uint64_t most_per_byte = 256;
+  check_deadline();
   if (pixels / most_per_byte > bytes.size()) {
     int2 size;
     const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> decoded(
         WebPDecodeRGBA(bytes.data(), bytes.size(), &size.x, &size.y), &WebPFree);
     if (!decoded) fail("the WebP file is corrupt or cut off");
   }
+  check_deadline();
   Rgba8Image image(features.width, features.height);
   static_assert(sizeof(Rgba8) == 4, "libwebp writes rows as they lie");
   auto* const out = reinterpret_cast<std::uint8_t*>(image.values().data());

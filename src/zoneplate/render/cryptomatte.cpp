@@ -21,15 +21,22 @@ struct Names {
 Names names_of(const Scene& scene, MatteKind kind) {
   Names out;
   std::map<std::string, std::uint32_t> numbers;
+  const bool is_object = kind == MatteKind::Object;
+  std::vector<std::uint32_t> number_of(is_object ? scene.objects.texts().size() : 0, Frame::no_id);  // of each text
   for (const Instance& instance : scene.instances) {
     const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-    const bool is_object = kind == MatteKind::Object;
     const auto i = static_cast<std::size_t>(is_object ? instance.object : material);
-    std::string name = is_object ? scene.objects[i] : scene.materials[i].name;
-    if (name.empty()) name = fmt::format("{} {}", is_object ? "object" : "material", i);
-    const auto [entry, is_new] = numbers.try_emplace(name, static_cast<std::uint32_t>(out.list.size()));
-    if (is_new) out.list.push_back(name);
-    out.of_instance.push_back(entry->second);
+    const std::string& text = is_object ? scene.objects[i] : scene.materials[i].name;
+    std::uint32_t* const known = is_object && !text.empty() ? &number_of[scene.objects.text_of()[i]] : nullptr;
+    if (known == nullptr || *known == Frame::no_id) {
+      const std::string name = text.empty() ? fmt::format("{} {}", is_object ? "object" : "material", i) : text;
+      const auto [entry, is_new] = numbers.try_emplace(name, static_cast<std::uint32_t>(out.list.size()));
+      if (is_new) out.list.push_back(name);
+      out.of_instance.push_back(entry->second);
+      if (known != nullptr) *known = entry->second;
+    } else {
+      out.of_instance.push_back(*known);
+    }
   }
   return out;
 }

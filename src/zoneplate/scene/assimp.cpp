@@ -1,6 +1,8 @@
 #include "zoneplate/scene/assimp.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "zoneplate/base/limited_child.h"
 #include "zoneplate/scene/assimp_files.h"
 #include "zoneplate/scene/assimp_scene.h"
+#include "zoneplate/scene/find_flaw.h"
 #include "zoneplate/scene/import_child.h"
 #include "zoneplate/scene/scene_bytes.h"
 
@@ -48,27 +51,37 @@ constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
 /// The functions of the library that are used here.
 struct AssimpLibrary {
   decltype(&aiImportFileEx) import = nullptr;
+  decltype(&aiReleaseImport) release = nullptr;
   decltype(&aiGetErrorString) error = nullptr;
 
   explicit AssimpLibrary(const std::string& file) {
     const SharedLibrary library(Library::Assimp, file);
     library.find(import, "aiImportFileEx");
+    library.find(release, "aiReleaseImport");
     library.find(error, "aiGetErrorString");
   }
 };
+
+/// The library's own words, which may be several lines.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text.substr(0, 400);
+}
 
 Scene import(const AssimpLibrary& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
   const std::string folder = path == "-" ? "." : std::filesystem::path(path).parent_path().string();
   AssimpFiles files(path, folder, extension, budget);
   constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
-  const aiScene* const read = library.import(files.model_name().c_str(), steps, files.io());
-  if (read == nullptr && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos)
-    throw std::bad_alloc();
-  if (read == nullptr) throw Error(Trouble::Input, budget.file() + ": " + library.error());
+  const std::unique_ptr<const aiScene, decltype(library.release)> read(
+      library.import(files.model_name().c_str(), steps, files.io()), library.release);
+  if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
+  if (!read) throw Error(Trouble::Input, budget.file() + ": " + one_line(library.error()));
   Scene scene;
   ObjFolder textures(folder, budget, scene);
   convert_assimp_scene(*read, textures);
   if (scene.instances.empty()) throw Error(Trouble::Input, budget.file() + ": holds nothing to draw");
+  if (const auto flaw = find_flaw(scene)) throw Error(Trouble::Input, budget.file() + ": " + *flaw);
   return scene;
 }
 

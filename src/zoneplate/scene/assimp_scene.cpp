@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/finite.h"
 #include "zoneplate/scene/image_file.h"
+#include "zoneplate/scene/serial_ranges.h"
 #include "zoneplate/scene/smooth_normals.h"
 #include "zoneplate/scene/triangulate.h"
 
@@ -110,7 +112,7 @@ class Conversion {
     if (from_.mRootNode != nullptr) add_node(*from_.mRootNode, {}, 0);
     if (dropped_ > 0)
       scene_.warnings.push_back(
-          fmt::format("{}: {} primitives that are not finite are dropped", budget_.file(), dropped_));
+          fmt::format("{}: {} primitives or meshes that are not finite are dropped", budget_.file(), dropped_));
     if (from_.mNumAnimations > 0)
       scene_.warnings.push_back(fmt::format("{}: animations of this format are passed over", budget_.file()));
   }
@@ -168,6 +170,8 @@ class Conversion {
     if (std::any_of(corners.begin(), corners.end(), [&](unsigned i) { return i >= m.mNumVertices; }))
       throw Error(Trouble::Input, budget_.file() + ": a face names a vertex that is not there");
     if (corners.empty()) return;
+    constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
+    if (corners.size() > many_corners) budget_.check_time();
     std::vector<std::uint32_t>& out = index[std::min<std::size_t>(corners.size(), 3) - 1];
     budget_.take(3 * corners.size() * sizeof(std::uint32_t));
     if (corners.size() <= 3) return void(out.insert(out.end(), corners.begin(), corners.end()));
@@ -183,12 +187,15 @@ class Conversion {
   std::vector<int> add_mesh(const aiMesh& m) {
     budget_.check_time();
     std::array<std::vector<std::uint32_t>, 3> index;
-    for (unsigned f = 0; f < m.mNumFaces; ++f) add_face(m.mFaces[f], m, index);
+    serial_ranges(m.mNumFaces, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) add_face(m.mFaces[f], m, index);
+    });
     std::vector<int> numbers;
     for (std::size_t corners = 1; corners <= 3; ++corners) {
       if (index[corners - 1].empty()) continue;
       Mesh mesh = vertices_of(m);
       mesh.name = text_of(m.mName);
+      budget_.take(2 * sizeof(Mesh) + mesh.name.size());
       mesh.topology = corners == 1 ? Topology::Points : corners == 2 ? Topology::Lines : Topology::Triangles;
       mesh.index = std::move(index[corners - 1]);
       mesh.material = static_cast<int>(std::min<std::size_t>(m.mMaterialIndex, scene_.materials.size() - 1));
@@ -209,7 +216,8 @@ class Conversion {
   void add_node(const aiNode& node, const float4x4& world_from_parent, int depth) {
     if (depth > budget_.limits().node_depth)
       throw Error(Trouble::Input, fmt::format("{}: nodes deeper than {}", budget_.file(), budget_.limits().node_depth));
-    budget_.take(sizeof(Instance) + node.mName.length);
+    budget_.check_time();
+    budget_.take(2 * sizeof(std::string) + node.mName.length);
     const aiMatrix4x4& t = node.mTransformation;
     const float4x4 parent_from_node{{float4{t.a1, t.b1, t.c1, t.d1}, float4{t.a2, t.b2, t.c2, t.d2},
                                      float4{t.a3, t.b3, t.c3, t.d3}, float4{t.a4, t.b4, t.c4, t.d4}}};
@@ -219,9 +227,16 @@ class Conversion {
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] >= parts_.size())
         throw Error(Trouble::Input, budget_.file() + ": a node names a mesh that is not there");
-      for (const int part : parts_[node.mMeshes[i]]) scene_.instances.push_back({part, object, world});
+      for (const int part : parts_[node.mMeshes[i]]) add_instance({part, object, world});
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], world, depth + 1);
+  }
+
+  void add_instance(const Instance& instance) {
+    for (const float4& c : instance.world_from_object.column)
+      if (!is_finite(xyz(c)) || !std::isfinite(c.w)) return void(++dropped_);
+    budget_.take(2 * sizeof(Instance));
+    scene_.instances.push_back(instance);
   }
 
   const aiScene& from_;

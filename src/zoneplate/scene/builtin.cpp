@@ -143,7 +143,7 @@ void add_object(Scene& scene, const char* name, Mesh mesh) {
   mesh.name = name;
   scene.instances.push_back(
       {static_cast<int>(scene.meshes.size()), static_cast<int>(scene.objects.size()), float4x4{}});
-  scene.objects.emplace_back(name);
+  scene.objects.push_back(name);
   scene.meshes.push_back(std::move(mesh));
 }
 

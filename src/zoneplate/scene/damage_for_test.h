@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/scene/sound.h"
+#include "zoneplate/scene/find_flaw.h"
 
 namespace zoneplate {
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
 namespace {
@@ -52,8 +53,10 @@ std::uint64_t drop_not_finite(Mesh& m) {
   if (std::find(is_clean.begin(), is_clean.end(), 0) == is_clean.end()) return 0;
 
   std::vector<bool> is_bad(m.position.size());
-  for (std::size_t i = 0; i < m.position.size(); ++i)
-    if (!is_clean[i / block] && !all_finite(m, i, i + 1)) is_bad[i] = true, make_zero(m, i);
+  serial_ranges(m.position.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (!is_clean[i / block] && !all_finite(m, i, i + 1)) is_bad[i] = true, make_zero(m, i);
+  });
   const auto corners = static_cast<std::size_t>(m.vertices_per_primitive());
   std::size_t kept = 0;
   for (std::size_t k = 0; k + corners <= m.index.size(); k += corners) {

@@ -108,10 +108,12 @@ Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) 
   const Directions directions = view_directions(rough, picture_aspect, fit.margin);
   Farthest all;
   all.reach.fill(-std::numeric_limits<float>::infinity());
-  for (const Instance& instance : scene.instances)
+  for (const std::size_t i : used.reaching(directions)) {
+    const Instance& instance = scene.instances[i];
     add_instance(
         {scene.meshes[static_cast<std::size_t>(instance.mesh)], used.of(instance.mesh), instance.world_from_object},
         directions, all);
+  }
   if (!(all.reach[0] > -std::numeric_limits<float>::infinity())) return rough;
   return fit_camera(std::span<const float3>(all.point), picture_aspect, fit);
 }

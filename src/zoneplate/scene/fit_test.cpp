@@ -56,5 +56,27 @@ TEST(FitScene, AnEmptySceneHasACamera) {
   EXPECT_GT(camera.far, camera.near);
 }
 
+// Placements of one mesh are passed over where they cannot matter; meshes of their own are not.
+TEST(FitScene, SharedMeshesChangeNoBit) {
+  Scene shared = cloud();
+  shared.instances.clear();
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Quaternion turn{0, 0.6f, 0, 0.8f};
+    const float3 place{50 * unit_float(hash(i, 4)), 9 * unit_float(hash(i, 5)), 50 * unit_float(hash(i, 6))};
+    shared.instances.push_back({0, 0, translation(place) * (i % 2 == 0 ? rotation(turn) : float4x4{})});
+  }
+  Scene own = shared;
+  for (std::size_t i = 0; i < own.instances.size(); ++i) {
+    own.meshes.push_back(own.meshes[0]);
+    own.instances[i].mesh = static_cast<int>(i) + 1;
+  }
+  for (const float aspect : {0.7f, 1.6f}) {
+    const Camera a = fit_camera(shared, aspect, {}), b = fit_camera(own, aspect, {});
+    EXPECT_EQ(a.world_from_camera, b.world_from_camera);
+    EXPECT_EQ(a.near, b.near);
+    EXPECT_EQ(a.far, b.far);
+  }
+}
+
 }  // namespace
 }  // namespace zoneplate

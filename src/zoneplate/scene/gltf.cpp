@@ -101,6 +101,7 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   if (!(light.range > 0)) json.fail("range must be greater than 0");
   light.position = xyz(world_from_node.column[3]);
   light.direction = normalize(-xyz(world_from_node.column[2]), {0, 0, -1});
+  if (!(dot(light.direction, light.direction) > 0.5f)) light.direction = {0, 0, -1};  // an axis too long for its square
   const JsonView spot = json.object("spot");
   light.inner_cone = spot.number("innerConeAngle", 0.0f);
   light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
@@ -110,21 +111,35 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   return light;
 }
 
-std::vector<std::string> list_variants(const GltfFile& file) {
+bool is_finite(const float4x4& m) {
+  return std::all_of(std::begin(m.column), std::end(m.column),
+                     [](float4 c) { return zoneplate::is_finite(xyz(c)) && std::isfinite(c.w); });
+}
+
+/// What a text takes that is copied out of the file.
+std::uint64_t bytes_of(const std::string& text) { return text.size() + 2 * sizeof(std::string); }
+
+std::vector<std::string> list_variants(GltfFile& file) {
   std::vector<std::string> names;
   const auto all = file.root().extension("KHR_materials_variants");
-  for (std::size_t i = 0; all && i < all->count("variants"); ++i)
+  const std::size_t count = all ? all->count("variants") : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    file.budget().check_time();
     names.push_back(all->element("variants", i, "variant").text("name"));
+    file.budget().take(bytes_of(names.back()));
+  }
   return names;
 }
 
-std::optional<std::size_t> find_variant(const GltfFile& file, const std::string& name) {
+std::optional<std::size_t> find_variant(GltfFile& file, const std::string& name) {
   if (name.empty()) return std::nullopt;
+  constexpr std::size_t most_shown = 20;
   std::string known;
   const std::vector<std::string> names = list_variants(file);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name) return i;
-    known += (known.empty() ? "" : ", ") + names[i];
+    if (i < most_shown) known += (known.empty() ? "" : ", ") + names[i].substr(0, 120);
+    if (i == most_shown) known += ", ...";
   }
   throw Error(Trouble::Usage, "--variant: the file has no variant " + quoted(name) +
                                   (known.empty() ? ", nor any other" : ", but " + known));
@@ -139,41 +154,61 @@ class SceneReader {
  private:
   void add_node(const GltfNode& node);
   void add_mesh(const GltfNode& node, std::size_t mesh);
-  std::pair<std::size_t, std::size_t> find_meshes(const GltfNode& node, std::size_t mesh, bool is_skinned);
+  void add_name(const GltfNode& node, std::size_t mesh);
+  std::pair<std::size_t, std::size_t> find_meshes(const GltfNode& node, std::size_t mesh);
   void add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object);
-  std::vector<float4x4> read_placements(const GltfNode& node);
+  bool is_near(std::size_t mesh, const float4x4& world_from_object);
 
   GltfFile& file_;
   GltfNodes nodes_;
   std::optional<std::size_t> variant_;
   Scene scene_;
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>> ready_;  ///< file's mesh: its meshes in the scene
-  std::vector<Box> boxes_;                                            ///< of each mesh in the scene
+
+  /// Vertices as read, and those that a primitive uses, once they had to be told apart.
+  struct Bounds {
+    Box all;
+    std::optional<Box> used = std::nullopt;
+  };
+  using MeshRange = std::pair<std::size_t, std::size_t>;  ///< [first, end) of the scene's meshes
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, MeshRange> ready_;  ///< by the file's mesh and skin
+  std::map<std::size_t, std::size_t> named_;  ///< by the file's mesh: an object that has its name
+  std::vector<Bounds> bounds_;                ///< of each mesh in the scene
 };
 
 /// EXT_mesh_gpu_instancing: transforms of copies, relative to the node; one identity without the extension.
-std::vector<float4x4> SceneReader::read_placements(const GltfNode& node) {
-  const auto extension = node.json.extension("EXT_mesh_gpu_instancing");
-  if (!extension) return {float4x4{}};
-  const JsonView list = extension->object("attributes");
-  const auto read = [&](const char* key, auto reader) -> decltype(reader(file_, list, key, ElementRange{})) {
-    if (!list.has(key)) return {};
-    return reader(file_, list, key, ElementRange{});
-  };
-  const std::vector<float3> moves = read("TRANSLATION", read_float3), scales = read("SCALE", read_float3);
-  const std::vector<float4> turns = read("ROTATION", read_float4);
-  const std::size_t count = std::max({moves.size(), scales.size(), turns.size()});
-  for (const std::size_t n : {moves.size(), scales.size(), turns.size()})
-    if (n != 0 && n != count) list.fail("TRANSLATION, ROTATION and SCALE differ in their number of elements");
-  file_.budget().take(count * (sizeof(float4x4) + sizeof(Instance)));
-  std::vector<float4x4> out(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float4 q = turns.empty() ? float4{0, 0, 0, 1} : turns[i];
-    out[i] = translation(moves.empty() ? float3{} : moves[i]) * rotation(Quaternion{q.x, q.y, q.z, q.w}) *
-             scaling(scales.empty() ? float3{1, 1, 1} : scales[i]);
+class Placements {
+ public:
+  Placements(GltfFile& file, const GltfNode& node) : budget_(file.budget()) {
+    const auto extension = node.json.extension("EXT_mesh_gpu_instancing");
+    if (!extension) return;
+    const JsonView list = extension->object("attributes");
+    if (list.has("TRANSLATION")) moves_ = read_float3(file, list, "TRANSLATION");
+    if (list.has("SCALE")) scales_ = read_float3(file, list, "SCALE");
+    if (list.has("ROTATION")) turns_ = read_float4(file, list, "ROTATION");
+    count_ = std::max({moves_.size(), scales_.size(), turns_.size()});
+    for (const std::size_t n : {moves_.size(), scales_.size(), turns_.size()})
+      if (n != 0 && n != count_) list.fail("TRANSLATION, ROTATION and SCALE differ in their number of elements");
   }
-  return out;
-}
+  ~Placements() {
+    budget_.give_back((moves_.size() + scales_.size()) * sizeof(float3) + turns_.size() * sizeof(float4));
+  }
+  Placements(const Placements&) = delete;
+  Placements& operator=(const Placements&) = delete;
+
+  std::size_t size() const { return count_; }
+  float4x4 operator[](std::size_t i) const {
+    if (moves_.empty() && scales_.empty() && turns_.empty()) return {};
+    const float4 q = turns_.empty() ? float4{0, 0, 0, 1} : turns_[i];
+    return translation(moves_.empty() ? float3{} : moves_[i]) * rotation(Quaternion{q.x, q.y, q.z, q.w}) *
+           scaling(scales_.empty() ? float3{1, 1, 1} : scales_[i]);
+  }
+
+ private:
+  ImportBudget& budget_;
+  std::size_t count_ = 1;
+  std::vector<float3> moves_, scales_;
+  std::vector<float4> turns_;
+};
 
 Box bounds_of(const std::vector<float3>& positions) {
   constexpr std::size_t block = 1 << 15;
@@ -197,60 +232,105 @@ bool is_near(const Box& box, const float4x4& world_from_object) {
 }
 
 /// The scene's meshes for a mesh of the file, [first, end); read at their first use, or for a pose of their own.
-std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh, bool is_skinned) {
+std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh) {
   GltfPose pose{.weights = nodes_.weights(node), .joints = {}, .variant = variant_};
-  if (is_skinned) pose.joints = nodes_.joints(node);
-  const bool is_plain = pose.weights.empty() && pose.joints.empty();
-  if (const auto found = ready_.find(mesh); is_plain && found != ready_.end()) return found->second;
+  // Nodes with one mesh and one skin show the same, unless their morph targets have weights of their own.
+  const std::pair key(mesh, node.json.find_index("skin", file_.count("skins")));
+  const bool is_shared = pose.weights.empty();
+  if (const auto found = ready_.find(key); is_shared && found != ready_.end()) return found->second;
 
+  if (key.second) pose.joints = nodes_.joints(node);
   const std::size_t first = scene_.meshes.size();
   for (Mesh& m : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
-    boxes_.push_back(bounds_of(m.position));
+    bounds_.push_back({bounds_of(m.position)});
     scene_.meshes.push_back(std::move(m));
   }
   const std::pair range(first, scene_.meshes.size());
-  if (is_plain) ready_[mesh] = range;
+  if (is_shared) ready_[key] = range;
   return range;
 }
 
-void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
-  // What no primitive uses may lie where it wants: that is looked at only where it matters.
-  if (!is_near(boxes_[mesh], world_from_object)) {
-    Box used;
-    for (const std::uint32_t i : scene_.meshes[mesh].index) used.add(scene_.meshes[mesh].position[i]);
-    boxes_[mesh] = used;
+/// What no primitive uses may lie where it wants: that is looked at only where it matters, and once a mesh.
+bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
+  Bounds& bounds = bounds_[mesh];
+  if (zoneplate::is_near(bounds.all, world_from_object)) return true;
+  if (!bounds.used) {
+    const Mesh& m = scene_.meshes[mesh];
+    bounds.used.emplace();
+    for (const std::uint32_t i : m.index) bounds.used->add(m.position[i]);
   }
-  if (!is_near(boxes_[mesh], world_from_object)) {
+  return zoneplate::is_near(*bounds.used, world_from_object);
+}
+
+void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
+  if (!is_near(mesh, world_from_object)) {
     file_.warn(node.json.place() + ": lies farther than 1e18 from the origin or nowhere, dropped");
     return;
   }
   scene_.instances.push_back({static_cast<int>(mesh), object, world_from_object});
 }
 
+/// Adds an object named as the node, or else as its mesh, whose name all its objects share.
+void SceneReader::add_name(const GltfNode& node, std::size_t mesh) {
+  std::string name = node.json.text("name");
+  if (!node.json.has("name")) {
+    if (const auto found = named_.find(mesh); found != named_.end()) return scene_.objects.share(found->second);
+    name = file_.root().element("meshes", mesh, "mesh").text("name");
+    if (name.empty())
+      name = "node " + std::to_string(node.number);
+    else
+      named_[mesh] = scene_.objects.size();
+  }
+  file_.budget().take(bytes_of(name));
+  scene_.objects.push_back(std::move(name));
+}
+
 void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
   const bool is_skinned = node.json.has("skin");
-  const auto range = find_meshes(node, mesh, is_skinned);
-  const std::string mesh_name = file_.root().element("meshes", mesh, "mesh").text("name");
-  for (const float4x4& placement : read_placements(node)) {
-    file_.budget().take(sizeof(Instance) * (range.second - range.first) + sizeof(std::string));
+  const auto range = find_meshes(node, mesh);
+  const Placements placements(file_, node);
+  const std::size_t parts = range.second - range.first, first_object = scene_.objects.size();
+  const std::uint64_t all = std::uint64_t{placements.size()} * parts;
+  file_.budget().take(all * sizeof(Instance) + placements.size() * sizeof(std::uint32_t));
+  // Many copies need no room to grow; few share what the vector adds by itself.
+  if (scene_.instances.size() + all > 2 * scene_.instances.capacity())
+    scene_.instances.reserve(scene_.instances.size() + all);
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    constexpr std::size_t copies_per_check = 1024;
+    if (i % copies_per_check == 0) file_.budget().check_time();
     const int object = static_cast<int>(scene_.objects.size());
-    scene_.objects.push_back(
-        node.json.text("name", mesh_name.empty() ? "node " + std::to_string(node.number) : mesh_name));
+    if (i == 0)
+      add_name(node, mesh);
+    else
+      scene_.objects.share(first_object);
     // A skinned mesh is in the world already: its node's own transform does not count.
-    const float4x4 world_from_object = is_skinned ? float4x4{} : node.world_from_node * placement;
+    const float4x4 world_from_object = is_skinned ? float4x4{} : node.world_from_node * placements[i];
     for (std::size_t m = range.first; m < range.second; ++m) add_instance(node, m, object, world_from_object);
   }
 }
 
 void SceneReader::add_node(const GltfNode& node) {
   file_.budget().check_time();
-  if (const auto camera = node.json.find_index("camera", file_.count("cameras")))
+  if (const auto camera = node.json.find_index("camera", file_.count("cameras"))) {
     scene_.cameras.push_back(read_camera(file_.root().element("cameras", *camera, "camera"), node.world_from_node));
+    float4x4& place = scene_.cameras.back().world_from_camera;
+    if (!is_finite(place)) {
+      file_.warn(node.json.place() + ": its camera's place is not finite, taken at the origin");
+      place = {};
+    }
+    file_.budget().take(2 * sizeof(Camera) + scene_.cameras.back().name.size());
+  }
   if (const auto use = node.json.extension("KHR_lights_punctual")) {
     const auto all = file_.root().extension("KHR_lights_punctual");
     const std::size_t count = all ? all->count("lights") : 0;
     const std::size_t light = use->index("light", count);
     scene_.lights.push_back(read_light(all->element("lights", light, "light"), node.world_from_node));
+    if (!is_finite(scene_.lights.back().position)) {
+      file_.warn(node.json.place() + ": its light's place is not finite, dropped");
+      scene_.lights.pop_back();
+    } else {
+      file_.budget().take(2 * sizeof(Light) + scene_.lights.back().name.size());
+    }
   }
   if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
 }
@@ -291,6 +371,7 @@ GltfModel::~GltfModel() = default;
 
 Scene GltfModel::scene(const SceneChoice& choice, Images images) {
   open_->file.budget().restart(open_->left);
+  open_->file.forget_zeros();
   return SceneReader(open_->file, choice).read(open_->look, images);
 }
 

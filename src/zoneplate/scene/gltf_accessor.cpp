@@ -158,6 +158,7 @@ void widen_as(const Layout& from, std::vector<std::uint32_t>& to) {
 std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, const Layout& from) {
   if (from.type != Uint8 && from.type != Uint16 && from.type != Uint32)
     json.fail("componentType is " + std::to_string(from.type) + ", wants 5121, 5123 or 5125");
+  if (from.bytes.empty()) file.take_zeros(json, from.count);
   file.budget().take(from.count * sizeof(std::uint32_t));
   std::vector<std::uint32_t> out;
   reserve_large(out, static_cast<std::size_t>(from.count));
@@ -202,6 +203,7 @@ std::vector<V> read_vectors(GltfFile& file, const Accessor& a, ElementRange rang
   constexpr std::size_t floats = sizeof(V) / sizeof(float);
   const std::uint64_t first = std::min(range.first, a.layout.count);
   const std::uint64_t count = std::min(range.count, a.layout.count - first);
+  if (a.layout.bytes.empty()) file.take_zeros(a.json, count);
   file.budget().take(count * sizeof(V));
   std::vector<V> out;
   reserve_large(out, static_cast<std::size_t>(count));

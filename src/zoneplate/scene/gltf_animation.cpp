@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/scene/gltf_accessor.h"
@@ -89,20 +91,30 @@ Interpolation read_interpolation(const JsonView& sampler) {
   return Interpolation::CubicSpline;
 }
 
-/// The value of a sampler; `width` floats, or for weights as many as a key has.
-std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, double time) {
+/// The moment among the keys of a sampler, and how many these are.
+struct Keys {
+  Moment moment;
+  std::size_t count = 0;
+};
+
+Keys find_keys(GltfFile& file, const JsonView& sampler, double time) {
   const std::vector<float> times = read_times(file, sampler);
+  file.budget().give_back(times.size() * sizeof(float));
+  return {find_moment(times, time), times.size()};
+}
+
+/// The value of a sampler; `width` floats, or for weights as many as a key has.
+std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, const Keys& of_input) {
   const Interpolation kind = read_interpolation(sampler);
-  const std::uint64_t parts = kind == Interpolation::CubicSpline ? 3 : 1, keys = times.size() * parts;
+  const std::uint64_t parts = kind == Interpolation::CubicSpline ? 3 : 1, keys = of_input.count * parts;
   const std::uint64_t elements = count_elements(file, sampler, "output");
   const std::uint64_t per_key = path == Path::Weights ? elements / keys : 1;
   if (elements < keys || per_key == 0)
     sampler.fail("output has " + std::to_string(elements) + " elements, wants " + std::to_string(keys));
 
-  const Moment m = find_moment(times, time);
+  const Moment m = of_input.moment;
   const std::uint64_t used = (m.t > 0 ? 2 : 1) * parts * per_key;
   const std::vector<float> v = read_values(file, sampler, path, {m.first * parts * per_key, used});
-  file.budget().give_back(times.size() * sizeof(float));
   const std::size_t width = path == Path::Weights ? static_cast<std::size_t>(per_key) : path == Path::Rotation ? 4 : 3;
   if (v.size() < (m.t > 0 ? 2 : 1) * parts * width) sampler.fail("output ends too early");
 
@@ -152,16 +164,21 @@ std::pair<float, float> extent(GltfFile& file, const JsonView& sampler) {
 
 std::vector<AnimationSpan> list_animations(GltfFile& file) {
   std::vector<AnimationSpan> out;
+  std::map<std::size_t, std::pair<float, float>> extents;  // of the accessors of times
   for (std::size_t i = 0; i < file.count("animations"); ++i) {
     const JsonView json = file.root().element("animations", i, "animation");
     AnimationSpan span{json.text("name"), 0, 0};
+    file.budget().take(2 * sizeof(AnimationSpan) + span.name.size());
     for (std::size_t s = 0; s < json.count("samplers"); ++s) {
       file.budget().check_time();
-      const auto [begin, end] = extent(file, json.element("samplers", s, "sampler"));
+      const JsonView sampler = json.element("samplers", s, "sampler");
+      const std::size_t input = sampler.index("input", file.count("accessors"));
+      if (!extents.contains(input)) extents[input] = extent(file, sampler);
+      const auto [begin, end] = extents[input];
       span.begin = s == 0 ? begin : std::min(span.begin, begin);
       span.end = s == 0 ? end : std::max(span.end, end);
     }
-    file.budget().take(sizeof(AnimationSpan));
+    span.end = std::max(span.end, span.begin);  // as accessors say it, which may be anything
     out.push_back(std::move(span));
   }
   return out;
@@ -169,6 +186,9 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
 
 void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses) {
   const JsonView json = file.root().element("animations", animation, "animation");
+  // Many channels may share the times of their keys, and a sampler: each is looked through once.
+  std::map<std::size_t, Keys> keys;                                   // by accessor
+  std::map<std::pair<std::size_t, Path>, std::vector<float>> values;  // by sampler
   for (std::size_t c = 0; c < json.count("channels"); ++c) {
     file.budget().check_time();
     const JsonView channel = json.element("channels", c, "channel"), target = channel.object("target");
@@ -176,8 +196,16 @@ void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& p
     const std::optional<Path> path = find_path_kind(target.text("path"));
     if (!path) file.warn(target.place() + ": path " + quoted(target.text("path")) + " is not supported, passed over");
     if (!node || !path) continue;
-    const std::size_t sampler = channel.index("sampler", json.count("samplers"));
-    set(poses[*node], *path, evaluate(file, json.element("samplers", sampler, "sampler"), *path, time));
+    const std::size_t number = channel.index("sampler", json.count("samplers"));
+    const JsonView sampler = json.element("samplers", number, "sampler");
+    const auto [value, is_new] = values.try_emplace({number, *path});
+    if (is_new) {
+      const std::size_t input = sampler.index("input", file.count("accessors"));
+      if (!keys.contains(input)) keys[input] = find_keys(file, sampler, time);
+      value->second = evaluate(file, sampler, *path, keys[input]);
+    }
+    file.budget().take(sizeof(GltfNodePose) + value->second.size() * sizeof(float));
+    set(poses[*node], *path, value->second);
   }
 }
 

@@ -127,7 +127,8 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (uri.starts_with("data:")) {
     const auto [head, body] = split_data_uri(uri);
     if (body.data() == nullptr) owner.fail("its data: URI has no comma");
-    budget_.take(body.size());
+    // Beside what is kept, a copy of it may be made on the way.
+    budget_.take(2 * body.size());
     if (head.ends_with(";base64")) {
       auto decoded = decode_base64(body.find('%') == std::string_view::npos ? body : decode_percent(body));
       if (!decoded) owner.fail("its data: URI is not base64");
@@ -136,6 +137,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
       const std::string text = decode_percent(body);
       out.decoded.assign(text.begin(), text.end());
     }
+    budget_.give_back(body.size());
     out.bytes = out.decoded;
     return out;
   }
@@ -154,8 +156,19 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   return out;
 }
 
+void GltfFile::take_zeros(const JsonView& accessor, std::uint64_t count) {
+  constexpr std::uint64_t most_zeros = std::uint64_t{1} << 23;
+  zeros_ += count;
+  if (zeros_ > most_zeros)
+    accessor.fail("has no bufferView, as other accessors of " + std::to_string(zeros_) + " elements in all, at most " +
+                  std::to_string(most_zeros) + " may be zero");
+}
+
 void GltfFile::warn(const std::string& text) {
-  if (warned_.insert(text).second) warnings_.push_back(text);
+  constexpr std::size_t most_warnings = 1000;
+  if (warnings_.size() > most_warnings || !warned_.insert(text).second) return;
+  budget_.take(2 * text.size());
+  warnings_.push_back(warnings_.size() < most_warnings ? text : path_ + ": more of this kind is not listed");
 }
 
 }  // namespace zoneplate

@@ -49,7 +49,14 @@ class GltfFile {
   bool has_decoded(std::size_t accessor) const { return decoded_.contains(accessor); }
   std::span<const std::uint8_t> decoded(std::size_t accessor) const { return decoded_.at(accessor); }
 
-  /// Notes what was passed over, each text once.
+  /// Counts elements that the scene gets of accessors for which there are no bytes.
+  ///
+  /// Errors    Trouble::Input when they are more in all than any file means: a small file must not ask for all memory.
+  void take_zeros(const JsonView& accessor, std::uint64_t count);
+  /// Begins anew, for another scene of the file.
+  void forget_zeros() { zeros_ = 0; }
+
+  /// Notes what was passed over, each text once, and of very many the first.
   void warn(const std::string& text);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -69,6 +76,7 @@ class GltfFile {
   std::map<std::size_t, GltfBytes> buffers_;
   std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< of compressed buffer views
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_;   ///< of accessors
+  std::uint64_t zeros_ = 0;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
 };

@@ -1,8 +1,10 @@
 #include "zoneplate/scene/gltf_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 namespace zoneplate {
@@ -30,7 +32,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool start_object(std::size_t) override { return open(JsonValue::Kind::Object); }
   bool start_array(std::size_t) override { return open(JsonValue::Kind::List); }
   bool key(string_t& v) override {
-    budget_.take(v.size() + sizeof(std::string));
+    budget_.take(v.size() + 2 * sizeof(std::string));
     open_.back()->keys.push_back(std::move(v));
     return true;
   }
@@ -53,6 +55,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   /// Growth doubles a list, so a value may hold twice its own size.
   bool add(JsonValue&& value) {
+    constexpr std::uint64_t values_per_check = 1024;
+    if (++count_ % values_per_check == 0) budget_.check_time();
     budget_.take(2 * sizeof(JsonValue));
     last_ = open_.empty() ? &root_ : &open_.back()->items.emplace_back();
     *last_ = std::move(value);
@@ -66,11 +70,32 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool close() {
+    if (open_.back()->keys.size() > JsonValue::most_unsorted_keys) sort_keys(*open_.back());
     open_.pop_back();
     return true;
   }
 
+  void sort_keys(JsonValue& object) {
+    const std::size_t count = object.keys.size();
+    const std::uint64_t working = count * (sizeof(std::size_t) + sizeof(std::string) + sizeof(JsonValue));
+    budget_.take(working);
+    budget_.check_time();
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const int difference = object.keys[a].compare(object.keys[b]);
+      return difference != 0 ? difference < 0 : a < b;
+    });
+    std::vector<std::string> keys(count);
+    std::vector<JsonValue> items(count);
+    for (std::size_t i = 0; i < count; ++i)
+      keys[i] = std::move(object.keys[order[i]]), items[i] = std::move(object.items[order[i]]);
+    object.keys = std::move(keys), object.items = std::move(items);
+    budget_.give_back(working);
+  }
+
   ImportBudget& budget_;
+  std::uint64_t count_ = 0;  ///< of values so far
   JsonValue root_;
   JsonValue* last_ = nullptr;
   std::vector<JsonValue*> open_;
@@ -128,6 +153,11 @@ void JsonView::fail(const std::string& cause) const {
 
 const JsonValue* JsonView::find(const char* key) const {
   // Of equal keys the last one counts.
+  if (value_->keys.size() > JsonValue::most_unsorted_keys) {
+    const auto after = std::upper_bound(value_->keys.begin(), value_->keys.end(), key);
+    const bool is_found = after != value_->keys.begin() && after[-1] == key;
+    return is_found ? &value_->items[static_cast<std::size_t>(after - value_->keys.begin()) - 1] : nullptr;
+  }
   for (std::size_t i = value_->keys.size(); i-- > 0;)
     if (value_->keys[i] == key) return &value_->items[i];
   return nullptr;

@@ -19,14 +19,17 @@ struct JsonValue {
   bool boolean = false;
   double number = 0;  ///< whole numbers are exact to 2^53
   std::string text{};
-  std::vector<JsonValue> items{};   ///< elements of a list, or values of an object in the file's order
-  std::vector<std::string> keys{};  ///< of an object, one for each item
+  std::vector<JsonValue> items{};   ///< elements of a list, or values of an object
+  std::vector<std::string> keys{};  ///< of an object, one for each item; in the file's order, or sorted where many
+
+  /// An object of more keys than this has them sorted, equal ones in the file's order, to be searched by halves.
+  static constexpr std::size_t most_unsorted_keys = 64;
 };
 
 /// Reads a JSON text; trailing white space and zero bytes are passed over.
 ///
-/// Errors    Trouble::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, or larger
-///           in memory than the budget.
+/// Errors    Trouble::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, larger in
+///           memory than the budget, or not read within its time.
 JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget);
 
 /// A text of a file as it stands in a message: in quotes, on one line, not too long.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "zoneplate/base/deadline.h"
+
 namespace zoneplate {
 namespace {
 
@@ -108,6 +110,26 @@ TEST(GltfJson, MessagesNameThePlaceTheFoundAndTheWanted) {
 TEST(GltfJson, QuotedTextsStayOnOneLine) {
   EXPECT_EQ(quoted("a\nb\x1b"), "'a?b?'");
   EXPECT_EQ(quoted(std::string(200, 'x')), "'" + std::string(120, 'x') + "...'");
+}
+
+TEST(GltfJson, ManyKeysAreFoundToo) {
+  std::string text = "{";
+  for (int i = 0; i < 1000; ++i) text += "\"k" + std::to_string(i % 900) + "\":" + std::to_string(i) + ",";
+  const JsonValue v = parse(text + R"("a\u0000b":1,"z":"end"})");
+  const JsonView j(v, "");
+  for (int i = 0; i < 900; ++i)
+    EXPECT_EQ(j.whole(("k" + std::to_string(i)).c_str()), static_cast<std::uint64_t>(i < 100 ? i + 900 : i)) << i;
+  EXPECT_EQ(j.text("z"), "end");
+  EXPECT_FALSE(j.has("k900"));
+  EXPECT_FALSE(j.has(""));
+  EXPECT_FALSE(j.has("zz"));
+}
+
+TEST(GltfJson, TimeIsCheckedOnTheWay) {
+  std::string many = "[0";
+  for (int i = 0; i < 5000; ++i) many += ",0";
+  const std::string late = "late";
+  EXPECT_THROW(with_deadline(0, Trouble::Input, late, [&] { parse(many + "]"); }), Error);
 }
 
 }  // namespace

@@ -9,12 +9,14 @@
 #include <string>
 #include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/finite.h"
 #include "zoneplate/scene/flat_normals.h"
 #include "zoneplate/scene/gltf_accessor.h"
 #include "zoneplate/scene/gltf_draco.h"
 #include "zoneplate/scene/gltf_topology.h"
+#include "zoneplate/scene/serial_ranges.h"
 #include "zoneplate/scene/tangent.h"
 
 namespace zoneplate {
@@ -94,6 +96,7 @@ void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mes
                 " weights are given");
   for (std::size_t t = 0; t < std::min(targets, weights.size()); ++t) {
     if (weights[t] == 0) continue;
+    p.file.budget().check_time();
     const JsonView target = p.json.element("targets", t, "target");
     // A target's elements are counted against the primitive's positions.
     const auto read = [&](const char* key, auto reader) -> decltype(reader(p.file, target, key, p.range)) {
@@ -127,6 +130,8 @@ void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& me
   const std::array<std::vector<float4>, 2> weight = {read_attribute(p, "WEIGHTS_0", read_float4),
                                                      read_attribute(p, "WEIGHTS_1", read_float4)};
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    constexpr std::size_t vertices_per_check = 4096;
+    if (v % vertices_per_check == 0) check_deadline();
     float4x4 blend{};
     for (float4& c : blend.column) c = {};
     float sum = 0;
@@ -173,11 +178,12 @@ void normalize_normals(Mesh& m) {
   });
   if (!has_zero) return;
   std::vector<float3> sum(m.normal.size());
-  for (std::size_t k = 0; m.topology == Topology::Triangles && k + 2 < m.index.size(); k += 3) {
-    const float3 a = m.position[m.index[k]], b = m.position[m.index[k + 1]], c = m.position[m.index[k + 2]];
-    const float3 n = flat_normal(a, b, c);
-    for (std::size_t j = 0; j < 3; ++j) sum[m.index[k + j]] += n;
-  }
+  serial_ranges(m.topology == Topology::Triangles ? m.primitives() : 0, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t* i = &m.index[3 * begin]; i != m.index.data() + 3 * end; i += 3) {
+      const float3 n = flat_normal(m.position[i[0]], m.position[i[1]], m.position[i[2]]);
+      for (std::size_t j = 0; j < 3; ++j) sum[i[j]] += n;
+    }
+  });
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (m.normal[i] == float3{}) m.normal[i] = normalize(sum[i], {0, 1, 0});
 }
@@ -278,12 +284,15 @@ std::vector<Mesh> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfP
                                  std::span<const Material> materials) {
   const JsonView json = file.root().element("meshes", number, "mesh");
   const std::vector<float> weights = pose.weights.empty() ? json.numbers("weights", 0) : pose.weights;
+  const std::string name = json.text("name", "mesh " + std::to_string(number));
   std::vector<Mesh> out;
   for (std::size_t i = 0; i < json.count("primitives"); ++i) {
     file.budget().check_time();
     Mesh m = read_primitive(file, json.element("primitives", i, "primitive"), pose, weights, materials);
-    m.name = json.text("name", "mesh " + std::to_string(number));
-    if (!m.index.empty()) out.push_back(std::move(m));
+    if (m.index.empty()) continue;
+    file.budget().take(3 * sizeof(Mesh) + name.size());  // growing lists hold twice their size
+    m.name = name;
+    out.push_back(std::move(m));
   }
   return out;
 }

@@ -42,8 +42,10 @@ std::vector<std::size_t> GltfNodes::roots(const std::optional<int>& chosen) cons
     return file_.root().element("scenes", *scene, "scene").indices("nodes", count);
   if (file_.count("scenes") > 0) return file_.root().element("scenes", 0, "scene").indices("nodes", count);
   std::vector<bool> is_child(count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
+    file_.budget().check_time();
     for (const std::size_t c : file_.root().element("nodes", i, "node").indices("children", count)) is_child[c] = true;
+  }
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < count; ++i)
     if (!is_child[i]) out.push_back(i);
@@ -75,7 +77,7 @@ GltfNodes::GltfNodes(GltfFile& file, const SceneChoice& choice) : file_(file), p
     if (next.depth > file.budget().limits().node_depth)
       json.fail("lies deeper than the limit of " + std::to_string(file.budget().limits().node_depth) + " nodes");
     file.budget().check_time();
-    file.budget().take(sizeof(GltfNode) + 64);
+    file.budget().take(2 * sizeof(GltfNode) + json.place().size());
     place_[next.number] = nodes_.size();
     const auto pose = poses_.find(next.number);
     nodes_.push_back({next.number, json,

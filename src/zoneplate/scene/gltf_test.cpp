@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/scene/gltf_maker_test.h"
@@ -236,6 +237,83 @@ TEST(Gltf, MissingFilesAreNamed) {
     EXPECT_EQ(e.trouble(), Trouble::Input);
     EXPECT_NE(std::string(e.what()).find("/nowhere/x.glb"), std::string::npos);
   }
+}
+
+/// A million letters of names for each of many things would be memory that a file of a few thousand bytes asks for.
+TEST(Gltf, PlacementsShareTheNameOfTheirNode) {
+  GltfMaker m = triangle_maker();
+  const std::string name(10000, 'n');
+  const std::string places = m.accessor(R"({"componentType":5126,"count":50000,"type":"VEC3"})");
+  m.nodes = R"({"mesh":0,"name":")" + name +
+            R"(","extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" + places + "}}}}";
+  const Scene s = load(m, {.memory = 8 << 20});
+  ASSERT_EQ(s.objects.size(), 50000u);
+  EXPECT_EQ(s.instances.size(), 50000u);
+  EXPECT_EQ(s.instances.back().object, 49999);
+  EXPECT_EQ(s.objects[49999], name);
+  EXPECT_EQ(s.objects.texts().size(), 1u);
+  EXPECT_NE(error_of(m, {.memory = 3 << 20}).find("--max-memory"), std::string::npos);
+}
+
+TEST(Gltf, NodesShareTheNameOfTheirMesh) {
+  GltfMaker m = triangle_maker();
+  const std::string name(100000, 'x');
+  m.meshes = R"({"name":")" + name + R"(",)" + m.meshes.substr(1);
+  m.nodes = R"({"mesh":0},{"mesh":0,"name":"own"})";
+  m.scene_nodes = "0,1";
+  for (int i = 2; i < 600; ++i) m.nodes += R"(,{"mesh":0})", m.scene_nodes += "," + std::to_string(i);
+  const Scene s = load(m, {.memory = 4 << 20});
+  ASSERT_EQ(s.objects.size(), 600u);
+  EXPECT_EQ(s.objects[1], "own");
+  EXPECT_EQ(s.objects[599], name);
+  EXPECT_EQ(s.objects.texts().size(), 2u);
+}
+
+TEST(Gltf, ElementsWithoutBytesAreFewInAll) {
+  GltfMaker m;
+  std::string primitives;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string zeros = m.accessor(R"({"componentType":5126,"count":4000000,"type":"VEC3"})");
+    primitives += (i == 0 ? "" : ",") + (R"({"mode":0,"attributes":{"POSITION":)" + zeros + "}}");
+  }
+  m.meshes = R"({"primitives":[)" + primitives + "]}";
+  const std::string text = error_of(m);
+  EXPECT_NE(text.find("may be zero"), std::string::npos) << text;
+}
+
+/// Roots are looked for in a file that names none, among many keys: the square of these would be 10^10 comparisons.
+TEST(Gltf, TimeIsLinearInNodesAndKeys) {
+  GltfMaker m = triangle_maker();
+  m.nodes = R"({"mesh":0})";
+  for (int i = 1; i < 100000; ++i) m.nodes += ",{}";
+  std::string json = m.json();
+  const std::string scenes = R"("scene":0,"scenes":[{"nodes":[0]}],)";
+  std::string keys;
+  for (int i = 0; i < 100000; ++i) keys += "\"k" + std::to_string(i) + "\":0,";
+  json.replace(json.find(R"("scene":0)"), scenes.size() - 1, keys.substr(0, keys.size() - 1));
+  const TestFolder folder;
+  const std::clock_t begin = std::clock();
+  const Scene s = load_gltf(folder.write("f.glb", GltfMaker::glb(json, m.binary)));
+  EXPECT_EQ(s.instances.size(), 1u);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 20);
+}
+
+/// Nodes of one mesh and one skin need the mesh once.
+TEST(Gltf, NodesOfOneSkinShareTheirMesh) {
+  GltfMaker m;
+  const std::string positions = m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const std::string joints = m.values<std::uint8_t>("VEC4", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  const std::string weights = m.floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  m.mesh(R"("POSITION":)" + positions + R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights);
+  m.nodes = R"({"mesh":0,"skin":0},{"mesh":0,"skin":0},{"translation":[5,0,0]},{"mesh":0})";
+  m.scene_nodes = "0,1,2,3";
+  m.rest = R"(,"skins":[{"joints":[2]}])";
+  const Scene s = load(m);
+  ASSERT_EQ(s.instances.size(), 3u);
+  EXPECT_EQ(s.meshes.size(), 2u);
+  EXPECT_EQ(s.instances[0].mesh, s.instances[1].mesh);
+  EXPECT_EQ(s.meshes[static_cast<std::size_t>(s.instances[1].mesh)].position[1], (float3{6, 0, 0}));
+  EXPECT_EQ(s.meshes[static_cast<std::size_t>(s.instances[2].mesh)].position[1], (float3{1, 0, 0}));
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ bool has_scheme(std::string_view uri) {
 std::optional<std::string> find_path(const std::string& folder, std::string_view uri, bool allow_path) {
   namespace fs = std::filesystem;
   const std::string name = decode_percent(uri);
-  if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;
+  constexpr std::size_t most_bytes = 4096;  // of a path that Linux opens (PATH_MAX)
+  if (name.empty() || name.size() > most_bytes || name.find('\0') != std::string::npos) return std::nullopt;
   const fs::path file = fs::path(folder) / name;
   if (allow_path) return file.string();
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/scene/scene.h"
 
@@ -35,8 +36,9 @@ class ImportBudget {
   void restart(std::uint64_t left) { left_ = left, is_spent_ = false, clock_ = Stopwatch(); }
 
   bool has_time() const { return clock_.ms() <= limits_.seconds * 1000; }
-  /// Errors    Trouble::Input when the time is up.
+  /// Errors    Trouble::Input when the time is up; those of base/deadline.h.
   void check_time() const {
+    check_deadline();
     if (!has_time())
       throw Error(Trouble::Input, file_ + ": takes longer to load than the limit of " +
                                       std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) + " ms");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/scene/obj_text.h"
 
 namespace zoneplate {
@@ -66,23 +67,35 @@ MtlTexture read_texture(LineWords words) {
 
 class MtlReader {
  public:
-  MtlReader(const std::string& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
+  MtlReader(const std::string& file, std::vector<std::string>& warnings,
+            const std::function<bool(const std::string&)>& is_wanted)
+      : file_(file), warnings_(warnings), is_wanted_(is_wanted) {}
 
-  std::vector<MtlMaterial> materials;
+  std::vector<MtlMaterial> take() {
+    close();
+    return std::move(materials_);
+  }
 
   void read_line(std::uint64_t line, LineWords words) {
     line_ = line;
     const std::string key = lower(words.next());
     if (key.empty()) return;
     if (key == "newmtl") {
-      materials.emplace_back().name = words.rest();
+      close();
+      open_.emplace().name = words.rest();
       return;
     }
-    if (materials.empty()) return warn(fmt::format("{} before newmtl passed over", key));
+    if (!open_) return warn(fmt::format("{} before newmtl passed over", key));
     if (!read_color(key, words) && !read_value(key, words)) read_map(key, words);
   }
 
  private:
+  /// Keeps the material that was read last, if it is wanted.
+  void close() {
+    if (open_ && is_wanted_(open_->name)) materials_.push_back(std::move(*open_));
+    open_.reset();
+  }
+
   void warn(const std::string& text) {
     constexpr int most = 20;
     if (++warned_ > most) return;
@@ -91,7 +104,7 @@ class MtlReader {
   }
 
   bool read_color(const std::string& key, LineWords words) {
-    MtlMaterial& m = materials.back();
+    MtlMaterial& m = *open_;
     std::optional<float3>* target = key == "kd"   ? &m.diffuse
                                     : key == "ka" ? &m.ambient
                                     : key == "ks" ? &m.specular
@@ -113,7 +126,7 @@ class MtlReader {
   }
 
   bool read_value(const std::string& key, LineWords words) {
-    MtlMaterial& m = materials.back();
+    MtlMaterial& m = *open_;
     std::optional<float>* target = key == "ns"   ? &m.exponent
                                    : key == "d"  ? &m.opacity
                                    : key == "tr" ? &m.transparency
@@ -133,7 +146,7 @@ class MtlReader {
   }
 
   void read_map(const std::string& key, LineWords words) {
-    MtlMaterial& m = materials.back();
+    MtlMaterial& m = *open_;
     MtlTexture* target = key == "map_kd"   ? &m.diffuse_map
                          : key == "map_ke" ? &m.emissive_map
                          : key == "map_d"  ? &m.opacity_map
@@ -146,7 +159,12 @@ class MtlReader {
     }
     const bool is_map = key.substr(0, 4) == "map_" || key == "bump" || key == "disp" || key == "decal" || key == "refl";
     // Ka's map is nearly always Kd's, and only ambient light would show it.
-    if (is_map && key != "map_ka" && key != "map_aat") return m.unsupported.push_back(key);
+    if (is_map && key != "map_ka" && key != "map_aat") {
+      constexpr std::size_t most_keys = 16;  // more than there are
+      const bool is_new = std::find(m.unsupported.begin(), m.unsupported.end(), key) == m.unsupported.end();
+      if (is_new && m.unsupported.size() < most_keys) m.unsupported.push_back(key);
+      return;
+    }
     constexpr std::array known = {"ni",    "tf",     "sharpness", "km",      "ps",     "pc",      "pcr",
                                   "aniso", "anisor", "map_ka",    "map_aat", "xalpha", "spectral"};
     if (std::find(known.begin(), known.end(), key) == known.end())
@@ -155,20 +173,28 @@ class MtlReader {
 
   const std::string& file_;
   std::vector<std::string>& warnings_;
+  const std::function<bool(const std::string&)>& is_wanted_;
+  std::optional<MtlMaterial> open_;  ///< the one that is being read
+  std::vector<MtlMaterial> materials_;
   std::uint64_t line_ = 0;
   int warned_ = 0;
 };
 
 }  // namespace
 
-std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings) {
+std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings,
+                                   const std::function<bool(const std::string&)>& is_wanted) {
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
-  MtlReader reader(file, warnings);
+  MtlReader reader(file, warnings, is_wanted);
   // A backslash at a line's end may end a folder's name, but no file's: it continues the line, as in OBJ.
   TextLines lines(text, 1, separator);
-  while (lines.next()) reader.read_line(lines.number(), LineWords(lines.line()));
-  return std::move(reader.materials);
+  constexpr std::uint64_t lines_per_check = 1024;
+  for (std::uint64_t line = 0; lines.next(); ++line) {
+    if (line % lines_per_check == 0) check_deadline();
+    reader.read_line(lines.number(), LineWords(lines.line()));
+  }
+  return reader.take();
 }
 
 }  // namespace zoneplate

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,10 +26,15 @@ struct MtlMaterial {
   std::optional<float> roughness, metallic;                       ///< Pr Pm
   std::optional<int> illumination;                                ///< illum
   MtlTexture diffuse_map, emissive_map, opacity_map, normal_map;  ///< map_Kd map_Ke map_d norm
-  std::vector<std::string> unsupported;                           ///< keys of maps that are not drawn
+  std::vector<std::string> unsupported;                           ///< keys of maps that are not drawn, each once
 };
 
-/// Reads the materials of an MTL file. What is wrong in it is passed over with a warning that names `file` and line.
-std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings);
+/// Reads those materials of an MTL file whose names `is_wanted` wants. What is wrong in it is passed over with a
+/// warning that names `file` and line.
+///
+/// Errors    those of check_deadline, and what is_wanted throws.
+std::vector<MtlMaterial> parse_mtl(
+    std::string_view text, const std::string& file, std::vector<std::string>& warnings,
+    const std::function<bool(const std::string&)>& is_wanted = [](const std::string&) { return true; });
 
 }  // namespace zoneplate

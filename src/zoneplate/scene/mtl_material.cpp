@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
 #include "zoneplate/image/transfer.h"
@@ -60,9 +61,11 @@ Rgba8Image with_alpha(const Rgba8Image* color, const Rgba8Image& map) {
   Rgba8Image out = color != nullptr ? *color : Rgba8Image(map.width(), map.height(), {255, 255, 255, 255});
   const Opacity opacity(map);
   const auto scaled = [](int i, int to, int from) { return static_cast<int>(std::int64_t{i} * to / from); };
-  for (int y = 0; y < out.height(); ++y)
+  for (int y = 0; y < out.height(); ++y) {
+    check_deadline();
     for (int x = 0; x < out.width(); ++x)
       out(x, y).a = opacity(scaled(x, map.width(), out.width()), scaled(y, map.height(), out.height()));
+  }
   return out;
 }
 
@@ -86,7 +89,7 @@ float3 factor(const std::optional<float3>& color, bool has_image, float3 otherwi
   if (!has_image) return color ? linear(*color) : otherwise;
   if (!color) return {1, 1, 1};
   if (*color != float3{0, 0, 0}) return linear(*color);
-  folder.scene().warnings.push_back(
+  folder.warn(
       fmt::format("{}: material {}: {} is black over an image, taken as white", folder.budget().file(), mtl.name, key));
   return {1, 1, 1};
 }
@@ -115,8 +118,7 @@ void warn_of_maps(const MtlMaterial& mtl, ObjFolder& folder) {
   if (mtl.unsupported.empty()) return;
   std::string keys;
   for (const std::string& key : mtl.unsupported) keys += (keys.empty() ? "" : ", ") + key;
-  folder.scene().warnings.push_back(
-      fmt::format("{}: material {}: not drawn: {}", folder.budget().file(), mtl.name, keys));
+  folder.warn(fmt::format("{}: material {}: not drawn: {}", folder.budget().file(), mtl.name, keys));
 }
 
 }  // namespace
@@ -135,11 +137,26 @@ std::optional<std::string> ObjFolder::find_file(const std::string& within, std::
 }
 
 int ObjFolder::image(const std::string& within, const std::string& name) {
+  constexpr std::size_t most_missing = 1000;
+  const auto [known, is_first] = known_.try_emplace({within, name}, -1);
+  if (!is_first) return known->second;
+  constexpr std::uint64_t of_the_tables = 256;
   budget_.check_time();  // files are looked for
-  const std::optional<std::string> path = find_file(within, name);
+  budget_.take(of_the_tables + 2 * name.size());
+  const std::optional<std::string> path = missing_ < most_missing ? find_file(within, name) : std::nullopt;
   const auto [entry, is_new] = images_.try_emplace(path.value_or("missing " + name), -1);
-  if (is_new) entry->second = load(name, path);
-  return entry->second;
+  const bool is_missing = is_new && !path;
+  if (is_new && missing_ < most_missing) entry->second = load(name, path);
+  if (is_missing && ++missing_ == most_missing) warn(budget_.file() + ": no more textures are looked for");
+  return known->second = entry->second;
+}
+
+void ObjFolder::warn(std::string text) {
+  constexpr std::size_t most_notes = 2000;
+  if (++notes_ > most_notes) return;
+  budget_.take(text.size());
+  scene_.warnings.push_back(notes_ < most_notes ? std::move(text)
+                                                : budget_.file() + ": more of this kind is not listed");
 }
 
 /// The number of the image that is made, or -1 and a warning.
@@ -149,8 +166,10 @@ int ObjFolder::add(Make make) {
     scene_.images.push_back(make());
     return static_cast<int>(scene_.images.size()) - 1;
   } catch (const Error& error) {
-    budget_.take(0);  // what is over the budget stays an error
-    scene_.warnings.push_back(fmt::format("{}: texture {}", budget_.file(), error.what()));
+    // What is over the budget, or late, stays an error.
+    budget_.take(0);
+    budget_.check_time();
+    warn(fmt::format("{}: texture {}", budget_.file(), error.what()));
     return -1;
   }
 }
@@ -158,6 +177,7 @@ int ObjFolder::add(Make make) {
 TextureImage ObjFolder::decode(const std::string& name, std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
   const std::uint64_t working = image_working_memory(bytes);
+  budget_.take(name.size() + 2 * sizeof(TextureImage));
   if (size)
     budget_.take(working + static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
   TextureImage image{name, decode_image(bytes, name, budget_.limits().pixels)};

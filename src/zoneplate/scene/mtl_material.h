@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "zoneplate/scene/mtl.h"
@@ -27,11 +28,15 @@ class ObjFolder {
   std::optional<std::string> find_file(const std::string& within, std::string_view name) const;
 
   /// The number of the image in Scene::images, which is loaded at its first use; -1, with a warning, if there is none.
+  /// Of very many that are not there only the first are looked for.
   int image(const std::string& within, const std::string& name);
 
   /// An image that the model's file holds: it is found by any of the names, where there is no file of that name.
   void embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes);
   void embed(std::span<const std::string> names, Rgba8Image pixels);
+
+  /// Notes what was passed over; of very many such notes the first.
+  void warn(std::string text);
 
   ImportBudget& budget() { return budget_; }
   Scene& scene() { return scene_; }
@@ -45,7 +50,9 @@ class ObjFolder {
   std::string folder_;
   ImportBudget& budget_;
   Scene& scene_;
-  std::map<std::string, int> images_;  ///< by path, or by name where there is no file
+  std::map<std::string, int> images_;                         ///< by path, or by name where there is no file
+  std::map<std::pair<std::string, std::string>, int> known_;  ///< by `within` and name, as image() was asked
+  std::size_t missing_ = 0, notes_ = 0;
 };
 
 /// A material of an MTL file as ours, its images loaded. `within` is the folder of the MTL file, as for find_file.

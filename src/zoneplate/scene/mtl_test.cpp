@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace zoneplate {
 namespace {
 
@@ -73,6 +75,26 @@ TEST(ParseMtl, PassesOverWhatIsWrong) {
   std::string many = "newmtl a\n";
   for (int i = 0; i < 1000; ++i) many += "bad\n";
   EXPECT_EQ(parse(many).warnings.size(), 20u);
+}
+
+TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {
+  std::vector<std::string> warnings, asked;
+  const auto wants_b = [&](const std::string& name) { return asked.push_back(name), name == "b"; };
+  const auto found = parse_mtl("newmtl a\nKd 1 0 0\nKs x\nnewmtl b\nKd 0 1 0\nnewmtl c\n", "f.mtl", warnings, wants_b);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "b");
+  EXPECT_EQ(found[0].diffuse, (float3{0, 1, 0}));
+  EXPECT_EQ(asked, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(warnings.size(), 1u);  // what is wrong in the others is told all the same
+}
+
+TEST(ParseMtl, NamesEachMapThatIsNotDrawnOnce) {
+  std::string text = "newmtl a\n";
+  for (int i = 0; i < 1000; ++i) text += "bump x\nmap_" + std::to_string(i) + " x\n";
+  std::vector<std::string> warnings;
+  const auto found = parse_mtl(text, "f.mtl", warnings);
+  EXPECT_LE(found.at(0).unsupported.size(), 16u);
+  EXPECT_EQ(std::count(found[0].unsupported.begin(), found[0].unsupported.end(), "bump"), 1);
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string_view>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "zoneplate/base/error.h"
@@ -16,6 +16,7 @@
 #include "zoneplate/scene/obj_mesh.h"
 #include "zoneplate/scene/obj_normals.h"
 #include "zoneplate/scene/obj_text.h"
+#include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
 namespace {
@@ -24,17 +25,23 @@ std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-/// The materials of all libraries by name; the first of a name counts.
+/// The materials that are wanted, by name; of several libraries the first that has one counts.
 class Libraries {
  public:
-  explicit Libraries(ObjFolder& folder) : folder_(folder) {}
+  Libraries(ObjFolder& folder, const std::vector<std::string>& wanted)
+      : folder_(folder), wanted_(wanted.begin(), wanted.end()) {
+    folder.budget().take(wanted.size() * (sizeof(std::string_view) + 48));
+  }
 
   /// What an mtllib statement says: one name that may hold spaces, or several.
   void add(const std::string& statement) {
+    if (names_ >= most_names) return void(++names_);
     if (!statements_.insert(statement).second) return;
+    ++names_;
     if (folder_.find_file("", statement)) return open(statement);
     LineWords words(statement);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) open(std::string(word));
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      if (++names_ <= most_names) open(std::string(word));
   }
 
   Material material(const std::string& name) {
@@ -51,17 +58,30 @@ class Libraries {
         folder_.scene().warnings.push_back(
             fmt::format("{}: {} more {}", folder_.budget().file(), count - most_named, text));
     };
+    if (names_ > most_names)
+      folder_.scene().warnings.push_back(fmt::format(
+          "{}: names more than {} material libraries, the rest is passed over", folder_.budget().file(), most_names));
     report(missing_, "material libraries are not found");
     report(undefined_, "materials are not defined");
   }
 
  private:
   static constexpr std::size_t most_named = 20;
+  static constexpr std::size_t most_names = 1000;  ///< of libraries, each of which is looked for in the folder
 
   struct Found {
     MtlMaterial material;
     std::string within;
   };
+
+  /// Whether a material is one to keep; what it takes is counted.
+  bool is_wanted(const std::string& name) {
+    constexpr std::uint64_t of_the_table = 64;
+    if (!wanted_.contains(name) || materials_.contains(name)) return false;
+    folder_.budget().check_time();
+    folder_.budget().take(2 * sizeof(Found) + 2 * name.size() + of_the_table);
+    return true;
+  }
 
   void open(const std::string& name) {
     Scene& scene = folder_.scene();
@@ -77,22 +97,20 @@ class Libraries {
     const FileBytes file(*path, folder_.budget().limits().memory);
     const std::size_t slash = name.find_last_of("/\\");
     const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
-    // A line may be a material.
-    const auto is_end = [](std::uint8_t c) { return c == '\n' || c == '\r'; };
-    const auto lines = static_cast<std::size_t>(std::count_if(file.bytes().begin(), file.bytes().end(), is_end)) + 1;
-    folder_.budget().take(lines * sizeof(Found));
-    std::vector<MtlMaterial> found = parse_mtl(text_of(file), name, scene.warnings);
-    folder_.budget().give_back((lines - std::min(lines, found.size())) * sizeof(Found));
+    std::vector<MtlMaterial> found =
+        parse_mtl(text_of(file), name, scene.warnings, [&](const std::string& m) { return is_wanted(m); });
     for (MtlMaterial& m : found) {
       std::string key = m.name;
       materials_.try_emplace(std::move(key), Found{std::move(m), within});
     }
   }
 
+  // In order and not hashed, as a file may choose names that collide.
   ObjFolder& folder_;
-  std::size_t missing_ = 0, undefined_ = 0;
-  std::unordered_map<std::string, Found> materials_;
-  std::unordered_set<std::string> statements_, opened_;
+  std::set<std::string_view> wanted_;
+  std::size_t names_ = 0, missing_ = 0, undefined_ = 0;
+  std::map<std::string, Found> materials_;
+  std::set<std::string> statements_, opened_;
 };
 
 void report_notes(const ObjFile& file, const std::string& name, std::vector<std::string>& warnings) {
@@ -112,14 +130,6 @@ void report_notes(const ObjFile& file, const std::string& name, std::vector<std:
   }
 }
 
-/// What names and materials take, of which a hostile file has one for every face. A name is kept twice, once in a
-/// table.
-void count_names(const ObjLayout& layout, ImportBudget& budget) {
-  constexpr std::size_t name = 2 * sizeof(std::string) + 64;
-  budget.take(layout.runs.size() * sizeof(ObjRun) + layout.objects.size() * name +
-              layout.materials.size() * (name + sizeof(Material)));
-}
-
 bool has_elements(const ObjFile& file) {
   for (const ObjChunk& chunk : file.chunks)
     if (!chunk.elements.empty()) return true;
@@ -127,18 +137,22 @@ bool has_elements(const ObjFile& file) {
 }
 
 /// A file of nothing but vertices is a cloud of points.
-void make_points(ObjFile& file) {
+void make_points(ObjFile& file, ImportBudget& budget) {
+  budget.take(2 * file.positions.size() * (sizeof(ObjElement) + sizeof(std::int32_t)));
   ObjChunk cloud;
-  for (std::size_t i = 0; i < file.positions.size(); ++i) {
-    cloud.elements.push_back({static_cast<std::uint32_t>(i), 1, ObjKind::Point});
-    cloud.corners.push_back({static_cast<std::int32_t>(i), -1, -1});
-  }
+  serial_ranges(file.positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      cloud.elements.push_back({static_cast<std::uint32_t>(i), 1, ObjKind::Point});
+      cloud.corners.push_back({static_cast<std::int32_t>(i), -1, -1});
+    }
+  });
   file.chunks.push_back(std::move(cloud));
 }
 
-void add_meshes(ObjMeshes found, const ObjLayout& layout, Scene& scene) {
+void add_meshes(ObjMeshes found, const ObjLayout& layout, Scene& scene, ImportBudget& budget) {
   scene.objects = layout.objects;
   for (ObjMesh& m : found.meshes) {
+    budget.take(layout.objects[static_cast<std::size_t>(m.object)].size());
     m.mesh.name = layout.objects[static_cast<std::size_t>(m.object)];
     scene.instances.push_back({static_cast<int>(scene.meshes.size()), m.object, float4x4{}});
     scene.meshes.push_back(std::move(m.mesh));
@@ -164,11 +178,11 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   ObjFile file =
       parse_obj(text_of(bytes), budget, [&](std::string_view part) { bytes.forget(part.data(), part.size()); });
   report_notes(file, name, scene.warnings);
-  if (!has_elements(file) && scene.warnings.empty()) make_points(file);
+  if (!has_elements(file) && scene.warnings.empty()) make_points(file, budget);
 
   const std::filesystem::path place(path);
-  const ObjLayout layout = lay_out(file, is_stream ? "object" : place.stem().string());
-  count_names(layout, budget);
+  const ObjLayout layout = lay_out(file, is_stream ? "object" : place.stem().string(), budget);
+  budget.take(2 * layout.materials.size() * sizeof(Material));
   const std::vector<std::vector<float3>> normals = missing_normals(file, layout.runs, budget);
   ObjMeshes found = make_meshes(file, layout, normals, budget);
   file = {};
@@ -177,12 +191,15 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
     throw Error(Trouble::Input, scene.warnings.empty()
                                     ? name + ": holds no faces, lines or points"
                                     : scene.warnings.front() + "; nothing is left that can be drawn");
-  add_meshes(std::move(found), layout, scene);
+  add_meshes(std::move(found), layout, scene, budget);
 
   ObjFolder folder(is_stream ? "." : place.parent_path().string(), budget, scene);
-  Libraries libraries(folder);
+  Libraries libraries(folder, layout.materials);
   for (const std::string& statement : layout.libraries) libraries.add(statement);
-  for (const std::string& material : layout.materials) scene.materials.push_back(libraries.material(material));
+  for (const std::string& material : layout.materials) {
+    budget.check_time();
+    scene.materials.push_back(libraries.material(material));
+  }
   libraries.report_rest();
   return scene;
 }

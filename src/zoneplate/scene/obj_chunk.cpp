@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/scene/obj_text.h"
 
 namespace zoneplate {
@@ -36,11 +37,14 @@ class PartReader {
         next_line_(known ? known->before.lines + 1 : 1) {}
 
   void read() {
+    constexpr std::uint64_t statements_per_check = 4096;
+    std::uint64_t statements = 0;
     const std::string_view text(at_, static_cast<std::size_t>(end_ - at_));
     const std::size_t last = separator_ == '\n' ? text.rfind('\n') : text.npos;
     const char* const last_end = last == text.npos ? at_ : at_ + last;  // of all lines but perhaps one
     while (at_ != end_) {
       if (at_ < last_end && read_plain()) continue;
+      if (++statements % statements_per_check == 0) check_deadline();
       TextLines lines({at_, static_cast<std::size_t>(end_ - at_)}, next_line_, separator_);
       lines.next();
       line_ = lines.number();
@@ -303,8 +307,18 @@ class PartReader {
     chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), kind});
   }
 
+  /// Of several that stand between the same elements the last of a kind holds.
   void add_state(ObjStateKind kind, LineWords& words) {
-    chunk_.states.push_back({kind, static_cast<std::uint32_t>(chunk_.elements.size()), std::string(words.rest())});
+    ObjState state{kind, static_cast<std::uint32_t>(chunk_.elements.size()), words.rest()};
+    constexpr std::ptrdiff_t kinds = 5;
+    auto& all = chunk_.states;
+    for (auto at = all.rbegin(); kind != ObjStateKind::Library && at != all.rend() && at - all.rbegin() < kinds; ++at) {
+      if (at->before != state.before) break;
+      if (at->kind != kind) continue;
+      at->text = std::move(state.text);
+      return;
+    }
+    all.push_back(std::move(state));
   }
 
   const char *at_, *end_;

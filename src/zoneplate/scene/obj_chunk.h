@@ -33,6 +33,12 @@ struct ObjChunk {
   ObjElements elements;
   std::vector<ObjState> states;
   std::array<ObjTally, 6> notes;  ///< by ObjNote
+
+  std::uint64_t bytes() const {
+    std::uint64_t texts = 0;
+    for (const ObjState& s : states) texts += s.text.size();
+    return corners.bytes() + elements.bytes() + states.size() * sizeof(ObjState) + texts;
+  }
 };
 
 /// What a part says of vertices.

@@ -17,6 +17,8 @@ struct ObjLayout {
 };
 
 /// Objects are those of `o`; in a file without any `o`, the groups of `g`. What comes before the first is `unnamed`.
-ObjLayout lay_out(const ObjFile& file, const std::string& unnamed);
+///
+/// Errors    Trouble::Input when memory or time of the budget run out.
+ObjLayout lay_out(const ObjFile& file, const std::string& unnamed, ImportBudget& budget);
 
 }  // namespace zoneplate

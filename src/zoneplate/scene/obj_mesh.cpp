@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
@@ -27,7 +28,10 @@ struct Plan {
 std::vector<Plan> plan_meshes(const ObjFile& file, const ObjLayout& layout) {
   std::vector<Plan> plans;
   std::map<std::tuple<int, int, ObjKind>, std::size_t> numbers;
+  std::size_t runs_done = 0;
   for (const ObjRun& run : layout.runs) {
+    constexpr std::size_t runs_per_check = 1024;
+    if (runs_done++ % runs_per_check == 0) check_deadline();
     std::array<bool, 3> seen{};
     // Triangles need no second look.
     const ObjElements& elements = file.chunks[run.chunk].elements;
@@ -90,7 +94,7 @@ class Builder {
                                                   : Topology::Points;
     mesh.material = plan_.material;
     mesh.index = std::move(index_);
-    parallel_for(4, [&](std::size_t i) {
+    const auto fill_kind = [&](std::size_t i) {
       if (i == 0)
         fill(mesh.position, [&](std::size_t v) { return file_.positions[position(corners[v])]; });
       else if (i == 1 && plan_.kind == ObjKind::Face)
@@ -99,7 +103,13 @@ class Builder {
         fill(mesh.uv0, [&](std::size_t v) { return uv_of(corners[v].uv); });
       else if (i == 3 && !file_.colors.empty())
         fill(mesh.color, [&](std::size_t v) { return color_of(position(corners[v])); });
-    });
+    };
+    // To share the work takes longer than a small mesh does, and there may be very many.
+    constexpr std::size_t many_vertices = 4096;
+    if (corners.size() >= many_vertices)
+      parallel_for(4, fill_kind);
+    else
+      for (std::size_t i = 0; i < 4; ++i) fill_kind(i);
     return mesh;
   }
 

@@ -10,6 +10,8 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/scene/first_of_equal.h"
+#include "zoneplate/scene/serial_ranges.h"
 #include "zoneplate/scene/triangulate.h"
 
 namespace zoneplate {
@@ -64,16 +66,20 @@ float angle_between(float3 a, float3 b) {
 
 /// For each position the first one of the file that is at the same place.
 std::vector<std::uint32_t> first_at_place(const std::vector<float3>& positions) {
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * positions.size() + 1), none), first(positions.size());
-  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+  using Table = FirstOfEqual<3>;
+  Table table(positions.size());
+  std::vector<std::uint32_t> first(positions.size());
+  const auto put = [&](std::uint32_t i) {
     const float3 p = positions[i] + float3{0, 0, 0};  // -0 becomes 0
-    std::size_t slot =
-        hash(std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z));
-    for (slot &= table.size() - 1; table[slot] != none && positions[table[slot]] != p;)
-      slot = (slot + 1) & (table.size() - 1);
-    if (table[slot] == none && is_finite(p)) table[slot] = i;
-    first[i] = table[slot] == none ? i : table[slot];
-  }
+    if (!is_finite(p)) return i;
+    const Table::Key key{std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
+                         std::bit_cast<std::uint32_t>(p.z)};
+    return table.put(
+        i, hash(key[0], key[1], key[2]), [&](std::uint32_t k) { return positions[k] == p; }, [&] { return key; });
+  };
+  serial_ranges(positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) first[i] = put(static_cast<std::uint32_t>(i));
+  });
   return first;
 }
 
@@ -90,7 +96,10 @@ struct Neighbours {
 /// Calls `body(chunk, element, smoothing)` for each face that needs normals, in the order of the file.
 template <class Body>
 void for_each_face(const ObjFile& file, const std::vector<ObjRun>& runs, const Body& body) {
+  std::size_t runs_done = 0;
   for (const ObjRun& run : runs) {
+    constexpr std::size_t runs_per_check = 1024;
+    if (runs_done++ % runs_per_check == 0) check_deadline();
     const ObjChunk& chunk = file.chunks[run.chunk];
     for (std::uint32_t e = run.begin; e < run.end; ++e)
       if (needs_normals(file, chunk, chunk.elements[e])) body(run.chunk, chunk.elements[e], run.smoothing);
@@ -153,10 +162,12 @@ using Crowds = std::map<std::pair<std::size_t, std::uint32_t>, float3>;
 
 Crowds sum_crowds(const Neighbours& n) {
   Crowds sums;
-  for (std::size_t p = 0; p + 1 < n.first.size(); ++p)
-    if (n.first[p + 1] - n.first[p] > most_compared)
-      for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
-        sums[{p, n.shares[i].smoothing}] += n.shares[i].normal * n.shares[i].angle;
+  serial_ranges(n.first.size() - 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      if (n.first[p + 1] - n.first[p] > most_compared)
+        for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
+          sums[{p, n.shares[i].smoothing}] += n.shares[i].normal * n.shares[i].angle;
+  });
   return sums;
 }
 

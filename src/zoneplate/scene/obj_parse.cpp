@@ -71,10 +71,7 @@ void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>
   }
 }
 
-std::uint64_t size_of(const ObjPart& part) {
-  return part.vertices.bytes() + part.chunk.corners.bytes() + part.chunk.elements.bytes() +
-         part.chunk.states.size() * sizeof(ObjState);
-}
+std::uint64_t size_of(const ObjPart& part) { return part.vertices.bytes() + part.chunk.bytes(); }
 
 /// Reads the parts by themselves, and then anew those that need to know the others; gives what comes before each.
 std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, char separator, ImportBudget& budget,

@@ -348,7 +348,7 @@ void expect_sound(const Scene& scene) {
 }
 
 TEST_F(ObjModel, NamesCountAsMemory) {
-  // Small files of which each line becomes a hundred times as much.
+  // Small files of which each line becomes a hundred times as much. Names of nothing become nothing.
   const LoadLimits limits{.memory = 4 << 20};
   const auto lines = [](int count, const auto& line) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -357,7 +357,8 @@ TEST_F(ObjModel, NamesCountAsMemory) {
   };
   const auto refused = [&](const std::string& text) { return refusal(text, limits).substr(0, 30); };
   const std::string over = "model.obj: needs more than the";
-  EXPECT_EQ(refused(lines(200000, [](const std::string&) { return "o\n"; })), over);
+  EXPECT_EQ(refused("f 1 2 3\n" + lines(200000, [](const std::string& i) { return "o " + i + "\n"; })), "loaded");
+  EXPECT_EQ(refused(lines(200000, [](const std::string&) { return "mtllib a\n"; })), over);
   EXPECT_EQ(refused(lines(10000, [](const std::string& i) { return "o " + i + "\nf 1 2 3\n"; })), over);
   EXPECT_EQ(refused(lines(10000, [](const std::string& i) { return "usemtl " + i + "\nf 1 2 3\n"; })), over);
   EXPECT_EQ(refusal(lines(1000, [](const std::string& i) { return "o " + i + "\nf 1 2 3\n"; }), limits), "loaded");
@@ -377,8 +378,11 @@ TEST_F(ObjModel, MaterialsOfALibraryCountAsMemory) {
   for (int i = 0; i < 20000; ++i) library += "newmtl " + std::to_string(i) + "\n";
   write("many.mtl", library);
   const std::string text = "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl 7\nf 1 2 3\n";
-  EXPECT_EQ(refusal(text, {.memory = 4 << 20}).substr(0, 30), "model.obj: needs more than the");
-  EXPECT_EQ(refusal(text), "loaded");
+  EXPECT_EQ(refusal(text, {.memory = 1 << 20}), "loaded");  // of which the file uses one
+  std::string all = "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 20000; ++i) all += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
+  EXPECT_EQ(refusal(all, {.memory = 32 << 20}).substr(0, 30), "model.obj: needs more than the");
+  EXPECT_EQ(refusal(all), "loaded");
 }
 
 TEST_F(ObjModel, SurvivesAnyChange) {

@@ -15,6 +15,7 @@
 #include "zoneplate/scene/flat_normals.h"
 #include "zoneplate/scene/mtl_material.h"
 #include "zoneplate/scene/ply_mesh.h"
+#include "zoneplate/scene/serial_ranges.h"
 #include "zoneplate/scene/smooth_normals.h"
 
 namespace zoneplate {
@@ -76,11 +77,12 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
   }
   if (std::find(mesh.normal.begin(), mesh.normal.end(), float3{}) == mesh.normal.end()) return;
   std::vector<float3> sum(mesh.normal.size());
-  for (std::size_t k = 0; k + 2 < mesh.index.size(); k += 3) {
-    const float3 n =
-        flat_normal(mesh.position[mesh.index[k]], mesh.position[mesh.index[k + 1]], mesh.position[mesh.index[k + 2]]);
-    for (std::size_t c = 0; c < 3; ++c) sum[mesh.index[k + c]] += n;
-  }
+  serial_ranges(mesh.primitives(), [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t* i = &mesh.index[3 * begin]; i != mesh.index.data() + 3 * end; i += 3) {
+      const float3 n = flat_normal(mesh.position[i[0]], mesh.position[i[1]], mesh.position[i[2]]);
+      for (std::size_t c = 0; c < 3; ++c) sum[i[c]] += n;
+    }
+  });
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (mesh.normal[i] == float3{}) mesh.normal[i] = normalize(sum[i], {0, 1, 0});
 }

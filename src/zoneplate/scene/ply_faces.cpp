@@ -241,7 +241,8 @@ std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vert
   const PlyType type = rows.element->properties[indices].type;
   std::vector<std::uint32_t> out, strip;
   budget.take(3 * sizeof(std::uint32_t) * (rows.size / size_of(type)));
-  for (std::size_t b = 0; b < rows.count(); b += PlyRows::block)
+  for (std::size_t b = 0; b < rows.count(); b += PlyRows::block) {
+    budget.check_time();
     for_ply_rows(rows, b, std::min(rows.count(), b + PlyRows::block),
                  [&](std::size_t row, std::span<const PlyPlace> p) {
                    strip.clear();
@@ -261,6 +262,7 @@ std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vert
                      out.insert(out.end(), {strip[n - (is_odd ? 2 : 3)], strip[n - (is_odd ? 3 : 2)], strip[n - 1]});
                    }
                  });
+  }
   return out;
 }
 

@@ -263,16 +263,19 @@ std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t line
   const std::vector<std::string_view> parts = cut_at_spaces(body);
   std::vector<std::vector<double>> numbers(parts.size());
   std::vector<std::optional<WordError>> errors(parts.size());
-  budget.take(body.size() / 6 * sizeof(double));
+  std::atomic<std::uint64_t> made = 0;
+  const std::uint64_t most = budget.memory_left();
   parallel_for(parts.size(), [&](std::size_t i) {
-    if (!budget.has_time()) return;
+    if (!budget.has_time() || made > most) return;
     try {
       numbers[i] = parse_numbers(parts[i]);
     } catch (WordError& error) {
       errors[i] = std::move(error);
     }
+    made += numbers[i].capacity() * sizeof(double);
   });
   budget.check_time();
+  budget.take(made);
   for (const std::optional<WordError>& error : errors)
     if (error) {
       const auto line = static_cast<std::size_t>(std::count(body.data(), error->at, '\n')) + lines_before + 1;

@@ -9,6 +9,7 @@
 #include "zoneplate/scene/light.h"
 #include "zoneplate/scene/material.h"
 #include "zoneplate/scene/mesh.h"
+#include "zoneplate/scene/name_list.h"
 
 namespace zoneplate {
 
@@ -31,7 +32,7 @@ struct AnimationSpan {
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
-  std::vector<std::string> objects;  ///< names, for ids
+  NameList objects;  ///< names, for ids
   std::vector<Material> materials;
   std::vector<TextureImage> images;
   std::vector<Light> lights;

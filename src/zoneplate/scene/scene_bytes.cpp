@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "zoneplate/base/large_array.h"
-#include "zoneplate/scene/sound.h"
+#include "zoneplate/scene/find_flaw.h"
 
 namespace zoneplate {
 namespace {
@@ -48,6 +48,12 @@ class Writer {
     std::uint64_t n = items.size();
     value(n);
     for (T& item : items) each(item);
+  }
+  void names(NameList& names) {
+    std::vector<std::string> texts = names.texts();
+    std::vector<std::uint32_t> text_of = names.text_of();
+    list(texts, [&](std::string& t) { text(t); });
+    values(text_of);
   }
 
  private:
@@ -99,9 +105,20 @@ class Reader {
     // One after the other, so that a number which is a lie ends with the bytes, not with the memory.
     std::uint64_t n = 0;
     for (value(n); n > 0; --n) {
+      constexpr std::uint64_t items_per_check = 256;
+      if (n % items_per_check == 0) budget_.check_time();
       budget_.take(sizeof(T));
       each(items.emplace_back());
     }
+  }
+  void names(NameList& names) {
+    std::vector<std::string> texts;
+    std::vector<std::uint32_t> text_of;
+    list(texts, [&](std::string& t) { text(t); });
+    values(text_of);
+    for (const std::uint32_t i : text_of)
+      if (i >= texts.size()) fail("a name that is not there");
+    names = NameList(std::move(texts), std::move(text_of));
   }
 
   [[noreturn]] void fail(const std::string& cause) const {
@@ -163,7 +180,7 @@ void pass(S& s, Scene& scene) {
   const auto text = [&](std::string& t) { s.text(t); };
   s.list(scene.meshes, [&](Mesh& m) { pass(s, m); });
   s.list(scene.instances, [&](Instance& i) { s.value(i.mesh), s.value(i.object), s.value(i.world_from_object); });
-  s.list(scene.objects, text);
+  s.names(scene.objects);
   s.list(scene.materials, [&](Material& m) { pass(s, m); });
   s.list(scene.images, [&](TextureImage& i) { s.text(i.name), s.image(i.pixels); });
   s.list(scene.lights, [&](Light& l) { pass(s, l); });

@@ -94,5 +94,26 @@ TEST(SceneBytes, KeepToTheBudget) {
   EXPECT_THROW(read(good, {.pixels = 3}), Error);
 }
 
+TEST(SceneBytes, SharedNamesStayShared) {
+  Scene scene = full_scene();
+  const std::size_t before = written(scene).size();
+  for (int i = 0; i < 1000; ++i) scene.objects.share(0);
+  EXPECT_EQ(written(scene).size(), before + 4000);
+  const Scene other = read(written(scene));
+  EXPECT_EQ(other.objects, scene.objects);
+  EXPECT_EQ(other.objects.texts(), scene.objects.texts());
+}
+
+TEST(SceneBytes, ANameThatIsNotThereIsRefused) {
+  Scene scene = full_scene();
+  scene.objects = NameList({"only"}, std::vector<std::uint32_t>(scene.objects.size(), 0));
+  Bytes bytes = written(scene);
+  const Bytes name = {'o', 'n', 'l', 'y'};
+  const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+  ASSERT_NE(at, bytes.end());
+  *(at + 12) = 1;  // behind the text and the number of things: the first thing's
+  EXPECT_THROW(read(bytes), Error);
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -10,6 +10,7 @@
 
 #include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/serial_ranges.h"
 #include "zoneplate/scene/smooth_sums.h"
 
 namespace zoneplate {
@@ -28,7 +29,9 @@ void sum_all(Mesh& mesh, std::vector<char>& mark) {
   const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
   parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
     const VertexRange own{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
-    kernels.add(position, vertices, mesh.index.data(), triangles, own, normal);
+    serial_ranges(triangles, [&](std::size_t first, std::size_t last) {
+      kernels.add(position, vertices, &mesh.index[3 * first], last - first, own, normal);
+    });
     kernels.normalize(normal + 3 * begin, end - begin, &mark[begin]);
   });
   parallel_ranges(triangles, block, [&](std::size_t begin, std::size_t end) {

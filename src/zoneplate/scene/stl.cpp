@@ -149,11 +149,12 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
 Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, const ImportBudget& budget,
                std::uint64_t& too_short) {
   constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
+  constexpr std::uint64_t loops_per_check = 4096;
   Mesh mesh;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint64_t l = begin; l < end; ++l) {
     const std::span<const float3> loop(&text.vertices[text.loops[l]], text.loops[l + 1] - text.loops[l]);
-    if (loop.size() > many_corners && !budget.has_time()) break;
+    if ((loop.size() > many_corners || l % loops_per_check == 0) && !budget.has_time()) break;
     triangles.clear();
     if (loop.size() == 3 || !std::all_of(loop.begin(), loop.end(), is_finite))
       triangles.push_back({0, 1, 2});  // what is not finite is dropped later

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/obj_text.h"
@@ -25,9 +26,8 @@ bool is_word(std::string_view text, std::string_view word) {
          });
 }
 
-/// Whether a line begins at `at` whose first word is "facet".
-bool begins_facet(std::string_view text, std::size_t at) {
-  while (at < text.size() && is_space(text[at])) ++at;
+/// Whether the word that begins at `at` is "facet".
+bool is_facet(std::string_view text, std::size_t at) {
   return is_word(text.substr(at, 5), "facet") && at + 5 < text.size() && is_space(text[at + 5]);
 }
 
@@ -38,8 +38,10 @@ std::vector<std::string_view> cut(std::string_view text) {
     std::size_t end = std::min(chunk_bytes, text.size());
     while (end < text.size()) {
       end = std::min(text.find_first_of("\r\n", end), text.size());
-      if (end < text.size() && begins_facet(text, end)) break;
-      if (end < text.size()) ++end;
+      std::size_t word = end;
+      while (word < text.size() && is_space(text[word])) ++word;
+      if (is_facet(text, word)) break;
+      end = word;
     }
     parts.push_back(text.substr(0, end));
     text.remove_prefix(end);
@@ -53,14 +55,23 @@ struct TextError {
   std::string cause;
 };
 
+/// Adds a solid, in place of one before it that has no loops.
+void add_solid(StlText& text, StlText::Solid solid) {
+  if (!text.solids.empty() && text.solids.back().before == solid.before)
+    text.solids.back() = std::move(solid);
+  else
+    text.solids.push_back(std::move(solid));
+}
+
 /// Reads one part of the text, as a text of its own.
 class PartReader {
  public:
   explicit PartReader(std::string_view part) : at_(part.data()), end_(part.data() + part.size()) {}
 
   StlText read() {
-    while (read_statement()) {
-    }
+    constexpr std::uint64_t statements_per_check = 4096;
+    for (std::uint64_t i = 1; read_statement(); ++i)
+      if (i % statements_per_check == 0) check_deadline();
     end_loop();
     return std::move(out_);
   }
@@ -108,7 +119,7 @@ class PartReader {
       triple();
     } else if (is_word(word, "solid")) {
       end_loop();
-      out_.solids.push_back({out_.loops.size(), std::string(rest_of_line().substr(0, 200))});
+      add_solid(out_, {out_.loops.size(), std::string(rest_of_line().substr(0, 200))});
     } else if (is_word(word, "endsolid")) {
       rest_of_line();
     } else if (is_word(word, "endloop") || is_word(word, "endfacet") || is_word(word, "facet")) {
@@ -133,7 +144,7 @@ StlText join(std::vector<StlText>& parts, ImportBudget& budget) {
   out.vertices.reserve(vertices);
   out.loops.reserve(loops + 1);
   for (StlText& part : parts) {
-    for (StlText::Solid& s : part.solids) out.solids.push_back({out.loops.size() + s.before, std::move(s.name)});
+    for (StlText::Solid& s : part.solids) add_solid(out, {out.loops.size() + s.before, std::move(s.name)});
     for (const std::uint64_t l : part.loops) out.loops.push_back(out.vertices.size() + l);
     out.vertices.insert(out.vertices.end(), part.vertices.begin(), part.vertices.end());
     part = {};
@@ -150,8 +161,10 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
   std::vector<std::optional<TextError>> errors(cuts.size());
   // A vertex takes nine characters at least, and 40 in most files.
   budget.take(text.size() / 9 * sizeof(float3));
-  // Each solid becomes a mesh, be it of six letters.
-  constexpr std::size_t solid_bytes = sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance);
+  // Each solid becomes a mesh, whose name is kept as the object's too.
+  constexpr std::size_t most_name = 200;
+  constexpr std::size_t solid_bytes =
+      2 * (sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance) + most_name);
   std::atomic<std::uint64_t> solids = 0;
   parallel_for(cuts.size(), [&](std::size_t i) {
     if (!budget.has_time() || solids * solid_bytes > budget.memory_left()) return;

@@ -12,49 +12,44 @@
 #include <vector>
 
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/scene/first_of_equal.h"
+#include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Gives equal keys the number of the first of them.
-///
-/// An open hash table of numbers; what they stand for is compared by the caller.
-class FirstOfEqual {
- public:
-  explicit FirstOfEqual(std::size_t count) : slots_(std::bit_ceil(2 * count + 1), none) {}
-
-  /// The number that was put in before and is equal to `number`, else `number` itself, which is put in.
-  template <class Equal>
-  std::uint32_t put(std::uint32_t number, std::uint64_t hash, const Equal& is_equal) {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t at = static_cast<std::size_t>(hash >> 20) & mask;; at = (at + 1) & mask) {
-      if (slots_[at] == none) return slots_[at] = number;
-      if (is_equal(slots_[at])) return slots_[at];
-    }
-  }
-
- private:
-  std::vector<std::uint32_t> slots_;
-};
+/// The bits of a number, the same for equal ones: -0 + 0 is 0.
+std::uint32_t word(float value) { return std::bit_cast<std::uint32_t>(value + 0.0f); }
 
 std::uint64_t mix(std::uint64_t hash, float value) {
-  hash = (hash ^ std::bit_cast<std::uint32_t>(value + 0.0f)) * 0x9e3779b97f4a7c15u;  // -0 + 0 is 0, as they are equal
+  hash = (hash ^ word(value)) * 0x9e3779b97f4a7c15u;
   return hash ^ (hash >> 29);
 }
 std::uint64_t mix(std::uint64_t hash, float3 v) { return mix(mix(mix(hash, v.x), v.y), v.z); }
 
+/// The slot for a hash, whose low bits are its worst.
+std::size_t slot(std::uint64_t hash) { return static_cast<std::size_t>(hash >> 20); }
+
 /// For each vertex the first one of equal position, normal and uv.
 std::vector<std::uint32_t> weld(const Mesh& mesh, std::span<const float2> uv) {
-  FirstOfEqual table(mesh.position.size());
+  using Table = FirstOfEqual<8>;
+  Table table(mesh.position.size());
   std::vector<std::uint32_t> first(mesh.position.size());
-  for (std::uint32_t i = 0; i < first.size(); ++i) {
-    const std::uint64_t hash = mix(mix(mix(mix(1, mesh.position[i]), mesh.normal[i]), uv[i].x), uv[i].y);
-    first[i] = table.put(i, hash, [&](std::uint32_t k) {
-      return mesh.position[i] == mesh.position[k] && mesh.normal[i] == mesh.normal[k] && uv[i] == uv[k];
-    });
-  }
+  const auto put = [&](std::uint32_t i) {
+    const float3 p = mesh.position[i], n = mesh.normal[i];
+    const float2 t = uv[i];
+    return table.put(
+        i, slot(mix(mix(mix(mix(1, p), n), t.x), t.y)),
+        [&](std::uint32_t k) { return p == mesh.position[k] && n == mesh.normal[k] && t == uv[k]; },
+        [&] {
+          return Table::Key{word(p.x), word(p.y), word(p.z), word(n.x), word(n.y), word(n.z), word(t.x), word(t.y)};
+        });
+  };
+  serial_ranges(first.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) first[i] = put(static_cast<std::uint32_t>(i));
+  });
   return first;
 }
 
@@ -95,14 +90,16 @@ void measure(Face& face, std::span<const float3> position, std::span<const float
 std::vector<Face> make_faces(const Mesh& mesh, std::span<const float2> uv) {
   const std::vector<std::uint32_t> first = weld(mesh, uv);
   std::vector<Face> faces(mesh.index.size() / 3);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    Face& face = faces[f];
-    for (std::size_t c = 0; c < 3; ++c) face.vertex[c] = first[mesh.index[3 * f + c]];
-    const float3 p = mesh.position[face.vertex[0]], q = mesh.position[face.vertex[1]],
-                 r = mesh.position[face.vertex[2]];
-    face.is_degenerate = p == q || q == r || r == p;
-    if (!face.is_degenerate) measure(face, mesh.position, uv);
-  }
+  serial_ranges(faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      Face& face = faces[f];
+      for (std::size_t c = 0; c < 3; ++c) face.vertex[c] = first[mesh.index[3 * f + c]];
+      const float3 p = mesh.position[face.vertex[0]], q = mesh.position[face.vertex[1]],
+                   r = mesh.position[face.vertex[2]];
+      face.is_degenerate = p == q || q == r || r == p;
+      if (!face.is_degenerate) measure(face, mesh.position, uv);
+    }
+  });
   return faces;
 }
 
@@ -181,14 +178,17 @@ void gather_group(std::vector<Face>& faces, const Group& group, std::uint32_t nu
 std::vector<Group> make_groups(std::vector<Face>& faces) {
   std::vector<Group> groups;
   std::vector<std::uint32_t> pending;
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].is_degenerate || faces[f].joins_any) continue;
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      if (faces[f].group[c] != none) continue;
-      groups.push_back({faces[f].vertex[c], faces[f].keeps_orientation});
-      gather_group(faces, groups.back(), static_cast<std::uint32_t>(groups.size() - 1), f, pending);
+  serial_ranges(faces.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (faces[f].is_degenerate || faces[f].joins_any) continue;
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        if (faces[f].group[c] != none) continue;
+        groups.push_back({faces[f].vertex[c], faces[f].keeps_orientation});
+        gather_group(faces, groups.back(), static_cast<std::uint32_t>(groups.size() - 1), static_cast<std::uint32_t>(f),
+                     pending);
+      }
     }
-  }
+  });
   return groups;
 }
 
@@ -211,7 +211,8 @@ float3 some_tangent(float3 normal) {
 }
 
 float4 tangent_of(const Group& group, float3 normal) {
-  const float3 t = is_zero(length(group.sum)) ? some_tangent(normal) : unit(group.sum);
+  float3 t = is_zero(length(group.sum)) ? some_tangent(normal) : unit(group.sum);
+  if (!is_finite(t)) t = some_tangent(normal);  // edges too long for a float's square
   return {t.x, t.y, t.z, group.keeps_orientation ? -1.0f : 1.0f};
 }
 
@@ -256,16 +257,20 @@ void make_tangents(Mesh& mesh, int uv_set) {
   // The first tangent that is seen at a vertex stays there; each other one goes to a copy of the vertex.
   std::vector<float4> tangent(mesh.position.size(), float4{});
   std::vector<std::uint32_t> source(mesh.position.size(), none);  // of which vertex this is a copy
-  FirstOfEqual copies(mesh.index.size());
+  using Table = FirstOfEqual<5>;
+  Table copies(mesh.index.size());
   for (std::size_t k = 0; k < corner.size(); ++k) {
     const std::uint32_t vertex = mesh.index[k];
     const float4 t = corner[k];
     if (source[vertex] == none) source[vertex] = vertex, tangent[vertex] = t;
     if (tangent[vertex] == t) continue;
     const auto copy = static_cast<std::uint32_t>(tangent.size());
-    const std::uint64_t hash = mix(mix(mix(vertex + std::uint64_t{1}, xyz(t)), t.w), 0.0f);
-    const std::uint32_t found =
-        copies.put(copy, hash, [&](std::uint32_t c) { return source[c] == vertex && tangent[c] == t; });
+    const std::uint32_t found = copies.put(
+        copy, slot(mix(mix(mix(vertex + std::uint64_t{1}, xyz(t)), t.w), 0.0f)),
+        [&](std::uint32_t c) { return source[c] == vertex && tangent[c] == t; },
+        [&] {
+          return Table::Key{vertex, word(t.x), word(t.y), word(t.z), word(t.w)};
+        });
     if (found == copy) {
       tangent.push_back(t), source.push_back(vertex);
       append_copy(mesh.position, vertex), append_copy(mesh.normal, vertex);

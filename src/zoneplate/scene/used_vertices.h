@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace zoneplate {
 /// Requires  the scene outlives it, unchanged.
 class UsedVertices {
  public:
-  explicit UsedVertices(const Scene& scene) : scene_(scene), is_used_(scene.meshes.size()) {}
+  explicit UsedVertices(const Scene& scene)
+      : scene_(scene), is_used_(scene.meshes.size()), local_(scene.meshes.size()) {}
 
   /// 1 for each vertex of a mesh that is used, else 0.
   std::span<const std::uint8_t> of(int mesh);
@@ -21,11 +23,22 @@ class UsedVertices {
   /// The bounds of the used vertices of all instances in the world.
   Box bounds();
 
+  /// The instances, in their order, that may hold a vertex which lies farthest along one of the axes, by
+  /// dot(axis, transform_point(world_from_object, position)): of every other one no vertex reaches as far as some
+  /// vertex of these, or it is the same as the one before it.
+  ///
+  /// Cost      linear in instances and in the vertices of meshes, and of one instance for each axis.
+  std::vector<std::size_t> reaching(std::span<const float3> axes);
+
  private:
   Box bounds(const Instance& instance);
+  const Box& local(int mesh);
+  float reach(const Instance& instance, float3 axis);
+  std::vector<std::size_t> farthest_by_box(std::span<const float3> axes) const;
 
   const Scene& scene_;
   std::vector<std::vector<std::uint8_t>> is_used_;
+  std::vector<std::optional<Box>> local_;  ///< of each mesh the bounds in its own space
 };
 
 }  // namespace zoneplate
