@@ -64,7 +64,7 @@ Syntax compare_syntax(CompareArgs& args) {
       {"--anti-aliasing,--aa", "LIST", "Methods, as none,msaa:n=4 (zoneplate list methods), or all; default all", group,
        true, [&](auto& text) { args.methods = text; }},
       {"--reference", "TRUTH",
-       "A method (analytic, converged, ssaa:n=16, ...) or a picture's file; default the best there is", group, true,
+       "A method (analytic, converged, ssaa:n=16, ...) or a picture's file; default converged", group, true,
        [&](auto& text) { args.reference = text; }},
       {"--metric", "LIST", "Metrics (zoneplate metrics --help); flip is always among them", group, false,
        [&](auto& text) { args.metrics = text; }},
