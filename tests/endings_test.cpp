@@ -173,6 +173,34 @@ TEST_F(Endings, KilledAtAnyMomentNothingPartialHasItsName) {
   EXPECT_EQ(files(), whole);
 }
 
+TEST_F(Endings, AComparisonThatIsEndedLeavesAWholeFolderOrNothing) {
+  const Words words = {"compare",     "triangles", "--aa",   "none,fxaa", "--turns", "1",
+                       "--reference", "none",      "--size", "64x48",     "-o",      "out"};
+  const auto before = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(words), 0) << complaint();
+  const auto whole_time = std::chrono::steady_clock::now() - before;
+  const auto count = [&] {
+    return std::distance(fs::recursive_directory_iterator(place / "out"), fs::recursive_directory_iterator());
+  };
+  const auto whole = count();
+  std::mt19937 random(5);
+  int ended = 0;
+  for (int i = 0; i < 20; ++i) {
+    fs::remove_all(place / "out");
+    const pid_t child = start(words);
+    // At any moment, and more often near the end, where the folder is written.
+    std::this_thread::sleep_for(whole_time * (i % 2 == 0 ? random() % 800 : 700 + random() % 300) / 1000);
+    ::kill(child, SIGTERM);
+    const int code = finish(child);
+    ASSERT_TRUE(code == 0 || code == 128 + SIGTERM || code == 1000 + SIGTERM) << code << complaint();
+    ended += code != 0;
+    const auto found = fs::exists(place / "out") ? count() : 0;
+    EXPECT_TRUE(found == whole || (found == 0 && code != 0)) << found << " files of " << whole << ", exit " << code;
+    EXPECT_FALSE(has_temporaries());
+  }
+  EXPECT_GT(ended, 0);
+}
+
 TEST_F(Endings, KilledShardsThatBeginAgainMakeTheFilesOfOneRun) {
   write_manifest("whole.jsonl", "whole", 60);
   write_manifest("parts.jsonl", "parts", 60);
