@@ -15,7 +15,14 @@ target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE
                            ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>")
 add_dependencies(zoneplate_tests zoneplate_program)
 target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
-gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST)
+gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISABLED_*")
+
+# What takes minutes, only for `ctest -C Long`.
+foreach(pattern RANGE 5)
+  add_test(NAME million_triangles_${pattern} CONFIGURATIONS Long
+           COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Coverage/Million.*/${pattern})
+  set_tests_properties(million_triangles_${pattern} PROPERTIES TIMEOUT 1800 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endforeach()
 
 # The 20-line program of README.md, built against an installed package as a user would.
 add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}

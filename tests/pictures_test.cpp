@@ -10,6 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/render/picture.h"
 #include "zoneplate/scene/builtin.h"
 #include "zoneplate/scene/default_lights.h"
 
@@ -72,6 +73,82 @@ TEST(Pictures, TenPicturesHaveTheirBits) {
   for (const Golden& g : goldens) {
     const std::uint64_t hash = hash_of(Shot(g.scene).frame(g.method).color);
     EXPECT_EQ(hash, g.hash) << "    {\"" << g.scene << "\", \"" << g.method << "\", 0x" << std::hex << hash << "u},";
+  }
+}
+
+/// FNV-1a over the codes of a picture as it is shown.
+std::uint64_t hash_of(const Rgba8Image& image) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  for (const Rgba8& c : image.values())
+    for (const std::uint8_t v : {c.r, c.g, c.b, c.a}) h = (h ^ v) * 0x100000001b3u;
+  return h;
+}
+
+/// How light is shown: over the usual grey, over nothing, or by a tone curve.
+enum class Look { Plain, Transparent, Aces, Neutral };
+
+DisplayOptions display_of(Look look) {
+  DisplayOptions display{.is_transparent = look == Look::Transparent, .background = {0.2f, 0.2f, 0.2f, 1}};
+  if (look == Look::Aces) display.mapping = ToneMapping::Aces;
+  if (look == Look::Neutral) display.mapping = ToneMapping::Neutral;
+  return display;
+}
+
+struct ShownGolden {
+  const char *scene, *method;
+  Look look;
+  int width, height;
+  std::uint64_t hash;
+};
+
+/// Masked surfaces in every way, anisotropic and mipmapped textures, tone curves, blended layers, shared samples and
+/// filters of the shown picture, at sizes that end within tiles and vectors. Changed bits are a reviewed change.
+constexpr ShownGolden shown_goldens[] = {
+    {"foliage", "none", Look::Plain, 97, 61, 0x371acfa444960f33u},
+    {"foliage", "msaa:n=4", Look::Plain, 97, 61, 0xc2369104c8c9484au},
+    {"foliage", "msaa:n=4,alpha=samples", Look::Plain, 97, 61, 0x7e3cb1820509ba8au},
+    {"foliage", "msaa:n=8,alpha=coverage", Look::Transparent, 33, 17, 0x3c75d04ea1b03bc3u},
+    {"foliage", "msaa:n=4,alpha=sharp", Look::Aces, 97, 61, 0x372a3c36c1340ec7u},
+    {"foliage", "ssaa:n=2,resolve=karis", Look::Neutral, 33, 17, 0x716d5948262b49a7u},
+    {"foliage", "smaa", Look::Plain, 97, 61, 0xa4bff44f8c4c326cu},
+    {"city", "none", Look::Plain, 256, 144, 0x2862c25e4b8cfa91u},
+    {"city", "msaa:n=4", Look::Plain, 97, 61, 0x8e8f284970355c92u},
+    {"city", "ssaa:n=2", Look::Aces, 33, 17, 0xf41c5ecf0ffb6a02u},
+    {"city", "fxaa:preset=39", Look::Plain, 97, 61, 0x89c075c82ca8b512u},
+    {"metal", "msaa:n=4", Look::Aces, 97, 61, 0xfd7486fba551dd40u},
+    {"metal", "msaa:n=2,filter=mitchell", Look::Neutral, 97, 61, 0x750a49ad0f04c937u},
+    {"sun-roof", "msaa:n=8,resolve=max3", Look::Neutral, 33, 17, 0x52a04c562a1886edu},
+    {"sun-roof", "csaa", Look::Aces, 97, 61, 0xeacecddfaa1f8fe4u},
+    {"tiles", "quincunx", Look::Plain, 97, 61, 0xc7dc5ef9c5c97385u},
+    {"fillblend", "none", Look::Transparent, 97, 61, 0xe96d00bee20ab1d5u},
+    {"fillblend", "msaa:n=8", Look::Plain, 33, 17, 0x32faac927114c39au},
+    {"wires", "smaa:preset=ultra", Look::Plain, 256, 144, 0x74a6215838fdb98du},
+    {"near-axis", "smaa:mode=s2x", Look::Plain, 97, 61, 0xa8ae0447dc068cc4u},
+    {"thin-diagonal", "mlaa", Look::Plain, 97, 61, 0xf90fa67923f6d520u},
+    {"thin-diagonal", "mlaa:kind=reshetov", Look::Transparent, 33, 17, 0x988c04161ee64b86u},
+    {"teapot", "cmaa2", Look::Aces, 97, 61, 0x2781c052536355b6u},
+    {"text-ui:width=256,height=144", "cmaa2:preset=ultra,sharp=1", Look::Plain, 256, 144, 0xfb8db8f6f7eb72eu},
+    {"cyclic", "fxaa", Look::Transparent, 33, 17, 0xc4ea494f6b6a2c36u},
+    {"stars", "ddaa", Look::Neutral, 97, 61, 0x66d2a1cc307bc6c4u},
+    {"triangles", "dlaa", Look::Plain, 33, 17, 0xf8b74f69221d9bc4u},
+    {"crossing", "adaptive", Look::Plain, 97, 61, 0xde77670562d7d8ceu},
+};
+
+TEST(Pictures, ShownPicturesHaveTheirBitsForAnyThreadsAndInstructionSet) {
+  for (const ShownGolden& g : shown_goldens) {
+    Shot shot(g.scene, g.width, g.height);
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 2, 7}) {
+        shot.options.isa = isa;
+        Rgba8Image picture;
+        with_threads(threads, [&] {
+          const auto resolver = make_resolver(antialias::methods(), g.method);
+          picture = render_picture(shot.scene, shot.camera, *resolver, shot.options, display_of(g.look));
+        });
+        ASSERT_EQ(picture.width(), g.width);
+        EXPECT_EQ(hash_of(picture), g.hash) << g.scene << ", " << g.method << ", " << name_of(isa) << ", " << threads
+                                            << " threads: 0x" << std::hex << hash_of(picture) << "u";
+      }
   }
 }
 

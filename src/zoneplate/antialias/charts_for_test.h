@@ -3,14 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
-#include "zoneplate/base/file.h"
-#include "zoneplate/image/png.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
@@ -101,18 +95,12 @@ inline std::uint64_t hash_of(const Rgba8Image& image) {
   return h;
 }
 
-/// A file of the outputs of other implementations, if this machine has them.
-inline std::optional<std::vector<std::uint8_t>> golden_bytes(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared/methods/goldens" / name;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  const FileBytes file(path.string());
-  return std::vector<std::uint8_t>(file.bytes().begin(), file.bytes().end());
-}
-
-inline std::optional<Rgba8Image> golden_picture(const std::string& name) {
-  const auto bytes = golden_bytes(name);
-  if (!bytes) return std::nullopt;
-  return decode_png(*bytes, name).pixels;
+/// The same without alpha, which other implementations do not always keep.
+inline std::uint64_t hash_of_colors(const Rgba8Image& image) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  for (const Rgba8& c : image.values())
+    for (const std::uint8_t v : {c.r, c.g, c.b}) h = (h ^ v) * 0x100000001b3u;
+  return h;
 }
 
 /// How many pixels differ by more than `tolerance` in any channel.

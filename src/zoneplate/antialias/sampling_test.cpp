@@ -157,11 +157,16 @@ TEST(AlphaToCoverage, AsManySamplesAsAlphaSays) {
   EXPECT_EQ(coverage(0.7f, "msaa:n=8,alpha=sharp"), 1);
 }
 
-TEST(AlphaToCoverage, EveryWayComesNearerToTheTruthThanATestAPixel) {
-  const LinearImage truth = shot("foliage", "ssaa:n=8");
-  const double tested = mean_error(shot("foliage", "msaa:n=8"), truth);
-  EXPECT_LT(mean_error(shot("foliage", "msaa:n=8,alpha=samples"), truth), 0.85 * tested);
-  EXPECT_LT(mean_error(shot("foliage", "msaa:n=8,alpha=sharp"), truth), 0.95 * tested);
+TEST(AlphaToCoverage, SamplesAndSharpAreNearerToSupersamplingThanATestAPixelAndPlainCoverageIsNot) {
+  const LinearImage reference = shot("foliage", "ssaa:n=8");
+  const auto error = [&](const std::string& method) { return mean_error(shot("foliage", method), reference); };
+  const double tested = error("msaa:n=8");
+  EXPECT_LT(error("msaa:n=8,alpha=samples"), 0.85 * tested);
+  EXPECT_LT(error("msaa:n=8,alpha=sharp"), 0.95 * tested);
+  // Alpha between 0 and 1 beside a leaf's outline counts as a veil, which the reference's test of alpha does not show.
+  const double coverage = error("msaa:n=8,alpha=coverage");
+  EXPECT_GT(coverage, 1.3 * tested);
+  EXPECT_LT(coverage, 1.7 * tested);
 }
 
 TEST(Sampling, ThreadsAndInstructionSetsLeaveNoTrace) {

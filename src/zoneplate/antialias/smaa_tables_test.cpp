@@ -18,6 +18,7 @@ std::vector<std::uint8_t> whole_area_table() {
   return table;
 }
 
+// The sums below are those of AreaTex.h and SearchTex.h of SMAA 2.8.
 std::uint64_t crc_of(const std::vector<std::uint8_t>& bytes) {
   return crc32(0, bytes.data(), static_cast<uInt>(bytes.size()));
 }
@@ -26,18 +27,12 @@ TEST(SmaaTables, AreasEqualThoseOfVersion28) {
   const std::vector<std::uint8_t> table = whole_area_table();
   ASSERT_EQ(table.size(), 179200u);
   EXPECT_EQ(crc_of(table), 0xed2bc181u);
-  const auto golden = golden_bytes("smaa_areatex_v2.8_rg8_160x560.bin");
-  if (!golden) GTEST_SKIP() << "the bytes themselves are not here";
-  EXPECT_EQ(table, *golden);
 }
 
 TEST(SmaaTables, SearchLengthsEqualThoseOfVersion28) {
   const std::vector<std::uint8_t> table = make_search_table();
   ASSERT_EQ(table.size(), 1024u);
   EXPECT_EQ(crc_of(table), 0x77423453u);
-  const auto golden = golden_bytes("smaa_searchtex_v2.8_r8_64x16.bin");
-  if (!golden) GTEST_SKIP() << "the bytes themselves are not here";
-  EXPECT_EQ(table, *golden);
 }
 
 TEST(SmaaTables, ALongStepsAreasAreThoseOfTheLineThroughIt) {

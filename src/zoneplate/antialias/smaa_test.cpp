@@ -13,15 +13,65 @@ namespace {
 
 using Edges = SmaaOptions::Edges;
 
-/// The presets, and whether the package that made the goldens looked for corners.
+/// Hashes of what another implementation makes of the chart: edges and picture of red, green and blue, weights of all.
+struct Passes {
+  std::uint64_t edges, weights, picture;
+};
+
+/// The presets, whether corners were looked for, and the passes for edges by luma and by colour.
+///
+/// Source: postprocessing 6.39 for three.js, whose shaders are those of SMAA 2.8, run in headless Chromium.
 struct Case {
   const char* name;
   double threshold;
   int steps, diagonal_steps;
   bool has_corners;
+  Passes luma, color;
 };
-constexpr Case runs[] = {{"LOW", 0.15, 4, 0, false}, {"MEDIUM", 0.1, 8, 0, false},   {"HIGH", 0.1, 16, 8, false},
-                         {"HIGH", 0.1, 16, 8, true}, {"ULTRA", 0.05, 32, 16, false}, {"ULTRA", 0.05, 32, 16, true}};
+constexpr Case runs[] = {
+    {"LOW",
+     0.15,
+     4,
+     0,
+     false,
+     {0x889badcb2c514053u, 0x70fa48428560f10eu, 0x5e0c1e87cd657001u},
+     {0x1d079edd96901197u, 0xeb078aba9a220616u, 0x4158983a0c0eccd2u}},
+    {"MEDIUM",
+     0.1,
+     8,
+     0,
+     false,
+     {0x889badcb2c514053u, 0xf685f3db3fa473f1u, 0xd4e9064fbe1e7850u},
+     {0x1d079edd96901197u, 0x2a604f3e9a4d7d9du, 0x36148fd88f1c219fu}},
+    {"HIGH",
+     0.1,
+     16,
+     8,
+     false,
+     {0x889badcb2c514053u, 0xc5c284e48dff37b3u, 0x6283553a97e615d4u},
+     {0x1d079edd96901197u, 0xca8cf7e22032c247u, 0xd1e64dd9ed10d2acu}},
+    {"HIGH",
+     0.1,
+     16,
+     8,
+     true,
+     {0x889badcb2c514053u, 0xa7602797d8e8bc85u, 0x16a0025d7c13c195u},
+     {0x1d079edd96901197u, 0x9ce8016aaa8e971fu, 0x5d8823adbf88bd90u}},
+    {"ULTRA",
+     0.05,
+     32,
+     16,
+     false,
+     {0xaab78336147e11bfu, 0xe6a5b4c8555e0dfeu, 0xf9eb55561a62ac7u},
+     {0x1d079edd96901197u, 0x7bd798ce89dd0489u, 0x96f129ef66902881u}},
+    {"ULTRA",
+     0.05,
+     32,
+     16,
+     true,
+     {0xaab78336147e11bfu, 0xa21eb6dd20137f7fu, 0xc7920904ed564344u},
+     {0x1d079edd96901197u, 0x8016f31709c539cdu, 0x346de6a86a3788e2u}},
+};
 
 SmaaOptions options_of(const Case& run, Edges edges) {
   return {.edges = edges,
@@ -49,25 +99,15 @@ Rgba8Image shown_weights(const EdgePlane& edges, const SmaaOptions& options) {
   });
 }
 
-/// The goldens hold red, green and blue of every pass, and alpha where it was kept.
-int count_colors_differing(const Rgba8Image& a, Rgba8Image b, bool has_alpha) {
-  if (!has_alpha)
-    for (std::size_t i = 0; i < b.values().size(); ++i) b.values()[i].a = a.values()[i].a;
-  return count_differing(a, b, 0);
-}
-
 TEST(Smaa, EveryPassEqualsAnotherImplementation) {
   const Rgba8Image chart = chart64();
   for (const Case& run : runs)
-    for (const auto& [edges, name] : {std::pair{Edges::Luma, "LUMA"}, {Edges::Color, "COLOR"}}) {
-      const std::string stem = fmt::format("smaa_{}_{}_c{}_", run.name, name, run.has_corners ? 1 : 0);
-      const auto golden = [&](const char* pass) { return golden_picture(stem + pass + "_postprocessing6.39.png"); };
-      if (!golden("out")) GTEST_SKIP() << "no outputs of other implementations here";
+    for (const auto& [edges, passes] : {std::pair{Edges::Luma, run.luma}, {Edges::Color, run.color}}) {
       const SmaaOptions options = options_of(run, edges);
       const EdgePlane found = smaa_edges(chart, nullptr, options);
-      EXPECT_EQ(count_colors_differing(shown(found), *golden("edges"), false), 0) << stem;
-      EXPECT_EQ(count_colors_differing(shown_weights(found, options), *golden("weights"), true), 0) << stem;
-      EXPECT_EQ(count_colors_differing(apply_smaa(chart, nullptr, options), *golden("out"), false), 0) << stem;
+      EXPECT_EQ(hash_of_colors(shown(found)), passes.edges) << run.name;
+      EXPECT_EQ(hash_of(shown_weights(found, options)), passes.weights) << run.name;
+      EXPECT_EQ(hash_of_colors(apply_smaa(chart, nullptr, options)), passes.picture) << run.name;
     }
 }
 

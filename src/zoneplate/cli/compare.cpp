@@ -7,9 +7,9 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/compare_pictures.h"
+#include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/render_args.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
@@ -39,7 +39,7 @@ constexpr const char* notes =
     "SCENE is a file or a built-in scene; `all` stands for every built-in scene with a class of failure. LIST is\n"
     "methods at commas, or `all`: every method at its defaults and with the parameters that it is known by.\n"
     "\n"
-    "The folder DIR is made, whole or not at all, and must not exist before:\n"
+    "The folder DIR must not exist; it is made whole or not at all, and nothing else is replaced or removed:\n"
     "  compare.txt, compare.csv, compare.json   the figures; the JSON holds everything, and its version\n"
     "  compare.md                               all methods on all scenes as a table for a page\n"
     "  cost.svg                                 error and cost of the means, the Pareto front marked\n"
@@ -64,7 +64,7 @@ Syntax compare_syntax(CompareArgs& args) {
       {"--anti-aliasing,--aa", "LIST", "Methods, as none,msaa:n=4 (zoneplate list methods), or all; default all", group,
        true, [&](auto& text) { args.methods = text; }},
       {"--reference", "TRUTH",
-       "A method (analytic, converged, ssaa:n=16, ...) or a picture's file; default the best there is", group, true,
+       "A method (analytic, converged, ssaa:n=16, ...) or a picture's file; default converged", group, true,
        [&](auto& text) { args.reference = text; }},
       {"--metric", "LIST", "Metrics (zoneplate metrics --help); flip is always among them", group, false,
        [&](auto& text) { args.metrics = text; }},
@@ -109,12 +109,10 @@ std::vector<std::string> methods_of(const std::string& text) {
   return out;
 }
 
-/// The exact reference where there is one.
-std::string best_reference() {
-  for (const char* name : {"converged", "analytic"})
-    if (is_method(name)) return name;
-  return "ssaa:n=16";
-}
+/// The reference that is right for every scene. `analytic` is exact for edges, but it shades each surface of a pixel
+/// once and tests alpha on a grid, so textures, highlights and masks alias in it as they do in the methods it would
+/// judge.
+constexpr const char* best_reference = "converged";
 
 std::vector<metrics::Choice> metrics_of(const std::string& text) {
   std::vector<metrics::Choice> out;
@@ -126,7 +124,7 @@ std::vector<metrics::Choice> metrics_of(const std::string& text) {
 
 TrialOptions trial_options(const CompareArgs& args) {
   TrialOptions out{.methods = methods_of(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics)};
-  out.reference = args.reference.empty() ? best_reference() : args.reference;
+  out.reference = args.reference.empty() ? best_reference : args.reference;
   std::error_code ignored;
   if (is_method(out.reference))
     make_resolver(antialias::methods(), out.reference);
@@ -141,12 +139,6 @@ TrialOptions trial_options(const CompareArgs& args) {
                                             out.reference, args.scenes.size()));
   return out;
 }
-
-/// A file that will be part of the folder.
-struct OutputFile {
-  std::string name;
-  std::vector<std::uint8_t> bytes;
-};
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
@@ -164,40 +156,6 @@ void add_files(const SceneTrials& scene, std::vector<OutputFile>& files) {
   }
   files.push_back({scene.name + "/crops.png", png(crops_picture(scene))});
   files.push_back({scene.name + "/cost.svg", bytes_of(plot_svg(cost_plot(scene)))});
-}
-
-[[noreturn]] void refuse_folder(const std::string& folder, const std::string& why) {
-  throw Error(Trouble::Output, folder + ": " + why);
-}
-
-void check_folder(const std::string& folder) {
-  if (folder.empty()) throw Error(Trouble::Usage, "no output: give -o DIR");
-  std::error_code ignored;
-  if (std::filesystem::exists(folder, ignored))
-    refuse_folder(folder, "is there already; give another folder or remove it");
-  const std::filesystem::path parent = std::filesystem::absolute(folder).lexically_normal().parent_path();
-  if (!std::filesystem::is_directory(parent, ignored)) refuse_folder(folder, "no directory " + parent.string());
-}
-
-/// Writes the files beside the folder's place, and gives it its name when all are there.
-void save_folder(std::string folder, const std::vector<OutputFile>& files) {
-  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
-  const std::filesystem::path target(folder);
-  const std::filesystem::path staged = target.parent_path() / fmt::format(".{}.tmp", target.filename().string());
-  std::error_code trouble;
-  std::filesystem::remove_all(staged, trouble);
-  try {
-    for (const OutputFile& file : files) {
-      std::filesystem::create_directories((staged / file.name).parent_path(), trouble);
-      if (trouble) refuse_folder(folder, trouble.message());
-      save_bytes((staged / file.name).string(), file.bytes);
-    }
-    std::filesystem::rename(staged, target, trouble);
-    if (trouble) refuse_folder(folder, trouble.message());
-  } catch (...) {
-    std::filesystem::remove_all(staged, trouble);
-    throw;
-  }
 }
 
 /// "models/chair.glb" and "wheel:spokes=7" as names of folders, each once.
@@ -256,7 +214,13 @@ void check_scenes(const CompareArgs& args) {
   }
 }
 
-void compare_all(const CompareArgs& args, const TrialOptions& options) {
+/// What a run writes into its folder, and prints.
+struct Comparison {
+  std::vector<OutputFile> files;
+  std::string text, json;
+};
+
+Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
   static_cast<void>(
       plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));  // fails at once where plots cannot be drawn, not after the work
   Progress progress(args.render.progress ? *args.render.progress : parse_progress("auto"));
@@ -274,16 +238,14 @@ void compare_all(const CompareArgs& args, const TrialOptions& options) {
     for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
     scenes.push_back(std::move(scene));
   }
-  const std::string text = report_text(scenes);
-  const std::string json = report_json(scenes, args.command, thread_limit(), args.render.options.isa).indented() + '\n';
+  std::string text = report_text(scenes);
+  std::string json = report_json(scenes, args.command, thread_limit(), args.render.options.isa).indented() + '\n';
   files.push_back({"cost.svg", bytes_of(plot_svg(cost_plot(means_of(scenes)), {.width = 960, .height = 600}))});
   files.push_back({"compare.txt", bytes_of(text)});
   files.push_back({"compare.md", bytes_of(report_markdown(scenes))});
   files.push_back({"compare.csv", bytes_of(report_csv(scenes))});
   files.push_back({"compare.json", bytes_of(json)});
-  progress.begin("write", 1);
-  save_folder(args.render.output, files);
-  if (args.render.verbosity != Verbosity::Quiet || args.render.wants_json) print(args.render.wants_json ? json : text);
+  return {std::move(files), std::move(text), std::move(json)};
 }
 
 }  // namespace
@@ -299,10 +261,14 @@ void run_compare(std::span<const std::string> arguments) {
   if (args.scenes.empty())
     throw Error(Trouble::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
   const TrialOptions options = trial_options(args);
-  check_folder(args.render.output);
+  check_output_folder(args.render.output);
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
-  with_threads(args.render.threads, [&] { compare_all(args, options); });
+  Comparison made;
+  with_threads(args.render.threads, [&] { made = compare_all(args, options); });
+  save_folder(args.render.output, made.files);  // without other threads, as it requires
+  if (args.render.verbosity != Verbosity::Quiet || args.render.wants_json)
+    print(args.render.wants_json ? made.json : made.text);
 }
 
 }  // namespace zoneplate::cli

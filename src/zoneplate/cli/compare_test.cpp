@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <thread>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/file.h"
@@ -142,6 +143,55 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   std::size_t names = 0;
   for (const auto& entry : fs::directory_iterator(place)) names += !entry.path().empty();
   EXPECT_EQ(names, 2u);  // small.png and there
+}
+
+TEST_F(CompareVerb, RefusesNamesThatNoFolderCanHave) {
+  const std::string slow =
+      "compare city --turns 100 --aa ssaa:n=16 --size 4096x4096 -o ";  // not before minutes of work
+  save_bytes((place / "file").string(), {});
+  Answer answer = run(slow + "file");
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(answer.out, "zoneplate: error: file: is there already; give another folder or remove it\n");
+  answer = run(slow + "file/out");
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(answer.out, "zoneplate: error: file/out: file is not a directory\n");
+  answer = run(slow + std::string(256, 'n'));
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(answer.out, "zoneplate: error: " + std::string(256, 'n') + ": cannot be made: File name too long\n");
+}
+
+TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
+  fs::create_directory(place / ".out.tmp");
+  save_bytes((place / ".out.tmp/notes.txt").string(), std::vector<std::uint8_t>{'p'});
+  const std::string one = std::string("compare triangles --aa none -o out") + small;
+  ASSERT_EQ(run(one).code, 0);
+  EXPECT_EQ(text_of(".out.tmp/notes.txt"), "p");
+  // Of runs at the same time one makes the folder, whole; the others say that it is there.
+  fs::remove_all(place / "out");
+  std::vector<std::thread> runs;
+  std::array<Answer, 4> answers;
+  for (Answer& answer : answers) runs.emplace_back([&] { answer = run(one); });
+  for (std::thread& thread : runs) thread.join();
+  int made = 0;
+  for (const Answer& answer : answers) {
+    made += answer.code == 0;
+    EXPECT_TRUE(answer.code == 0 || (answer.code == 4 && contains(answer.out, "out: is there already"))) << answer.out;
+  }
+  EXPECT_EQ(made, 1);
+  EXPECT_TRUE(fs::exists(place / "out/compare.json"));
+  EXPECT_TRUE(fs::exists(place / "out/triangles/none.png"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 2);  // out and .out.tmp
+}
+
+// Where a surface's texture has no smaller levels, exact edges are not enough: the default reference samples surfaces
+// too.
+TEST_F(CompareVerb, TheDefaultReferenceIsRightInsideOfSurfacesToo) {
+  const Answer answer = run("compare tiles --aa analytic,converged:samples=256 --turns 1 --size 64x48 -o out --json");
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  const auto scene = parsed_json(answer.out)["scenes"][0];
+  EXPECT_EQ(scene["reference"]["source"], "converged");
+  EXPECT_LT(scene["methods"][0]["metrics"]["psnr"]["value"], 30);
+  EXPECT_GT(scene["methods"][1]["metrics"]["psnr"]["value"], 40);
 }
 
 TEST(WorstPlaces, AreFoundInOrderAndDoNotOverlap) {

@@ -2,12 +2,10 @@
 #include "zoneplate/cli/demo.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
+#include <cassert>
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
@@ -15,6 +13,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/image/apng.h"
@@ -82,16 +81,16 @@ std::vector<Demo> chosen(const std::string& name) {
                                            : fmt::format("demo: no lesson {}; did you mean {}?", name, near));
 }
 
-/// The files of one lesson: the picture, or the animation in both formats.
-void save_lesson(const Lesson& lesson, const DemoSize& size, const std::string& path) {
+void save_lesson(const Lesson& lesson, const DemoSize& size, const std::vector<std::string>& files) {
   Animation animation{.frames = {}, .seconds = lesson.seconds, .per = lesson.per};
   for (const Figure& figure : lesson.frames) animation.frames.push_back(compose(figure, size.style()));
-  if (animation.frames.size() == 1)
-    return save_bytes(path,
-                      encode_png(animation.frames[0], {.has_alpha = false, .is_small = true, .may_be_indexed = true}));
+  assert((files.size() == 2) == (animation.frames.size() > 1));
+  if (files.size() == 1)
+    return save_bytes(
+        files[0], encode_png(animation.frames.at(0), {.has_alpha = false, .is_small = true, .may_be_indexed = true}));
   const auto apng = encode_apng(animation), webp = encode_webp(animation);
-  save_bytes(path, apng);
-  save_bytes(std::filesystem::path(path).replace_extension(".webp").string(), webp);
+  save_bytes(files[0], apng);
+  save_bytes(files[1], webp);
 }
 
 /// Words in lines of a terminal, each indented.
@@ -112,17 +111,17 @@ std::string paragraph(std::string_view words, std::string_view indent) {
   return text + '\n';
 }
 
-void make_folder(const std::string& path) {
-  std::error_code trouble;
-  std::filesystem::create_directory(path, trouble);
-  if (!std::filesystem::is_directory(path))
-    throw Error(Trouble::Output, fmt::format("{}: the folder cannot be made: {}", path, trouble.message()));
+/// The files that a lesson is written into: a picture, or an animation in both formats.
+std::vector<std::string> files_of(const Demo& demo, const std::string& path) {
+  if (!demo.is_animated) return {path};
+  return {path, std::filesystem::path(path).replace_extension(".webp").string()};
 }
 
-/// Fails at once, not after a lesson's work.
-void check_writable(const std::string& folder) {
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
-    throw Error(Trouble::Output, fmt::format("{}: nothing can be written there: {}", folder, std::strerror(errno)));
+void make_folder(const std::string& path) {
+  std::error_code trouble, ignored;
+  std::filesystem::create_directory(path, trouble);
+  if (!std::filesystem::is_directory(path, ignored))
+    throw Error(Trouble::Output, fmt::format("{}: the folder cannot be made: {}", path, trouble.message()));
 }
 
 void check_output(const std::string& lesson, const std::string& output) {
@@ -162,12 +161,15 @@ void run_demo(std::span<const std::string> arguments) {
   const std::vector<Demo> lessons = chosen(name);
   check_output(name, args.output);
   if (name == "all") make_folder(args.output);
-  check_writable(name == "all" ? args.output : std::filesystem::path(args.output).parent_path().string());
+  const auto path_of = [&](const Demo& demo) {
+    return name == "all" ? fmt::format("{}/{}.png", args.output, demo.name) : args.output;
+  };
+  for (const Demo& demo : lessons)
+    for (const std::string& file : files_of(demo, path_of(demo))) check_output_file(file);
   with_threads(args.threads, [&] {
     for (const Demo& demo : lessons) {
-      const std::string path = name == "all" ? fmt::format("{}/{}.png", args.output, demo.name) : args.output;
       const Lesson lesson = demo.make(args.size);
-      save_lesson(lesson, args.size, path);
+      save_lesson(lesson, args.size, files_of(demo, path_of(demo)));
       print((&demo == &lessons[0] ? "" : "\n\n") + text_of(lesson));
     }
   });

@@ -29,6 +29,7 @@ struct Lesson {
 struct Demo {
   std::string_view name, summary;
   Lesson (*make)(const DemoSize& size);
+  bool is_animated = false;  ///< the lesson has several frames, written as APNG and WebP
 };
 
 Demo demo_jaggies();

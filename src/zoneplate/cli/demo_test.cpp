@@ -86,14 +86,30 @@ TEST(Demo, SaysWhatIsMissingOrUnknown) {
             "--output: x.jpg is not a format that a lesson is written in (.png)");
 }
 
-TEST(Demo, FailsAtOnceWhereNothingCanBeWritten) {
-  try {
-    run_demo(std::vector<std::string>{"jaggies", "-o", "/no/such/folder/x.png"});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Output);
-    EXPECT_STREQ(error.what(), "/no/such/folder: nothing can be written there: No such file or directory");
-  }
+TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
+  const std::string root = place.string() + "/";
+  std::filesystem::create_directories(place / "lesson.png");
+  std::filesystem::create_directories(place / "wheel.webp");
+  std::filesystem::create_directories(place / "lessons/wagon-wheel.webp");
+  save_bytes(root + "file", {});
+  const auto refusal = [&](const std::string& lesson, const std::string& output) {
+    try {
+      // The last lesson is the slowest: at this size it takes minutes.
+      run_demo(std::vector<std::string>{lesson, "-o", root + output, "--panel", "1024"});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.trouble(), Trouble::Output);
+      return std::string(error.what()).substr(root.size());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(refusal("jaggies", "none/x.png"), "none/x.png: no directory " + root + "none");
+  EXPECT_EQ(refusal("jaggies", "lesson.png"), "lesson.png: cannot be written: it is a directory");
+  EXPECT_EQ(refusal("wagon-wheel", "wheel.png"), "wheel.webp: cannot be written: it is a directory");
+  EXPECT_EQ(refusal("all", "file"), "file: the folder cannot be made: File exists");
+  EXPECT_EQ(refusal("all", "lessons"), "lessons/wagon-wheel.webp: cannot be written: it is a directory");
+  const std::string longest(256, 'n');
+  EXPECT_EQ(refusal("all", longest), longest + ": the folder cannot be made: File name too long");
+  EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
 }
 
 // The table holds each kernel's figures near their theory, and lanczos3 keeps what is promised of it.

@@ -109,7 +109,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_wagon_wheel() {
-  return {"wagon-wheel", "an animation: a wheel seen to roll backwards, shutter closed and open", make};
+  return {"wagon-wheel", "an animation: a wheel seen to roll backwards, shutter closed and open", make, true};
 }
 
 }  // namespace zoneplate::cli

@@ -8,6 +8,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/file.h"
+#include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/metrics/metrics.h"
@@ -111,35 +112,43 @@ TEST_F(PictureFile, DirectoriesPairByName) {
   EXPECT_THROW(pair_pictures(at("a"), at("b/x.png")), Error);
 }
 
-// Pictures of other renderers, where they are at hand: the decibels between two rasterisers' pictures of a scene, best
-// and worst of all pairs, as they were published with them.
+// Pictures of other renderers, where they lie beside the sources: the decibels between two rasterisers' pictures of a
+// scene, best and worst of all pairs, as they were published with them.
+struct PublishedDistance {
+  const char* scene;
+  double best, worst;
+};
+class SharedRenderings : public testing::TestWithParam<PublishedDistance> {};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedRenderings);
 
-TEST(YiqRms, AgreesWithThePublishedDistancesOfRenderers) {
-  const fs::path folder = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data/goldens-calibration/images";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no calibration pictures";
-  const struct {
-    const char* name;
-    double best, worst;
-  } scenes[] = {{"khronos-Suzanne", -26.67, -19.31},
-                {"khronos-MetalRoughSpheresNoTextures", -26.87, -16.32},
-                {"khronos-AlphaBlendModeTest", -31.83, -24.63}};
-  const Choice choice = choose_metric(metrics(), "yiq_rms");
-  for (const auto& scene : scenes) {
-    std::vector<Picture> pictures;
-    for (const char* renderer : {"babylon", "filament", "gltf-sample-viewer", "model-viewer"}) {
-      pictures.push_back(load_picture((folder / scene.name / (std::string(renderer) + ".png")).string()));
-    }
-    std::vector<double> decibels;
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      for (std::size_t j = 0; j < pictures.size(); ++j) {
-        if (i == j) continue;
-        decibels.push_back(choice.metric->measure({&pictures[i], 1}, {&pictures[j], 1}, choice.settings)->value);
-      }
-    }
-    EXPECT_NEAR(std::ranges::min(decibels), scene.best, 0.01) << scene.name;
-    EXPECT_NEAR(std::ranges::max(decibels), scene.worst, 0.01) << scene.name;
-  }
+const std::string renderings = "data/goldens-calibration/images";
+
+std::vector<PublishedDistance> published_distances() {
+  std::vector<PublishedDistance> out = {{"khronos-Suzanne", -26.67, -19.31},
+                                        {"khronos-MetalRoughSpheresNoTextures", -26.87, -16.32},
+                                        {"khronos-AlphaBlendModeTest", -31.83, -24.63}};
+  std::erase_if(out, [](const PublishedDistance& d) { return shared_files(renderings, {d.scene}).empty(); });
+  return out;
 }
+
+TEST_P(SharedRenderings, AreAsFarApartAsPublished) {
+  const auto [scene, best, worst] = GetParam();
+  std::vector<Picture> pictures;
+  for (const char* renderer : {"babylon", "filament", "gltf-sample-viewer", "model-viewer"})
+    for (const std::string& path : shared_files(renderings, {std::string(scene) + "/" + renderer + ".png"}))
+      pictures.push_back(load_picture(path));
+  ASSERT_EQ(pictures.size(), 4u);
+  const Choice choice = choose_metric(metrics(), "yiq_rms");
+  std::vector<double> decibels;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    for (std::size_t j = 0; j < pictures.size(); ++j)
+      if (i != j)
+        decibels.push_back(choice.metric->measure({&pictures[i], 1}, {&pictures[j], 1}, choice.settings)->value);
+  EXPECT_NEAR(std::ranges::min(decibels), best, 0.01);
+  EXPECT_NEAR(std::ranges::max(decibels), worst, 0.01);
+}
+INSTANTIATE_TEST_SUITE_P(YiqRms, SharedRenderings, testing::ValuesIn(published_distances()),
+                         [](const auto& tested) { return std::string(tested.param.scene).substr(8); });
 
 }  // namespace
 }  // namespace zoneplate::metrics

@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <optional>
 
+#include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/scene/gltf_maker_test.h"
 #include "zoneplate/scene/load.h"
 
 namespace zoneplate {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr Planes followed{
     .uv = true, .object_id = true, .primitive_id = true, .position = true, .motion = true, .flow = true};
@@ -191,31 +190,89 @@ TEST(Motion, ACropAndSamplesOffTheCentreHaveTheSamePoints) {
   EXPECT_GT(edges, 20);
 }
 
-// Every kind of animation in files, two moments a frame apart.
-class MovingModel : public testing::TestWithParam<const char*> {};
+/// A bent sheet of 8 × 8 squares that moves in one of the ways of glTF: its node by keys with straight or curved ways
+/// between them, its vertices by the weights of targets, or by the two joints of a skin.
+GltfMaker moving_sheet(const std::string& kind) {
+  constexpr int n = 8;
+  std::vector<float> position, bend, weights;
+  std::vector<std::uint8_t> joints;
+  std::vector<std::uint16_t> index;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) {
+      const float u = static_cast<float>(x) / n * 2 - 1, v = static_cast<float>(y) / n * 2 - 1;
+      for (const float c : {u, v, 0.2f * u * v}) position.push_back(c);
+      for (const float c : {0.3f * v * v, 0.2f * u, 0.5f * u * u}) bend.push_back(c);
+      for (const float c : {(1 - u) / 2, (1 + u) / 2, 0.0f, 0.0f}) weights.push_back(c);
+      for (const int c : {0, 1, 0, 0}) joints.push_back(static_cast<std::uint8_t>(c));
+      if (x == n || y == n) continue;
+      for (const int c : {0, 1, n + 2, 0, n + 2, n + 1})
+        index.push_back(static_cast<std::uint16_t>(y * (n + 1) + x + c));
+    }
+  GltfMaker m;
+  const std::string times = m.floats("SCALAR", {0, 1});
+  const auto animate = [&](int node, const std::string& path, const std::string& output, const std::string& way) {
+    m.rest += R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":)" + std::to_string(node) + R"(,"path":")" +
+              path + R"("}}],"samplers":[{"input":)" + times + R"(,"output":)" + output + R"(,"interpolation":")" +
+              way + "\"}]}]";
+  };
+  const bool is_skinned = kind == "Skin", is_morphed = kind == "Morph";
+  std::string attributes = R"("POSITION":)" + m.floats("VEC3", position);
+  if (is_skinned)
+    attributes +=
+        R"(,"JOINTS_0":)" + m.values<std::uint8_t>("VEC4", joints) + R"(,"WEIGHTS_0":)" + m.floats("VEC4", weights);
+  const std::string targets = is_morphed ? R"(,"targets":[{"POSITION":)" + m.floats("VEC3", bend) + "}]" : "";
+  m.mesh(attributes, R"(,"indices":)" + m.values<std::uint16_t>("SCALAR", index) + targets);
+  if (is_skinned) {
+    m.nodes = R"({"mesh":0,"skin":0},{},{})";
+    m.scene_nodes = "0,1,2";
+    m.rest = R"(,"skins":[{"joints":[1,2]}])";
+  }
+  const std::vector<float> turn = {0, 0, 0, 1, 0.2f, 0.1f, 0.3f, 0.9273618f};
+  if (is_morphed) animate(0, "weights", m.floats("SCALAR", {0, 1}), "LINEAR");
+  if (kind == "Curve")
+    animate(0, "translation", m.floats("VEC3", {0, 0, 0, 0, 0, 0, 1, 2, 0, -1, 1, 0, 0.5f, 0.2f, -0.5f, 0, 0, 0}),
+            "CUBICSPLINE");
+  if (kind == "Turn" || is_skinned) animate(is_skinned ? 2 : 0, "rotation", m.floats("VEC4", turn), "LINEAR");
+  return m;
+}
 
-TEST_P(MovingModel, IsFollowed) {
-  const fs::path path = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data/models/gltf" / GetParam();
-  if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
-  SceneSource source(path.string(), {});
+/// Follows a model at two moments, each from a frame before.
+void expect_followed(const std::string& path) {
+  SceneSource source(path, {});
   const auto at = [&](double time) {
     return source.load_shape({.animation = SceneChoice::all_animations, .time = time});
   };
   int points = 0;
+  float greatest_step = 0;
   for (const double time : {0.3, 0.8}) {
     const Scene now = at(time), last = at(time - 1.0 / 24);
     const Camera camera = camera_of(last);
     const Followed found = follow({now, camera}, {last, camera});
     points += found.points;
+    greatest_step = std::max(greatest_step, found.greatest_step);
     EXPECT_LT(found.greatest_miss, 1.0f / 16) << time;
   }
   EXPECT_GT(points, 2000);
+  EXPECT_GT(greatest_step, 1);
 }
 
+class MovingSheet : public testing::TestWithParam<const char*> {};
+TEST_P(MovingSheet, IsFollowed) {
+  const TestFolder folder;
+  expect_followed(folder.write("sheet.glb", moving_sheet(GetParam()).glb()));
+}
+INSTANTIATE_TEST_SUITE_P(Motion, MovingSheet, testing::Values("Turn", "Curve", "Morph", "Skin"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+// Models of the Khronos Group, where they lie beside the sources.
+class MovingModel : public testing::TestWithParam<std::string> {};
+TEST_P(MovingModel, IsFollowed) { expect_followed(GetParam()); }
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MovingModel);
 INSTANTIATE_TEST_SUITE_P(Motion, MovingModel,
-                         testing::Values("AnimatedCube/AnimatedCube.gltf", "InterpolationTest.glb", "RiggedSimple.glb",
-                                         "Fox.glb", "AnimatedMorphCube.glb",
-                                         "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf"));
+                         testing::ValuesIn(shared_files("data/models/gltf",
+                                                        {"AnimatedCube/AnimatedCube.gltf", "InterpolationTest.glb",
+                                                         "RiggedSimple.glb", "Fox.glb", "AnimatedMorphCube.glb",
+                                                         "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf"})));
 
 }  // namespace
 }  // namespace zoneplate

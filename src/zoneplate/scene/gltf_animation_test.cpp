@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/scene/gltf.h"
 #include "zoneplate/scene/gltf_maker_test.h"
 
 namespace zoneplate {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Keys at 1 s and 3 s on node 0.
 GltfMaker animated(const std::string& path, const std::string& interpolation, const std::string& type,
@@ -121,14 +119,57 @@ TEST(GltfAnimation, Refusals) {
             "animation 0 sampler 0: output is not finite");
 }
 
-fs::path shared_model(const std::string& name) {
-  return fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data/models/gltf" / name;
+// Joint 1 turns by 90 degrees in a second about a point 2 above the ground; vertices follow it by their weights.
+TEST(GltfAnimation, JointsMoveVerticesByTheirWeights) {
+  GltfMaker m;
+  const std::string position = m.floats("VEC3", {1, 0, 0, 1, 2, 0, 1, 4, 0});
+  const std::string joints = m.values<std::uint8_t>("VEC4", {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+  const std::string weights = m.floats("VEC4", {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 1, 0, 0});
+  // The inverse of each joint's place at rest: the origin, and (0, 2, 0).
+  const std::string binds = m.floats("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,  //
+                                              1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -2, 0, 1});
+  m.mesh(R"("POSITION":)" + position + R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights);
+  m.nodes = R"({"mesh":0,"skin":0},{"children":[2]},{"translation":[0,2,0]})";
+  m.scene_nodes = "0,1";
+  const float r = std::sqrt(0.5f);
+  const std::string input = m.floats("SCALAR", {0, 1}), output = m.floats("VEC4", {0, 0, 0, 1, 0, 0, r, r});
+  m.rest =
+      R"(,"skins":[{"joints":[1,2],"inverseBindMatrices":)" + binds +
+      R"(}],"animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"rotation"}}],"samplers":[{"input":)" +
+      input + R"(,"output":)" + output + "}]}]";
+  const Scene rest = at(m, 0), half = at(m, 0.5), end = at(m, 1);
+  for (std::size_t i = 0; i < 3; ++i) expect_near(rest.meshes.at(0).position.at(i), {1, 2 * static_cast<float>(i), 0});
+  expect_near(half.meshes.at(0).position.at(0), {1, 0, 0});
+  expect_near(half.meshes.at(0).position.at(1), {(1 + r) / 2, 2 + r / 2, 0});
+  expect_near(half.meshes.at(0).position.at(2), {r - 2 * r, 2 + r + 2 * r, 0});
+  expect_near(end.meshes.at(0).position.at(1), {0.5f, 2.5f, 0});
+  expect_near(end.meshes.at(0).position.at(2), {-2, 3, 0});
 }
 
+/// Models of the Khronos Group, where they lie beside the sources.
+class SharedAnimation : public testing::TestWithParam<std::string> {};
+class SharedInterpolationTest : public SharedAnimation {};
+class SharedRiggedSimple : public SharedAnimation {};
+class SharedMorphCube : public SharedAnimation {};
+class SharedSuzanne : public SharedAnimation {};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedInterpolationTest);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedRiggedSimple);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedMorphCube);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedSuzanne);
+const std::string models = "data/models/gltf";
+INSTANTIATE_TEST_SUITE_P(GltfAnimation, SharedInterpolationTest,
+                         testing::ValuesIn(shared_files(models, {"InterpolationTest.glb"})));
+INSTANTIATE_TEST_SUITE_P(GltfAnimation, SharedRiggedSimple,
+                         testing::ValuesIn(shared_files(models, {"RiggedSimple.glb"})));
+INSTANTIATE_TEST_SUITE_P(GltfAnimation, SharedMorphCube,
+                         testing::ValuesIn(shared_files(models, {"AnimatedMorphCube.glb"})));
+INSTANTIATE_TEST_SUITE_P(GltfCompression, SharedSuzanne,
+                         testing::ValuesIn(shared_files(models + "/compressed",
+                                                        {"Suzanne-draco.glb", "Suzanne-meshopt-quantized.glb",
+                                                         "Suzanne-quantized.glb"})));
+
 // The point (1, 1/2, 0) of each cube, worked out apart from this program with the formulas of the specification.
-TEST(GltfAnimation, InterpolationTest) {
-  const fs::path path = shared_model("InterpolationTest.glb");
-  if (!fs::exists(path)) GTEST_SKIP() << "no shared models";
+TEST_P(SharedInterpolationTest, PointsAreWhereTheSpecificationPutsThem) {
   const struct {
     double time;
     float3 points[9];
@@ -182,7 +223,7 @@ TEST(GltfAnimation, InterpolationTest) {
                 {1, 6.5f, 0},
                 {4.30518f, 6.5f, 0},
                 {-2.297581f, 6.5f, 0}}}};
-  GltfModel model(path.string());
+  GltfModel model(GetParam());
   for (const auto& row : rows) {
     const Scene s = model.scene({.animation = SceneChoice::all_animations, .time = row.time});
     ASSERT_EQ(s.instances.size(), 10u);
@@ -191,9 +232,7 @@ TEST(GltfAnimation, InterpolationTest) {
   }
 }
 
-TEST(GltfAnimation, RiggedSimple) {
-  const fs::path path = shared_model("RiggedSimple.glb");
-  if (!fs::exists(path)) GTEST_SKIP() << "no shared models";
+TEST_P(SharedRiggedSimple, Bends) {
   const struct {
     double time;
     float3 foot, top;  // vertices 0 and 159
@@ -202,7 +241,7 @@ TEST(GltfAnimation, RiggedSimple) {
               {1, {0, -4.57508f, 1}, {2.34424f, 3.94942f, 0.41582f}},
               {1.53, {0, -4.57508f, 1}, {1.26907f, 4.40782f, 0.41582f}},
               {3, {0, -4.57508f, 1}, {-0.17224f, 4.57508f, 0.41582f}}};
-  GltfModel model(path.string());
+  GltfModel model(GetParam());
   for (const auto& row : rows) {
     const Scene s = model.scene({.animation = 0, .time = row.time});
     expect_near(s.meshes.at(0).position.at(0), row.foot, 1e-5f);
@@ -210,11 +249,9 @@ TEST(GltfAnimation, RiggedSimple) {
   }
 }
 
-TEST(GltfAnimation, AnimatedMorphCube) {
-  const fs::path path = shared_model("AnimatedMorphCube.glb");
-  if (!fs::exists(path)) GTEST_SKIP() << "no shared models";
+TEST_P(SharedMorphCube, Bends) {
   constexpr std::pair<double, float> rows[] = {{0, 1}, {0.5, 0.56089f}, {1.25, -0.66076f}, {2.6, 0.28645f}, {9, 1}};
-  GltfModel model(path.string());
+  GltfModel model(GetParam());
   for (const auto& [time, z] : rows) {
     const Scene s = model.scene({.animation = 0, .time = time});
     const float4x4& world = s.instances.at(0).world_from_object;
@@ -223,18 +260,16 @@ TEST(GltfAnimation, AnimatedMorphCube) {
   }
 }
 
-// A part of the same text, compressed, is the same picture: vertices of both twins are near each other.
-TEST(GltfCompression, SuzannesTwinsAreNearHer) {
-  const fs::path plain = shared_model("Suzanne/Suzanne.gltf");
-  if (!fs::exists(plain)) GTEST_SKIP() << "no shared models";
-  const Box wanted = load_gltf(plain.string()).bounds();
-  for (const char* name : {"Suzanne-draco.glb", "Suzanne-meshopt-quantized.glb", "Suzanne-quantized.glb"}) {
-    const Scene s = load_gltf(shared_model(std::string("compressed/") + name).string());
-    ASSERT_EQ(s.meshes.size(), 1u) << name;
-    EXPECT_EQ(s.meshes[0].primitives(), 3936u) << name;
-    expect_near(s.bounds().low, wanted.low, 2e-3f);
-    expect_near(s.bounds().high, wanted.high, 2e-3f);
-  }
+// Compressed, it is the same model: vertices are near those of the plain file.
+TEST_P(SharedSuzanne, IsNearThePlainModel) {
+  const std::vector<std::string> plain = shared_files(models, {"Suzanne/Suzanne.gltf"});
+  ASSERT_EQ(plain.size(), 1u);
+  const Box wanted = load_gltf(plain[0]).bounds();
+  const Scene s = load_gltf(GetParam());
+  ASSERT_EQ(s.meshes.size(), 1u);
+  EXPECT_EQ(s.meshes[0].primitives(), 3936u);
+  expect_near(s.bounds().low, wanted.low, 2e-3f);
+  expect_near(s.bounds().high, wanted.high, 2e-3f);
 }
 
 }  // namespace

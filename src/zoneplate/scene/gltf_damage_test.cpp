@@ -1,18 +1,16 @@
 // Damaged files: whatever is changed in a model, loading ends with a sound scene or with one line that says why not.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <random>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/scene/damage_for_test.h"
 #include "zoneplate/scene/gltf.h"
 #include "zoneplate/scene/gltf_sample_for_test.h"
 
 namespace zoneplate {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string load_soundly(const std::string& path) {
   const auto load = [](const std::string& p, const LoadLimits& limits) {
@@ -75,34 +73,24 @@ TEST(GltfDamage, AnyLength) {
     EXPECT_NE(load_soundly(file.write({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(n)})), "") << n;
 }
 
-/// The models of a folder beside the sources, if it is there.
-std::vector<std::string> shared_models(const std::string& folder) {
-  std::vector<std::string> out;
-  const fs::path root = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data" / folder;
-  if (!fs::exists(root)) return out;
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb") out.push_back(entry.path().string());
-  return out;
+class SharedGltf : public testing::TestWithParam<std::string> {};
+TEST_P(SharedGltf, Loads) {
+  const Scene s = load_gltf(GetParam());
+  expect_sound(s);
+  EXPECT_FALSE(s.instances.empty());
 }
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedGltf);
+INSTANTIATE_TEST_SUITE_P(GltfDamage, SharedGltf,
+                         testing::ValuesIn(shared_files_ending("data/models/gltf", {".gltf", ".glb"})));
 
-TEST(GltfDamage, SharedModelsLoad) {
-  const std::vector<std::string> models = shared_models("models/gltf");
-  if (models.empty()) GTEST_SKIP() << "no shared models";
-  for (const std::string& path : models) {
-    const Scene s = load_gltf(path);
-    expect_sound(s);
-    EXPECT_FALSE(s.instances.empty()) << path;
-  }
+class SharedInvalidGltf : public testing::TestWithParam<std::string> {};
+TEST_P(SharedInvalidGltf, IsRefusedOrSound) {
+  const std::string error = load_soundly(GetParam());
+  EXPECT_TRUE(error.empty() || error.starts_with(GetParam())) << error;
 }
-
-TEST(GltfDamage, SharedInvalidModelsAreRefusedOrSound) {
-  const std::vector<std::string> models = shared_models("invalid/gltf");
-  if (models.empty()) GTEST_SKIP() << "no shared models";
-  for (const std::string& path : models) {
-    const std::string error = load_soundly(path);
-    EXPECT_TRUE(error.empty() || error.starts_with(path)) << error;
-  }
-}
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedInvalidGltf);
+INSTANTIATE_TEST_SUITE_P(GltfDamage, SharedInvalidGltf,
+                         testing::ValuesIn(shared_files_ending("data/invalid/gltf", {".gltf", ".glb"})));
 
 }  // namespace
 }  // namespace zoneplate

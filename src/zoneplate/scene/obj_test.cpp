@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 
@@ -432,29 +433,31 @@ std::size_t triangles_of(const Scene& scene) {
   return n;
 }
 
-TEST(SharedObjModels, LoadWithTheirTriangles) {
-  const fs::path folder = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data/models/obj";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no shared models";
-  EXPECT_EQ(triangles_of(load_obj((folder / "spot/spot_triangulated_good.obj").string())), 5856u);
-  EXPECT_EQ(triangles_of(load_obj((folder / "teapot.obj").string())), 6320u);
-  EXPECT_EQ(triangles_of(load_obj((folder / "suzanne.obj").string())), 968u);
-  for (const auto& entry : fs::directory_iterator(folder / "tinyobj"))
-    if (entry.path().extension() == ".obj") expect_sound(load_obj(entry.path().string()));
-}
-
-TEST(SharedObjModels, AreRefusedOrDrawnWithAWarningWhenInvalid) {
-  const fs::path folder = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data/invalid/obj";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no shared models";
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    try {
-      const Scene scene = load_obj(entry.path().string());
-      expect_sound(scene);
-      EXPECT_FALSE(scene.warnings.empty()) << entry.path();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), Trouble::Input);
+class SharedObj : public testing::TestWithParam<std::string> {};
+TEST_P(SharedObj, LoadsWithItsTriangles) {
+  const Scene scene = load_obj(GetParam());
+  expect_sound(scene);
+  for (const auto& [name, triangles] :
+       {std::pair{"spot_triangulated_good.obj", 5856u}, {"teapot.obj", 6320u}, {"suzanne.obj", 968u}})
+    if (GetParam().ends_with(std::string("/") + name)) {
+      EXPECT_EQ(triangles_of(scene), triangles);
     }
+}
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedObj);
+INSTANTIATE_TEST_SUITE_P(Obj, SharedObj, testing::ValuesIn(shared_files_ending("data/models/obj", {".obj"})));
+
+class SharedInvalidObj : public testing::TestWithParam<std::string> {};
+TEST_P(SharedInvalidObj, IsRefusedOrDrawnWithAWarning) {
+  try {
+    const Scene scene = load_obj(GetParam());
+    expect_sound(scene);
+    EXPECT_FALSE(scene.warnings.empty());
+  } catch (const Error& error) {
+    EXPECT_EQ(error.trouble(), Trouble::Input);
   }
 }
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedInvalidObj);
+INSTANTIATE_TEST_SUITE_P(Obj, SharedInvalidObj, testing::ValuesIn(shared_files_ending("data/invalid/obj", {".obj"})));
 
 }  // namespace
 }  // namespace zoneplate

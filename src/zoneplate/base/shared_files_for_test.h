@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace zoneplate {
+
+// Models and pictures of others are not part of the sources. Where they lie in `../shared`, parametrised tests take
+// them as well; elsewhere these tests do not exist, and what they show is tested on files that are made in code.
+
+/// Those of the named files of a folder of `../shared` that are there.
+inline std::vector<std::string> shared_files(const std::string& folder, std::vector<std::string> names) {
+  const std::filesystem::path root = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared" / folder;
+  for (std::string& name : names) name = (root / name).string();
+  std::erase_if(names, [](const std::string& path) { return !std::filesystem::exists(path); });
+  return names;
+}
+
+/// All files of a folder of `../shared` and its folders that end in one of these, in the order of their names.
+inline std::vector<std::string> shared_files_ending(const std::string& folder,
+                                                    const std::vector<std::string>& endings) {
+  const std::filesystem::path root = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared" / folder;
+  std::vector<std::string> out;
+  if (!std::filesystem::exists(root)) return out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+    if (std::ranges::find(endings, entry.path().extension().string()) != endings.end()) out.push_back(entry.path());
+  std::ranges::sort(out);
+  return out;
+}
+
+}  // namespace zoneplate

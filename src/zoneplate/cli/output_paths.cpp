@@ -1,0 +1,155 @@
+#include "zoneplate/cli/output_paths.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fcntl.h>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Error(Trouble::Output, path + ": " + why);
+}
+
+constexpr const char* is_there = "is there already; give another folder or remove it";
+
+std::string without_slashes(std::string path) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+void check_parent(const std::string& path) {
+  const fs::path parent = fs::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  struct stat status {};
+  if (::stat(folder.c_str(), &status) != 0)
+    refuse(path, errno == ENOENT ? "no directory " + folder : folder + ": " + std::strerror(errno));
+  if (!S_ISDIR(status.st_mode)) refuse(path, folder + " is not a directory");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse(path, fmt::format("nothing can be written into {}: {}", folder, std::strerror(errno)));
+}
+
+/// Holds back, for the calling thread, the signals that end the program, unless they are ignored.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    ::sigemptyset(&held_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction action {};
+      if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&held_, signal);
+    }
+    ::pthread_sigmask(SIG_BLOCK, &held_, &before_);
+  }
+  ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+  bool has_one() const {
+    sigset_t pending;
+    ::sigpending(&pending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      if (::sigismember(&held_, signal) == 1 && ::sigismember(&pending, signal) == 1) return true;
+    return false;
+  }
+
+ private:
+  sigset_t held_{}, before_{};
+};
+
+/// A new folder beside `target`, which it becomes by `commit`; else it is removed with what was made in it.
+class StagedFolder {
+ public:
+  explicit StagedFolder(const std::string& target) : target_(target) {
+    const fs::path path(target);
+    // Only part of a very long name is used, so that the staged name is not too long either.
+    const std::string stem = fmt::format(".{}.{}", path.filename().string().substr(0, 200), ::getpid());
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      root_ = (path.parent_path() / (attempt == 0 ? stem + ".tmp" : fmt::format("{}.{}.tmp", stem, attempt))).string();
+      if (::mkdir(root_.c_str(), 0777) == 0) return;
+      if (errno != EEXIST) refuse(target, std::string("cannot be made: ") + std::strerror(errno));
+    }
+    refuse(target, "its temporary names are taken, as " + root_);
+  }
+  ~StagedFolder() {
+    if (is_committed_) return;
+    for (const std::string& file : files_) ::unlink(file.c_str());
+    for (const std::string& folder : folders_) ::rmdir(folder.c_str());
+    ::rmdir(root_.c_str());
+  }
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  void write(const OutputFile& file) {
+    if (const std::size_t slash = file.name.find('/'); slash != std::string::npos) {
+      const std::string folder = root_ + '/' + file.name.substr(0, slash);
+      if (folders_.insert(folder).second && ::mkdir(folder.c_str(), 0777) != 0)
+        refuse(target_, std::string("cannot be made: ") + std::strerror(errno));
+    }
+    const std::string path = root_ + '/' + file.name;
+    files_.insert(path);
+    save_bytes(path, file.bytes);
+  }
+
+  void commit() {
+    int result = ::renameat2(AT_FDCWD, root_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE);
+    // A file system without this flag has rename, which replaces no folder but an empty one.
+    if (result != 0 && (errno == EINVAL || errno == ENOSYS)) result = ::rename(root_.c_str(), target_.c_str());
+    if (result != 0)
+      refuse(target_, errno == EEXIST || errno == ENOTEMPTY || errno == ENOTDIR
+                          ? is_there
+                          : std::string("cannot be made: ") + std::strerror(errno));
+    is_committed_ = true;
+  }
+
+ private:
+  std::string target_, root_;
+  std::set<std::string> files_, folders_;
+  bool is_committed_ = false;
+};
+
+}  // namespace
+
+void check_output_file(const std::string& path) {
+  check_parent(path);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno == ENOENT) return;
+    refuse(path, std::string("cannot be written: ") + std::strerror(errno));
+  }
+  if (S_ISDIR(status.st_mode)) refuse(path, "cannot be written: it is a directory");
+  if (::access(path.c_str(), W_OK) != 0) refuse(path, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+void check_output_folder(const std::string& asked) {
+  if (asked.empty()) throw Error(Trouble::Usage, "no output: give -o DIR");
+  const std::string path = without_slashes(asked);
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) == 0) refuse(path, is_there);
+  if (errno != ENOENT && errno != ENOTDIR) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
+  check_parent(path);
+}
+
+void save_folder(const std::string& asked, std::span<const OutputFile> files) {
+  const HeldSignals signals;
+  StagedFolder staged(without_slashes(asked));
+  for (const OutputFile& file : files) {
+    if (signals.has_one()) refuse(asked, "is not made: a signal ended the run");
+    staged.write(file);
+  }
+  staged.commit();
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,143 @@
+#include "zoneplate/cli/output_paths.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+class OutputPaths : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "zoneplate_paths_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+  }
+  void TearDown() override { fs::remove_all(place); }
+  void put(const std::string& name, const std::string& text) const { std::ofstream(place / name) << text; }
+  std::string at(const std::string& name) const { return (place / name).string(); }
+
+  // Every file and folder below the place, hidden ones too; of a file its text.
+  std::map<std::string, std::string> all() const {
+    std::map<std::string, std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(place)) {
+      std::string& text = out[fs::relative(entry.path(), place).string()];
+      if (!entry.is_regular_file()) continue;
+      const FileBytes file(entry.path().string());
+      text.assign(file.bytes().begin(), file.bytes().end());
+    }
+    return out;
+  }
+  // What the call refuses with, without the place; "" if it does not.
+  std::string refusal(const std::function<void()>& call) const {
+    try {
+      call();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.trouble(), Trouble::Output) << error.what();
+      std::string text = error.what();
+      for (std::size_t i; (i = text.find(place.string() + "/")) != std::string::npos;)
+        text.erase(i, place.string().size() + 1);
+      return text;
+    }
+    return "";
+  }
+  fs::path place;
+};
+
+const std::vector<OutputFile> two_files = {{"a.txt", bytes_of("one")}, {"deep/b.txt", bytes_of("two")}};
+const std::map<std::string, std::string> whole = {
+    {"out", ""}, {"out/a.txt", "one"}, {"out/deep", ""}, {"out/deep/b.txt", "two"}};
+
+TEST_F(OutputPaths, AFolderIsMadeWhole) {
+  save_folder(at("out/"), two_files);
+  EXPECT_EQ(all(), whole);
+}
+
+TEST_F(OutputPaths, NothingThatWasThereIsReplacedOrRemoved) {
+  // Names that an earlier version or another process of this number may have left.
+  for (const std::string& name : {std::string(".out.tmp"), ".out." + std::to_string(::getpid()) + ".tmp"}) {
+    fs::create_directory(place / name);
+    put(name + "/notes.txt", "precious");
+  }
+  const auto before = all();
+  save_folder(at("out"), two_files);
+  auto after = before;
+  after.insert(whole.begin(), whole.end());
+  EXPECT_EQ(all(), after);
+  // A second run that began when there was nothing finds what the first one made.
+  EXPECT_EQ(refusal([&] {
+              save_folder(at("out"), std::vector<OutputFile>{{"c.txt", bytes_of("three")}});
+            }),
+            "out: is there already; give another folder or remove it");
+  EXPECT_EQ(all(), after);
+  put("file", "text");
+  fs::create_directory(place / "empty");
+  for (const char* taken : {"file", "empty"}) {
+    EXPECT_EQ(refusal([&] { save_folder(at(taken), two_files); }),
+              std::string(taken) + ": is there already; give another folder or remove it");
+  }
+  after["file"] = "text", after["empty"] = "";
+  EXPECT_EQ(all(), after);
+}
+
+TEST_F(OutputPaths, AfterAnErrorNothingStays) {
+  const std::vector<OutputFile> files = {{"a.txt", {}}, {"deep/b.txt", {}}, {"deep/" + std::string(300, 'n'), {}}};
+  EXPECT_NE(refusal([&] { save_folder(at("out"), files); }).find("File name too long"), std::string::npos);
+  EXPECT_TRUE(all().empty());
+}
+
+TEST_F(OutputPaths, ASignalEndsTheWritingAndNothingStays) {
+  sigset_t set, before;
+  ::sigemptyset(&set);
+  ::sigaddset(&set, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &set, &before);
+  ::raise(SIGTERM);  // arrives while the folder is written, as far as save_folder can tell
+  EXPECT_EQ(refusal([&] { save_folder(at("out"), two_files); }), "out: is not made: a signal ended the run");
+  int signal = 0;
+  EXPECT_EQ(::sigwait(&set, &signal), 0);
+  EXPECT_EQ(signal, SIGTERM);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  EXPECT_TRUE(all().empty());
+}
+
+TEST_F(OutputPaths, FoldersAreRefusedBeforeTheWork) {
+  const auto folder = [&](const std::string& name) { return refusal([&] { check_output_folder(at(name)); }); };
+  put("file", "text");
+  fs::create_directory(place / "there");
+  fs::create_symlink("nowhere", place / "link");
+  EXPECT_EQ(folder("new"), "");
+  EXPECT_EQ(folder("new/"), "");
+  for (const char* taken : {"file", "there", "there/", "link"}) {
+    EXPECT_NE(folder(taken).find(": is there already; give another folder or remove it"), std::string::npos) << taken;
+  }
+  EXPECT_EQ(folder("none/out"), "none/out: no directory none");
+  EXPECT_EQ(folder("file/out"), "file/out: file is not a directory");
+  EXPECT_EQ(folder(std::string(256, 'n')), std::string(256, 'n') + ": cannot be made: File name too long");
+}
+
+TEST_F(OutputPaths, FilesAreRefusedBeforeTheWork) {
+  const auto file = [&](const std::string& name) { return refusal([&] { check_output_file(at(name)); }); };
+  put("file", "text");
+  fs::create_directory(place / "there");
+  EXPECT_EQ(file("new.png"), "");
+  EXPECT_EQ(file("file"), "");  // is replaced
+  EXPECT_EQ(file("there"), "there: cannot be written: it is a directory");
+  EXPECT_EQ(file("none/new.png"), "none/new.png: no directory none");
+  EXPECT_EQ(file("file/new.png"), "file/new.png: file is not a directory");
+  EXPECT_EQ(file(std::string(256, 'n')), std::string(256, 'n') + ": cannot be written: File name too long");
+}
+
+}  // namespace
+}  // namespace zoneplate::cli
