@@ -65,7 +65,7 @@ constexpr Golden goldens[] = {
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
     {"sphere:triangles=5000", "msaa:n=16", 0x7ae16a666539cf8du},
     {"city-trilinear", "msaa:n=4", 0x672f128d3fec74ccu},
-    {"fillblend", "msaa:n=4", 0x179a256182893bccu},
+    {"fillblend", "msaa:n=4", 0xfc988d4185a1b3a1u},
 };
 
 TEST(Pictures, TenPicturesHaveTheirBits) {

@@ -27,6 +27,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       resolve_(resolve_kernels(isa)),
       point_lists_(point_list_kernels(isa)),
       target_(target),
+      least_(least_transmittance(shader.brightest())),
       places_(target.samples, target.is_per_sample ? Centroid::First : target.centroid),
       shader_(projected, shader, isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),

@@ -145,6 +145,7 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const PointListKernels& point_lists_;
   const Target& target_;
+  const float least_;  ///< transmittance down to which further layers count
   const ShadedPlaces places_;
   PointBatcher shader_;
   AlphaDigits digits_;

@@ -96,7 +96,7 @@ void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer>
     if (count == 0) break;
     shader_.shade_in_order(std::span(rows).first(count),
                            [&](const Shaded& color, std::size_t first, std::size_t shaded) {
-                             resolve_.put_rows_under(color, static_cast<int>(shaded), under + first);
+                             resolve_.put_rows_under(color, static_cast<int>(shaded), least_, under + first);
                            });
   }
   for (std::uint32_t row = 0; row < 64; ++row) {
@@ -181,7 +181,7 @@ void TileRenderer::blend_rows() {
     for (int i = 0; i < static_cast<int>(shaded); ++i) {
       const BlendedRow& blended = blended_rows_[row];
       if (layer == first_layer) layers.clear();
-      resolve_.put_under(color, i * Batch::group, layers);
+      resolve_.put_under(color, i * Batch::group, least_, layers);
       if (++layer < blended.end) continue;
       Linear8 all = row_owner_[blended.row] == no_triangle ? nothing : base_[blended.row];
       resolve_.over(layers, all);

@@ -157,10 +157,10 @@ void TileRenderer::add_layers(std::size_t first, std::size_t last, Linear* behin
     std::sort(overs_.begin(), overs_.end(),
               [](const Over& p, const Over& q) { return p.depth != q.depth ? p.depth > q.depth : p.id < q.id; });
     Layers layers;
-    for (std::size_t i = 0; i < overs_.size() && layers.transmittance > 0; ++i) {
+    for (std::size_t i = 0; i < overs_.size() && layers.transmittance > least_; ++i) {
       const bool again = has_pieces && std::any_of(overs_.begin(), overs_.begin() + static_cast<std::ptrdiff_t>(i),
                                                    [&](const Over& o) { return o.id == overs_[i].id; });
-      if (!again) layers.put_under(overs_[i].color);
+      if (!again) layers.put_under(overs_[i].color, least_);
     }
     if (!overs_.empty()) behind[s] = layers.over(behind[s]);
   }

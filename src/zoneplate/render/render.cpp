@@ -28,6 +28,7 @@ class ScenePoints : public PointShader {
     surfaces_.alpha(batch, out);
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
+  float brightest() const override { return surfaces_.brightest(); }
   bool wants_slopes(int material) const override { return surfaces_.wants_slopes(material); }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
     const std::span<const float> record = surfaces_.vertex_record(instance, material);
