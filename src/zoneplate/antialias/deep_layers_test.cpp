@@ -83,5 +83,16 @@ TEST(DeepLayers, SoIsABlendedOne) {
       }
 }
 
+// The same memory of layers for every method: no more of them are held at once than there is room for.
+TEST(DeepLayers, AreTheSameInOnePartAndInMany) {
+  const Scene scene = veiled(emitting(100, AlphaMode::Blend, 0.75f), 30, true);
+  for (const char* method : sampled_methods) {
+    RenderOptions narrow = options;
+    narrow.room.layer_samples = 3;
+    narrow.room.screen_vertices = 0;
+    EXPECT_EQ(shot(scene, method, narrow), shot(scene, method, options)) << method;
+  }
+}
+
 }  // namespace
 }  // namespace zoneplate::antialias

@@ -7,6 +7,7 @@
 
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/room.h"
 #include "zoneplate/raster/setup.h"
 #include "zoneplate/raster/stage_times.h"
 #include "zoneplate/raster/target.h"
@@ -42,6 +43,7 @@ struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
   Isa isa = best_isa();
+  RasterRoom room;
 };
 
 /// What frames that are drawn one after the other may share.

@@ -19,19 +19,20 @@ T* aligned(std::vector<T>& storage) {
 
 }  // namespace
 
-TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader, Isa isa,
-                           const Target& target)
+TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader,
+                           const RasterRules& rules, const Target& target)
     : projected_(projected),
       bins_(bins),
-      coverage_(coverage_kernels(isa)),
-      resolve_(resolve_kernels(isa)),
-      point_lists_(point_list_kernels(isa)),
+      coverage_(coverage_kernels(rules.isa)),
+      resolve_(resolve_kernels(rules.isa)),
+      point_lists_(point_list_kernels(rules.isa)),
       target_(target),
+      room_(rules.room),
       least_(least_transmittance(shader.brightest())),
       places_(target.samples, target.is_per_sample ? Centroid::First : target.centroid),
-      shader_(projected, shader, isa, target),
+      shader_(projected, shader, rules.isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
-      digit_batcher_(projected, digits_, isa, target),
+      digit_batcher_(projected, digits_, rules.isa, target),
       weights_(target.weights) {
   if (weights_.empty()) weights_.assign(target.samples.size(), 1.0f);
   assert(weights_.size() == target.samples.size());
@@ -48,6 +49,18 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
                  .block_far = block_far_,
                  .block_owner = block_owner_};
   color_.resize(tile_pixels / 8);
+}
+
+/// The samples as they are now, to test triangles against while others are drawn.
+TileVisibility TileRenderer::copy_visibility() {
+  const std::size_t values = static_cast<std::size_t>(pass_samples_) * tile_pixels;
+  copied_depth_.resize(depth_storage_.size());
+  copied_id_.resize(id_storage_.size());
+  TileVisibility copy = visibility_;
+  copy.depth = aligned(copied_depth_), copy.id = aligned(copied_id_);
+  std::copy_n(visibility_.depth, values, copy.depth);
+  std::copy_n(visibility_.id, values, copy.id);
+  return copy;
 }
 
 void TileRenderer::render(std::size_t tile) {
@@ -353,7 +366,8 @@ void TileRenderer::accumulate() {
   if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.stores_samples()) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
-    for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));
+    for (int y = 0; y < tile_size; y += strip)
+      blend({0, std::max(y, top_), tile_size, std::min(y + strip, bottom_)}, nullptr, &TileRenderer::blend_samples);
     return;
   }
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) add_surfaces(pixel);

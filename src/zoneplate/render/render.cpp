@@ -176,7 +176,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
                           .is_painter = options.visibility == Visibility::Painter,
-                          .isa = options.isa};
+                          .isa = options.isa,
+                          .room = options.room};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   const RasterCounts c = request.draw ? draw_by(request, draws.draws, points, rules, target, options,
                                                 frame.error.empty() ? nullptr : &frame.error)
