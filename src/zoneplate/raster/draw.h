@@ -10,6 +10,7 @@
 #include "zoneplate/raster/batch.h"
 #include "zoneplate/raster/interpolate.h"
 #include "zoneplate/raster/project.h"
+#include "zoneplate/raster/setup.h"
 
 namespace zoneplate {
 
@@ -90,6 +91,14 @@ struct TriangleFacing {
   bool is_clockwise = false;   ///< as seen on the screen
   bool needs_clipping = false;
 };
+
+/// The reversed depth of a triangle at a point on the screen: what coverage would compute for a sample there, of the
+/// triangle or of the piece that holds the point. Outside, it is held to the depths of the triangle's vertices; where
+/// clipping left no piece at the point, it is that of the triangle's plane.
+///
+/// Units     x, y in 1/256 pixel from the picture's top-left corner, not negative.
+float depth_at_point(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, std::int32_t x,
+                     std::int32_t y, const SetupRules& rules);
 
 TriangleFacing face_of(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, Viewport viewport);
 

@@ -19,8 +19,7 @@ RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, c
   Stopwatch stage;
   RasterMemory own;
   RasterMemory& kept = memory ? *memory : own;
-  const SetupRules setup{
-      .viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter};
+  const SetupRules setup = rules.setup(target.viewport);
   kept.projected = number_draws(draws, target.viewport, rules.room.screen_vertices, std::move(kept.projected));
   kept.bins = make_bins(target, std::move(kept.bins));
   project_batches(kept.projected, rules.isa, [&](std::size_t first, std::size_t last) {

@@ -44,6 +44,10 @@ struct RasterRules {
   bool is_painter = false;
   Isa isa = best_isa();
   RasterRoom room;
+
+  SetupRules setup(Viewport viewport) const {
+    return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};
+  }
 };
 
 /// What frames that are drawn one after the other may share.

@@ -27,6 +27,7 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
       resolve_(resolve_kernels(rules.isa)),
       point_lists_(point_list_kernels(rules.isa)),
       target_(target),
+      setup_(rules.setup(target.viewport)),
       room_(rules.room),
       least_(least_transmittance(shader.brightest())),
       places_(target.samples, target.is_per_sample ? Centroid::First : target.centroid),
@@ -74,7 +75,7 @@ void TileRenderer::render(std::size_t tile) {
   if (is_plain()) return render_plain();
   sum_.assign(tile_pixels / 8, Linear8{});
   covered_.assign(tile_pixels, 0.0f);
-  nearest_.assign(tile_pixels, Nearest{0, no_triangle});
+  nearest_.assign(tile_pixels, Nearest{});
   const int total = static_cast<int>(target_.samples.size());
   const int step = target_.is_per_sample ? samples_per_pass : total;
   for (int first = 0; first < total; first += step) render_pass(first, std::min(step, total - first));
@@ -119,10 +120,8 @@ void TileRenderer::sort_nearest_first(std::vector<const Triangle*>& list) {
 }
 
 bool TileRenderer::wants_color_alone() const {
-  const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
-                          target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.where && !target_.sample_triangle && !has_passes;
+  return !target_.wants_data() && !target_.coverage && !target_.where && !target_.sample_triangle && !has_passes;
 }
 
 bool TileRenderer::is_plain() const {
@@ -307,7 +306,7 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
   times_.visibility += watch_.lap_ms();
   visibility_.open_all();
   find_points();
-  shader_.shade(points_, colors_, &data_);
+  shader_.shade(points_, colors_, nullptr);
   times_.shading += watch_.lap_ms();
   accumulate();
   times_.blending += watch_.lap_ms();

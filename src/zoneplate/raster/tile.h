@@ -74,8 +74,12 @@ class TileRenderer {
   };
   /// A pixel's nearest surface so far, over all passes: what the data planes show.
   struct Nearest {
-    float depth;
-    std::int32_t id;
+    float depth = 0;  ///< at the nearest of its samples
+    std::int32_t id = no_triangle;
+    SamplePosition sample;                ///< that one
+    SamplePosition place;                 ///< where the surface was shaded for it
+    std::int32_t first_id = no_triangle;  ///< the owner of the pixel's first sample that has one
+    int first_owns = 0;                   ///< samples
   };
 
   void gather(std::size_t tile);
@@ -146,6 +150,9 @@ class TileRenderer {
   void accumulate();
   void add_surfaces(std::uint32_t pixel);
   void note_nearest();
+  void write_data();
+  void write_data(std::size_t p);
+  float depth_of(const Point& point, std::size_t draw, const Nearest& nearest) const;
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void store_color(std::uint32_t pixel, std::uint64_t samples, Linear color);
   void store_row(std::uint32_t pixel, int sample, const Shaded& color, int first);
@@ -177,6 +184,7 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const PointListKernels& point_lists_;
   const Target& target_;
+  const SetupRules setup_;
   const RasterRoom room_;
   const float least_;  ///< transmittance down to which further layers count
   const ShadedPlaces places_;

@@ -82,6 +82,7 @@ void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Fram
   };
   if (planes.any_point_plane()) planes.object_id = planes.primitive_id = true;
   make(!target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(planes.any_point_plane(), frame.place, target.place, SamplePosition{});
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
   make(planes.albedo, frame.albedo, target.albedo, float3{});
@@ -185,7 +186,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
   if (request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
-    add_surface_points({&scene, camera}, request, options, frame);
+    add_surface_points({&scene, camera}, request.planes, options, frame);
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
