@@ -63,15 +63,6 @@ class TileHistory {
   }
 
  private:
-  /// A triangle, or one sample of a small one.
-  struct Drawn {
-    std::int32_t id;
-    const Triangle* triangle;  ///< null: a sample
-    bool is_masked;
-    std::uint32_t at;  ///< as in SampleFragments
-    float depth;
-  };
-
   void gather(std::size_t tile) {
     drawn_.clear();
     for (const Bins::Worker& worker : bins_.workers) {
@@ -83,15 +74,7 @@ class TileHistory {
           drawn_.push_back(
               {part->id(part->what[i]), nullptr, false, SampleFragments::at(part->what[i]), part->depth[i]});
     }
-    // The samples of a small triangle by pixels. Pieces of a clipped one share none but by the snap of their corners.
-    std::sort(drawn_.begin(), drawn_.end(), [](const Drawn& p, const Drawn& q) {
-      if (p.id != q.id) return p.id < q.id;
-      if (!p.triangle || !q.triangle) return std::pair(p.at % tile_pixels, p.at) < std::pair(q.at % tile_pixels, q.at);
-      const auto shape = [](const Triangle& t) {
-        return std::tie(t.min_y, t.min_x, t.max_y, t.max_x, t.a[0], t.b[0], t.a[1], t.b[1], t.c[0], t.c[1], t.c[2]);
-      };
-      return shape(*p.triangle) < shape(*q.triangle);
-    });
+    std::sort(drawn_.begin(), drawn_.end(), comes_before);
   }
 
   void draw() {
@@ -193,6 +176,20 @@ void resolve_row(const Sampled& sampled, std::span<const std::uint16_t> known, i
 }
 
 }  // namespace
+
+bool comes_before(const Drawn& p, const Drawn& q) {
+  if (p.id != q.id) return p.id < q.id;
+  if (!p.triangle || !q.triangle) {
+    const auto key = [](const Drawn& d) {
+      return d.triangle ? std::tuple(false, 0u, 0u, 0.0f) : std::tuple(true, d.at % tile_pixels, d.at, d.depth);
+    };
+    return key(p) < key(q);
+  }
+  const auto shape = [](const Triangle& t) {
+    return std::tie(t.min_y, t.min_x, t.max_y, t.max_x, t.a[0], t.b[0], t.a[1], t.b[1], t.c[0], t.c[1], t.c[2]);
+  };
+  return shape(*p.triangle) < shape(*q.triangle);
+}
 
 void CoverageSlots::draw(std::int32_t surface, std::uint32_t samples, std::size_t slots) {
   std::size_t kept = 0;

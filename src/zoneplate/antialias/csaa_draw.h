@@ -3,10 +3,24 @@
 #include <array>
 #include <cstdint>
 
+#include "zoneplate/raster/setup.h"
 #include "zoneplate/render/drawing.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate::antialias {
+
+/// What is drawn into a tile at once: a triangle, a piece of a clipped one, or one sample of a small one.
+struct Drawn {
+  std::int32_t id;
+  const Triangle* triangle;  ///< null: a sample
+  bool is_masked;
+  std::uint32_t at;  ///< as in SampleFragments
+  float depth;
+};
+
+/// The order of drawing, a total one whichever thread found what: by id; of one id pieces before samples, pieces by
+/// their shape and samples by pixel, sample and depth. Requires: depths are numbers.
+bool comes_before(const Drawn& p, const Drawn& q);
 
 /// What a pixel of few slots remembers of the surfaces that were drawn into it: which samples are whose, as long as
 /// there is a slot for it.

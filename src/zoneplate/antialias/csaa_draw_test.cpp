@@ -55,6 +55,20 @@ TEST(CoverageSlots, OneSlotIsTheLargest) {
   EXPECT_EQ(pixel.known(), 0b0111u);
 }
 
+// Whatever order the threads left: pieces of one triangle that are records, and others that are samples, at place 0
+// too.
+TEST(Csaa, TheOrderOfDrawingIsTotal) {
+  Triangle shapes[2] = {};
+  shapes[0].min_x = 5;
+  const std::vector<Drawn> sorted = {{1, nullptr, false, 3, 0.5f},  {2, &shapes[1], false, 0, 0},
+                                     {2, &shapes[0], false, 0, 0},  {2, nullptr, false, 0, 0.25f},
+                                     {2, nullptr, false, 0, 0.5f},  {2, nullptr, false, 4096, 0.25f},
+                                     {2, nullptr, false, 1, 0.25f}, {3, &shapes[0], true, 0, 0}};
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    for (std::size_t j = 0; j < sorted.size(); ++j)
+      EXPECT_EQ(comes_before(sorted[i], sorted[j]), i < j) << i << " " << j;
+}
+
 TEST(Csaa, SlotsAreFilledInTheOrderOfDrawing) {
   // Small triangles too, which the renderer keeps as samples.
   for (const char* name : {"wires", "sphere:triangles=20000"}) {

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "zoneplate/base/memory_limit.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/clip.h"
 #include "zoneplate/raster/coverage.h"
@@ -200,8 +201,7 @@ void Bins::Worker::clear(std::size_t tile_count) {
   fragments.assign(tile_count, nullptr);
 }
 
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
-                   Bins reused) {
+Bins make_bins(const Target& target, Bins reused) {
   Bins bins = std::move(reused);
   bins.set_up = 0;
   bins.first_column = target.x / tile_size;
@@ -210,23 +210,36 @@ Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const 
   bins.rows = (target.y + target.height - 1) / tile_size - bins.first_row + 1;
   bins.workers.resize(static_cast<std::size_t>(thread_limit()));
   for (Bins::Worker& w : bins.workers) w.clear(bins.tiles());
+  return bins;
+}
 
+void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
+                 const SetupRules& rules, Isa isa, Bins& bins) {
   struct Part {
     std::size_t draw;
     std::int32_t begin, end;
   };
   constexpr std::int32_t part_size = 4096;
   std::vector<Part> parts;
-  for (std::size_t d = 0; d < projected.draws.size(); ++d)
-    for (std::int32_t t = projected.first_triangle[d]; t < projected.first_triangle[d + 1]; t += part_size)
-      parts.push_back({d, t, std::min(projected.first_triangle[d + 1], t + part_size)});
+  for (std::size_t d = first; d < last; ++d) {
+    const std::int32_t end = projected.first_triangle[d + 1];
+    for (std::int32_t t = projected.first_triangle[d]; t < end; t += std::min(part_size, end - t))
+      parts.push_back({d, t, t + std::min(part_size, end - t)});
+  }
   const SampleArrays samples(target.samples);
   const FrontKernels& kernels = front_kernels(isa);
   parallel_for(parts.size(), [&](std::size_t i) {
     Binner binner(projected, target, rules, bins);
-    binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels);
+    growing("triangle bins", [&] { binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels); });
   });
+  bins.set_up = 0;
   for (const Bins::Worker& w : bins.workers) bins.set_up += w.triangles.size() + w.drawn;
+}
+
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
+                   Bins reused) {
+  Bins bins = make_bins(target, std::move(reused));
+  add_to_bins(projected, 0, projected.draws.size(), target, rules, isa, bins);
   return bins;
 }
 

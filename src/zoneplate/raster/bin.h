@@ -53,7 +53,16 @@ struct Bins {
   std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-/// Culls, clips, sets up and sorts into tiles, in parallel. The memory of `reused` serves again.
+/// No triangles by the tiles of a target. The memory of `reused` serves again.
+Bins make_bins(const Target& target, Bins reused = {});
+
+/// Culls, clips, sets up and sorts into tiles the triangles of the draws [first, last), in parallel.
+///
+/// Requires  their screen vertices are there; fewer than 2^32 triangles survive.
+void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
+                 const SetupRules& rules, Isa isa, Bins& bins);
+
+/// Both, of all draws.
 Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
                    Bins reused = {});
 

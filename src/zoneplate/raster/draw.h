@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "zoneplate/raster/batch.h"
 #include "zoneplate/raster/interpolate.h"
 #include "zoneplate/raster/project.h"
+#include "zoneplate/raster/setup.h"
 
 namespace zoneplate {
 
@@ -47,19 +50,38 @@ struct Draw {
 };
 
 /// Draws with their screen vertices and triangle numbers.
+///
+/// Instances share the vertices of their mesh but not its screen vertices, of which there may be more than memory.
+/// Those of the first draws are kept, as many as there is room for; those of the others are there while their batch is
+/// at work, and found again one by one where a triangle is seen.
 struct ProjectedDraws {
   std::span<const Draw> draws;
-  std::vector<std::span<ScreenVertex>> screen;  ///< by draw
+  Viewport viewport;
+  std::vector<std::span<ScreenVertex>> screen;  ///< by draw; empty where they are not there
   std::vector<std::int32_t> first_triangle;     ///< by draw, and the total at the end
-  RawMemory memory;                             ///< of the screen vertices
+  std::size_t kept = 0;                         ///< screen vertices of the first draws
+  RawMemory memory, batch_memory;               ///< of the screen vertices
 
   /// The draw that a triangle belongs to.
   std::size_t draw_of(std::int32_t triangle) const;
+  /// A screen vertex of a draw, whether it is there or not.
+  ScreenVertex vertex(std::size_t draw, std::uint32_t v) const {
+    return screen[draw].empty() ? project(draws[draw].clip_position(v), viewport) : screen[draw][v];
+  }
 };
 
-/// Transforms all vertices, in parallel. The memory of `reused` serves again.
+/// Numbers the triangles; no screen vertices are there yet. The memory of `reused` serves again.
 ///
+/// `kept`: screen vertices that are kept; none: as many as the draws' meshes have, or 2^22 where that is more.
 /// Errors    Trouble::Failed past 2^31 - 2 triangles.
+ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std::optional<std::size_t> kept = {},
+                            ProjectedDraws reused = {});
+
+/// Transforms the vertices, in parallel, in batches of draws: `use(first, last)` is called batch after batch, when the
+/// screen vertices of the draws [first, last) are there. Draws that are kept fit into one batch.
+void project_batches(ProjectedDraws& projected, Isa isa, const std::function<void(std::size_t, std::size_t)>& use);
+
+/// Both, with all screen vertices kept.
 ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused = {});
 
 /// What shading and culling need to know of a triangle as a whole.
@@ -69,6 +91,14 @@ struct TriangleFacing {
   bool is_clockwise = false;   ///< as seen on the screen
   bool needs_clipping = false;
 };
+
+/// The reversed depth of a triangle at a point on the screen: what coverage would compute for a sample there, of the
+/// triangle or of the piece that holds the point. Outside, it is held to the depths of the triangle's vertices; where
+/// clipping left no piece at the point, it is that of the triangle's plane.
+///
+/// Units     x, y in 1/256 pixel from the picture's top-left corner, not negative.
+float depth_at_point(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, std::int32_t x,
+                     std::int32_t y, const SetupRules& rules);
 
 TriangleFacing face_of(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, Viewport viewport);
 

@@ -86,8 +86,13 @@ void PointBatcher::put_triangle(std::size_t i, std::int32_t id) {
   batch_->instance[i] = draw.instance;
   corners_.is_mirrored[i] = draw.is_mirrored ? 1 : 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    corners_.vertex[k][i] = &known_.screen[v[k]];
-    __builtin_prefetch(corners_.vertex[k][i]);
+    if (known_.screen) {
+      corners_.vertex[k][i] = &known_.screen[v[k]];
+      __builtin_prefetch(corners_.vertex[k][i]);
+    } else {
+      found_corners_[k][i] = projected_.vertex(known_.number, v[k]);
+      corners_.vertex[k][i] = &found_corners_[k][i];
+    }
     batch_->vertex[k][i] = draw.ends.empty() ? v[k] : draw.ends[local / 2 * 2 + std::min<std::size_t>(k, 1)];
   }
 }
@@ -127,11 +132,11 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
   interpolate();
 }
 
-/// True if all points of the list are of one draw of triangles; that is then known.
+/// True if all points of the list are of one draw of triangles, whose screen vertices are there; that is then known.
 bool PointBatcher::are_of_one_draw(const PointList& list) {
   if (list.count == 0) return true;
   find_draw(list.id[0]);
-  if (!known_.draw->ends.empty()) return false;
+  if (!known_.draw->ends.empty() || !known_.screen) return false;
   if (projected_.draws.size() == 1) return true;
   const auto begin = static_cast<std::uint32_t>(known_.begin), size = static_cast<std::uint32_t>(known_.end) - begin;
   std::uint32_t others = 0;

@@ -66,7 +66,7 @@ class PointBatcher {
   /// The draw that the last triangle belongs to.
   struct Known {
     const Draw* draw = nullptr;
-    const ScreenVertex* screen = nullptr;
+    const ScreenVertex* screen = nullptr;  ///< null where they are not there
     std::size_t number = 0;
     std::int32_t begin = 0, end = 0;  ///< its triangles
   };
@@ -118,6 +118,7 @@ class PointBatcher {
   Batch batches_[2];
   Batch *batch_ = &batches_[0], *next_ = &batches_[1];  ///< of a list the next one's vertices are known
   BatchCorners corners_{};
+  ScreenVertex found_corners_[3][Batch::room];  ///< of draws whose screen vertices are not there
   ClippedGroup clipped_{};
   Shaded shaded_batch_;
   std::vector<Point> mixed_;     ///< a list of several draws

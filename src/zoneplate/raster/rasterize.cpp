@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/memory_limit.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/tile.h"
@@ -18,15 +19,16 @@ RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, c
   Stopwatch stage;
   RasterMemory own;
   RasterMemory& kept = memory ? *memory : own;
-  kept.projected = project_draws(draws, target.viewport, rules.isa, std::move(kept.projected));
-  counts.stages.vertices = stage.lap_ms();
-  kept.bins =
-      bin_triangles(kept.projected, target,
-                    {.viewport = target.viewport, .is_top_left = rules.is_top_left, .is_flat_depth = rules.is_painter},
-                    rules.isa, std::move(kept.bins));
+  const SetupRules setup = rules.setup(target.viewport);
+  kept.projected = number_draws(draws, target.viewport, rules.room.screen_vertices, std::move(kept.projected));
+  kept.bins = make_bins(target, std::move(kept.bins));
+  project_batches(kept.projected, rules.isa, [&](std::size_t first, std::size_t last) {
+    counts.stages.vertices += stage.lap_ms();
+    add_to_bins(kept.projected, first, last, target, setup, rules.isa, kept.bins);
+    counts.stages.triangles += stage.lap_ms();
+  });
   const ProjectedDraws& projected = kept.projected;
   const Bins& bins = kept.bins;
-  counts.stages.triangles = stage.ms();
   counts.geometry_ms = geometry.ms();
   for (const Draw& draw : draws) counts.vertices += draw.vertices();
   counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
@@ -37,8 +39,10 @@ RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, c
   std::vector<std::unique_ptr<TileRenderer>> renderers(static_cast<std::size_t>(thread_limit()));
   parallel_for(bins.tiles(), [&](std::size_t tile) {
     std::unique_ptr<TileRenderer>& mine = renderers[static_cast<std::size_t>(thread_index())];
-    if (!mine) mine = std::make_unique<TileRenderer>(projected, bins, shader, rules.isa, target);
-    mine->render(tile);
+    growing("tile buffers", [&] {
+      if (!mine) mine = std::make_unique<TileRenderer>(projected, bins, shader, rules, target);
+      mine->render(tile);
+    });
   });
   for (const auto& renderer : renderers)
     if (renderer) counts.shaded += renderer->shaded(), counts.stages += renderer->times();

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "zoneplate/raster/bin.h"
 #include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/room.h"
 #include "zoneplate/raster/setup.h"
 #include "zoneplate/raster/stage_times.h"
 #include "zoneplate/raster/target.h"
@@ -22,6 +24,8 @@ class PointShader {
   virtual void shade(const Batch& batch, Wanted wanted, Shaded& out) const = 0;
   /// Alpha of masked surfaces' points, and the cutoff at and above which such a point is there.
   virtual float alpha(const Batch& batch, float* out) const = 0;
+  /// What no channel of any surface's colour, premultiplied, is above; it bounds how many layers are shaded.
+  virtual float brightest() const { return std::numeric_limits<float>::infinity(); }
   /// Whether a material's batches need dbdx and dbdy.
   virtual bool wants_slopes([[maybe_unused]] int material) const { return true; }
   /// Where shading reads of an instance's vertices: vertex v at first + v × stride, so that it may be asked for before
@@ -39,6 +43,11 @@ struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
   Isa isa = best_isa();
+  RasterRoom room;
+
+  SetupRules setup(Viewport viewport) const {
+    return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};
+  }
 };
 
 /// What frames that are drawn one after the other may share.

@@ -4,11 +4,10 @@
 
 namespace zoneplate {
 
-void Layers::put_under(const Linear& layer) {
-  if (!(transmittance > 0)) return;
+void Layers::put_under(const Linear& layer, float least) {
+  if (!(transmittance > least)) return;
   r = r + layer.r * transmittance, g = g + layer.g * transmittance, b = b + layer.b * transmittance;
   transmittance = transmittance * (1 - layer.a);
-  if (!(transmittance >= least)) transmittance = 0;
 }
 
 Linear Layers::over(const Linear& behind) const {
@@ -44,18 +43,18 @@ Layers get(const Layers8& layers, std::size_t i) {
   return {layers.r[i], layers.g[i], layers.b[i], layers.transmittance[i]};
 }
 
-void put_under(const Shaded& color, int first, Layers8& layers) {
+void put_under(const Shaded& color, int first, float least, Layers8& layers) {
   layers.is_open = false;
   for (std::size_t i = 0; i < size; ++i) {
     Layers l = get(layers, i);
-    l.put_under(at(color, first, i));
+    l.put_under(at(color, first, i), least);
     layers.r[i] = l.r, layers.g[i] = l.g, layers.b[i] = l.b, layers.transmittance[i] = l.transmittance;
-    layers.is_open = layers.is_open || l.transmittance > 0;
+    layers.is_open = layers.is_open || l.transmittance > least;
   }
 }
 
-void put_rows_under(const Shaded& color, int rows, Layers8* const* layers) {
-  for (int row = 0; row < rows; ++row) put_under(color, row * Batch::group, *layers[row]);
+void put_rows_under(const Shaded& color, int rows, float least, Layers8* const* layers) {
+  for (int row = 0; row < rows; ++row) put_under(color, row * Batch::group, least, *layers[row]);
 }
 
 void over(const Layers8& layers, Linear8& behind) {

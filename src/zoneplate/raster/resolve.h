@@ -9,26 +9,29 @@ namespace zoneplate {
 /// Layers of a pixel put under one another, the nearest first: what they show, and how much of what is behind them is
 /// seen through them.
 ///
-/// Exact     in float, as written. What less than `least` of is seen, a part that a float cannot hold beside a whole,
-///           is not there: further layers need not be shaded.
+/// Exact     in float, as written. Layers behind a transmittance of `least_transmittance` or less are left out, and
+///           need not be shaded.
 /// Source    Porter and Duff, Compositing Digital Images, 1984: over, from the front.
 struct Layers {
-  static constexpr float least = 0x1p-24f;
-
   float r = 0, g = 0, b = 0;
   float transmittance = 1;
 
-  /// colour += layer × transmittance; transmittance ×= 1 - alpha.
-  void put_under(const Linear& layer);
+  /// colour += layer × transmittance; transmittance ×= 1 - alpha. Nothing, if the transmittance is not above `least`.
+  void put_under(const Linear& layer, float least);
   /// The layers over what is behind all of them. The whole is opaque if that is.
   Linear over(const Linear& behind) const;
 };
+
+/// The transmittance down to which layers count in a scene whose surfaces' channels are at most `brightest`: all that is
+/// behind it, the last surface too, adds at most 2^-25 to a channel, half of the smallest half float, whether layers are
+/// left out or not. 0, so that all layers count, for +infinity.
+inline float least_transmittance(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
 
 /// The same for eight pixels of a row.
 struct alignas(64) Layers8 {
   static constexpr int size = Linear8::size;
   float r[size], g[size], b[size], transmittance[size];
-  bool is_open;  ///< something is seen through at least one of the pixels
+  bool is_open;  ///< further layers count at one of the pixels at least
 
   void clear();
 };
@@ -40,9 +43,9 @@ struct ResolveKernels {
   /// out = (0 + color × weight) / weight: one surface owns all samples. Of rows whose points follow each other.
   void (*resolve)(const Shaded& color, int first, int rows, float weight, Linear8* const* out);
   /// Layers::put_under for eight points.
-  void (*put_under)(const Shaded& color, int first, Layers8& layers);
+  void (*put_under)(const Shaded& color, int first, float least, Layers8& layers);
   /// The same for rows whose points follow each other from the first on.
-  void (*put_rows_under)(const Shaded& color, int rows, Layers8* const* layers);
+  void (*put_rows_under)(const Shaded& color, int rows, float least, Layers8* const* layers);
   /// Layers::over.
   void (*over)(const Layers8& layers, Linear8& behind);
   /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum.

@@ -62,29 +62,30 @@ HWY_INLINE V laid_over(V front, hn::Mask<D> is_open, V behind, V transmittance) 
   return hn::IfThenElse(is_open, hn::Add(front, hn::Mul(behind, transmittance)), front);
 }
 
-HWY_INLINE void put_row_under(const Shaded& color, int first, Layers8& layers) {
-  const V least = hn::Set(d, Layers::least), one = hn::Set(d, 1.0f);
-  V most = hn::Zero(d);
+HWY_INLINE void put_row_under(const Shaded& color, int first, float least_transmittance, Layers8& layers) {
+  const V least = hn::Set(d, least_transmittance), one = hn::Set(d, 1.0f);
+  layers.is_open = false;
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
     const std::size_t p = static_cast<std::size_t>(first) + i;
     const V t = hn::Load(d, layers.transmittance + i);
-    const auto is_open = hn::Gt(t, hn::Zero(d));
+    const auto is_open = hn::Gt(t, least);
     const auto add = [&](const float* from, float* to) HWY_ATTR {
       hn::Store(laid_over(hn::Load(d, to + i), is_open, hn::Load(d, from + p), t), d, to + i);
     };
     add(color.r, layers.r), add(color.g, layers.g), add(color.b, layers.b);
     const V rest = hn::Mul(t, hn::Sub(one, hn::Load(d, color.a + p)));
-    const V seen = hn::IfThenElseZero(hn::And(is_open, hn::Ge(rest, least)), rest);
+    const V seen = hn::IfThenElse(is_open, rest, t);
     hn::Store(seen, d, layers.transmittance + i);
-    most = hn::Max(most, seen);
+    layers.is_open = layers.is_open || !hn::AllFalse(d, hn::Gt(seen, least));
   }
-  layers.is_open = !hn::AllTrue(d, hn::Eq(most, hn::Zero(d)));
 }
 
-void put_under(const Shaded& color, int first, Layers8& layers) { put_row_under(color, first, layers); }
+void put_under(const Shaded& color, int first, float least, Layers8& layers) {
+  put_row_under(color, first, least, layers);
+}
 
-void put_rows_under(const Shaded& color, int rows, Layers8* const* layers) {
-  for (int row = 0; row < rows; ++row) put_row_under(color, row * Batch::group, *layers[row]);
+void put_rows_under(const Shaded& color, int rows, float least, Layers8* const* layers) {
+  for (int row = 0; row < rows; ++row) put_row_under(color, row * Batch::group, least, *layers[row]);
 }
 
 void over(const Layers8& layers, Linear8& behind) {

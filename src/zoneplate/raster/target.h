@@ -38,6 +38,11 @@ struct Target {
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
   Rgba8Image* shown = nullptr;   ///< the same as `presenter` shows it; both or neither
   const Presenter* presenter = nullptr;
+
+  // Of each pixel one point of the surface that owns its nearest sample: the pixel's centre if it owns all samples,
+  // else where it is shaded for that one: at the place that `centroid` gives, or at the sample if every sample is
+  // shaded.
+  Plane<SamplePosition>* place = nullptr;  ///< the point's
   Plane<float>* reversed_depth = nullptr;
   Plane<float3>* normal = nullptr;
   Plane<float3>* albedo = nullptr;
@@ -45,12 +50,17 @@ struct Target {
   Plane<std::uint32_t>* instance = nullptr;
   Plane<std::uint32_t>* material = nullptr;
   Plane<std::uint32_t>* primitive = nullptr;
+
   Plane<float>* coverage = nullptr;
 
   std::vector<LinearImage>* sample_color = nullptr;   ///< by sample
   std::vector<Plane<float>>* sample_depth = nullptr;  ///< only beside `sample_triangle`
   std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
 
+  /// True if there are planes of data by pixel.
+  bool wants_data() const {
+    return place || reversed_depth || normal || albedo || uv || instance || material || primitive;
+  }
   bool stores_samples() const { return sample_color || sample_triangle; }
 
   static constexpr std::uint32_t no_id = 0xffffffffu;  ///< in an id plane, where nothing is

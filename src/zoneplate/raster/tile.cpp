@@ -19,18 +19,21 @@ T* aligned(std::vector<T>& storage) {
 
 }  // namespace
 
-TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader, Isa isa,
-                           const Target& target)
+TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader,
+                           const RasterRules& rules, const Target& target)
     : projected_(projected),
       bins_(bins),
-      coverage_(coverage_kernels(isa)),
-      resolve_(resolve_kernels(isa)),
-      point_lists_(point_list_kernels(isa)),
+      coverage_(coverage_kernels(rules.isa)),
+      resolve_(resolve_kernels(rules.isa)),
+      point_lists_(point_list_kernels(rules.isa)),
       target_(target),
+      setup_(rules.setup(target.viewport)),
+      room_(rules.room),
+      least_(least_transmittance(shader.brightest())),
       places_(target.samples, target.is_per_sample ? Centroid::First : target.centroid),
-      shader_(projected, shader, isa, target),
+      shader_(projected, shader, rules.isa, target),
       digits_(shader, static_cast<int>(target.samples.size()), target.alpha == AlphaTest::Sharp),
-      digit_batcher_(projected, digits_, isa, target),
+      digit_batcher_(projected, digits_, rules.isa, target),
       weights_(target.weights) {
   if (weights_.empty()) weights_.assign(target.samples.size(), 1.0f);
   assert(weights_.size() == target.samples.size());
@@ -49,6 +52,18 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
   color_.resize(tile_pixels / 8);
 }
 
+/// The samples as they are now, to test triangles against while others are drawn.
+TileVisibility TileRenderer::copy_visibility() {
+  const std::size_t values = static_cast<std::size_t>(pass_samples_) * tile_pixels;
+  copied_depth_.resize(depth_storage_.size());
+  copied_id_.resize(id_storage_.size());
+  TileVisibility copy = visibility_;
+  copy.depth = aligned(copied_depth_), copy.id = aligned(copied_id_);
+  std::copy_n(visibility_.depth, values, copy.depth);
+  std::copy_n(visibility_.id, values, copy.id);
+  return copy;
+}
+
 void TileRenderer::render(std::size_t tile) {
   watch_.lap_ms();
   if (wants_color_alone() && bins_.is_empty(tile)) {
@@ -60,7 +75,7 @@ void TileRenderer::render(std::size_t tile) {
   if (is_plain()) return render_plain();
   sum_.assign(tile_pixels / 8, Linear8{});
   covered_.assign(tile_pixels, 0.0f);
-  nearest_.assign(tile_pixels, Nearest{0, no_triangle});
+  nearest_.assign(tile_pixels, Nearest{});
   const int total = static_cast<int>(target_.samples.size());
   const int step = target_.is_per_sample ? samples_per_pass : total;
   for (int first = 0; first < total; first += step) render_pass(first, std::min(step, total - first));
@@ -105,10 +120,8 @@ void TileRenderer::sort_nearest_first(std::vector<const Triangle*>& list) {
 }
 
 bool TileRenderer::wants_color_alone() const {
-  const bool has_planes = target_.reversed_depth || target_.normal || target_.albedo || target_.uv ||
-                          target_.instance || target_.material || target_.primitive || target_.coverage;
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !has_planes && !target_.where && !target_.sample_triangle && !has_passes;
+  return !target_.wants_data() && !target_.coverage && !target_.where && !target_.sample_triangle && !has_passes;
 }
 
 bool TileRenderer::is_plain() const {
@@ -293,7 +306,7 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
   times_.visibility += watch_.lap_ms();
   visibility_.open_all();
   find_points();
-  shader_.shade(points_, colors_, &data_);
+  shader_.shade(points_, colors_, nullptr);
   times_.shading += watch_.lap_ms();
   accumulate();
   times_.blending += watch_.lap_ms();
@@ -352,7 +365,8 @@ void TileRenderer::accumulate() {
   if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.stores_samples()) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
-    for (int y = 0; y < tile_size; y += strip) blend(std::max(y, top_), std::min(y + strip, bottom_));
+    for (int y = 0; y < tile_size; y += strip)
+      blend({0, std::max(y, top_), tile_size, std::min(y + strip, bottom_)}, nullptr, &TileRenderer::blend_samples);
     return;
   }
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) add_surfaces(pixel);

@@ -23,7 +23,7 @@ namespace zoneplate {
 /// is taken in sample order, so that the passes leave no trace.
 class TileRenderer {
  public:
-  TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader, Isa isa,
+  TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader, const RasterRules& rules,
                const Target& target);
 
   /// Renders the tile with that number in the bins and writes its pixels to the target.
@@ -45,14 +45,41 @@ class TileRenderer {
     std::int32_t id;
     Linear color;
   };
+  /// A layer of one sample, with all samples of its pixel that it wins.
+  struct Peel {
+    float depth;
+    std::int32_t id;
+    std::uint64_t samples;
+    /// Nearer, or as near and drawn earlier.
+    bool operator<(const Peel& o) const { return depth != o.depth ? depth > o.depth : id < o.id; }
+  };
+  /// Pixels of the tile, ends excluded.
+  struct TileRegion {
+    int left, top, right, bottom;
+    bool contains(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
+  };
+  /// A pixel's part of layers_; or, where it is deep, more than fit there.
+  struct PixelLayers {
+    std::uint32_t pixel;
+    std::size_t first, last;
+    bool is_deep;
+    bool empty() const { return first == last && !is_deep; }
+  };
+  using BlendPixel = void (TileRenderer::*)(const PixelLayers& layers);
+  static constexpr std::size_t deadline_stride = 1024;  ///< triangles
+
   struct BlendedRow {
     std::uint32_t row;
     std::uint32_t end;  ///< of its layers in rows_
   };
   /// A pixel's nearest surface so far, over all passes: what the data planes show.
   struct Nearest {
-    float depth;
-    std::int32_t id;
+    float depth = 0;  ///< at the nearest of its samples
+    std::int32_t id = no_triangle;
+    SamplePosition sample;                ///< that one
+    SamplePosition place;                 ///< where the surface was shaded for it
+    std::int32_t first_id = no_triangle;  ///< the owner of the pixel's first sample that has one
+    int first_owns = 0;                   ///< samples
   };
 
   void gather(std::size_t tile);
@@ -64,6 +91,8 @@ class TileRenderer {
   bool opens_most_blocks();
   void open_blocks(const SampleFragments& part);
   void draw_masked();
+  void draw_masked_layers();
+  TileVisibility copy_visibility();
   void test_alpha();
   std::uint64_t rotated_samples(std::uint32_t pixel, int count) const;
 
@@ -94,26 +123,36 @@ class TileRenderer {
   static bool sort_block(std::span<BlockLayer> layers);
   void blend_blocks(std::uint32_t strip, std::span<const BlockLayer> (&layers)[8]);
   void layer_strip(int top, int bottom);
-  void collect_row_layers(int top, int bottom);
+  bool collect_row_layers(int top, int bottom);
   bool sort_row(std::size_t first, std::size_t last);
   void blend_rows();
-  void layer_slow_rows(int top, int bottom);
+  void blend_slow_pixel(const PixelLayers& layers);
   void write_colors();
   template <class Pixel, class Make>
   void write_row(Plane<Pixel>& plane, int y, Make make);
   void write_background(std::size_t tile);
 
   void find_points();
-  void blend(int top, int bottom);
-  void blend_pixel(std::uint32_t pixel, std::size_t first, std::size_t last);
+  void blend(const TileRegion& region, const std::uint8_t* rows, BlendPixel blend_pixel);
+  void blend_collected(const TileRegion& region, BlendPixel blend_pixel);
+  void blend_samples(const PixelLayers& layers);
+  void lay_over(const PixelLayers& layers, Linear* behind);
   void add_layers(std::size_t first, std::size_t last, Linear* behind);
-  void collect_layers(Surface surface, int top, int bottom, const std::uint8_t* rows);
+  void peel_layers(std::uint32_t pixel, int sample, Linear& behind);
+  void find_next_layers(std::uint32_t pixel, int sample, const Peel& last);
+  Peel layer_of(std::span<const Triangle* const> pieces, std::uint32_t pixel, int sample);
+  std::size_t collect_layers(Surface surface, std::size_t first, const TileRegion& region, const std::uint8_t* rows,
+                             const TileVisibility& visibility);
+  bool make_triangle_in(const Triangle& triangle, const TileRegion& region);
   void find_layer_points(bool is_each_sample);
   void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
                   std::vector<Point>& points) const;
   void accumulate();
   void add_surfaces(std::uint32_t pixel);
   void note_nearest();
+  void write_data();
+  void write_data(std::size_t p);
+  float depth_of(const Point& point, std::size_t draw, const Nearest& nearest) const;
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void store_color(std::uint32_t pixel, std::uint64_t samples, Linear color);
   void store_row(std::uint32_t pixel, int sample, const Shaded& color, int first);
@@ -145,6 +184,9 @@ class TileRenderer {
   const ResolveKernels& resolve_;
   const PointListKernels& point_lists_;
   const Target& target_;
+  const SetupRules setup_;
+  const RasterRoom room_;
+  const float least_;  ///< transmittance down to which further layers count
   const ShadedPlaces places_;
   PointBatcher shader_;
   AlphaDigits digits_;
@@ -189,6 +231,9 @@ class TileRenderer {
   std::vector<std::uint64_t> alpha_samples_;  ///< by point: the samples where alpha lets it be
   std::vector<Linear> layer_colors_;
   std::vector<Over> overs_;
+  std::vector<Peel> peeled_;
+  std::vector<float> copied_depth_;  ///< of copy_visibility
+  std::vector<std::int32_t> copied_id_;
 
   std::vector<RowLayer> row_layers_, sorted_row_layers_;
   std::uint8_t is_slow_row_[tile_pixels / 8];

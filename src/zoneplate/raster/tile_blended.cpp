@@ -35,7 +35,8 @@ void TileRenderer::layer_tile() {
   for (int y = 0; y < tile_size; y += 8) layer_strip(std::max(y, top_), std::min(y + 8, bottom_));
 }
 
-/// block_layers_: block by block; other_blocks_: those where a triangle covers or wins a part.
+/// block_layers_: block by block; other_blocks_: those where a triangle covers or wins a part, or all where there are
+/// more layers than are held at once.
 void TileRenderer::collect_block_layers() {
   float nearest[TileVisibility::blocks];
   BlockLayer found[TileVisibility::blocks];
@@ -43,11 +44,16 @@ void TileRenderer::collect_block_layers() {
   coverage_.find_nearest(visibility_, nearest);
   other_blocks_ = 0;
   unsorted_layers_.clear();
+  block_layers_.clear();
   for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Blended)]) {
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
     const int n = coverage_.collect_blocks(tile_triangle_, visibility_, nearest, found, other_blocks_);
     for (int i = 0; i < n; ++i) ++begin[found[i].block + 1];
     unsorted_layers_.insert(unsorted_layers_.end(), found, found + n);
+    if (unsorted_layers_.size() > room_.layer_samples) {
+      other_blocks_ = ~std::uint64_t{0};
+      return;
+    }
   }
   for (std::size_t block = 0; block < TileVisibility::blocks; ++block) begin[block + 1] += begin[block];
   block_layers_.resize(unsorted_layers_.size());
@@ -96,7 +102,7 @@ void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer>
     if (count == 0) break;
     shader_.shade_in_order(std::span(rows).first(count),
                            [&](const Shaded& color, std::size_t first, std::size_t shaded) {
-                             resolve_.put_rows_under(color, static_cast<int>(shaded), under + first);
+                             resolve_.put_rows_under(color, static_cast<int>(shaded), least_, under + first);
                            });
   }
   for (std::uint32_t row = 0; row < 64; ++row) {
@@ -107,12 +113,20 @@ void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer>
   }
 }
 
-/// The other blocks' layers of one strip of eight lines. Where triangles cover eight pixels of a row wholly and lie in
-/// one order there, they are sorted, shaded and laid over one another as rows; the other pixels are done one by one.
+/// The other blocks' layers of a strip of eight lines at most. Where triangles cover eight pixels of a row wholly and
+/// lie in one order there, they are sorted, shaded and laid over one another as rows; the other pixels are done one by
+/// one. A strip with more layers than are held at once is halved, and of a single line all pixels are done one by one.
 void TileRenderer::layer_strip(int top, int bottom) {
   if (top >= bottom || (other_blocks_ >> (top & ~7) & 0xff) == 0) return;
   constexpr std::size_t enough = 256;  // rows of points that are shaded together
-  collect_row_layers(top, bottom);
+  if (!collect_row_layers(top, bottom)) {
+    if (bottom - top > 1) {
+      layer_strip(top, (top + bottom) / 2);
+      return layer_strip((top + bottom) / 2, bottom);
+    }
+    row_layers_.clear();
+    for (int i = 0; i < 8; ++i) is_slow_row_[top * 8 + i] = other_blocks_ >> ((top & ~7) + i) & 1;
+  }
   rows_.clear();
   blended_rows_.clear();
   bool has_slow = false;
@@ -133,12 +147,13 @@ void TileRenderer::layer_strip(int top, int bottom) {
     first = last;
   }
   blend_rows();
-  if (has_slow) layer_slow_rows(top, bottom);
+  if (has_slow) blend({0, top, tile_size, bottom}, is_slow_row_, &TileRenderer::blend_slow_pixel);
 }
 
 /// row_layers_: those of triangles that cover rows of the strip wholly, row by row; is_slow_row_: whether a row has
-/// others too, or pixels that do not count or start from different surfaces.
-void TileRenderer::collect_row_layers(int top, int bottom) {
+/// others too, or pixels that do not count or start from different surfaces. False if there are more than are held at
+/// once.
+bool TileRenderer::collect_row_layers(int top, int bottom) {
   RowLayer found[64];
   std::uint32_t begin[tile_pixels / 8 + 1] = {};
   row_layers_.clear();
@@ -151,6 +166,7 @@ void TileRenderer::collect_row_layers(int top, int bottom) {
     const int n = coverage_.collect_rows(tile_triangle_, visibility_, other_blocks_, found, is_slow_row_);
     for (int i = 0; i < n; ++i) ++begin[found[i].row + 1];
     row_layers_.insert(row_layers_.end(), found, found + n);
+    if (row_layers_.size() > room_.layer_samples) return false;
   }
   for (int row = top * 8; row < bottom * 8; ++row)
     if (begin[row + 1] > 0 && (row_owner_[row] == many_triangles || !is_whole_row(row))) is_slow_row_[row] = 1;
@@ -159,6 +175,7 @@ void TileRenderer::collect_row_layers(int top, int bottom) {
   sorted_row_layers_.resize(row_layers_.size());
   for (const RowLayer& layer : row_layers_) sorted_row_layers_[begin[layer.row]++] = layer;
   row_layers_.swap(sorted_row_layers_);
+  return true;
 }
 
 /// Nearest first; false if two of the layers may change places within the row, or are pieces of one triangle.
@@ -181,7 +198,7 @@ void TileRenderer::blend_rows() {
     for (int i = 0; i < static_cast<int>(shaded); ++i) {
       const BlendedRow& blended = blended_rows_[row];
       if (layer == first_layer) layers.clear();
-      resolve_.put_under(color, i * Batch::group, layers);
+      resolve_.put_under(color, i * Batch::group, least_, layers);
       if (++layer < blended.end) continue;
       Linear8 all = row_owner_[blended.row] == no_triangle ? nothing : base_[blended.row];
       resolve_.over(layers, all);
@@ -194,27 +211,21 @@ void TileRenderer::blend_rows() {
   blended_rows_.clear();
 }
 
-void TileRenderer::layer_slow_rows(int top, int bottom) {
-  collect_layers(Surface::Blended, top, bottom, is_slow_row_);
-  find_layer_points(target_.is_per_sample);
-  shader_.shade(layer_points_, layer_colors_, nullptr);
+/// A pixel of a slow row: its layers over the surfaces that own its samples, and the mean of these.
+void TileRenderer::blend_slow_pixel(const PixelLayers& layers) {
+  if (layers.empty()) return;
+  const std::uint32_t pixel = layers.pixel;
   Linear behind[TileTriangle::max_samples];
-  for (std::size_t first = 0; first < layers_.size();) {
-    const std::uint32_t pixel = layers_[first].pixel;
-    std::size_t last = first;
-    while (last < layers_.size() && layers_[last].pixel == pixel) ++last;
-    const std::int32_t owner = row_owner_[pixel / 8];
-    const bool has_points = owner == many_triangles || !is_whole_row(static_cast<int>(pixel / 8));
-    std::fill_n(behind, pass_samples_,
-                has_points || owner == no_triangle ? Linear{0, 0, 0, 0} : base_[pixel / 8].get(pixel % 8));
-    for (std::size_t p = first_point_[pixel]; p < points_.size() && points_[p].pixel == pixel; ++p)
-      for (std::uint64_t left = points_[p].samples; left; left &= left - 1) behind[std::countr_zero(left)] = colors_[p];
-    add_layers(first, last, behind);
-    Linear sum{0, 0, 0, 0};
-    for (int s = 0; s < pass_samples_; ++s) sum = sum + behind[s] * weights_[static_cast<std::size_t>(s)];
-    color_[pixel / 8].set(pixel % 8, mean_of(sum));
-    first = last;
-  }
+  const std::int32_t owner = row_owner_[pixel / 8];
+  const bool has_points = owner == many_triangles || !is_whole_row(static_cast<int>(pixel / 8));
+  std::fill_n(behind, pass_samples_,
+              has_points || owner == no_triangle ? Linear{0, 0, 0, 0} : base_[pixel / 8].get(pixel % 8));
+  for (std::size_t p = first_point_[pixel]; p < points_.size() && points_[p].pixel == pixel; ++p)
+    for (std::uint64_t left = points_[p].samples; left; left &= left - 1) behind[std::countr_zero(left)] = colors_[p];
+  lay_over(layers, behind);
+  Linear sum{0, 0, 0, 0};
+  for (int s = 0; s < pass_samples_; ++s) sum = sum + behind[s] * weights_[static_cast<std::size_t>(s)];
+  color_[pixel / 8].set(pixel % 8, mean_of(sum));
 }
 
 }  // namespace zoneplate

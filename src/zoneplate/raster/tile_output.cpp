@@ -1,4 +1,4 @@
-// The last steps of a tile: data planes and the resolved colour, written to the target.
+// The last steps of a tile: samples and the resolved colour, written to the target.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -6,37 +6,6 @@
 #include "zoneplate/raster/tile.h"
 
 namespace zoneplate {
-
-void TileRenderer::note_nearest() {
-  const auto put = [&](auto* plane, int x, int y, const auto& value) {
-    if (plane) (*plane)(tile_x_ + x - target_.x, tile_y_ + y - target_.y) = value;
-  };
-  for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
-    for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p) {
-      // The point's nearest sample against the nearest so far, by the order of visibility.
-      Nearest& nearest = nearest_[pixel];
-      bool is_nearer = false;
-      for (std::uint64_t left = points_[p].samples; left; left &= left - 1) {
-        const float z = visibility_.depth[static_cast<std::size_t>(std::countr_zero(left)) * tile_pixels + pixel];
-        if (z < nearest.depth || (z == nearest.depth && points_[p].id >= nearest.id)) continue;
-        nearest = {z, points_[p].id};
-        is_nearer = true;
-      }
-      if (!is_nearer) continue;
-
-      const int x = static_cast<int>(pixel % tile_size), y = static_cast<int>(pixel / tile_size);
-      const std::size_t d = projected_.draw_of(points_[p].id);
-      const Draw& draw = projected_.draws[d];
-      const auto local = static_cast<std::uint32_t>(points_[p].id - projected_.first_triangle[d]);
-      put(target_.reversed_depth, x, y, nearest.depth);
-      put(target_.instance, x, y, draw.instance);
-      put(target_.material, x, y, static_cast<std::uint32_t>(draw.material));
-      put(target_.primitive, x, y, draw.primitive_of(local));
-      if (target_.normal) put(target_.normal, x, y, data_.normal[p]);
-      if (target_.uv) put(target_.uv, x, y, data_.uv[p]);
-      if (target_.albedo) put(target_.albedo, x, y, data_.albedo[p]);
-    }
-}
 
 void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) {
   const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
@@ -120,6 +89,7 @@ void TileRenderer::write_background(std::size_t tile) {
 void TileRenderer::finish() {
   for (std::size_t i = 0; i < sum_.size(); ++i) resolve_.divide(sum_[i], weight_sum_, color_[i]);
   write_colors();
+  write_data();
   if (!target_.coverage) return;
   for (int y = top_; y < bottom_; ++y)
     for (int x = left_; x < right_; ++x)

@@ -6,6 +6,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
 
@@ -31,15 +32,18 @@ struct Planes {
 ///
 /// Shape     all planes have the picture's size, or are empty where they were not asked for.
 /// Space     colour is linear and premultiplied, without the background.
-/// Edges     a pixel's data come from the nearest opaque or masked surface among its samples, never from an average of
-///           two; `coverage` is the share of its samples that any such surface owns. Blended surfaces write colour
-///           only.
+/// Edges     a pixel's data come from one point of one surface, never from an average of two: of the opaque or masked
+///           triangle that owns the pixel's nearest sample, at the pixel's centre if it owns all samples, else at the
+///           mean of those it owns, where it is shaded (at the nearest sample, where every sample is shaded by itself).
+///           Depth, normal, albedo, uv, position, motion and flow are all of that point. `coverage` is the share of the
+///           pixel's samples that any such surface owns. Blended surfaces write colour only.
 struct Frame {
   static constexpr std::uint32_t no_id = 0xffffffffu;
 
   int x = 0, y = 0;             ///< of its first pixel in the whole picture; not 0 where it is cropped
   LinearImage color;            ///< resolved inside the tiles with the method's weights
   Rgba8Image shown;             ///< the same as shown, in place of `color`, where that was asked for
+  Plane<SamplePosition> place;  ///< in the pixel, of the point that data are of; where position, motion or flow is
   Plane<float> depth;           ///< distance along the view axis, world units; +infinity where nothing is
   Plane<float> reversed_depth;  ///< as tested: 1 near, 0 far
   Plane<float3> normal;         ///< world space, unit length, towards the viewer

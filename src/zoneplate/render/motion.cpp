@@ -54,14 +54,13 @@ std::optional<Place> on_screen(const float4x4& clip_from_world, Double3 p, Viewp
 /// Finds the surface points of a frame's pixels.
 class PointFinder {
  public:
-  PointFinder(const Seen& now, const SamplePattern& samples, Viewport viewport)
-      : now_(now), samples_(samples), viewport_(viewport) {
+  PointFinder(const Seen& now, Viewport viewport) : now_(now), viewport_(viewport) {
     for (const Instance& instance : now.scene->instances)
       clip_from_object_.push_back(now.clip_from_world * instance.world_from_object);
   }
 
-  /// The point of a primitive that the picture's pixel (x, y) shows.
-  Mixture find(std::uint32_t instance, std::uint32_t primitive, int x, int y) const {
+  /// The point of a primitive that the picture shows at a place.
+  Mixture find(std::uint32_t instance, std::uint32_t primitive, Place place) const {
     const Scene& scene = *now_.scene;
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh)];
     const auto corners = static_cast<std::size_t>(mesh.vertices_per_primitive());
@@ -72,8 +71,8 @@ class PointFinder {
       const float3 p = mesh.position[out.vertex[k]];
       clip[k] = clip_from_object_[instance] * float4{p.x, p.y, p.z, 1};
     }
-    out.share = corners == 3   ? triangle_shares(clip, x, y)
-                : corners == 2 ? line_shares(clip[0], clip[1], x, y)
+    out.share = corners == 3   ? triangle_shares(clip, place)
+                : corners == 2 ? line_shares(clip[0], clip[1], place)
                                : Shares{1, 0, 0};
     return out;
   }
@@ -81,26 +80,15 @@ class PointFinder {
  private:
   using Shares = std::array<double, 3>;
 
-  Shares triangle_shares(const std::array<float4, 3>& clip, int x, int y) const {
+  Shares triangle_shares(const std::array<float4, 3>& clip, Place place) const {
     const BarycentricPlanes planes = barycentric_planes(clip[0], clip[1], clip[2], viewport_);
     // The place in pixels from the picture's corner; planes count 1/256 pixel from its middle.
-    const auto shares_at = [&](Place at) -> Shares {
-      const double px = 256 * (at[0] - viewport_.width / 2.0), py = 256 * (at[1] - viewport_.height / 2.0);
-      Shares q{};
-      for (std::size_t k = 0; k < 3; ++k) q[k] = (planes.x[k] * px + planes.y[k] * py) + planes.one[k];
-      const double sum = (q[0] + q[1]) + q[2];
-      if (sum == 0) return {1, 0, 0};
-      return {q[0] / sum, q[1] / sum, q[2] / sum};
-    };
-    const auto least = [](const Shares& b) { return std::min({b[0], b[1], b[2]}); };
-    Place place{x + 0.5, y + 0.5};
-    Shares best = shares_at(place);
-    for (std::size_t i = 0; i < samples_.size() && !(least(best) >= 0); ++i) {
-      const Place other{x + samples_[i].x / 256.0, y + samples_[i].y / 256.0};
-      const Shares shares = shares_at(other);
-      if (least(shares) > least(best)) best = shares, place = other;
-    }
-    return least(best) >= 0 ? best : outline_shares(clip, place, best);
+    const double px = 256 * (place[0] - viewport_.width / 2.0), py = 256 * (place[1] - viewport_.height / 2.0);
+    Shares q{};
+    for (std::size_t k = 0; k < 3; ++k) q[k] = (planes.x[k] * px + planes.y[k] * py) + planes.one[k];
+    const double sum = (q[0] + q[1]) + q[2];
+    const Shares shares = sum == 0 ? Shares{1, 0, 0} : Shares{q[0] / sum, q[1] / sum, q[2] / sum};
+    return std::min({shares[0], shares[1], shares[2]}) >= 0 ? shares : outline_shares(clip, place, shares);
   }
 
   /// Coverage knows edges to 1/256 pixel: a sample that is outside by less stands for the nearest point of the outline.
@@ -121,8 +109,8 @@ class PointFinder {
     return {outside[0] / sum, outside[1] / sum, outside[2] / sum};
   }
 
-  Shares line_shares(float4 a, float4 b, int x, int y) const {
-    const std::optional<OnSegment> found = nearest_on_segment(a, b, {x + 0.5, y + 0.5});
+  Shares line_shares(float4 a, float4 b, Place place) const {
+    const std::optional<OnSegment> found = nearest_on_segment(a, b, place);
     return found ? Shares{1 - found->share, found->share, 0} : Shares{1, 0, 0};
   }
 
@@ -146,7 +134,6 @@ class PointFinder {
   }
 
   const Seen& now_;
-  const SamplePattern& samples_;
   Viewport viewport_;
   std::vector<float4x4> clip_from_object_;
 };
@@ -180,14 +167,13 @@ float2 step_between(const Seen& from, const Seen& to, const Mixture& point, std:
 
 }  // namespace
 
-void add_surface_points(const Moment& now, const Request& request, const RenderOptions& options, Frame& frame) {
-  const Planes& planes = request.planes;
+void add_surface_points(const Moment& now, const Planes& planes, const RenderOptions& options, Frame& frame) {
   const int width = frame.instance.width(), height = frame.instance.height();
   const Viewport viewport{options.width, options.height};
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const Seen seen(now, aspect), last(options.last ? *options.last : now, aspect),
       next(options.next ? *options.next : now, aspect);
-  const PointFinder finder(seen, request.samples, viewport);
+  const PointFinder finder(seen, viewport);
   if (planes.position) frame.position = {width, height, float3{}};
   if (planes.motion) frame.motion = {width, height, float2{}};
   if (planes.flow) frame.flow = {width, height, float2{}};
@@ -197,7 +183,9 @@ void add_surface_points(const Moment& now, const Request& request, const RenderO
     for (int x = 0; x < width; ++x) {
       const std::uint32_t instance = frame.instance(x, y);
       if (instance == Frame::no_id) continue;
-      const Mixture point = finder.find(instance, frame.primitive_id(x, y), frame.x + x, frame.y + y);
+      const SamplePosition place = frame.place(x, y);
+      const Mixture point = finder.find(instance, frame.primitive_id(x, y),
+                                        {frame.x + x + place.x / 256.0, frame.y + y + place.y / 256.0});
       const Mesh& mesh = now.scene->meshes[static_cast<std::size_t>(now.scene->instances[instance].mesh)];
       if (planes.position) {
         const Double3 p = *place_of(point, instance, *now.scene, mesh);

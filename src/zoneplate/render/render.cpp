@@ -28,6 +28,7 @@ class ScenePoints : public PointShader {
     surfaces_.alpha(batch, out);
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
+  float brightest() const override { return surfaces_.brightest(); }
   bool wants_slopes(int material) const override { return surfaces_.wants_slopes(material); }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
     const std::span<const float> record = surfaces_.vertex_record(instance, material);
@@ -81,6 +82,7 @@ void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Fram
   };
   if (planes.any_point_plane()) planes.object_id = planes.primitive_id = true;
   make(!target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(planes.any_point_plane(), frame.place, target.place, SamplePosition{});
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
   make(planes.albedo, frame.albedo, target.albedo, float3{});
@@ -175,7 +177,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
                           .is_painter = options.visibility == Visibility::Painter,
-                          .isa = options.isa};
+                          .isa = options.isa,
+                          .room = options.room};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   const RasterCounts c = request.draw ? draw_by(request, draws.draws, points, rules, target, options,
                                                 frame.error.empty() ? nullptr : &frame.error)
@@ -183,7 +186,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
   if (request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
-    add_surface_points({&scene, camera}, request, options, frame);
+    add_surface_points({&scene, camera}, request.planes, options, frame);
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);

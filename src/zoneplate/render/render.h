@@ -4,6 +4,7 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/raster/room.h"
 #include "zoneplate/raster/stage_times.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
@@ -50,6 +51,7 @@ struct RenderOptions {
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
   Isa isa = best_isa();
+  RasterRoom room;  ///< memory for time; no bit of a picture depends on it
   /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
   /// whose request is local.
   const DisplayOptions* shown = nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "zoneplate/shade/brdf.h"
+#include "zoneplate/shade/brightness.h"
 #include "zoneplate/shade/geometry_stages.h"
 #include "zoneplate/shade/surface_kernels.h"
 
@@ -59,10 +60,10 @@ template <class F>
   return {l, radiance * strength};
 }
 
-/// Colour × alpha, colour clamped to [0, 1e9].
+/// Colour × alpha, colour clamped to [0, brightest_color].
 template <class F>
 [[gnu::always_inline]] inline void store_color(Vector<F> color, bool is_blended, const Points& p, Shaded& out, int i) {
-  const F low(0.0f), high(1e9f);
+  const F low(0.0f), high(brightest_color);
   Vector<F> shown{min(max(color.x, low), high), min(max(color.y, low), high), min(max(color.z, low), high)};
   const F alpha = is_blended ? F::load(p.base[3] + i) : F(1.0f);
   if (is_blended) shown = shown * alpha;

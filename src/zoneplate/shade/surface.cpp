@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "zoneplate/shade/brightness.h"
 #include "zoneplate/shade/filtering.h"
 #include "zoneplate/shade/lighting.h"
 #include "zoneplate/shade/material_plan.h"
@@ -226,7 +227,8 @@ void SurfaceShader::Data::Walk::light(Shaded& out) {
 
 SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures,
                              const VertexRecords* records)
-    : data_(std::make_unique<Data>(scene, surroundings, textures, records)) {}
+    : data_(std::make_unique<Data>(scene, surroundings, textures, records)),
+      brightest_(brightest_point(data_->plans, data_->lights, surroundings.environment)) {}
 
 SurfaceShader::~SurfaceShader() = default;
 

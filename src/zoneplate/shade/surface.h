@@ -53,6 +53,9 @@ class SurfaceShader {
   /// Alpha of a batch (base colour factor, texture and vertex colour), the same bits as `shade` works with.
   void alpha(const Batch& batch, float* out) const;
 
+  /// What no channel of any colour is above.
+  float brightest() const { return brightest_; }
+
   /// Whether a material's batches need dbdx and dbdy.
   bool wants_slopes(int material) const;
 
@@ -62,6 +65,7 @@ class SurfaceShader {
  private:
   struct Data;
   std::unique_ptr<Data> data_;
+  float brightest_;
 };
 
 }  // namespace zoneplate

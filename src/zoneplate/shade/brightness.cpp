@@ -1,0 +1,54 @@
+#include "zoneplate/shade/brightness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/shade/brdf.h"
+#include "zoneplate/shade/lighting.h"
+#include "zoneplate/shade/material_plan.h"
+
+namespace zoneplate {
+namespace {
+
+float greatest(const float (&color)[3]) { return std::max({color[0], color[1], color[2], 0.0f}); }
+
+/// The most light that arrives anywhere, perpendicular to its direction; `fading` is at most 1e6.
+float arriving(std::span<const PreparedLight> lights) {
+  float sum = 0;
+  for (const PreparedLight& light : lights)
+    sum += greatest(light.radiance) * (light.is_directional ? 1.0f : 1 / least_distance_squared);
+  return sum;
+}
+
+/// The greatest n·l F V D: V n·l is at most 1 / (2 α) and D at most 1 / (π α²).
+float highlight(const MaterialPlan& plan) {
+  if (plan.model != ShadingModel::MetallicRoughness) return greatest(plan.specular);
+  const bool is_textured = plan.metallic_roughness.texture != nullptr;
+  const float roughness = is_textured ? least_roughness : std::max(plan.roughness, least_roughness);
+  const float alpha = roughness * roughness;
+  return inverse_pi / (2 * alpha * alpha * alpha);
+}
+
+/// Texels are at most 1, and so are diffuse weights, cosines and their powers.
+float brightest(const MaterialPlan& plan, float light, float environment) {
+  if (plan.attributes.color) return brightest_color;
+  const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
+  if (!plan.is_lit) return base;
+  // Twice the sum, for what rounding and the fit to the environment's integral add.
+  return 2 * (base * (1 + greatest(plan.ambient) + light + environment) + highlight(plan) * light + environment +
+              greatest(plan.emissive_factor));
+}
+
+}  // namespace
+
+float brightest_point(std::span<const MaterialPlan> plans, std::span<const PreparedLight> lights, float3 environment) {
+  const float light = arriving(lights), around = std::max({environment.x, environment.y, environment.z, 0.0f});
+  float most = 0;
+  for (const MaterialPlan& plan : plans) {
+    const float bound = brightest(plan, light, around);
+    most = bound < brightest_color ? std::max(most, bound) : brightest_color;
+  }
+  return most;
+}
+
+}  // namespace zoneplate
