@@ -6,7 +6,9 @@
 
 #include "zoneplate/antialias/gbaa.h"
 #include "zoneplate/antialias/shots_for_test.h"
+#include "zoneplate/antialias/sraa_kernels.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin.h"
 
 namespace zoneplate::antialias {
@@ -253,6 +255,30 @@ TEST(Sraa, WeightsAreThePublishedOnes) {
   // Of the two the greater unlikeness counts.
   expect_row(shot(two_walls(front, turned, 0.1f), "sraa:depth=1"),
              reconstructed_row(four, 1, std::exp(-40 * 0.1 / 4.9)));
+}
+
+TEST(Sraa, KernelsAddWhatTheirTwinsAdd) {
+  constexpr std::size_t n = 211;
+  std::vector<float> sample(4 * n), centre(4 * n), color(4 * n);
+  const auto random = [](std::uint32_t i) { return static_cast<float>(hash(i) >> 8) * 0x1p-24f; };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const auto geometry = [&](std::vector<float>& out, std::uint32_t seed, bool is_empty) {
+      const float3 v{random(seed) - 0.5f, random(seed + 1) - 0.5f, 0.2f};
+      const float3 normal = is_empty ? float3{} : normalize(v, {0, 0, 1});
+      out[4 * i] = normal.x, out[4 * i + 1] = normal.y, out[4 * i + 2] = normal.z;
+      out[4 * i + 3] = is_empty ? 0 : 1 + random(seed + 2) * (i % 3 == 0 ? 0.01f : 10.0f);
+    };
+    geometry(sample, 10 * i, i % 7 == 0), geometry(centre, 10 * i + 5, i % 5 == 0);
+    for (std::uint32_t c = 0; c < 4; ++c) color[4 * i + c] = random(4 * i + c + 10000) * 3;
+  }
+  const auto added = [&](const SraaKernels& kernels, std::size_t count) {
+    std::vector<float> sum(4 * n, 0.125f), weight(n, 0.25f);
+    kernels.add(sample.data(), centre.data(), color.data(), {4, 1}, sum.data(), weight.data(), count);
+    return std::pair(sum, weight);
+  };
+  for (const Isa isa : supported_isas())
+    for (std::size_t count = 0; count <= n; count += count < 20 ? 1 : 37)
+      ASSERT_EQ(added(pick(isa, scalar::sraa_kernels), count), added(scalar::sraa_kernels, count)) << name_of(isa);
 }
 
 TEST(GeometryMethods, ShadeOnceAPixel) {

@@ -9,6 +9,8 @@
 // exp(-scale max(1 - N·N', depth scale |z - z'|)) of their published kernel. It leaves both scales to the scene. Here
 // depths are compared relative to the nearer one, so that one scale serves scenes of any size; the scales' defaults
 // and the radius are ours. Blended surfaces are not in the geometry: their outlines stay as they were shaded.
+#include "zoneplate/antialias/sraa_kernels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,22 +18,41 @@
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/render/method.h"
 
-namespace zoneplate::antialias {
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+/// The weight of what is shaded at one place for another.
+float likeness(const float* a, const float* b, const BilateralScales& scales) {
+  const float3 normal{a[0], a[1], a[2]}, other{b[0], b[1], b[2]};
+  const bool is_empty = normal == float3{}, is_other_empty = other == float3{};
+  if (is_empty || is_other_empty) return is_empty == is_other_empty ? 1.0f : 0.0f;
+  const float far = std::abs(a[3] - b[3]) / std::min(a[3], b[3]), turned = 1 - dot(normal, other);
+  return exp(-scales.scale * std::max(turned, scales.depth * far));
+}
+
+void add(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
+         float* weight, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float w = likeness(sample + 4 * i, centre + 4 * i, scales);
+    for (std::size_t c = 4 * i; c < 4 * i + 4; ++c) sum[c] += color[c] * w;
+    weight[i] += w;
+  }
+}
+
+}  // namespace
+
+const SraaKernels sraa_kernels = {.add = add};
+
+}  // namespace scalar
+
+namespace antialias {
 namespace {
 
 struct Bilateral {
-  float scale, depth;
+  BilateralScales scales;
   double radius;  ///< pixels, from a sample to the centres whose colours count
 };
-
-/// The weight of what is shaded at one place for another, both as in Frame::sample_geometry.
-float likeness(const Linear& a, const Linear& b, const Bilateral& bilateral) {
-  const float3 normal{a.r, a.g, a.b}, other{b.r, b.g, b.b};
-  const bool is_empty = normal == float3{}, is_other_empty = other == float3{};
-  if (is_empty || is_other_empty) return is_empty == is_other_empty ? 1.0f : 0.0f;
-  const float far = std::abs(a.a - b.a) / std::min(a.a, b.a), turned = 1 - dot(normal, other);
-  return exp(-bilateral.scale * std::max(turned, bilateral.depth * far));
-}
 
 /// A pixel near a sample, relative to the sample's own.
 struct Offset {
@@ -54,42 +75,55 @@ class Reconstruction {
  public:
   Reconstruction(const LinearImage& color, const std::vector<LinearImage>& geometry, const SamplePattern& pattern,
                  const Bilateral& bilateral)
-      : color_(color), geometry_(geometry), bilateral_(bilateral), all_around_(offsets_around({}, 1.5)) {
+      : color_(color),
+        geometry_(geometry),
+        scales_(bilateral.scales),
+        kernels_(pick(best_isa(), scalar::sraa_kernels)),
+        all_around_(offsets_around({}, 1.5)) {
     for (const SamplePosition sample : pattern) around_.push_back(offsets_around(sample, bilateral.radius));
   }
 
-  Linear pixel(int x, int y) const {
-    Linear sum{0, 0, 0, 0};
-    for (std::size_t s = 0; s < around_.size(); ++s) sum = sum + sample(s, x, y);
-    return sum * (1 / static_cast<float>(around_.size()));
+  /// Fills row y, which is 0 before, with the means of its pixels' samples.
+  void row(int y, std::span<Linear> out) const {
+    const std::size_t width = out.size();
+    std::vector<Linear> sum(width);
+    std::vector<float> weight(width);
+    const float share = 1 / static_cast<float>(around_.size());
+    for (std::size_t s = 0; s < around_.size(); ++s) {
+      std::ranges::fill(sum, Linear{0, 0, 0, 0});
+      std::ranges::fill(weight, 0.0f);
+      for (const Offset o : around_[s]) add(s, o, 0, color_.width(), y, sum.data(), weight.data());
+      for (std::size_t x = 0; x < width; ++x)
+        out[x] = out[x] + (weight[x] > least_weight ? sum[x] * (1 / weight[x]) : other_mean(s, static_cast<int>(x), y));
+    }
+    for (Linear& c : out) c = c * share;
   }
 
  private:
-  /// A sample that is like no centre within the radius is compared with all of the 3 × 3 pixels around; like none of
-  /// them, it takes its own pixel's colour.
-  Linear sample(std::size_t s, int x, int y) const {
-    const Linear& geometry = geometry_[s + 1](x, y);
-    if (const std::optional<Linear> mean = mean_around(geometry, around_[s], x, y)) return *mean;
-    return mean_around(geometry, all_around_, x, y).value_or(color_(x, y));
+  static constexpr float least_weight = 1e-20f;
+
+  /// Adds what the pixels at an offset say of sample s of pixels [first, last) of row y, as far as there are such.
+  void add(std::size_t s, Offset o, int first, int last, int y, Linear* sum, float* weight) const {
+    const int begin = std::max(first, -o.x), end = std::min(last, color_.width() - o.x);
+    if (y + o.y < 0 || y + o.y >= color_.height() || begin >= end) return;
+    const int i = begin + o.x, j = y + o.y;
+    kernels_.add(&geometry_[s + 1](begin, y).r, &geometry_[0](i, j).r, &color_(i, j).r, scales_, &sum[begin - first].r,
+                 weight + (begin - first), static_cast<std::size_t>(end - begin));
   }
 
-  std::optional<Linear> mean_around(const Linear& geometry, const std::vector<Offset>& around, int x, int y) const {
-    constexpr float least_weight = 1e-20f;
+  /// A sample that is like no centre within the radius is compared with all of the 3 × 3 pixels around; like none of
+  /// them, it takes its own pixel's colour.
+  Linear other_mean(std::size_t s, int x, int y) const {
     Linear sum{0, 0, 0, 0};
     float weight = 0;
-    for (const Offset o : around) {
-      const int i = x + o.x, j = y + o.y;
-      if (i < 0 || j < 0 || i >= color_.width() || j >= color_.height()) continue;
-      const float w = likeness(geometry, geometry_[0](i, j), bilateral_);
-      sum = sum + color_(i, j) * w;
-      weight += w;
-    }
-    return weight > least_weight ? std::optional(sum * (1 / weight)) : std::nullopt;
+    for (const Offset o : all_around_) add(s, o, x, x + 1, y, &sum, &weight);
+    return weight > least_weight ? sum * (1 / weight) : color_(x, y);
   }
 
   const LinearImage& color_;
   const std::vector<LinearImage>& geometry_;
-  Bilateral bilateral_;
+  BilateralScales scales_;
+  const SraaKernels& kernels_;
   std::vector<Offset> all_around_;
   std::vector<std::vector<Offset>> around_;  ///< by sample of the pattern
 };
@@ -117,10 +151,8 @@ class Sraa : public Resolver {
   LinearImage resolve(Frame& frame) override {
     if (color_.empty()) return std::move(frame.color);
     const Reconstruction reconstruction(color_, frame.sample_geometry, pattern_, bilateral_);
-    LinearImage out(color_.width(), color_.height());
-    for_rows(out.height(), [&](int y) {
-      for (int x = 0; x < out.width(); ++x) out(x, y) = reconstruction.pixel(x, y);
-    });
+    LinearImage out(color_.width(), color_.height(), Linear{0, 0, 0, 0});
+    for_rows(out.height(), [&](int y) { reconstruction.row(y, out.row(y)); });
     return out;
   }
 
@@ -154,7 +186,7 @@ Method sraa() {
           .source = "Chajdas 2011",
           .params = params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            const Bilateral bilateral{static_cast<float>(s.integer("scale")), static_cast<float>(s.integer("depth")),
+            const Bilateral bilateral{{static_cast<float>(s.integer("scale")), static_cast<float>(s.integer("depth"))},
                                       s.number("radius")};
             return std::make_unique<Sraa>(s.integer("n"), bilateral);
           },
@@ -162,4 +194,5 @@ Method sraa() {
           .is_specification_only = true};
 }
 
-}  // namespace zoneplate::antialias
+}  // namespace antialias
+}  // namespace zoneplate
