@@ -3,9 +3,10 @@
 // as lies beyond it.
 //
 // One shaded sample a pixel and two stored numbers. Exact for a straight level or upright edge up to the rounding of
-// 16-bit floats, within an eighth of a pixel for oblique ones, whatever the contrast. Weak where triangles are small:
-// the nearest edge is then one inside the surface and hides that the surface ends a little farther on; outlines of fine
-// meshes are mottled, as are those of triangles that others hide or cut (`axial` has those right).
+// 16-bit floats, within an eighth of a pixel for oblique ones, whatever the contrast. Weak where triangles are small: a
+// pixel stores one edge. Of what is thinner than a pixel it smooths one side and not the other; and near an outline the
+// nearest edge may be one inside the surface, so that outlines of fine meshes are mottled, as are those that come from
+// hidden or intersecting triangles (`axial` has those right).
 //
 // Source: Persson, Geometry Buffer Anti-Aliasing, SIGGRAPH 2011 course, and his demo of July 2011 (humus.name),
 // GBAA.shd: the neighbours' order, comparisons and the bilinear fetch are the demo's. Its fetch mixes linear light, as

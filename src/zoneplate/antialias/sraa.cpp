@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "zoneplate/antialias/codes.h"
 #include "zoneplate/math/elementary.h"
