@@ -7,14 +7,22 @@
 // beside the centre are the mean of each step's line and of two halves.
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
-// code v2.8: 1x and S2x. Edges are found on codes, colours are mixed in linear light.
+// code v2.8: 1x, S2x and predicated thresholds. Edges are found on codes, colours are mixed in linear light.
+//
+// Predication doubles the thresholds except where a second buffer changes, by which textures are left alone and faint
+// outlines are still found. The original reads any buffer; of the depth buffer as it is tested it says that it serves
+// short ranges only. Here the buffer holds the logarithm of the distance along the view axis, so that 0.01 is one
+// percent everywhere, or the objects' numbers. Weak where neither changes: creases and coplanar borders.
 #include "zoneplate/antialias/smaa.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "zoneplate/antialias/codes.h"
+#include "zoneplate/base/error.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
@@ -65,11 +73,24 @@ constexpr Preset presets[] = {
 constexpr std::string_view preset_names[] = {"low", "medium", "high", "ultra"};
 constexpr std::string_view edges_names[] = {"luma", "color", "depth"};
 constexpr std::string_view modes[] = {"1x", "s2x"};
+constexpr std::string_view predications[] = {"none", "depth", "objects"};
 constexpr Param params[] = {
     {.name = "preset", .meaning = "how faint and how long edges are found", .value = 2, .names = preset_names},
     {.name = "edges", .meaning = "what edges are found in", .value = 0, .names = edges_names},
     {.name = "mode", .meaning = "s2x: two samples a pixel, each treated as a picture", .value = 0, .names = modes},
+    {.name = "predication", .meaning = "what lowers the threshold where it changes", .value = 0, .names = predications},
+    {.name = "pthreshold",
+     .meaning = "least change of the logarithm of depth, or of object ids",
+     .value = 10,
+     .low = 0,
+     .high = 1000,
+     .decimals = 3},
+    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 20, .low = 10, .high = 50, .decimals = 1},
+    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 40, .low = 0, .high = 100, .decimals = 2},
 };
+
+/// What the predication buffer is made of.
+enum class Predication { None, Depth, Objects };
 
 SmaaOptions options_of(const Settings& s) {
   SmaaOptions o;
@@ -78,26 +99,51 @@ SmaaOptions options_of(const Settings& s) {
       o.threshold = p.threshold, o.steps = p.steps, o.diagonal_steps = p.diagonal_steps,
       o.corner_rounding = p.corner_rounding;
   o.edges = static_cast<SmaaOptions::Edges>(s.integer("edges"));
+  o.is_predicated = s.chosen("predication") != "none";
+  o.predication_threshold = s.number("pthreshold");
+  o.predication_scale = s.number("pscale");
+  o.predication_strength = s.number("pstrength");
   return o;
+}
+
+/// A plane of the same size whose values are those of another plane, changed by `change`.
+template <class T, class Change>
+Plane<float> changed(const Plane<T>& from, Change change) {
+  Plane<float> out(from.width(), from.height());
+  for_rows(out.height(), [&](int y) { std::ranges::transform(from.row(y), out.row(y).begin(), change); });
+  return out;
 }
 
 class Smaa : public Resolver {
  public:
-  explicit Smaa(const SmaaOptions& options) : options_(options) {}
+  Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
   Request ask(int) override {
     Request request;
-    request.planes.depth = options_.edges == SmaaOptions::Edges::Depth;
+    request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
+    request.planes.object_id = predication_ == Predication::Objects;
     request.halo = smaa_reach(options_);
     request.works_on_shown = true;
     return request;
   }
   DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    const Plane<float> predicate = predication_buffer(frame);
+    const Plane<float>& depth = options_.is_predicated ? predicate : frame.reversed_depth;
     return filter_codes(std::move(image), Mixing::Light,
-                        [&](const Rgba8Image& i) { return apply_smaa(i, &frame.reversed_depth, options_); });
+                        [&](const Rgba8Image& i) { return apply_smaa(i, &depth, options_); });
   }
 
  private:
+  /// Of depths the logarithms: their differences are relative ones, whatever the scene's size and the projection are.
+  Plane<float> predication_buffer(const Frame& frame) const {
+    if (predication_ == Predication::Depth)
+      return changed(frame.depth, [](float d) { return d < std::numeric_limits<float>::infinity() ? log(d) : d; });
+    if (predication_ == Predication::Objects)
+      return changed(frame.object_id, [](std::uint32_t id) { return static_cast<float>(id); });
+    return {};
+  }
+
   SmaaOptions options_;
+  Predication predication_;
 };
 
 /// The mean of two shown pictures in linear light, premultiplied.
@@ -143,11 +189,17 @@ class SmaaS2x : public Resolver {
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {
-  if (s.chosen("mode") == "s2x") return std::make_unique<SmaaS2x>(options_of(s));
-  return std::make_unique<Smaa>(options_of(s));
+  const SmaaOptions options = options_of(s);
+  const auto predication = static_cast<Predication>(s.integer("predication"));
+  if (options.is_predicated && (options.edges == SmaaOptions::Edges::Depth || s.chosen("mode") == "s2x"))
+    throw Error(Trouble::Usage, "smaa: predication is for luma and color edges of mode=1x");
+  if (!options.is_predicated && (s.is_given("pthreshold") || s.is_given("pscale") || s.is_given("pstrength")))
+    throw Error(Trouble::Usage, "smaa: pthreshold, pscale and pstrength are predication's: give predication=depth");
+  if (s.chosen("mode") == "s2x") return std::make_unique<SmaaS2x>(options);
+  return std::make_unique<Smaa>(options, predication);
 }
 
-constexpr std::string_view variants[] = {"edges=color", "mode=s2x"};
+constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "predication=depth"};
 
 }  // namespace
 

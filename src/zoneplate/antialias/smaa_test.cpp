@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/antialias/smaa_kernels.h"
+#include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -122,6 +125,153 @@ TEST(Smaa, OutputsHaveTheirBits) {
   EXPECT_EQ(hash({.steps = 112, .diagonal_steps = 20, .mixes_light = false}), 0xc81311afcfdf17a6u);
 }
 
+/// A picture with texture of small contrast, and a predication buffer of steps, slopes and infinities.
+struct Predicated {
+  Rgba8Image image = random_shapes(203, 77, 3);
+  Plane<float> buffer{203, 77};
+
+  Predicated() {
+    for (std::uint32_t i = 0; Rgba8 & c : image.values()) {
+      const std::uint32_t noise = hash(i++);
+      const auto faint = [&](std::uint8_t v, int shift) {
+        return static_cast<std::uint8_t>(v / 4 + (noise >> shift & 63));
+      };
+      c = {faint(c.r, 0), faint(c.g, 8), faint(c.b, 16)};
+    }
+    for (int y = 0; y < 77; ++y)
+      for (int x = 0; x < 203; ++x) {
+        const bool is_far = (x - 100) * (x - 100) + 4 * (y - 40) * (y - 40) > 5000;
+        const float step = static_cast<float>(hash(static_cast<std::uint32_t>(x / 5 + 100 * (y / 3))) & 3) * 0.006f;
+        buffer(x, y) = is_far ? std::numeric_limits<float>::infinity() : step + 0.0002f * static_cast<float>(x);
+      }
+  }
+};
+
+/// SMAALumaEdgeDetectionPS and SMAAColorEdgeDetectionPS of SMAA.hlsl v2.8 with SMAA_PREDICATION, written out for one
+/// pixel: the edges of its left and its top.
+class ShaderEdges {
+ public:
+  ShaderEdges(const Predicated& scene, const SmaaOptions& options) : scene_(scene), options_(options) {}
+
+  int edges(int x, int y) const {
+    // SMAACalculatePredicatedThreshold.
+    const auto threshold = [&](int i, int j) {
+      const float delta = std::abs(predicate(x, y) - predicate(i, j));
+      const double edge = delta >= static_cast<float>(options_.predication_threshold) ? 1 : 0;
+      return options_.predication_scale * options_.threshold * (1 - options_.predication_strength * edge);
+    };
+    const double left = difference(x, y, x - 1, y), top = difference(x, y, x, y - 1);
+    const bool is_left = reaches(left, threshold(x - 1, y)), is_top = reaches(top, threshold(x, y - 1));
+    const bool is_luma = options_.edges == Edges::Luma;
+    const double right = difference(x, y, x + 1, y), bottom = difference(x, y, x, y + 1);
+    const double far_left = is_luma ? difference(x - 1, y, x - 2, y) : difference(x, y, x - 2, y);
+    const double far_top = is_luma ? difference(x, y - 1, x, y - 2) : difference(x, y, x, y - 2);
+    const double greatest = std::max({left, top, right, bottom, far_left, far_top});
+    return (is_left && reaches(2 * left, greatest) ? left_edge : 0) |
+           (is_top && reaches(2 * top, greatest) ? top_edge : 0);
+  }
+
+ private:
+  /// Ties, which are of whole codes, count as reached.
+  static bool reaches(double value, double threshold) { return value > threshold - 1e-9; }
+  static int clamped(int i, int size) { return std::clamp(i, 0, size - 1); }
+  float predicate(int x, int y) const { return scene_.buffer(clamped(x, 203), clamped(y, 77)); }
+  Rgba8 at(int x, int y) const { return scene_.image(clamped(x, 203), clamped(y, 77)); }
+  double difference(int x, int y, int i, int j) const {
+    const Rgba8 a = at(x, y), b = at(i, j);
+    if (options_.edges == Edges::Color)
+      return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) / 255.0;
+    const auto luma = [](Rgba8 c) { return (0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b) / 255; };
+    return std::abs(luma(a) - luma(b));
+  }
+
+  const Predicated& scene_;
+  const SmaaOptions& options_;
+};
+
+TEST(Smaa, PredicatedEdgesAreTheShaders) {
+  const Predicated scene;
+  for (const Edges edges : {Edges::Luma, Edges::Color})
+    for (const double threshold : {0.05, 0.1})
+      for (const double strength : {0.4, 1.0}) {
+        SmaaOptions options{.edges = edges, .threshold = threshold, .is_predicated = true};
+        options.predication_strength = strength;
+        const EdgePlane found = smaa_edges(scene.image, &scene.buffer, options);
+        const ShaderEdges shader(scene, options);
+        int counts[4] = {};
+        for (int y = 0; y < 77; ++y)
+          for (int x = 0; x < 203; ++x) {
+            ASSERT_EQ(*found.at(x, y), shader.edges(x, y)) << x << "," << y;
+            ++counts[*found.at(x, y)];
+          }
+        for (const int count : counts) EXPECT_GT(count, 20);
+      }
+}
+
+TEST(Smaa, PredicationChangesThresholdsAndNothingElse) {
+  const Predicated scene;
+  for (const Edges edges : {Edges::Luma, Edges::Color}) {
+    const auto out = [&](double threshold, double scale, double strength, bool is_predicated = true) {
+      SmaaOptions options{.edges = edges, .threshold = threshold, .is_predicated = is_predicated};
+      options.predication_scale = scale, options.predication_strength = strength;
+      return apply_smaa(scene.image, &scene.buffer, options);
+    };
+    EXPECT_EQ(out(0.1, 1, 0), out(0.1, 1, 0, false));
+    EXPECT_EQ(out(0.05, 2, 0), out(0.1, 1, 0, false));
+    EXPECT_NE(out(0.1, 2, 0.4), out(0.1, 1, 0, false));
+    const Rgba8Image expected = out(0.1, 2, 0.4);
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 3})
+        with_threads(threads, [&] {
+          const SmaaOptions options{.edges = edges, .is_predicated = true, .isa = isa};
+          EXPECT_EQ(apply_smaa(scene.image, &scene.buffer, options), expected) << name_of(isa);
+        });
+  }
+}
+
+TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
+  // Steps of 15 % of white: edges at a threshold of 0.1, texture at 0.2, an outline at 0.12.
+  const int size = 40;
+  DisplayImage picture(size, size);
+  Frame frame;
+  frame.depth = Plane<float>(size, size, 10);
+  frame.object_id = Plane<std::uint32_t>(size, size, 7u);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const bool is_below = y > 8 + x / 5, is_behind = y > 24 + x / 5;
+      const float v = is_behind ? 0.55f : is_below ? 0.4f : 0.55f;
+      picture(x, y) = {v, v, v, 1};
+      if (is_behind) frame.depth(x, y) = 10.15f, frame.object_id(x, y) = 8;
+    }
+  const auto treated = [&](const char* method) {
+    return quantize8(make_resolver(methods(), method)->finish(picture, frame));
+  };
+  const Rgba8Image before = quantize8(picture), plain = treated("smaa");
+  const auto changed = [&](const Rgba8Image& after, int first, int last) {
+    int count = 0;
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < size; ++x) count += !(after(x, y) == before(x, y));
+    return count;
+  };
+  EXPECT_GT(changed(plain, 0, 20), 20);
+  EXPECT_GT(changed(plain, 20, size), 20);
+  for (const char* method :
+       {"smaa:predication=depth", "smaa:predication=objects", "smaa:predication=depth,edges=color"}) {
+    const Rgba8Image after = treated(method);
+    EXPECT_EQ(changed(after, 0, 20), 0) << method;
+    EXPECT_EQ(changed(after, 20, size), changed(plain, 20, size)) << method;
+  }
+  // 1.5 % are less than a threshold of 2 %.
+  EXPECT_EQ(treated("smaa:predication=depth,pthreshold=0.02"), before);
+  EXPECT_EQ(treated("smaa:predication=depth,pscale=1,pstrength=0"), plain);
+  const auto asks = [](const char* method) { return make_resolver(methods(), method)->ask(0).planes; };
+  EXPECT_TRUE(asks("smaa:predication=depth").depth);
+  EXPECT_TRUE(asks("smaa:predication=objects").object_id);
+  EXPECT_FALSE(asks("smaa").depth);
+  for (const char* wrong : {"smaa:predication=depth,edges=depth", "smaa:predication=depth,mode=s2x", "smaa:pscale=3"})
+    EXPECT_THROW(make_resolver(methods(), wrong), Error) << wrong;
+}
+
 TEST(Smaa, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
   for (const Edges edges : {Edges::Luma, Edges::Color}) {
@@ -154,6 +304,18 @@ TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
       ASSERT_EQ(found, expected);
       scalar::smaa_kernels.color_edges(rows(codes), 26, expected.data(), n);
       kernels.color_edges(rows(codes), 26, found.data(), n);
+      ASSERT_EQ(found, expected);
+      const auto crossed = [&](std::vector<std::uint8_t>& edges) {
+        for (std::size_t i = 0; i < n; ++i)
+          edges[i] = static_cast<std::uint8_t>(hash(static_cast<std::uint32_t>(i)) >> 9 & 3);
+      };
+      crossed(expected), crossed(found);
+      scalar::smaa_kernels.predicated_luma_edges(rows(lumas), {150000, 70000}, expected.data(), n);
+      kernels.predicated_luma_edges(rows(lumas), {150000, 70000}, found.data(), n);
+      ASSERT_EQ(found, expected);
+      crossed(expected), crossed(found);
+      scalar::smaa_kernels.predicated_color_edges(rows(codes), {40, 20}, expected.data(), n);
+      kernels.predicated_color_edges(rows(codes), {40, 20}, found.data(), n);
       ASSERT_EQ(found, expected);
       if (n == 200) {
         EXPECT_GT(std::ranges::count(found, 3), 10);

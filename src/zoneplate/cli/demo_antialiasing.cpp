@@ -98,9 +98,9 @@ Lesson make(const DemoSize& size) {
       "The error is the root mean square of the difference from the truth over the whole picture, in codes, white "
       "being 100 %; beside it the points shaded for each pixel of the picture. Filters of the picture shade no more "
       "than "
-      "none does, and guess; gbaa and sraa ask the geometry more often than that; multisampling knows the outlines and "
-      "not the highlights; supersampling knows both and pays for "
-      "both. A method that is soft on purpose (mitchell, quincunx) is counted here as wrong.";
+      "none does, and guess; gbaa knows the triangles' edges besides, sraa and idsraa their geometry at more samples; "
+      "multisampling knows the outlines and not the highlights; supersampling knows both and pays for both. A method "
+      "that is soft on purpose (mitchell, quincunx) is counted here as wrong.";
   return {.frames = {figure}};
 }
 

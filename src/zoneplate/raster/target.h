@@ -62,6 +62,11 @@ struct Target {
     return place || reversed_depth || normal || albedo || uv || instance || material || primitive;
   }
   bool stores_samples() const { return sample_color || sample_triangle; }
+  /// True if nothing is wanted but which triangle owns each sample, and at which depth: then nothing is shaded.
+  bool stores_visibility_alone() const {
+    return sample_triangle && !(color || shown || sample_color || reversed_depth || normal || albedo || uv ||
+                                instance || material || primitive || coverage);
+  }
 
   static constexpr std::uint32_t no_id = 0xffffffffu;  ///< in an id plane, where nothing is
 };

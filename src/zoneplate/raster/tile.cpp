@@ -72,6 +72,7 @@ void TileRenderer::render(std::size_t tile) {
     return;
   }
   gather(tile);
+  if (target_.stores_visibility_alone()) return render_visibility();
   if (is_plain()) return render_plain();
   sum_.assign(tile_pixels / 8, Linear8{});
   covered_.assign(tile_pixels, 0.0f);

@@ -100,6 +100,7 @@ class TileRenderer {
   /// True if that is so, and all of it can be had from the owners of the samples.
   bool is_plain() const;
   void render_plain();
+  void render_visibility();
   void find_rows();
   void find_rows_of(int block);
   void add_block_of_rows(int block, std::int32_t id);

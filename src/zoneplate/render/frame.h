@@ -62,6 +62,18 @@ struct Frame {
   std::vector<LinearImage> sample_color;              ///< by sample
   std::vector<Plane<float>> sample_depth;             ///< reversed
   std::vector<Plane<std::uint32_t>> sample_triangle;  ///< triangle id, no_id where nothing is
+
+  /// By sample, of opaque and masked surfaces (Content::Geometry). r, g, b: the interpolated vertex normal, world
+  /// space, unit length, on the side that is seen, without normal maps; towards the viewer where a mesh has no normals.
+  /// a: the distance along the view axis, world units. All are 0 where nothing is.
+  std::vector<LinearImage> sample_geometry;
+
+  /// How far the line through the nearest edge of the visible triangle is from the pixel's centre, along the axis of
+  /// the screen that crosses the line more steeply (Content::EdgeDistances). x: along the row, positive to the right;
+  /// y: along the column, positive downwards; pixels, rounded to 16-bit floats. The other axis has no_edge, and both
+  /// have it where nothing is.
+  Plane<float2> edge_distance;
+  static constexpr float no_edge = 0.5f;
 };
 
 }  // namespace zoneplate

@@ -23,12 +23,21 @@ enum class Rate {
   Sample,   ///< once per sample (supersampling)
 };
 
+/// What is found out at the samples of a frame.
+enum class Content {
+  Colour,         ///< light: materials and lamps are evaluated, which is called shading
+  Geometry,       ///< without shading: Frame::sample_geometry
+  EdgeDistances,  ///< without shading: Frame::edge_distance, of requests with one sample
+  Visibility,     ///< which triangle owns each sample, alone: `planes.sample_triangles`, or with its depth: `samples`
+};
+
 /// What a method wants of the renderer for one frame.
 ///
 /// The tile resolves colour while it is in cache: the mean of the samples with `weights`. A method that needs more than
 /// the pixel asks for planes, and only then are they stored.
 struct Request {
   SamplePattern samples = {SamplePosition{}};
+  Content content = Content::Colour;  ///< without colour, Frame::color and the data passes of a pixel stay empty
   Rate rate = Rate::Surface;
   std::vector<float> weights;          ///< one a sample; empty: all equal
   AlphaTest alpha = AlphaTest::Pixel;  ///< of masked surfaces at rate *surface*

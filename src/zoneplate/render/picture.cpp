@@ -13,7 +13,7 @@ namespace {
 void add(RenderCounts& sum, const RenderCounts& c) {
   sum.prepare_ms += c.prepare_ms, sum.geometry_ms += c.geometry_ms, sum.tiles_ms += c.tiles_ms;
   sum.triangles = c.triangles, sum.triangles_set_up = c.triangles_set_up;
-  sum.shaded += c.shaded;
+  sum.shaded += c.shaded, sum.geometric += c.geometric;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "zoneplate/render/render.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -8,6 +10,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/raster/rasterize.h"
 #include "zoneplate/render/drawing.h"
+#include "zoneplate/render/edge_distances.h"
+#include "zoneplate/render/geometry_points.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/surfaces.h"
 #include "zoneplate/shade/surface.h"
@@ -74,6 +78,24 @@ Rgba8Image make_shown(int w, int h, RasterMemory* memory) {
   return fits ? std::move(memory->shown) : Rgba8Image(w, h);
 }
 
+/// The planes of a request that has no colour.
+void make_uncoloured(const Request& request, int w, int h, Frame& frame, Target& target) {
+  const std::size_t samples = request.samples.size();
+  if (request.content == Content::Geometry) {
+    frame.sample_geometry.assign(samples, LinearImage(w, h, Linear{0, 0, 0, 0}));
+    target.sample_color = &frame.sample_geometry;
+  } else if (request.content == Content::EdgeDistances) {
+    frame.color = LinearImage(w, h, Linear{0, 0, 0, 0});
+    target.color = &frame.color;
+  } else {
+    frame.sample_triangle.assign(samples, Plane<std::uint32_t>(w, h, Frame::no_id));
+    target.sample_triangle = &frame.sample_triangle;
+    if (!request.planes.samples) return;
+    frame.sample_depth.assign(samples, Plane<float>(w, h, 0.0f));
+    target.sample_depth = &frame.sample_depth;
+  }
+}
+
 void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Frame& frame, Target& target) {
   const auto make = [&](bool wanted, auto& plane, auto*& pointer, auto empty) {
     if (!wanted) return;
@@ -127,6 +149,8 @@ void check(const RenderOptions& o, const Request& request) {
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
   if (request.draw && (o.shown || request.planes.samples || request.planes.sample_colors))
     reject("a method that draws for itself gives a linear picture and has no samples");
+  assert(request.content == Content::Colour || !(request.draw || o.shown));
+  assert(request.content != Content::EdgeDistances || request.samples.size() == 1);
 }
 
 /// The colour by the request's own hand, the data passes by the tiles.
@@ -143,6 +167,18 @@ RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const 
   return counts;
 }
 
+/// What has no colour shows opaque and masked surfaces alone.
+RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
+                             const PointShader& surfaces, const RasterRules& rules, Target& target,
+                             const RenderOptions& options) {
+  std::erase_if(draws, [](const Draw& draw) { return draw.surface == Surface::Blended; });
+  const auto run = [&](const PointShader& points) { return rasterize(draws, points, rules, target, options.memory); };
+  if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
+  if (request.content == Content::Visibility) return run(surfaces);
+  target.is_per_sample = true;
+  return run(GeometryPoints(scene, camera, surfaces));
+}
+
 }  // namespace
 
 Frame render(const Scene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
@@ -152,7 +188,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
-  const SceneDraws draws = make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options);
+  SceneDraws draws = make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options);
   const ScenePoints points(scene, surroundings_of(scene, camera, clip_from_camera, options), options);
 
   Frame frame;
@@ -171,7 +207,11 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   if (!request.where.empty()) target.where = &request.where;
   std::optional<Presenter> presenter;
   if (options.shown) target.presenter = &presenter.emplace(*options.shown);
-  make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
+  const bool has_color = request.content == Content::Colour;
+  if (has_color)
+    make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
+  else
+    make_uncoloured(request, crop.width, crop.height, frame, target);
   if (target.presenter) target.shown = &(frame.shown = make_shown(crop.width, crop.height, options.memory));
   const double prepare_ms = prepare.ms();
 
@@ -180,11 +220,15 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
                           .isa = options.isa,
                           .room = options.room};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
-  const RasterCounts c = request.draw ? draw_by(request, draws.draws, points, rules, target, options,
-                                                frame.error.empty() ? nullptr : &frame.error)
-                                      : rasterize(draws.draws, points, rules, target, options.memory);
+  const RasterCounts c =
+      !has_color ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, options)
+      : request.draw
+          ? draw_by(request, draws.draws, points, rules, target, options, frame.error.empty() ? nullptr : &frame.error)
+          : rasterize(draws.draws, points, rules, target, options.memory);
+  if (request.content == Content::EdgeDistances)
+    frame.edge_distance = edge_distances_of(std::exchange(frame.color, {}));
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
-  if (request.planes.any_point_plane()) {
+  if (has_color && request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
     add_surface_points({&scene, camera}, request.planes, options, frame);
   }
@@ -198,7 +242,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
                .vertices = c.vertices,
                .triangles = c.triangles,
                .triangles_set_up = c.set_up,
-               .shaded = c.shaded};
+               .shaded = has_color ? c.shaded : 0,
+               .geometric = has_color ? 0 : c.shaded};
   return frame;
 }
 

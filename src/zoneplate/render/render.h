@@ -73,6 +73,7 @@ struct RenderCounts {
   std::uint64_t triangles = 0;         ///< given
   std::uint64_t triangles_set_up = 0;  ///< after culling and clipping
   std::uint64_t shaded = 0;            ///< points shaded
+  std::uint64_t geometric = 0;         ///< points whose geometry alone was evaluated (Request::content)
 };
 
 /// Renders one frame of a scene as `request` asks, on the threads of the innermost `with_threads`.
