@@ -62,7 +62,7 @@ struct Material {
 
   float metallic = 1, roughness = 1;      ///< metallic-roughness only
   TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
-  float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka, times the ambient light
+  float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka; times the base colour's texture, as Kd is
   float3 specular{0, 0, 0};               ///< (Blinn-)Phong only: Ks
   float exponent = 32;                    ///< (Blinn-)Phong only: Ns
 };

@@ -189,7 +189,7 @@ Material plain_material(const std::string& name) {
   material.model = ShadingModel::BlinnPhong;
   material.double_sided = true;
   material.base_color = {0.8f, 0.8f, 0.8f, 1};
-  material.ambient = {1, 1, 1};
+  material.ambient = {0.8f, 0.8f, 0.8f};
   return material;
 }
 
@@ -205,10 +205,7 @@ Material make_material(const MtlMaterial& mtl, const std::string& within, ObjFol
   m.base_color = {base.x, base.y, base.z, std::clamp(opacity, 0.0f, 1.0f)};
   if (m.base_color.w < 1) m.alpha_mode = AlphaMode::Blend;
   m.emissive = factor(mtl.emissive, m.emissive_texture.image >= 0, {0, 0, 0}, mtl, "Ke", folder);
-  if (mtl.ambient) {
-    const float3 a = linear(*mtl.ambient);
-    m.ambient = {base.x > 0 ? a.x / base.x : 0, base.y > 0 ? a.y / base.y : 0, base.z > 0 ? a.z / base.z : 0};
-  }
+  m.ambient = mtl.ambient ? linear(*mtl.ambient) : base;
 
   const int illumination = mtl.illumination.value_or(2);
   if (illumination > 1) m.specular = linear(mtl.specular.value_or(float3{0, 0, 0}));

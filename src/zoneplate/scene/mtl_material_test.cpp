@@ -56,7 +56,7 @@ TEST_F(MtlScene, ColoursAreCodes) {
   const Material m = load("newmtl m\nKd 0.5 1 0\nKa 0.5 0.25 1\nKs 0.2 0.2 0.2\nKe 20 0 0.5\nNs 50\n").materials.at(0);
   EXPECT_EQ(m.model, ShadingModel::BlinnPhong);
   EXPECT_EQ(m.base_color, (float4{decode_srgb(0.5f), 1, 0, 1}));
-  EXPECT_EQ(m.ambient, (float3{1, decode_srgb(0.25f), 0}));  // in proportion to Kd
+  EXPECT_EQ(m.ambient, (float3{decode_srgb(0.5f), decode_srgb(0.25f), 1}));
   EXPECT_EQ(m.specular.x, decode_srgb(0.2f));
   EXPECT_EQ(m.emissive, (float3{20, 0, decode_srgb(0.5f)}));
   EXPECT_EQ(m.exponent, 50);
@@ -133,6 +133,13 @@ TEST_F(MtlScene, ImagesAreSharedScaledAndClamped) {
   // Where the file's (0.5, 1) goes: to (0.25 + 2 × 0.5, 0.5 + 3 × 1), whose v from the top is 1 - 3.5.
   EXPECT_EQ(use.offset.x + use.scale.x * 0.5f, 1.25f);
   EXPECT_EQ(use.offset.y + use.scale.y * (1 - 1), 1 - 3.5f);
+}
+
+TEST_F(MtlScene, AmbientIsKdWhereThereIsNoKa) {
+  const Material m = load("newmtl m\nKd 0.5 0 1\n").materials.at(0);
+  EXPECT_EQ(m.ambient, (float3{decode_srgb(0.5f), 0, 1}));
+  EXPECT_EQ(plain_material("").ambient, (float3{0.8f, 0.8f, 0.8f}));
+  EXPECT_EQ(load("newmtl m\nKd 0 0 0\nKa 0.5 1 0\n").materials.at(0).ambient, (float3{decode_srgb(0.5f), 1, 0}));
 }
 
 TEST_F(MtlScene, OpacityMapsBecomeAlpha) {

@@ -38,7 +38,7 @@ TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotr
 void copy(float3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-void copy_factors(const Material& m, const Surroundings& s, MaterialPlan& plan) {
+void copy_factors(const Material& m, MaterialPlan& plan) {
   plan.model = m.model;
   plan.alpha_mode = m.alpha_mode;
   plan.factor[0] = m.base_color.x, plan.factor[1] = m.base_color.y;
@@ -48,9 +48,24 @@ void copy_factors(const Material& m, const Surroundings& s, MaterialPlan& plan) 
   copy(m.emissive, plan.emissive_factor);
   plan.normal_scale = m.normal_scale;
   plan.occlusion_strength = std::clamp(m.occlusion_strength, 0.0f, 1.0f);
-  copy(m.ambient * s.ambient_light, plan.ambient);
   copy(m.specular, plan.specular);
   plan.exponent = make_exponent(std::clamp(m.exponent, 0.0f, 1e5f));
+}
+
+/// Diffuse and ambient light are gathered before they meet the base colour, which is cheapest; the ambient term is
+/// ambient × light × what base colour there would be with a factor of 1.
+void plan_ambient(const Material& m, const Surroundings& s, MaterialPlan& plan) {
+  constexpr float least_divisor = 0x1p-32f;
+  if (m.model != ShadingModel::BlinnPhong && m.model != ShadingModel::Phong) return;
+  const float ambient[3] = {m.ambient.x, m.ambient.y, m.ambient.z};
+  const float light[3] = {s.ambient_light.x, s.ambient_light.y, s.ambient_light.z};
+  for (int c = 0; c < 3; ++c) {
+    if (plan.factor[c] >= least_divisor)
+      plan.ambient_share[c] = ambient[c] / plan.factor[c] * light[c];
+    else
+      plan.own_ambient[c] = ambient[c] * light[c];
+    if (plan.own_ambient[c] > 0) plan.has_own_ambient = true;
+  }
 }
 
 void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
@@ -127,7 +142,8 @@ bool share_taps(const TextureSlot& a, const TextureSlot& b) {
 std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures) {
   std::vector<MaterialPlan> plans(scene.materials.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    copy_factors(scene.materials[i], surroundings, plans[i]);
+    copy_factors(scene.materials[i], plans[i]);
+    plan_ambient(scene.materials[i], surroundings, plans[i]);
     find_slots(scene.materials[i], textures, surroundings.anisotropy, plans[i]);
     decide(scene, surroundings, scene.materials[i], plans[i]);
   }

@@ -56,8 +56,14 @@ struct MaterialPlan {
   float metallic = 1, roughness = 1;
   float emissive_factor[3] = {0, 0, 0};
   float normal_scale = 1, occlusion_strength = 1;
-  float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
+  float specular[3] = {0, 0, 0};
   Exponent exponent;
+
+  // (Blinn-)Phong's ambient term, channel by channel: a share of the base colour, or, where the base colour's factor is
+  // too small to divide by, light of its own.
+  float ambient_share[3] = {0, 0, 0};  ///< times the base colour
+  float own_ambient[3] = {0, 0, 0};    ///< times the base colour without its factor
+  bool has_own_ambient = false;
 
   bool is_lit = false;        ///< lights or an environment change its colour
   bool has_specular = false;  ///< (Blinn-)Phong

@@ -138,7 +138,7 @@ TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
   Material& m = scene.materials[0];
   m.model = ShadingModel::BlinnPhong;
   m.base_color = {0.8f, 0.55f, 0.3f, 1};
-  m.ambient = {1, 1, 1};
+  m.ambient = {0.8f, 0.55f, 0.3f};
   m.specular = {0.35f, 0.2f, 0.1f};
   m.exponent = 40;
   const float3 to_light = normalize({1, 2, 1});
@@ -154,6 +154,46 @@ TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
     EXPECT_NEAR(color.y, expected(0.55f, 0.2f), 2e-6);
     EXPECT_NEAR(color.z, expected(0.3f, 0.1f), 2e-6);
     EXPECT_EQ(color.w, 1);
+  }
+}
+
+/// A black or nearly black triangle that reflects ambient light.
+Scene ambient_triangle(float diffuse) {
+  Scene scene = one_triangle();
+  Material& m = scene.materials[0];
+  m.model = ShadingModel::BlinnPhong;
+  m.base_color = {diffuse, diffuse, 0.5f, 1};
+  m.ambient = {0.5f, 0.25f, 0.75f};
+  m.emissive = {0, 0, 0.125f};
+  return scene;
+}
+
+TEST(Surface, AmbientLightDoesNotNeedDiffuseReflection) {
+  // Light of 2 from all sides; half of it reflected in red, a quarter in green, and the diffuse term is next to
+  // nothing.
+  const Surroundings surroundings{.ambient_light = {2, 2, 2}};
+  for (const float diffuse : {0.0f, 1e-44f, 1e-38f, 1e-20f, 2e-10f, 2.4e-10f, 1e-6f}) {
+    Scene scene = ambient_triangle(diffuse);
+    EXPECT_EQ(color_of(scene, {}), (float4{0, 0, 0.125f, 1})) << diffuse;
+    expect_near(color_of(scene, surroundings), {1, 0.5f, 1.625f, 1}, 4e-7f);
+    scene.lights = {sun({0, 0, -1})};
+    expect_near(color_of(scene, surroundings), {1, 0.5f, 2.125f, 1}, 2e-6f);
+    scene.materials[0].model = ShadingModel::Phong;
+    expect_near(color_of(scene, surroundings), {1, 0.5f, 2.125f, 1}, 2e-6f);
+  }
+}
+
+TEST(Surface, AmbientLightMeetsTexturesAndVertexColours) {
+  const Surroundings surroundings{.ambient_light = {2, 2, 2}};
+  for (const float diffuse : {0.0f, 1e-6f}) {
+    Scene scene = ambient_triangle(diffuse);
+    scene.images = {{"base", one_texel({255, 0, 255, 255})},
+                    {"occlusion", one_texel({51, 0, 0, 255})},
+                    {"emissive", one_texel({255, 255, 255, 255})}};
+    Material& m = scene.materials[0];
+    m.base_color_texture.image = 0, m.occlusion_texture.image = 1, m.emissive_texture.image = 2;
+    scene.meshes[0].color.assign(3, float4{0.5f, 1, 1, 1});
+    expect_near(color_of(scene, surroundings), {0.1f, 0, 0.3f + 0.125f, 1}, 1e-6f);
   }
 }
 
