@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const auto stated = zoneplate::find_image_size(bytes);
     if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "exr") return 0;
-    const zoneplate::Rgba8Image image = zoneplate::decode_image(bytes, "image", max_pixels);
+    const zoneplate::TexelImage image = zoneplate::decode_image(bytes, "image", max_pixels);
     // The budget of an import is asked by what the header states.
     if (!stated || stated->x < image.width() || stated->y < image.height()) std::abort();
   } catch (const zoneplate::Error& error) {

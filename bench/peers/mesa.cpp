@@ -208,7 +208,7 @@ struct Mesa::State {
     upload(scene.meshes.at(0));
     make_program(scene);
     const Material& material = scene.materials.at(0);
-    if (material.base_color_texture.image >= 0) upload(scene.images.at(0).pixels);
+    if (material.base_color_texture.image >= 0) upload(scene.images.at(0).pixels.as<Rgba8>());
     gl.Enable(GL_DEPTH_TEST);
     if (!material.double_sided) gl.Enable(GL_CULL_FACE);
     if (material.alpha_mode == AlphaMode::Blend) {

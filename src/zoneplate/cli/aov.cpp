@@ -20,8 +20,11 @@ namespace {
 constexpr Rgba8 nothing{0, 0, 0, 0};
 const PngOptions data{.is_srgb = false};
 
-// A unit value as an integer code, rounded; what is outside is clamped.
-float code(float value, float top) { return std::floor(std::clamp(value, 0.0f, 1.0f) * top + 0.5f); }
+// A unit value as an integer code, rounded; what is outside is clamped, and what is not a number is 0.
+float code(float value, float top) {
+  const float unit = value > 0 ? std::min(value, 1.0f) : 0.0f;
+  return std::floor(unit * top + 0.5f);
+}
 std::uint8_t code8(float value) { return static_cast<std::uint8_t>(code(value, 255)); }
 
 // The picture of a plane, pixel by pixel; transparent where depth says that nothing is there.
@@ -143,7 +146,8 @@ template <Plane<float2> Frame::*steps>
 std::vector<std::uint8_t> motion_picture(const Frame& frame, const Scene&) {
   constexpr float two_pi = 6.2831853f;
   float greatest = 0;
-  for (const float2 m : (frame.*steps).values()) greatest = std::max(greatest, length(m));
+  for (const float2 m : (frame.*steps).values())
+    if (std::isfinite(length(m))) greatest = std::max(greatest, length(m));
   const float scale = greatest > 0 ? 1 / greatest : 0.0f;
   const PngOptions options{.is_srgb = false, .text = {{"greatest", fmt::format("{}", greatest)}}};
   return data_picture(frame, frame.*steps, options,

@@ -34,13 +34,14 @@ struct Aov {
 ///              nothing. The distances are in the tEXt chunks "near" and "far".
 /// normal       8-bit: 0.5 + 0.5 n of the world-space normal; transparent where nothing is, as all below.
 /// albedo       8-bit sRGB base colour.
-/// uv           8-bit: red and green are the fractional parts of u and v.
+/// uv           8-bit: red and green are the fractional parts of u and v; 0 for one that is not finite.
 /// *-id         a false colour for each number, the same in every picture.
 /// crypto-*     the colours of what owns parts of the pixel, each by its share; transparent by what is left.
 /// position     8-bit: from 0 to 1 between the least and the greatest of what is seen, axis by axis; these are in
 ///              the tEXt chunks "least" and "greatest".
 /// motion, flow 8-bit: the hue is the direction (red to the right, green-yellow down), the saturation the length, full
-///              at the greatest of the picture, which is in the tEXt chunk "greatest", in pixels.
+///              at the greatest of the picture, which is in the tEXt chunk "greatest", in pixels. Black where it is
+///              not finite.
 /// coverage     16-bit grey: share of the pixel's samples that a surface owns.
 /// error        16-bit grey: estimated standard error of the colour, white being the greatest of the picture; that and
 ///              the root mean square, in light, are in the tEXt chunks "greatest" and "rms".

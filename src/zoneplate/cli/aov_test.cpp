@@ -90,6 +90,21 @@ TEST(Aov, UvShowsFractions) {
   EXPECT_EQ(png.pixels(1, 0), (Rgba8{191, 0, 0, 255}));
 }
 
+TEST(Aov, WhatIsNotFiniteHasAColourToo) {
+  Frame odd = frame();
+  constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  odd.uv(0, 0) = {nan, 0.25f}, odd.uv(1, 0) = {infinity, -infinity};
+  const PngImage uv = decode_png(aov_of("uv").encode(odd, scene()), "uv");
+  EXPECT_EQ(uv.pixels(0, 0), (Rgba8{0, 64, 0, 255}));
+  EXPECT_EQ(uv.pixels(1, 0), (Rgba8{0, 0, 0, 255}));
+  for (const float2 step : {float2{infinity, 0}, float2{0, -infinity}, float2{nan, 1}, float2{infinity, nan}}) {
+    odd.motion(1, 0) = step;
+    const PngImage motion = decode_png(aov_of("motion").encode(odd, scene()), "motion");
+    EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // the longest that is finite
+    EXPECT_EQ(motion.pixels(1, 0), (Rgba8{0, 0, 0, 255}));
+  }
+}
+
 TEST(Aov, IdsHaveDistinctColoursAndNothingHasNone) {
   for (const char* name : {"object-id", "material-id", "primitive-id"}) {
     const PngImage png = picture(name);

@@ -60,7 +60,7 @@ LinearImage load_file(const std::string& operand, bool uses_codes) {
     return uses_codes ? as_codes(std::move(light)) : light;
   }
   const bool is_png = !file.bytes().empty() && file.bytes()[0] == 0x89;
-  if (!is_png) return image_of(decode_image(file.bytes(), operand, most_pixels), uses_codes);
+  if (!is_png) return image_of(decode_image(file.bytes(), operand, most_pixels).as<Rgba8>(), uses_codes);
   const PngImage png = decode_png(file.bytes(), operand, most_pixels);
   return png.pixels16.empty() ? image_of(png.pixels, uses_codes) : image_of(png.pixels16, uses_codes);
 }

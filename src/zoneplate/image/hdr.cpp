@@ -8,7 +8,6 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/image/transfer.h"
 
 namespace zoneplate {
 namespace {
@@ -215,9 +214,9 @@ LinearImage decode_hdr(std::span<const std::uint8_t> bytes, const std::string& n
   return decode<LinearImage>(bytes, name, max_pixels, [](Linear light) { return light; });
 }
 
-Rgba8Image decode_hdr_codes(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  return decode<Rgba8Image>(bytes, name, max_pixels, [](Linear light) {
-    return Rgba8{encode_srgb8(light.r), encode_srgb8(light.g), encode_srgb8(light.b), 255};
+Plane<float4> decode_hdr_rgba(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  return decode<Plane<float4>>(bytes, name, max_pixels, [](Linear light) {
+    return float4{light.r, light.g, light.b, light.a};
   });
 }
 

@@ -112,12 +112,12 @@ TEST(Hdr, ASmallFileThatClaimsMuchIsLookedThroughFirst) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100 << 10);
 }
 
-TEST(Hdr, CodesAreThoseOfTheLight) {
-  const Bytes file = file_of("-Y 1 +X 3", {128, 8, 0, 131, 100, 50, 25, 128, 0, 0, 0, 0});
-  EXPECT_EQ(decode_hdr_codes(file, "a.hdr", 3)(0, 0), (Rgba8{255, 137, 0, 255}));
-  const LinearImage light = decode_hdr(file, "a.hdr");
-  EXPECT_EQ(decode_hdr_codes(file, "a.hdr", 3)(1, 0).g, encode_srgb8(light(1, 0).g));
-  EXPECT_EQ(decode_hdr_codes(file, "a.hdr", 3)(2, 0), (Rgba8{0, 0, 0, 255}));
+TEST(Hdr, RgbaIsTheSameLight) {
+  const Bytes file = file_of("-Y 1 +X 3", {128, 8, 0, 150, 100, 50, 25, 128, 0, 0, 0, 0});
+  const Plane<float4> rgba = decode_hdr_rgba(file, "a.hdr", 3);
+  EXPECT_EQ(rgba(0, 0), (float4{0x1p21f, 0x1p17f, 0, 1}));
+  EXPECT_EQ(rgba(1, 0), (float4{100 / 256.0f, 50 / 256.0f, 25 / 256.0f, 1}));
+  EXPECT_EQ(rgba(2, 0), (float4{0, 0, 0, 1}));
 }
 
 TEST(Hdr, DamageNeverReachesBeyondTheBytes) {

@@ -69,25 +69,17 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  enum class Depth { Stored, Eight };
-
-  /// Of 16 bits a channel, `Depth::Eight` leaves no more than the rounded codes.
-  PngImage decode(std::uint64_t max_pixels, Depth depth) {
+  /// The image in the file's own depth.
+  PngImage decode(std::uint64_t max_pixels) {
     check(guarded(png_, [this] { read_header(); }));
     check_size(max_pixels);
     const int width = static_cast<int>(png_get_image_width(png_, info_));
     const int height = static_cast<int>(png_get_image_height(png_, info_));
     PngImage image;
-    if (depth == Depth::Eight) png_set_scale_16(png_);
-    if (depth == Depth::Stored && png_get_bit_depth(png_, info_) == 16) {
+    if (png_get_bit_depth(png_, info_) == 16) {
       image.pixels16 = Rgba16Image(width, height);
       read_rows(reinterpret_cast<png_bytep>(image.pixels16.values().data()), image.pixels16.row(0).size_bytes(),
                 height);
-      image.pixels = Rgba8Image(width, height);
-      std::transform(image.pixels16.values().begin(), image.pixels16.values().end(), image.pixels.values().begin(),
-                     [](Rgba16 c) {
-                       return Rgba8{narrowed(c.r), narrowed(c.g), narrowed(c.b), narrowed(c.a)};
-                     });
     } else {
       image.pixels = Rgba8Image(width, height);
       read_rows(reinterpret_cast<png_bytep>(image.pixels.values().data()), image.pixels.row(0).size_bytes(), height);
@@ -96,9 +88,6 @@ class Reader {
   }
 
  private:
-  /// round(code / 257).
-  static std::uint8_t narrowed(std::uint16_t code) { return static_cast<std::uint8_t>((code * 255u + 32895u) >> 16); }
-
   void check(bool is_well) const {
     if (!is_well) throw Error(Trouble::Input, name_ + ": PNG: " + report_.message.data());
   }
@@ -154,18 +143,29 @@ class Reader {
   png_infop info_ = nullptr;
 };
 
+/// round(code / 257).
+std::uint8_t narrowed(std::uint16_t code) { return static_cast<std::uint8_t>((code * 255u + 32895u) >> 16); }
+
 }  // namespace
 
 bool is_png(std::span<const std::uint8_t> bytes) { return bytes.size() >= 8 && png_sig_cmp(bytes.data(), 0, 8) == 0; }
 
-PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+bool has_16_bits(std::span<const std::uint8_t> png) { return png.size() > 24 && png[24] == 16; }
+
+PngImage decode_png_as_stored(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (!is_png(bytes)) throw Error(Trouble::Input, name + ": not a PNG file");
-  return Reader(bytes, name).decode(max_pixels, Reader::Depth::Stored);
+  return Reader(bytes, name).decode(max_pixels);
 }
 
-Rgba8Image decode_png8(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  if (!is_png(bytes)) throw Error(Trouble::Input, name + ": not a PNG file");
-  return Reader(bytes, name).decode(max_pixels, Reader::Depth::Eight).pixels;
+PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  PngImage image = decode_png_as_stored(bytes, name, max_pixels);
+  if (image.pixels16.empty()) return image;
+  image.pixels = Rgba8Image(image.pixels16.width(), image.pixels16.height());
+  std::transform(image.pixels16.values().begin(), image.pixels16.values().end(), image.pixels.values().begin(),
+                 [](Rgba16 c) {
+                   return Rgba8{narrowed(c.r), narrowed(c.g), narrowed(c.b), narrowed(c.a)};
+                 });
+  return image;
 }
 
 namespace {

@@ -21,8 +21,11 @@ bool is_png(std::span<const std::uint8_t> bytes);
 /// Errors    Trouble::Input with `name` in front: not a PNG, truncated, corrupt, more than `max_pixels` pixels.
 PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name,
                     std::uint64_t max_pixels = std::uint64_t{1} << 28);
-/// The same with 16 bits rounded to 8 on the way.
-Rgba8Image decode_png8(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+/// The same in the file's own depth alone: of `pixels` and `pixels16` one is empty.
+PngImage decode_png_as_stored(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+
+/// True for a PNG whose header states 16 bits a channel.
+bool has_16_bits(std::span<const std::uint8_t> png);
 
 struct PngOptions {
   bool has_alpha = true;        ///< false: RGB is written

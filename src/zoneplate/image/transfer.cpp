@@ -80,6 +80,13 @@ float decode_srgb(float code) {
 
 float decode_srgb8(std::uint8_t code) { return decoded[code]; }
 
+std::vector<float> decoded_srgb16() {
+  std::vector<float> table(65536);
+  for (std::size_t code = 0; code < table.size(); ++code)
+    table[code] = static_cast<float>(decode_precisely(static_cast<double>(code) / 65535));
+  return table;
+}
+
 std::uint8_t encode_srgb8(float linear) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(clamp_unit(linear));
   if (bits < Thresholds::first_bits) return 0;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "zoneplate/image/rgb.h"
 
@@ -16,6 +17,9 @@ float decode_srgb(float code);
 
 /// The curve's value for code / 255, rounded to float.
 float decode_srgb8(std::uint8_t code);
+
+/// The same for every code / 65535.
+std::vector<float> decoded_srgb16();
 
 /// The 8-bit code of a linear value: the definition's curve times 255, exactly rounded.
 ///

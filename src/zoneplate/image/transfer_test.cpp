@@ -50,6 +50,17 @@ TEST(Transfer, ClampsWhatLiesOutside) {
   }
 }
 
+TEST(Transfer, SixteenBitCodesAreDecodedByTheDefinition) {
+  const std::vector<float> table = decoded_srgb16();
+  ASSERT_EQ(table.size(), 65536u);
+  for (std::size_t code = 0; code < table.size(); ++code) {
+    const auto expected = static_cast<double>(true_decode(static_cast<long double>(code) / 65535));
+    ASSERT_NEAR(table[code], expected, expected * 0x1p-24 * 1.001) << code;
+  }
+  for (std::size_t code = 0; code < 256; ++code)
+    EXPECT_EQ(table[code * 257], decode_srgb8(static_cast<std::uint8_t>(code)));
+}
+
 TEST(Transfer, EightBitCodesComeBack) {
   for (int code = 0; code < 256; ++code) {
     const auto byte = static_cast<std::uint8_t>(code);

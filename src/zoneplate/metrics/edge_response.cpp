@@ -45,12 +45,16 @@ struct Line {
   double x(double y) const { return at + slope * (y - middle); }
 };
 
+/// The whole number below x within [0, most]; 0 where x is not a number.
+int whole_within(double x, int most) { return x > 0 ? static_cast<int>(std::min<double>(x, most)) : 0; }
+
 /// The centroid of a row's change within `reach` of `near`; nothing where it changes by less than `least`.
 std::optional<double> edge_in_row(std::span<const double> row, double near, double reach, double least) {
   double sum = 0, moment = 0;
   const int n = static_cast<int>(row.size());
-  const int first = std::max(0, static_cast<int>(std::floor(near - reach)));
-  const int last = std::min(n - 2, static_cast<int>(std::ceil(near + reach)));
+  if (!(near + reach >= 0)) return std::nullopt;
+  const int first = whole_within(near - reach, n);
+  const int last = std::min(n - 2, whole_within(std::ceil(near + reach), n));
   for (int x = first; x <= last; ++x) {
     const double change = row[static_cast<std::size_t>(x + 1)] - row[static_cast<std::size_t>(x)];
     sum += change;
@@ -199,7 +203,7 @@ std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
 
   const double ends[] = {line->x(0), line->x(in.height())};
   const double room = std::min(std::ranges::min(ends), in.width() - std::ranges::max(ends));
-  const int reach = std::clamp(static_cast<int>(std::floor(room)), least_reach, greatest_reach);
+  const int reach = std::max(least_reach, whole_within(room, greatest_reach));
   auto spread = gather(in, *line, reach);
   if (!spread) return std::nullopt;
 

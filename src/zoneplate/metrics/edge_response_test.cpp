@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "zoneplate/metrics/charts_for_test.h"
 
@@ -92,6 +93,14 @@ TEST(EdgeResponse, SeesOvershoot) {
   }));
   ASSERT_TRUE(edge);
   EXPECT_NEAR(edge->overshoot, 0.1, 0.01);
+}
+
+TEST(EdgeResponse, IsNothingWhereLightIsNotFinite) {
+  for (const float light : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    LinearImage image = box_edge(5 * degree, 4);
+    for (int y = 0; y < image.height(); ++y) image(20, y) = {light, light, light, 1};
+    EXPECT_FALSE(measure_edge(image));
+  }
 }
 
 TEST(EdgeResponse, IsNothingWithoutASlantedEdge) {

@@ -43,9 +43,10 @@ LinearImage expose(const LinearImage& image, double exposure) {
 std::vector<double> flip_exposures(const LinearImage& reference) {
   std::vector<double> luminance;
   luminance.reserve(reference.values().size());
-  for (const Linear& c : reference.values()) {
-    luminance.push_back(0.2126 * std::max(0.0f, c.r) + 0.7152 * std::max(0.0f, c.g) + 0.0722 * std::max(0.0f, c.b));
-  }
+  // Infinite light counts as the most that a float holds, so that the exposures stay finite.
+  const auto bounded = [](float x) { return std::min(std::max(0.0f, x), std::numeric_limits<float>::max()); };
+  for (const Linear& c : reference.values())
+    luminance.push_back(0.2126 * bounded(c.r) + 0.7152 * bounded(c.g) + 0.0722 * bounded(c.b));
 
   // Black counts as the least light that a float tells from none beside 1, so that the exposures stay bounded.
   constexpr double darkest = std::numeric_limits<float>::epsilon();

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/metrics/charts_for_test.h"
@@ -53,6 +56,13 @@ TEST(Flip, PublishedExposures) {
   EXPECT_NEAR(exposures(2).front(), -1.81559, 1e-5);
   EXPECT_NEAR(exposures(2).back(), 0.02063, 1e-5);
   EXPECT_NEAR(exposures(3).front(), -0.44277, 1e-5);
+}
+
+TEST(Flip, InfiniteLightHasFiniteExposures) {
+  LinearImage burnt(3, 3, Linear{1, 1, 1, 1});
+  burnt(1, 1).g = std::numeric_limits<float>::infinity();
+  for (const double exposure : flip_exposures(burnt)) EXPECT_TRUE(std::isfinite(exposure));
+  EXPECT_LT(flip_exposures(burnt).size(), 200u);
 }
 
 TEST(Flip, BlackReferenceHasExposures) {

@@ -115,7 +115,7 @@ TEST(Assimp, ReadsNodesMaterialsAndTheTexturesBesideTheModel) {
   EXPECT_NEAR(box.high.y, 0, 1e-6f);
   EXPECT_NEAR(box.high.z, 1, 1e-6f);
   ASSERT_EQ(s.images.size(), 1u);
-  EXPECT_EQ(s.images[0].pixels(1, 0), (Rgba8{200, 0, 0, 255}));
+  EXPECT_EQ(s.images[0].pixels.as<Rgba8>()(1, 0), (Rgba8{200, 0, 0, 255}));
   EXPECT_EQ(s.materials[static_cast<std::size_t>(s.meshes[0].material)].base_color_texture.image, 0);
   EXPECT_TRUE(s.warnings.empty()) << s.warnings[0];
 }

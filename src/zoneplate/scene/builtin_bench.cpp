@@ -104,7 +104,7 @@ Scene lit_scene(const char* name, Mesh mesh, const BenchLook& look) {
   material.model = ShadingModel::BlinnPhong;
   material.double_sided = look.double_sided;
   material.base_color = {look.base.x, look.base.y, look.base.z, 1};
-  material.ambient = {1, 1, 1};
+  material.ambient = look.base;
   material.specular = {look.specular, look.specular, look.specular};
   material.exponent = look.exponent;
   if (look.textured) {

@@ -189,7 +189,7 @@ TEST(Cyclic, EachTriangleIsBeforeTheNext) {
 TEST(Checkerboard, ReachesTheHorizon) {
   const Scene scene = made("checkerboard");
   EXPECT_EQ(open_edges(scene.meshes[0]).size(), 4u * 13);  // only its outer border is open
-  const Rgba8Image& image = scene.images.at(0).pixels;
+  const Rgba8Image& image = scene.images.at(0).pixels.as<Rgba8>();
   EXPECT_NE(image(0, 0), image(64, 0));
   EXPECT_EQ(image(0, 0), image(64, 64));
   EXPECT_EQ(image(0, 0), image(63, 63));

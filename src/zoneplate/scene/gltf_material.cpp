@@ -184,7 +184,7 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
     if (pixels > file.budget().limits().pixels)
       json.fail("has " + std::to_string(size->x) + " x " + std::to_string(size->y) + " pixels, the limit is " +
                 std::to_string(file.budget().limits().pixels) + " (--max-pixels)");
-    file.budget().take(pixels * sizeof(Rgba8));
+    file.budget().take(decoded_image_memory(out.data.bytes));
   }
   return out;
 }
@@ -223,6 +223,8 @@ GltfMaterials load_materials(GltfFile& file) {
   // Of several broken images the first in the file is named, whichever thread met its own first.
   for (const std::string& t : trouble)
     if (!t.empty()) throw Error(Trouble::Input, t);
+  for (const TextureImage& image : out.images)
+    if (const auto warning = size_warning(image)) file.warn(file.budget().file() + ": " + *warning);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "zoneplate/image/exr_encode.h"
 #include "zoneplate/image/png.h"
 #include "zoneplate/scene/gltf.h"
 #include "zoneplate/scene/gltf_maker_test.h"
@@ -179,6 +180,34 @@ TEST(GltfMaterial, ImageErrorsNameTheFirstImage) {
   EXPECT_EQ(error_of(m).rfind("image 0: ", 0), 0u);
   m.rest = R"(,"images":[{"bufferView":1},{}],"textures":[{"source":0},{"source":1}])";
   EXPECT_EQ(error_of(m), "image 1: has neither uri nor bufferView");
+}
+
+TEST(GltfMaterial, EmbeddedImagesKeepTheirBitsAndTheirLight) {
+  const float light[] = {1e4f, 2e5f, 0.25f};
+  const auto exr = encode_exr(1, 1,
+                              {{"R", ExrType::Float, light, nullptr, 1},
+                               {"G", ExrType::Float, light + 1, nullptr, 1},
+                               {"B", ExrType::Float, light + 2, nullptr, 1}});
+  const Rgba16Image deep(2, 1, {1, 20000, 20001, 65535});
+  GltfMaker m = triangle_maker();
+  const std::string bright = m.view(exr), data = m.view(encode_png(deep));
+  m.materials = R"({"emissiveTexture":{"index":0},"normalTexture":{"index":1}})";
+  m.rest = R"(,"images":[{"bufferView":)" + bright + R"(},{"bufferView":)" + data +
+           R"(}],"textures":[{"source":0},{"source":1}])";
+  const Scene s = load(m);
+  ASSERT_EQ(s.images.size(), 2u);
+  EXPECT_EQ(s.images[0].pixels, Plane<float4>(1, 1, float4{1e4f, 2e5f, 0.25f, 1}));
+  EXPECT_EQ(s.images[1].pixels, deep);
+}
+
+TEST(GltfMaterial, ImagesThatAreTooWideAreNamed) {
+  GltfMaker m = triangle_maker();
+  m.rest =
+      R"(,"images":[{"name":"strip","bufferView":)" + m.view(png(40000, 1, {})) + R"(}],"textures":[{"source":0}])";
+  m.materials = R"({"emissiveTexture":{"index":0}})";
+  const Scene s = load(m);
+  ASSERT_EQ(s.warnings.size(), 1u);
+  EXPECT_NE(s.warnings[0].find("f.glb: texture strip: 40000 x 1 texels are drawn as 20000 x 1"), std::string::npos);
 }
 
 TEST(GltfMaterial, PixelsAreLimited) {

@@ -1,14 +1,17 @@
 #include "zoneplate/scene/image_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/exr.h"
 #include "zoneplate/image/hdr.h"
 #include "zoneplate/image/jpeg.h"
 #include "zoneplate/image/png.h"
-#include "zoneplate/image/transfer.h"
 #include "zoneplate/image/webp_still.h"
 
 namespace zoneplate {
@@ -70,22 +73,27 @@ std::optional<JpegFrame> find_jpeg_frame(std::span<const std::uint8_t> bytes) {
   return std::nullopt;
 }
 
-/// Light as a code.
-Rgba8 code_of(Linear c) {
-  if (!(c.a > 0)) return {0, 0, 0, 0};
-  const float alpha = std::min(c.a, 1.0f);
-  return {encode_srgb8(c.r / c.a), encode_srgb8(c.g / c.a), encode_srgb8(c.b / c.a),
-          static_cast<std::uint8_t>(alpha * 255 + 0.5f)};
+/// Light without the alpha that it was multiplied by.
+float4 straight(Linear c) {
+  const float alpha = c.a > 0 ? c.a : 1.0f;
+  return {c.r / alpha, c.g / alpha, c.b / alpha, c.a};
 }
 
-Rgba8Image decode_exr_codes(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  Rgba8Image image;
+Plane<float4> decode_exr_light(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  Plane<float4> image;
   int y = 0;
   decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
-    if (y == 0) image = Rgba8Image(static_cast<int>(row.size()), find_exr_size(bytes)->y);
-    std::transform(row.begin(), row.end(), image.row(y++).begin(), code_of);
+    check_deadline();
+    if (y == 0) image = Plane<float4>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+    std::transform(row.begin(), row.end(), image.row(y++).begin(), straight);
   });
   return image;
+}
+
+TexelImage decode_png_texels(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  PngImage image = decode_png_as_stored(bytes, name, max_pixels);
+  if (image.pixels16.empty()) return std::move(image.pixels);
+  return std::move(image.pixels16);
 }
 
 }  // namespace
@@ -102,6 +110,15 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   return std::nullopt;
 }
 
+std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<int2> size = find_image_size(bytes);
+  if (!size) return 0;
+  const std::uint64_t texel = is_hdr(bytes) || is_exr(bytes)        ? sizeof(float4)
+                              : is_png(bytes) && has_16_bits(bytes) ? sizeof(Rgba16)
+                                                                    : sizeof(Rgba8);
+  return static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * texel;
+}
+
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
   if (!size) return 0;
@@ -115,14 +132,24 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   return 2 * pixels * frame->samples / frame->pixels;
 }
 
-Rgba8Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (is_jpeg(bytes)) return decode_jpeg(bytes, name, max_pixels);
   if (is_webp(bytes)) return decode_webp(bytes, name, max_pixels);
-  if (is_hdr(bytes)) return decode_hdr_codes(bytes, name, max_pixels);
-  if (is_exr(bytes)) return decode_exr_codes(bytes, name, max_pixels / 4);
-  if (is_png(bytes)) return decode_png8(bytes, name, max_pixels);
+  if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
+  if (is_exr(bytes)) return decode_exr_light(bytes, name, max_pixels / 4);
+  if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
   throw Error(Trouble::Input,
               name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG, WebP, HDR or EXR");
+}
+
+std::optional<std::string> size_warning(const TextureImage& image) {
+  const int width = image.pixels.width(), height = image.pixels.height();
+  int drawn_width = width, drawn_height = height;
+  while (drawn_width > TextureImage::most_side) drawn_width /= 2;
+  while (drawn_height > TextureImage::most_side) drawn_height /= 2;
+  if (drawn_width == width && drawn_height == height) return std::nullopt;
+  return fmt::format("texture {}: {} x {} texels are drawn as {} x {}, at most {} a side", image.name, width, height,
+                     drawn_width, drawn_height, TextureImage::most_side);
 }
 
 }  // namespace zoneplate

@@ -5,22 +5,29 @@
 #include <span>
 #include <string>
 
-#include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/scene/material.h"
 
 namespace zoneplate {
 
 /// Width and height as the header of a PNG, JPEG, WebP, HDR or EXR states them; nothing for other bytes.
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes);
 
+/// Bytes that the decoded image takes, by its header; 0 where its size is not known.
+std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes);
+
 /// Bytes that decoding takes beside the picture, at most.
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes);
 
-/// Decodes the image of a texture, PNG, JPEG, WebP, HDR or EXR by its first bytes, whatever its name says; 16 bits are
-/// rounded to 8, light becomes its sRGB code: what is brighter than white is white.
+/// Decodes the image of a texture, PNG, JPEG, WebP, HDR or EXR by its first bytes, whatever its name says.
 ///
-/// An EXR may have a quarter of the pixels, for each takes four times the room on the way.
-/// Errors    Trouble::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
-Rgba8Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+/// The texels are those of the file: codes of 8 bits, of 16 where a PNG has them, and the light of HDR and EXR. Light
+/// is divided by an EXR's alpha where that is above 0. An EXR may have a quarter of the pixels, for each takes four
+/// times the room on the way. Errors    Trouble::Input with `name` in front: another format (named, if known), corrupt,
+/// more than `max_pixels`.
+TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+
+/// A warning, without the file's name, where an image has more texels along a side than are drawn.
+std::optional<std::string> size_warning(const TextureImage& image);
 
 }  // namespace zoneplate

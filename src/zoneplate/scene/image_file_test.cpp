@@ -34,13 +34,16 @@ TEST(ImageFile, PngByItsFirstBytes) {
   EXPECT_THROW(decode_image(bytes, "tex", 5), Error);
 }
 
-TEST(ImageFile, SixteenBitsAreRounded) {
+TEST(ImageFile, SixteenBitsAreKept) {
   Rgba16Image image(2, 1);
-  image(0, 0) = {0, 65535, 128, 129};    // 128 / 257 < 1/2 < 129 / 257
-  image(1, 0) = {257, 385, 386, 65535};  // 385 / 257 = 1.498, 386 / 257 = 1.502
-  const Rgba8Image out = decode_image(encode_png(image), "tex", 100);
-  EXPECT_EQ(out(0, 0), (Rgba8{0, 255, 0, 1}));
-  EXPECT_EQ(out(1, 0), (Rgba8{1, 1, 2, 255}));
+  image(0, 0) = {0, 65535, 128, 129};
+  image(1, 0) = {257, 385, 386, 65535};
+  const Bytes bytes = encode_png(image);
+  EXPECT_EQ(decode_image(bytes, "tex", 100), image);
+  EXPECT_EQ(decoded_image_memory(bytes), 2 * sizeof(Rgba16));
+  EXPECT_EQ(decoded_image_memory(encode_png(Rgba8Image(2, 1))), 2 * sizeof(Rgba8));
+  Plane<std::uint16_t> grey(1, 1, 1000);
+  EXPECT_EQ(decode_image(encode_png(grey), "tex", 100), Rgba16Image(1, 1, {1000, 1000, 1000, 65535}));
 }
 
 TEST(ImageFile, SizeOfAJpegStandsInItsFrameHeader) {
@@ -49,11 +52,11 @@ TEST(ImageFile, SizeOfAJpegStandsInItsFrameHeader) {
   for (std::size_t n = 0; n < 18; ++n) EXPECT_FALSE(find_image_size(std::span(head).first(n))) << n;
 }
 
-TEST(ImageFile, LightBecomesItsCode) {
+TEST(ImageFile, LightIsKept) {
   const std::string head = "#?RADIANCE\n\n-Y 1 +X 1\n";
   Bytes hdr(head.begin(), head.end());
-  hdr.insert(hdr.end(), {128, 8, 0, 131});              // 4, 0.25, 0
-  const LinearImage light(1, 1, {2, 0.125f, 0, 0.5f});  // the same at half of the alpha
+  hdr.insert(hdr.end(), {128, 8, 0, 150});                     // 2^21, 2^17, 0
+  const LinearImage light(1, 1, {1e4f, 0.125f, -0.5f, 0.5f});  // premultiplied
   const Linear& first = light.values()[0];
   const Bytes exr = encode_exr(1, 1,
                                {{"R", ExrType::Float, &first.r, nullptr, 4},
@@ -62,8 +65,10 @@ TEST(ImageFile, LightBecomesItsCode) {
                                 {"A", ExrType::Float, &first.a, nullptr, 4}});
   EXPECT_EQ(find_image_size(hdr), (int2{1, 1}));
   EXPECT_EQ(find_image_size(exr), (int2{1, 1}));
-  EXPECT_EQ(decode_image(hdr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 255}));
-  EXPECT_EQ(decode_image(exr, "tex", 4)(0, 0), (Rgba8{255, 137, 0, 128}));
+  EXPECT_EQ(decode_image(hdr, "tex", 4), Plane<float4>(1, 1, float4{0x1p21f, 0x1p17f, 0, 1}));
+  EXPECT_EQ(decode_image(exr, "tex", 4), Plane<float4>(1, 1, float4{2e4f, 0.25f, -1, 0.5f}));
+  EXPECT_EQ(decoded_image_memory(hdr), sizeof(float4));
+  EXPECT_EQ(decoded_image_memory(exr), sizeof(float4));
   EXPECT_THROW(decode_image(exr, "tex", 3), Error);
   EXPECT_THROW(decode_image(hdr, "tex", 0), Error);
 }
@@ -92,6 +97,19 @@ TEST(ImageFile, SizeOfAJpegIsKnownWhereverItCanBeDecoded) {
     EXPECT_EQ(decode_image(bytes, "tex", 100), decode_image(whole, "tex", 100));
     EXPECT_EQ(find_image_size(bytes), (int2{9, 7}));
   }
+}
+
+TEST(ImageFile, LightWithoutAlphaStaysAsItIs) {
+  const float light[] = {3, 0};
+  const Bytes exr =
+      encode_exr(1, 1, {{"Y", ExrType::Float, light, nullptr, 1}, {"A", ExrType::Float, light + 1, nullptr, 1}});
+  EXPECT_EQ(decode_image(exr, "tex", 4), Plane<float4>(1, 1, float4{3, 3, 3, 0}));
+}
+
+TEST(ImageFile, WarnsOfWhatIsDrawnSmaller) {
+  EXPECT_EQ(size_warning({"a", Rgba8Image(32768, 2)}), std::nullopt);
+  EXPECT_EQ(size_warning({"a", Rgba8Image(2, 32769)}),
+            "texture a: 2 x 32769 texels are drawn as 2 x 16384, at most 32768 a side");
 }
 
 TEST(ImageFile, OtherFormatsAreNamed) {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/scene/texel_image.h"
 
 namespace zoneplate {
 
@@ -22,10 +22,13 @@ struct Sampler {
   bool operator==(const Sampler&) const = default;
 };
 
-/// A decoded image file: straight alpha, codes as stored in the file.
+/// A decoded image file.
 struct TextureImage {
+  /// Texels along a side. Images that are wider or higher are drawn at a half, a quarter, ... of that side.
+  static constexpr int most_side = 32768;
+
   std::string name;  ///< the file or image it came from, for messages
-  Rgba8Image pixels;
+  TexelImage pixels;
 };
 
 /// A use of an image in one slot of a material. `image` < 0: no texture, the factor stands alone.
@@ -43,7 +46,8 @@ struct TextureUse {
 enum class AlphaMode { Opaque, Mask, Blend };
 enum class ShadingModel { MetallicRoughness, BlinnPhong, Phong, Unlit };
 
-/// What a surface is made of. Factors are linear; base colour and emissive images are sRGB, the others linear.
+/// What a surface is made of. Factors are linear; codes of base colour and emissive images are sRGB, those of the
+/// others linear.
 struct Material {
   std::string name;
   ShadingModel model = ShadingModel::MetallicRoughness;
@@ -62,7 +66,7 @@ struct Material {
 
   float metallic = 1, roughness = 1;      ///< metallic-roughness only
   TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
-  float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka, times the ambient light
+  float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka; times the base colour's texture, as Kd is
   float3 specular{0, 0, 0};               ///< (Blinn-)Phong only: Ks
   float exponent = 32;                    ///< (Blinn-)Phong only: Ns
 };

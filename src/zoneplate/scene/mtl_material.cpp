@@ -13,6 +13,7 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/gltf_uri.h"
 #include "zoneplate/scene/image_file.h"
+#include "zoneplate/scene/opacity_map.h"
 
 namespace zoneplate {
 namespace {
@@ -37,36 +38,6 @@ std::string to_uri(const std::string& name) {
 bool is_file(const std::string& path) {
   std::error_code trouble;
   return std::filesystem::is_regular_file(path, trouble);
-}
-
-/// How opaque a texel of an opacity map is: its alpha where the map has any, else its luma (Rec. 709, in codes).
-class Opacity {
- public:
-  explicit Opacity(const Rgba8Image& map) : map_(map) {
-    const auto values = map.values();
-    has_alpha_ = std::any_of(values.begin(), values.end(), [](Rgba8 p) { return p.a != 255; });
-  }
-  std::uint8_t operator()(int x, int y) const {
-    const Rgba8 p = map_(x, y);
-    return has_alpha_ ? p.a : static_cast<std::uint8_t>((p.r * 2126 + p.g * 7152 + p.b * 722 + 5000) / 10000);
-  }
-
- private:
-  const Rgba8Image& map_;
-  bool has_alpha_ = false;
-};
-
-/// The colour image with the map as its alpha, at the colour image's size; white where there is no colour image.
-Rgba8Image with_alpha(const Rgba8Image* color, const Rgba8Image& map) {
-  Rgba8Image out = color != nullptr ? *color : Rgba8Image(map.width(), map.height(), {255, 255, 255, 255});
-  const Opacity opacity(map);
-  const auto scaled = [](int i, int to, int from) { return static_cast<int>(std::int64_t{i} * to / from); };
-  for (int y = 0; y < out.height(); ++y) {
-    check_deadline();
-    for (int x = 0; x < out.width(); ++x)
-      out(x, y).a = opacity(scaled(x, map.width(), out.width()), scaled(y, map.height(), out.height()));
-  }
-  return out;
 }
 
 TextureUse use_of(const MtlTexture& texture, int image) {
@@ -101,13 +72,11 @@ void add_opacity(const MtlMaterial& mtl, const std::string& within, ObjFolder& f
   if (map < 0) return;
   std::vector<TextureImage>& images = folder.scene().images;
   TextureUse& base = material.base_color_texture;
-  const Rgba8Image* color = base.image >= 0 ? &images[static_cast<std::size_t>(base.image)].pixels : nullptr;
+  const TexelImage* color = base.image >= 0 ? &images[static_cast<std::size_t>(base.image)].pixels : nullptr;
   const TextureImage& mask = images[static_cast<std::size_t>(map)];
-  const Rgba8Image& sized = color != nullptr ? *color : mask.pixels;
-  folder.budget().take(sized.values().size() * sizeof(Rgba8));
-  TextureImage both{mask.name, with_alpha(color, mask.pixels)};
-  const auto values = both.pixels.values();
-  if (std::all_of(values.begin(), values.end(), [](Rgba8 p) { return p.a == 255; })) return;
+  folder.budget().take(with_opacity_memory(color, mask.pixels));
+  TextureImage both{mask.name, with_opacity(color, mask.pixels)};
+  if (is_opaque(both.pixels)) return;
   if (color == nullptr) base = use_of(mtl.opacity_map, 0);
   base.image = static_cast<int>(images.size());
   images.push_back(std::move(both));
@@ -175,13 +144,12 @@ int ObjFolder::add(Make make) {
 }
 
 TextureImage ObjFolder::decode(const std::string& name, std::span<const std::uint8_t> bytes) {
-  const std::optional<int2> size = find_image_size(bytes);
   const std::uint64_t working = image_working_memory(bytes);
   budget_.take(name.size() + 2 * sizeof(TextureImage));
-  if (size)
-    budget_.take(working + static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * sizeof(Rgba8));
+  budget_.take(working + decoded_image_memory(bytes));
   TextureImage image{name, decode_image(bytes, name, budget_.limits().pixels)};
   budget_.give_back(working);
+  if (const auto warning = size_warning(image)) scene_.warnings.push_back(budget_.file() + ": " + *warning);
   return image;
 }
 
@@ -209,7 +177,7 @@ Material plain_material(const std::string& name) {
   material.model = ShadingModel::BlinnPhong;
   material.double_sided = true;
   material.base_color = {0.8f, 0.8f, 0.8f, 1};
-  material.ambient = {1, 1, 1};
+  material.ambient = {0.8f, 0.8f, 0.8f};
   return material;
 }
 
@@ -225,10 +193,7 @@ Material make_material(const MtlMaterial& mtl, const std::string& within, ObjFol
   m.base_color = {base.x, base.y, base.z, std::clamp(opacity, 0.0f, 1.0f)};
   if (m.base_color.w < 1) m.alpha_mode = AlphaMode::Blend;
   m.emissive = factor(mtl.emissive, m.emissive_texture.image >= 0, {0, 0, 0}, mtl, "Ke", folder);
-  if (mtl.ambient) {
-    const float3 a = linear(*mtl.ambient);
-    m.ambient = {base.x > 0 ? a.x / base.x : 0, base.y > 0 ? a.y / base.y : 0, base.z > 0 ? a.z / base.z : 0};
-  }
+  m.ambient = mtl.ambient ? linear(*mtl.ambient) : base;
 
   const int illumination = mtl.illumination.value_or(2);
   if (illumination > 1) m.specular = linear(mtl.specular.value_or(float3{0, 0, 0}));

@@ -56,7 +56,7 @@ TEST_F(MtlScene, ColoursAreCodes) {
   const Material m = load("newmtl m\nKd 0.5 1 0\nKa 0.5 0.25 1\nKs 0.2 0.2 0.2\nKe 20 0 0.5\nNs 50\n").materials.at(0);
   EXPECT_EQ(m.model, ShadingModel::BlinnPhong);
   EXPECT_EQ(m.base_color, (float4{decode_srgb(0.5f), 1, 0, 1}));
-  EXPECT_EQ(m.ambient, (float3{1, decode_srgb(0.25f), 0}));  // in proportion to Kd
+  EXPECT_EQ(m.ambient, (float3{decode_srgb(0.5f), decode_srgb(0.25f), 1}));
   EXPECT_EQ(m.specular.x, decode_srgb(0.2f));
   EXPECT_EQ(m.emissive, (float3{20, 0, decode_srgb(0.5f)}));
   EXPECT_EQ(m.exponent, 50);
@@ -85,7 +85,7 @@ TEST_F(MtlScene, FindsImagesWithinTheFolder) {
   write_png("outside.png", {7, 7, 7, 255}, {7, 7, 7, 255});
   const auto first = [&](const std::string& file, const LoadLimits& limits = {}) {
     const Scene scene = load("newmtl m\nmap_Kd " + file + "\n", limits);
-    return scene.images.empty() ? -1 : int{scene.images[0].pixels(0, 0).r};
+    return scene.images.empty() ? -1 : int{scene.images[0].pixels.as<Rgba8>()(0, 0).r};
   };
   EXPECT_EQ(first("sub dir\\a b.png"), 1);
   EXPECT_EQ(first("./sub dir/a b.png"), 1);
@@ -135,13 +135,41 @@ TEST_F(MtlScene, ImagesAreSharedScaledAndClamped) {
   EXPECT_EQ(use.offset.y + use.scale.y * (1 - 1), 1 - 3.5f);
 }
 
+TEST_F(MtlScene, AmbientIsKdWhereThereIsNoKa) {
+  const Material m = load("newmtl m\nKd 0.5 0 1\n").materials.at(0);
+  EXPECT_EQ(m.ambient, (float3{decode_srgb(0.5f), 0, 1}));
+  EXPECT_EQ(plain_material("").ambient, (float3{0.8f, 0.8f, 0.8f}));
+  EXPECT_EQ(load("newmtl m\nKd 0 0 0\nKa 0.5 1 0\n").materials.at(0).ambient, (float3{decode_srgb(0.5f), 1, 0}));
+}
+
+TEST_F(MtlScene, ImagesKeepTheirBitsAndTheirLight) {
+  Rgba16Image deep(2, 1);
+  deep(0, 0) = {1, 2, 3, 65535}, deep(1, 0) = {65535, 258, 0, 65535};
+  const auto text = [](const std::vector<std::uint8_t>& bytes) { return std::string(bytes.begin(), bytes.end()); };
+  write("model/deep.png", text(encode_png(deep)));
+  write("model/bright.hdr", std::string("#?RADIANCE\n\n-Y 1 +X 1\n\x80\x08") + '\0' + '\x96');
+  const Scene scene = load("newmtl m\nmap_Kd deep.png\nmap_Ke bright.hdr\n");
+  EXPECT_EQ(warnings_of(scene), "");
+  ASSERT_EQ(scene.images.size(), 2u);
+  EXPECT_EQ(scene.images[0].pixels, deep);
+  EXPECT_EQ(scene.images[1].pixels, Plane<float4>(1, 1, float4{0x1p21f, 0x1p17f, 0, 1}));
+  EXPECT_THROW(load("newmtl m\nmap_Ke bright.hdr\n", {.memory = 600}), Error);
+}
+
+TEST_F(MtlScene, ImagesThatAreTooWideAreNamed) {
+  const std::vector<std::uint8_t> bytes = encode_png(Rgba8Image(100000, 1, {1, 2, 3, 255}));
+  write("model/wide.png", std::string(bytes.begin(), bytes.end()));
+  EXPECT_EQ(warnings_of(load("newmtl m\nmap_Kd wide.png\n")),
+            "m.obj: texture wide.png: 100000 x 1 texels are drawn as 25000 x 1, at most 32768 a side\n");
+}
+
 TEST_F(MtlScene, OpacityMapsBecomeAlpha) {
   write_png("model/color.png", {1, 2, 3, 255}, {4, 5, 6, 255});
   write_png("model/mask.png", {255, 255, 255, 255}, {0, 0, 0, 255});
   write_png("model/alpha.png", {9, 9, 9, 200}, {9, 9, 9, 100});
   const auto texels = [](const Scene& scene) {
     const Material& m = scene.materials[0];
-    const Rgba8Image& image = scene.images.at(static_cast<std::size_t>(m.base_color_texture.image)).pixels;
+    const Rgba8Image& image = scene.images.at(static_cast<std::size_t>(m.base_color_texture.image)).pixels.as<Rgba8>();
     return std::vector<Rgba8>(image.values().begin(), image.values().end());
   };
   const Scene masked = load("newmtl m\nmap_Kd color.png\nmap_d mask.png\n");

@@ -38,7 +38,7 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   float3 up{0, 1, 0};             ///< the upward axis that the file's format means; the camera takes it from here
-  float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's constant ambient term, times Material::ambient
+  float3 ambient_light{0, 0, 0};  ///< of (Blinn-)Phong's ambient term, of which surfaces reflect Material::ambient
   std::vector<AnimationSpan> animations;  ///< that the file has
   std::vector<std::string> variants;      ///< likewise, of materials
   std::vector<std::string> warnings;      ///< what was passed over at load, one line each

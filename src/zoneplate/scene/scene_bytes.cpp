@@ -38,10 +38,14 @@ class Writer {
     value(n);
     if (n > 0) sink_(t.data(), t.size());
   }
-  void image(Rgba8Image& pixels) {
-    std::int32_t size[2] = {pixels.width(), pixels.height()};
-    value(size);
-    sink_(pixels.values().data(), pixels.values().size_bytes());
+  void image(TexelImage& pixels) {
+    TexelKind kind = pixels.kind();
+    choice(kind, TexelKind::Light);
+    pixels.visit([&](const auto& plane) {
+      std::int32_t size[2] = {plane.width(), plane.height()};
+      value(size);
+      sink_(plane.values().data(), plane.values().size_bytes());
+    });
   }
   template <class T, class Each>
   void list(std::vector<T>& items, Each each) {
@@ -90,15 +94,15 @@ class Reader {
     t.resize(counted(1));
     if (!t.empty()) source_(t.data(), t.size());
   }
-  void image(Rgba8Image& pixels) {
-    std::int32_t size[2];
-    value(size);
-    if (size[0] < 0 || size[1] < 0) fail("an image of negative size");
-    const std::uint64_t count = static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]);
-    if (count > budget_.limits().pixels) fail("an image of more pixels than the limit (--max-pixels)");
-    budget_.take(count * sizeof(Rgba8));
-    pixels = Rgba8Image(size[0], size[1]);
-    source_(pixels.values().data(), pixels.values().size_bytes());
+  void image(TexelImage& pixels) {
+    TexelKind kind{};
+    choice(kind, TexelKind::Light);
+    if (kind == TexelKind::Codes8)
+      pixels = plane<Rgba8>();
+    else if (kind == TexelKind::Codes16)
+      pixels = plane<Rgba16>();
+    else
+      pixels = plane<float4>();
   }
   template <class T, class Each>
   void list(std::vector<T>& items, Each each) {
@@ -126,6 +130,19 @@ class Reader {
   }
 
  private:
+  template <class Texel>
+  Plane<Texel> plane() {
+    std::int32_t size[2];
+    value(size);
+    if (size[0] < 0 || size[1] < 0) fail("an image of negative size");
+    const std::uint64_t count = static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]);
+    if (count > budget_.limits().pixels) fail("an image of more pixels than the limit (--max-pixels)");
+    budget_.take(count * sizeof(Texel));
+    Plane<Texel> pixels(size[0], size[1]);
+    source_(pixels.values().data(), pixels.values().size_bytes());
+    return pixels;
+  }
+
   std::size_t counted(std::size_t each) {
     std::uint64_t n = 0;
     value(n);

@@ -45,6 +45,8 @@ Scene full_scene() {
   s.cameras.push_back({.name = "eye", .is_orthographic = true, .half_height = 3, .aspect = 2});
   s.materials[0].double_sided = !s.materials[0].double_sided;
   s.materials[0].exponent = 77;
+  s.images.push_back({"deep", Rgba16Image(2, 3, {1, 2, 3, 4})});
+  s.images.push_back({"bright", Plane<float4>(1, 2, float4{1e5f, 0.25f, 0, 1})});
   return s;
 }
 
@@ -58,7 +60,8 @@ TEST(SceneBytes, BringWholeScenesOver) {
   EXPECT_EQ(other.meshes[0].index, scene.meshes[0].index);
   EXPECT_EQ(other.meshes.back().topology, scene.meshes.back().topology);
   EXPECT_EQ(other.instances.back().world_from_object, scene.instances.back().world_from_object);
-  EXPECT_EQ(other.images[0].pixels, scene.images[0].pixels);
+  ASSERT_EQ(other.images.size(), scene.images.size());
+  for (std::size_t i = 0; i < scene.images.size(); ++i) EXPECT_EQ(other.images[i].pixels, scene.images[i].pixels);
   EXPECT_EQ(other.materials[0].double_sided, scene.materials[0].double_sided);
   EXPECT_EQ(other.materials[0].base_color_texture.sampler, scene.materials[0].base_color_texture.sampler);
   EXPECT_EQ(other.lights[0].kind, LightKind::Spot);

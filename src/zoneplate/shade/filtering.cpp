@@ -51,9 +51,30 @@ void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float
     }
 }
 
+float mix(float a, float b, float weight) { return a + (b - a) * weight; }
+
+float mix_level(const float* values, const Taps& taps, int level, int point, int channel) {
+  const float* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point] + channel;
+  const float* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point] + channel;
+  const float right = static_cast<float>(taps.right(level, point)) * 0x1p-15f;
+  const float down = static_cast<float>(taps.down(level, point)) * 0x1p-15f;
+  return mix(mix(upper[0], lower[0], down), mix(upper[4], lower[4], down), right);
+}
+
+void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
+  for (int i = 0; i < count; ++i)
+    for (int c = 0; c < 4; ++c) {
+      const float value = mix_level(values, taps, 0, i, c);
+      const int blend = taps.blend[Taps::by_fours(i)];
+      const float weight = static_cast<float>(blend) * 0x1p-15f;
+      out[c][i] = blend > 0 ? mix(value, mix_level(values, taps, 1, i, c), weight) : value;
+    }
+}
+
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
   if (t.codes8 != nullptr) return mix_codes(t.codes8, 7, 1.0f / 32640.0f, taps, out, count);
-  mix_codes(t.codes15, 0, 1.0f / 32767.0f, taps, out, count);
+  if (t.codes15 != nullptr) return mix_codes(t.codes15, 0, 1.0f / 32767.0f, taps, out, count);
+  mix_values(t.values, taps, out, count);
 }
 
 void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {

@@ -262,9 +262,40 @@ void mix_codes(const Codes& codes, const Taps& taps, float* const to[4], int cou
   }
 }
 
+/// The four channels of a texel.
+using Channels4 = hn::FixedTag<float, 4>;
+using Texel = hn::Vec<Channels4>;
+
+HWY_INLINE Texel mix_texels(Texel a, Texel b, int weight) {
+  const Channels4 d;
+  return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d, static_cast<float>(weight) * 0x1p-15f)));
+}
+
+HWY_INLINE Texel mix_level(const float* values, const Taps& taps, int level, int point) {
+  const Channels4 d;
+  const float* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point];
+  const float* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point];
+  const int down = taps.down(level, point);
+  return mix_texels(mix_texels(hn::LoadU(d, upper), hn::LoadU(d, lower), down),
+                    mix_texels(hn::LoadU(d, upper + 4), hn::LoadU(d, lower + 4), down), taps.right(level, point));
+}
+
+/// Values that need no decoding, point by point.
+void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
+  for (int i = 0; i < count; ++i) {
+    Texel mixed = mix_level(values, taps, 0, i);
+    const int blend = taps.blend[Taps::by_fours(i)];
+    if (blend > 0) mixed = mix_texels(mixed, mix_level(values, taps, 1, i), blend);
+    alignas(16) float channel[4];
+    hn::Store(mixed, Channels4(), channel);
+    for (int c = 0; c < 4; ++c) out[c][i] = channel[c];
+  }
+}
+
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
   if (t.codes8 != nullptr) return mix_codes(Codes8{t.codes8}, taps, out, count);
-  mix_codes(Codes15{t.codes15}, taps, out, count);
+  if (t.codes15 != nullptr) return mix_codes(Codes15{t.codes15}, taps, out, count);
+  mix_values(t.values, taps, out, count);
 }
 
 void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {

@@ -161,6 +161,84 @@ TEST(Filtering, NearestTakesTheTexelThatHoldsThePoint) {
   }
 }
 
+/// Noise of the light from 2^-8 to 2^16, with alpha.
+Plane<float4> bright_noise(int width, int height) {
+  Plane<float4> image(width, height);
+  for (std::uint32_t i = 0; i < image.values().size(); ++i) {
+    const auto light = [&](std::uint32_t c) { return std::exp2(24 * unit_float(hash(i, c, 9)) - 8); };
+    image.values()[i] = {light(0), light(1), light(2), unit_float(hash(i, 3, 9))};
+  }
+  return image;
+}
+
+/// A level of a texture of floats by the definition of bilinear filtering, in double.
+double bilinear(const TextureView& view, int level, int channel, double u, double v, Wrap wrap_u, Wrap wrap_v) {
+  const int w = view.width[level], h = view.height[level];
+  const double x = u * w - 0.5, y = v * h - 0.5, x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
+  const auto texel = [&](double i, double j) -> double {
+    const std::int32_t at =
+        view.texel(level, wrapped(static_cast<int>(i), w, wrap_u), wrapped(static_cast<int>(j), h, wrap_v));
+    return view.values[std::ptrdiff_t{4} * at + channel];
+  };
+  return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
+         (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
+}
+
+TEST(Filtering, TrilinearOfFloatsAgreesWithItsDefinition) {
+  const Texture texture(bright_noise(16, 8), TexelMeaning::Color);
+  const TextureView& view = texture.view();
+  for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
+    // Places and weights that 15 bits hold, and the level 1 + 1/2 and a bit, by a footprint of 2 √2 texels.
+    Points points;
+    for (std::uint32_t i = 0; i < 128; ++i) {
+      const std::uint32_t word = hash(i, 11);
+      points.add(static_cast<float>(static_cast<int>(word % 448) - 192) / 64,
+                 static_cast<float>(static_cast<int>(word / 448 % 448) - 192) / 64, i % 2 == 0 ? 0.0f : 2.828427f / 16);
+    }
+    const Filtering filtering = make_filtering({.wrap_u = wrap, .wrap_v = wrap});
+    static Taps taps;
+    kernels(best_isa()).find_taps(view, filtering, points.footprint(), taps, points.padded());
+    const Values values = look_up(texture, filtering, points);
+    for (int i = 0; i < points.count; ++i) {
+      const double blend = taps.blend[Taps::by_fours(i)] / 32768.0;
+      EXPECT_NEAR(blend, i % 2 == 0 ? 0 : 0.5, 1e-3);
+      for (int c = 0; c < 4; ++c) {
+        const auto at = [&](int level) { return bilinear(view, level, c, points.u[i], points.v[i], wrap, wrap); };
+        const double expected = i % 2 == 0 ? at(0) : at(1) * (1 - blend) + at(2) * blend;
+        // Three mixes, each rounded three times, of values up to the greatest of the eight.
+        ASSERT_NEAR(values.channel[c][i], expected, 9 * 0x1p-24 * (c == 3 ? 1 : 65536)) << i << " " << c;
+      }
+    }
+  }
+}
+
+TEST(Filtering, ATexelOfGreatLightIsExact) {
+  Plane<float4> image(4, 4, float4{0.25f, 0, 1, 1});
+  image(2, 1) = {1e4f, 1e9f, 3e5f, 0.5f};
+  const Texture texture(image, TexelMeaning::Color);
+  Points points;
+  points.add(0.625f, 0.375f);
+  for (const Isa isa : supported_isas()) {
+    const Values values = look_up(texture, {}, points, isa);
+    EXPECT_EQ(values.channel[0][0], 1e4f);
+    EXPECT_EQ(values.channel[1][0], 1e9f);
+    EXPECT_EQ(values.channel[2][0], 3e5f);
+    EXPECT_EQ(values.channel[3][0], 0.5f);
+  }
+}
+
+TEST(Filtering, SixteenBitsGiveMoreThan256Levels) {
+  Rgba16Image ramp(1024, 1);
+  for (int i = 0; i < 1024; ++i) ramp(i, 0).r = static_cast<std::uint16_t>(20000 + i);
+  const Texture texture(ramp, TexelMeaning::Values);
+  for (int first = 0; first < 1024; first += 128) {
+    Points points;
+    for (int i = 0; i < 128; ++i) points.add((static_cast<float>(first + i) + 0.5f) / 1024, 0.5f);
+    const Values values = look_up(texture, {}, points);
+    for (int i = 0; i < 128; ++i) ASSERT_EQ(values.channel[0][i], static_cast<float>((20000 + first + i) / 65535.0));
+  }
+}
+
 /// An image whose level l holds the code 8 l + 4 everywhere: a view made by hand.
 struct Staircase {
   std::vector<std::uint8_t> codes;
@@ -361,20 +439,23 @@ TEST(Filtering, NoPlaceLeavesTheTexture) {
 TEST(Filtering, OneColourIsOneColourEverywhere) {
   const Points points = wild_points(128, true);
   for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
-    const Texture texture(Rgba8Image(37, 16, Rgba8{51, 200, 3, 99}), meaning);
+    const Texture textures[] = {Texture(Rgba8Image(37, 16, Rgba8{51, 200, 3, 99}), meaning),
+                                Texture(Rgba16Image(37, 16, Rgba16{51, 20000, 3, 99}), meaning),
+                                Texture(Plane<float4>(37, 16, float4{1e4f, 0.1f, 1e-40f, 0.3f}), meaning)};
     Points centre;
     centre.add(0.5f, 0.5f);
-    for (const Filtering& filtering : all_filterings()) {
-      const Values one = look_up(texture, filtering, centre), many = look_up(texture, filtering, points);
-      for (int c = 0; c < 4; ++c)
-        for (int i = 0; i < points.count; ++i) ASSERT_EQ(many.channel[c][i], one.channel[c][0]);
-    }
+    for (const Texture& texture : textures)
+      for (const Filtering& filtering : all_filterings()) {
+        const Values one = look_up(texture, filtering, centre), many = look_up(texture, filtering, points);
+        for (int c = 0; c < 4; ++c)
+          for (int i = 0; i < points.count; ++i) ASSERT_EQ(many.channel[c][i], one.channel[c][0]);
+      }
   }
 }
 
 TEST(Filtering, EveryInstructionSetGivesTheSameBits) {
-  const Texture textures[] = {Texture(noise(64, 32), TexelMeaning::Color),
-                              Texture(noise(19, 44), TexelMeaning::Values)};
+  const Texture textures[] = {Texture(noise(64, 32), TexelMeaning::Color), Texture(noise(19, 44), TexelMeaning::Values),
+                              Texture(bright_noise(19, 44), TexelMeaning::Color)};
   const auto filterings = all_filterings();
   for (int count = 0; count <= 128; ++count) {
     const Points points = wild_points(count, false);

@@ -1,10 +1,9 @@
 #include "zoneplate/shade/material_plan.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 
-#include "zoneplate/base/parallel.h"
+#include "zoneplate/base/error.h"
 #include "zoneplate/math/elementary.h"
 
 namespace zoneplate {
@@ -15,11 +14,13 @@ struct NamedUse {
   TexelMeaning meaning;
 };
 
-/// The textures that a material's model reads.
+bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+
+/// The textures that change what a material looks like.
 std::vector<NamedUse> uses_of(const Material& m) {
   std::vector<NamedUse> uses = {{&m.base_color_texture, TexelMeaning::Color}};
   if (m.model == ShadingModel::Unlit) return uses;
-  uses.push_back({&m.emissive_texture, TexelMeaning::Color});
+  if (!is_black(m.emissive)) uses.push_back({&m.emissive_texture, TexelMeaning::Color});
   uses.push_back({&m.normal_texture, TexelMeaning::Values});
   uses.push_back({&m.occlusion_texture, TexelMeaning::Values});
   if (m.model == ShadingModel::MetallicRoughness) {
@@ -36,9 +37,8 @@ TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotr
 }
 
 void copy(float3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
-bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-void copy_factors(const Material& m, const Surroundings& s, MaterialPlan& plan) {
+void copy_factors(const Material& m, MaterialPlan& plan) {
   plan.model = m.model;
   plan.alpha_mode = m.alpha_mode;
   plan.factor[0] = m.base_color.x, plan.factor[1] = m.base_color.y;
@@ -48,9 +48,24 @@ void copy_factors(const Material& m, const Surroundings& s, MaterialPlan& plan) 
   copy(m.emissive, plan.emissive_factor);
   plan.normal_scale = m.normal_scale;
   plan.occlusion_strength = std::clamp(m.occlusion_strength, 0.0f, 1.0f);
-  copy(m.ambient * s.ambient_light, plan.ambient);
   copy(m.specular, plan.specular);
   plan.exponent = make_exponent(std::clamp(m.exponent, 0.0f, 1e5f));
+}
+
+/// Diffuse and ambient light are gathered before they meet the base colour, which is cheapest; the ambient term is
+/// ambient × light × what base colour there would be with a factor of 1.
+void plan_ambient(const Material& m, const Surroundings& s, MaterialPlan& plan) {
+  constexpr float least_divisor = 0x1p-32f;
+  if (m.model != ShadingModel::BlinnPhong && m.model != ShadingModel::Phong) return;
+  const float ambient[3] = {m.ambient.x, m.ambient.y, m.ambient.z};
+  const float light[3] = {s.ambient_light.x, s.ambient_light.y, s.ambient_light.z};
+  for (int c = 0; c < 3; ++c) {
+    if (plan.factor[c] >= least_divisor)
+      plan.ambient_share[c] = ambient[c] / plan.factor[c] * light[c];
+    else
+      plan.own_ambient[c] = ambient[c] * light[c];
+    if (plan.own_ambient[c] > 0) plan.has_own_ambient = true;
+  }
 }
 
 void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
@@ -94,22 +109,48 @@ void decide(const Scene& scene, const Surroundings& s, const Material& m, Materi
 
 }  // namespace
 
-TextureSet::TextureSet(const Scene& scene, bool raw_colors) : raw_colors_(raw_colors) {
+TextureSet::TextureSet(const Scene& scene, bool raw_colors) : TextureSet(raw_colors) {
+  find_uses(scene);
+  for (auto& [key, texture] : textures_)
+    texture = std::make_unique<Texture>(scene.images[static_cast<std::size_t>(key.first)].pixels, key.second);
+}
+
+TextureSet TextureSet::take(Scene& scene, bool raw_colors) {
+  TextureSet set(raw_colors);
+  set.find_uses(scene);
+  auto next = set.textures_.begin();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    TexelImage& pixels = scene.images[i].pixels;
+    const auto is_of_this = [&] { return next != set.textures_.end() && next->first.first == static_cast<int>(i); };
+    while (is_of_this()) {
+      auto& [key, texture] = *next++;
+      texture = is_of_this() ? std::make_unique<Texture>(pixels, key.second)
+                             : std::make_unique<Texture>(std::move(pixels), key.second);
+    }
+    pixels = TexelImage();
+  }
+  return set;
+}
+
+void TextureSet::find_uses(const Scene& scene) {
+  for (const TextureImage& image : scene.images) is_light_.push_back(image.pixels.kind() == TexelKind::Light);
   for (const Material& material : scene.materials)
     for (const NamedUse& named : uses_of(material)) {
-      assert(named.use->image < static_cast<int>(scene.images.size()));
-      if (named.use->image >= 0) textures_[{named.use->image, meaning_of(named.meaning)}] = nullptr;
+      if (named.use->image < 0) continue;
+      const TextureImage& image = scene.images.at(static_cast<std::size_t>(named.use->image));
+      if (image.pixels.empty()) throw Error(Trouble::Input, "texture " + image.name + ": has no texels");
+      textures_[key_of(named.use->image, named.meaning)] = nullptr;
     }
-  std::vector<std::pair<const Key, std::unique_ptr<Texture>>*> entries;
-  for (auto& entry : textures_) entries.push_back(&entry);
-  parallel_for(entries.size(), [&](std::size_t i) {
-    const auto& [image, meaning] = entries[i]->first;
-    entries[i]->second = std::make_unique<Texture>(scene.images[static_cast<std::size_t>(image)].pixels, meaning);
-  });
+}
+
+TextureSet::Key TextureSet::key_of(int image, TexelMeaning meaning) const {
+  const bool is_raw = raw_colors_ && !is_light_[static_cast<std::size_t>(image)];
+  return {image, is_raw ? TexelMeaning::Values : meaning};
 }
 
 const Texture* TextureSet::find(const TextureUse& use, TexelMeaning meaning) const {
-  const auto found = textures_.find({use.image, meaning_of(meaning)});
+  if (use.image < 0) return nullptr;
+  const auto found = textures_.find(key_of(use.image, meaning));
   return found == textures_.end() ? nullptr : found->second.get();
 }
 
@@ -127,7 +168,8 @@ bool share_taps(const TextureSlot& a, const TextureSlot& b) {
 std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures) {
   std::vector<MaterialPlan> plans(scene.materials.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    copy_factors(scene.materials[i], surroundings, plans[i]);
+    copy_factors(scene.materials[i], plans[i]);
+    plan_ambient(scene.materials[i], surroundings, plans[i]);
     find_slots(scene.materials[i], textures, surroundings.anisotropy, plans[i]);
     decide(scene, surroundings, scene.materials[i], plans[i]);
   }

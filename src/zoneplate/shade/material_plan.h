@@ -18,16 +18,25 @@ namespace zoneplate {
 /// The textures of a scene's materials; an image that serves as colour and as data is there twice.
 class TextureSet {
  public:
-  /// Decodes what the materials use, in parallel. With `raw_colors` colours are data.
+  /// Makes the levels of what the materials use, one image after the other. With `raw_colors` the codes of colours are
+  /// values; light stays light.
+  /// Errors    Trouble::Input where an image that is used is empty; OutOfMemory("texture levels").
   TextureSet(const Scene& scene, bool raw_colors);
+  /// The same, and takes the images with it: each is freed as soon as its texels are in the levels, those that no
+  /// material uses are freed at once. Afterwards all images of the scene are empty: only this set can texture it.
+  static TextureSet take(Scene& scene, bool raw_colors);
 
   /// Null where the use names no image.
   const Texture* find(const TextureUse& use, TexelMeaning meaning) const;
 
  private:
   using Key = std::pair<int, TexelMeaning>;
-  TexelMeaning meaning_of(TexelMeaning meaning) const { return raw_colors_ ? TexelMeaning::Values : meaning; }
+  explicit TextureSet(bool raw_colors) : raw_colors_(raw_colors) {}
+  void find_uses(const Scene& scene);
+  Key key_of(int image, TexelMeaning meaning) const;
+
   bool raw_colors_;
+  std::vector<bool> is_light_;  ///< by image
   std::map<Key, std::unique_ptr<Texture>> textures_;
 };
 
@@ -56,8 +65,14 @@ struct MaterialPlan {
   float metallic = 1, roughness = 1;
   float emissive_factor[3] = {0, 0, 0};
   float normal_scale = 1, occlusion_strength = 1;
-  float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
+  float specular[3] = {0, 0, 0};
   Exponent exponent;
+
+  // (Blinn-)Phong's ambient term, channel by channel: a share of the base colour, or, where the base colour's factor is
+  // too small to divide by, light of its own.
+  float ambient_share[3] = {0, 0, 0};  ///< times the base colour
+  float own_ambient[3] = {0, 0, 0};    ///< times the base colour without its factor
+  bool has_own_ambient = false;
 
   bool is_lit = false;        ///< lights or an environment change its colour
   bool has_specular = false;  ///< (Blinn-)Phong

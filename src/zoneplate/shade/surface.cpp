@@ -37,11 +37,12 @@ Illumination make_illumination(const MaterialPlan& plan, const std::vector<Prepa
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
   s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
   s.has_occlusion = plan.occlusion.texture != nullptr;
-  s.has_emissive = plan.has_emissive, s.has_emissive_texture = plan.emissive.texture != nullptr;
+  s.has_emissive_texture = plan.emissive.texture != nullptr || plan.has_own_ambient;
+  s.has_emissive = plan.has_emissive || plan.has_own_ambient;
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
   copy(plan.emissive_factor, s.emissive);
   s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
-  copy(plan.ambient, s.ambient), copy(plan.specular, s.specular);
+  copy(plan.ambient_share, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
   s.has_material_texture = plan.metallic_roughness.texture != nullptr;
   s.metallic = plan.metallic, s.roughness = plan.roughness;
@@ -126,6 +127,7 @@ struct SurfaceShader::Data::Walk {
   void find_base();
   void find_normals();
   void find_emissive();
+  void add_own_ambient();
   void find_occlusion();
   void find_metallic();
   void light(Shaded& out);
@@ -195,6 +197,23 @@ void SurfaceShader::Data::Walk::find_emissive() {
   for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
 }
 
+/// The ambient term of channels whose base colour has next to no factor: the surface seems to emit it.
+void SurfaceShader::Data::Walk::add_own_ambient() {
+  if (!plan.has_own_ambient) return;
+  const bool is_textured = plan.base_color.texture != nullptr, is_occluded = plan.occlusion.texture != nullptr;
+  if (is_textured) sample(plan.base_color, texel);
+  for (int c = 0; c < 3; ++c) {
+    if (plan.emissive.texture == nullptr) kernels.fill(p.emissive[c], plan.emissive_factor[c], p.count);
+    if (is_textured)
+      kernels.scale(texel[c], texel[c], plan.own_ambient[c], 0, p.count);
+    else
+      kernels.fill(texel[c], plan.own_ambient[c], p.count);
+    if (plan.attributes.color) kernels.multiply(texel[c], p.color[c], p.count);
+    if (is_occluded) kernels.multiply(texel[c], p.occlusion, p.count);
+    for (int i = 0; i < p.count; ++i) p.emissive[c][i] += texel[c][i];
+  }
+}
+
 /// 1 + strength (texture - 1).
 void SurfaceShader::Data::Walk::find_occlusion() {
   if (plan.occlusion.texture == nullptr) return;
@@ -213,6 +232,7 @@ void SurfaceShader::Data::Walk::find_metallic() {
 void SurfaceShader::Data::Walk::light(Shaded& out) {
   find_occlusion();
   find_emissive();
+  add_own_ambient();
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();

@@ -6,8 +6,10 @@
 #include <cstring>
 #include <memory>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/shade/material_plan.h"
 
 namespace zoneplate {
 namespace {
@@ -138,7 +140,7 @@ TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
   Material& m = scene.materials[0];
   m.model = ShadingModel::BlinnPhong;
   m.base_color = {0.8f, 0.55f, 0.3f, 1};
-  m.ambient = {1, 1, 1};
+  m.ambient = {0.8f, 0.55f, 0.3f};
   m.specular = {0.35f, 0.2f, 0.1f};
   m.exponent = 40;
   const float3 to_light = normalize({1, 2, 1});
@@ -155,6 +157,62 @@ TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
     EXPECT_NEAR(color.z, expected(0.3f, 0.1f), 2e-6);
     EXPECT_EQ(color.w, 1);
   }
+}
+
+/// A black or nearly black triangle that reflects ambient light.
+Scene ambient_triangle(float diffuse) {
+  Scene scene = one_triangle();
+  Material& m = scene.materials[0];
+  m.model = ShadingModel::BlinnPhong;
+  m.base_color = {diffuse, diffuse, 0.5f, 1};
+  m.ambient = {0.5f, 0.25f, 0.75f};
+  m.emissive = {0, 0, 0.125f};
+  return scene;
+}
+
+TEST(Surface, AmbientLightDoesNotNeedDiffuseReflection) {
+  // Light of 2 from all sides; half of it reflected in red, a quarter in green, and the diffuse term is next to
+  // nothing.
+  const Surroundings surroundings{.ambient_light = {2, 2, 2}};
+  for (const float diffuse : {0.0f, 1e-44f, 1e-38f, 1e-20f, 2e-10f, 2.4e-10f, 1e-6f}) {
+    Scene scene = ambient_triangle(diffuse);
+    EXPECT_EQ(color_of(scene, {}), (float4{0, 0, 0.125f, 1})) << diffuse;
+    expect_near(color_of(scene, surroundings), {1, 0.5f, 1.625f, 1}, 4e-7f);
+    scene.lights = {sun({0, 0, -1})};
+    expect_near(color_of(scene, surroundings), {1, 0.5f, 2.125f, 1}, 2e-6f);
+    scene.materials[0].model = ShadingModel::Phong;
+    expect_near(color_of(scene, surroundings), {1, 0.5f, 2.125f, 1}, 2e-6f);
+  }
+}
+
+TEST(Surface, AmbientLightMeetsTexturesAndVertexColours) {
+  const Surroundings surroundings{.ambient_light = {2, 2, 2}};
+  for (const float diffuse : {0.0f, 1e-6f}) {
+    Scene scene = ambient_triangle(diffuse);
+    scene.images = {{"base", one_texel({255, 0, 255, 255})},
+                    {"occlusion", one_texel({51, 0, 0, 255})},
+                    {"emissive", one_texel({255, 255, 255, 255})}};
+    Material& m = scene.materials[0];
+    m.base_color_texture.image = 0, m.occlusion_texture.image = 1, m.emissive_texture.image = 2;
+    scene.meshes[0].color.assign(3, float4{0.5f, 1, 1, 1});
+    expect_near(color_of(scene, surroundings), {0.1f, 0, 0.3f + 0.125f, 1}, 1e-6f);
+  }
+}
+
+TEST(Surface, EmissionAboveWhiteComesThrough) {
+  Scene scene = one_triangle();
+  scene.materials[0].base_color = {0, 0, 0, 1};
+  scene.materials[0].emissive = {1, 2, 1};
+  scene.materials[0].emissive_texture.image = 0;
+  scene.images = {{"sun", Plane<float4>(1, 1, float4{1e4f, 1e5f, 0.5f, 1})}};
+  EXPECT_EQ(color_of(scene, {}), (float4{1e4f, 2e5f, 0.5f, 1}));
+  EXPECT_EQ(color_of(scene, {.raw_colors = true}), (float4{1e4f, 2e5f, 0.5f, 1}));  // light is no code
+  scene.images[0].pixels = Rgba16Image(1, 1, {32768, 32769, 1, 65535});
+  const float4 deep = color_of(scene, {});
+  EXPECT_NEAR(deep.x, std::pow((32768 / 65535.0 + 0.055) / 1.055, 2.4), 2e-8);
+  EXPECT_NEAR(deep.y / 2 - deep.x, 1.0 / 65535 * 2.4 / 1.055 * std::pow((0.5 + 0.055) / 1.055, 1.4), 1e-7);
+  EXPECT_NEAR(deep.z, 1 / 65535.0 / 12.92, 1e-12);
+  EXPECT_EQ(color_of(scene, {.raw_colors = true}).z, 1 / 65535.0f);
 }
 
 TEST(Surface, SimpleConfigurationsAreExact) {
@@ -389,6 +447,53 @@ TEST(Surface, EachSlotLooksUpItsOwnTexels) {
   EXPECT_EQ(color_of(scene, surroundings, at), (float4{1, 1, 1, 1}));
   m.emissive_texture = {.image = 0, .sampler = {}};
   EXPECT_EQ(color_of(scene, surroundings, at), (float4{2, 0, 0, 1}));
+}
+
+/// Materials that use images 0 and 2 as colours, 0 as data too; nothing uses image 1.
+Scene textured_scene() {
+  Scene scene = one_triangle();
+  scene.images = {{"both", one_texel({1, 2, 3, 4})}, {"unused", one_texel({})}, {"color", one_texel({5, 6, 7, 8})}};
+  Material& m = scene.materials[0];
+  m.base_color_texture.image = 0, m.normal_texture.image = 0, m.emissive_texture.image = 2, m.emissive = {1, 1, 1};
+  scene.materials.push_back(m);
+  scene.materials[1].emissive = {0, 0, 0}, scene.materials[1].emissive_texture.image = 1;
+  return scene;
+}
+
+TEST(TextureSet, AnImageIsThereOnceForEachMeaning) {
+  const Scene scene = textured_scene();
+  const TextureSet set(scene, false), raw(scene, true);
+  const auto find = [](const TextureSet& in, int image, TexelMeaning meaning) {
+    return in.find({.image = image}, meaning);
+  };
+  EXPECT_NE(find(set, 0, TexelMeaning::Color), find(set, 0, TexelMeaning::Values));
+  EXPECT_EQ(find(raw, 0, TexelMeaning::Color), find(raw, 0, TexelMeaning::Values));
+  EXPECT_EQ(find(set, 1, TexelMeaning::Color), nullptr);  // black emission shows no texture
+  EXPECT_NE(find(set, 2, TexelMeaning::Color), nullptr);
+  EXPECT_EQ(find(set, -1, TexelMeaning::Color), nullptr);
+}
+
+TEST(TextureSet, TakesTheImagesWithIt) {
+  Scene scene = textured_scene();
+  const TextureSet kept(scene, false), taken = TextureSet::take(scene, false);
+  for (const TextureImage& image : scene.images) EXPECT_TRUE(image.pixels.empty());
+  const std::pair<int, TexelMeaning> all[] = {
+      {0, TexelMeaning::Color}, {0, TexelMeaning::Values}, {2, TexelMeaning::Color}};
+  for (const auto& [image, meaning] : all) {
+    const TextureView &view = taken.find({.image = image}, meaning)->view(),
+                      &expected = kept.find({.image = image}, meaning)->view();
+    const std::int32_t at = 4 * view.texel(0, 0, 0);
+    if (meaning == TexelMeaning::Color)
+      EXPECT_EQ(std::memcmp(view.codes15 + at, expected.codes15 + at, 8), 0);
+    else
+      EXPECT_EQ(std::memcmp(view.codes8 + at, expected.codes8 + at, 4), 0);
+  }
+  try {
+    const TextureSet again(scene, false);
+    ADD_FAILURE() << "textures of images that are not there";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "texture both: has no texels");
+  }
 }
 
 TEST(Surface, AlphaStaysBetweenZeroAndOne) {

@@ -116,6 +116,7 @@ double angle_of(double y, double x) {
   // In the first octant: t = low / high in [0, 1]; atan t = atan c + atan((t - c) / (1 + t c)), c the nearest quarter.
   const double low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
   const double t = low / high;
+  if (!(t <= 1)) return 0;
   static constexpr double atan_quarter[] = {0, 0.24497866312686414, 0.46364760900080609, 0.64350110879328437, pi / 4};
   const int q = static_cast<int>(4 * t + 0.5);
   const double c = q * 0.25;

@@ -33,7 +33,7 @@ double natural_exp(double x);
 /// ln x for finite x > 0.
 double natural_log(double x);
 
-/// The angle of (x, y) in [-π, π]; 0 for (0, 0).
+/// The angle of (x, y) in [-π, π]; 0 for (0, 0), where one is not a number and where both are infinite.
 double angle_of(double y, double x);
 
 /// 2/√π ∫_0^x e^(-t²) dt. Within 2e-15.

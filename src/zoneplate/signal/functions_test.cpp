@@ -49,6 +49,9 @@ TEST(Functions, ExpLogAngleErfAndBesselAgreeWithTheLibrary) {
     EXPECT_NEAR(angle_of(y, x), std::atan2(y, x), 9e-16);
   }
   EXPECT_EQ(angle_of(0, 0), 0.0);
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [y, x] : {std::pair{infinity, infinity}, {infinity, -infinity}, {nan, 1.0}, {1.0, nan}})
+    EXPECT_EQ(angle_of(y, x), 0.0);
   EXPECT_EQ(natural_exp(0), 1.0);
   EXPECT_EQ(natural_exp(-1000), 0.0);
   EXPECT_EQ(natural_log(1), 0.0);
