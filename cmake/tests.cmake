@@ -21,7 +21,7 @@ gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISA
 foreach(pattern RANGE 5)
   add_test(NAME million_triangles_${pattern} CONFIGURATIONS Long
            COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Coverage/Million.*/${pattern})
-  set_tests_properties(million_triangles_${pattern} PROPERTIES TIMEOUT 1800 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  set_tests_properties(million_triangles_${pattern} PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endforeach()
 
 # The 20-line program of README.md, built against an installed package as a user would.
