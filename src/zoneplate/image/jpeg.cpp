@@ -62,8 +62,10 @@ void check_progress(j_common_ptr jpeg) {
     }
   }();
   if (has_time && decoder->input_scan_number <= most_scans(*decoder)) return;
-  jpeg->err->msg_code = JERR_BAD_PROGRESSION;
-  jump_back(jpeg);
+  auto* report = reinterpret_cast<Report*>(jpeg->err);
+  std::snprintf(report->message.data(), report->message.size(), "more than %d scans of %u x %u pixels",
+                most_scans(*decoder), decoder->image_width, decoder->image_height);
+  std::longjmp(report->place, 1);
 }
 
 class Reader {

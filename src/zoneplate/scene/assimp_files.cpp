@@ -71,7 +71,7 @@ aiFile* AssimpFiles::open(const std::string& name) {
       uri += c == '%' ? std::string("%25") : std::string(1, c);
     const auto path = find_path(folder_, uri, budget_.limits().allow_path);
     if (!path || is_stream(*path)) return nullptr;
-    others_.emplace_back(*path, budget_.limits().memory);
+    others_.push_back(open_found(folder_, *path, budget_.limits().allow_path, budget_.limits().memory));
     return &(new Open(others_.back().bytes()))->file;
   } catch (const Error&) {
     return nullptr;

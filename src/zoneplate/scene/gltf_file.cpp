@@ -148,7 +148,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (!path) owner.fail("uri " + quoted(uri) + " leads out of the model's folder (--allow-path permits it)");
   if (is_stream(*path)) owner.fail("uri " + quoted(uri) + " is not a regular file");
   try {
-    out.file.emplace(*path, budget_.memory_left());
+    out.file.emplace(open_found(folder, *path, budget_.limits().allow_path, budget_.memory_left()));
   } catch (const Error& e) {
     owner.fail(e.what());
   }

@@ -1,9 +1,16 @@
 #include "zoneplate/scene/gltf_uri.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
+
+#include "zoneplate/base/error.h"
 
 namespace zoneplate {
 namespace {
@@ -93,6 +100,31 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
   const fs::path found = fs::weakly_canonical(inside / name, trouble);
   if (trouble || !is_within(inside, found)) return std::nullopt;
   return file.string();
+}
+
+FileBytes open_found(const std::string& folder, const std::string& path, bool allow_path, std::uint64_t limit) {
+  namespace fs = std::filesystem;
+  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, path + ": " + cause}; };
+  // What is held open has a name that stays its own; to be held is not yet to be read, and waits for nobody.
+  struct Held {
+    int number;
+    ~Held() {
+      if (number >= 0) ::close(number);
+    }
+  } const held{::open(path.c_str(), O_PATH | O_CLOEXEC)};
+  if (held.number < 0) throw fail(std::string("cannot be read: ") + std::strerror(errno));
+  const std::string name = "/proc/self/fd/" + std::to_string(held.number);
+  if (is_stream(name)) throw fail("is not a regular file");
+  std::error_code trouble;
+  const fs::path inside = fs::canonical(folder.empty() ? "." : folder, trouble);
+  const fs::path opened = trouble ? fs::path() : fs::read_symlink(name, trouble);
+  if (!allow_path && (trouble || !is_within(inside, opened))) throw fail("leads out of the model's folder");
+  try {
+    return FileBytes(name, limit);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    throw Error(error.trouble(), text.starts_with(name) ? path + text.substr(name.size()) : text);
+  }
 }
 
 bool is_stream(const std::string& path) {

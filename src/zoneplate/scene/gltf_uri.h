@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/file.h"
+
 namespace zoneplate {
 
 /// The text with every %XX replaced by its byte; a % that is not followed by two hexadecimal digits stays.
@@ -20,6 +22,12 @@ bool has_scheme(std::string_view uri);
 /// The file that a relative, percent-encoded URI names, seen from `folder`; nothing if it leads out of that folder
 /// (absolute, through "..", or through a symbolic link) and `allow_path` does not permit it, or holds a zero byte.
 std::optional<std::string> find_path(const std::string& folder, std::string_view uri, bool allow_path);
+
+/// Opens a file that find_path found. The file that is open is checked to lie in the folder, not only the one that
+/// stood under that name before.
+///
+/// Errors    Trouble::Input naming the path: it leads out of the folder by now, is no regular file, cannot be read.
+FileBytes open_found(const std::string& folder, const std::string& path, bool allow_path, std::uint64_t limit);
 
 /// Whether there is something under this path that has no end or waits for another program: a pipe, a socket, a device.
 bool is_stream(const std::string& path);

@@ -100,5 +100,32 @@ TEST(GltfUri, FollowsLinksBeforeItAnswers) {
   EXPECT_TRUE(find_path(folder.path("model"), "near.bin", false));
 }
 
+/// Between the answer of find_path and the opening another user may put a link in the file's place.
+TEST(GltfUri, WhatIsOpenedIsCheckedAgain) {
+  const TestFolder folder;
+  const std::string model = folder.path("model"), in = folder.write("model/in.bin", std::string("in"));
+  const std::string out = folder.write("out.bin", std::string("out"));
+  constexpr std::uint64_t limit = 100;
+  const auto refusal = [&](bool allow_path) -> std::string {
+    try {
+      return std::to_string(open_found(model, in, allow_path, limit).bytes().size()) + " bytes";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal(false), "2 bytes");
+  std::filesystem::remove(in);
+  EXPECT_EQ(refusal(false), in + ": cannot be read: No such file or directory");
+  std::filesystem::create_symlink(out, in);
+  EXPECT_EQ(refusal(false), in + ": leads out of the model's folder");
+  EXPECT_EQ(refusal(true), "3 bytes");
+  std::filesystem::remove(in);
+  ASSERT_EQ(::mkfifo(in.c_str(), 0600), 0);
+  EXPECT_EQ(refusal(false), in + ": is not a regular file");
+  std::filesystem::remove(in);
+  folder.write("model/in.bin", std::string(101, 'x'));
+  EXPECT_EQ(refusal(false).substr(0, in.size() + 2), in + ": ");
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -105,6 +105,10 @@ std::optional<std::string> ObjFolder::find_file(const std::string& within, std::
   return std::nullopt;
 }
 
+FileBytes ObjFolder::open(const std::string& path) const {
+  return open_found(folder_, path, budget_.limits().allow_path, budget_.limits().memory);
+}
+
 int ObjFolder::image(const std::string& within, const std::string& name) {
   constexpr std::size_t most_missing = 1000;
   const auto [known, is_first] = known_.try_emplace({within, name}, -1);
@@ -156,7 +160,7 @@ TextureImage ObjFolder::decode(const std::string& name, std::span<const std::uin
 int ObjFolder::load(const std::string& name, const std::optional<std::string>& path) {
   return add([&] {
     if (!path) throw Error(Trouble::Input, name + ": not found in the model's folder");
-    const FileBytes file(*path, budget_.limits().memory);
+    const FileBytes file = open(*path);
     return decode(name, file.bytes());
   });
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/file.h"
 #include "zoneplate/scene/mtl.h"
 #include "zoneplate/scene/obj_parse.h"
 #include "zoneplate/scene/scene.h"
@@ -26,6 +27,9 @@ class ObjFolder {
   /// Backslashes are slashes. A name that leads elsewhere or to nothing is looked for in the model's folder by its
   /// last part, as models keep the paths of the machine that wrote them.
   std::optional<std::string> find_file(const std::string& within, std::string_view name) const;
+
+  /// The bytes of a file that find_file found.
+  FileBytes open(const std::string& path) const;
 
   /// The number of the image in Scene::images, which is loaded at its first use; -1, with a warning, if there is none.
   /// Of very many that are not there only the first are looked for.

@@ -94,7 +94,7 @@ class Libraries {
       return;
     }
     if (!opened_.insert(*path).second) return;
-    const FileBytes file(*path, folder_.budget().limits().memory);
+    const FileBytes file = folder_.open(*path);
     const std::size_t slash = name.find_last_of("/\\");
     const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
     std::vector<MtlMaterial> found =

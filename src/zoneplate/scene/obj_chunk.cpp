@@ -37,22 +37,11 @@ class PartReader {
         next_line_(known ? known->before.lines + 1 : 1) {}
 
   void read() {
-    constexpr std::uint64_t statements_per_check = 4096;
-    std::uint64_t statements = 0;
     const std::string_view text(at_, static_cast<std::size_t>(end_ - at_));
     const std::size_t last = separator_ == '\n' ? text.rfind('\n') : text.npos;
     const char* const last_end = last == text.npos ? at_ : at_ + last;  // of all lines but perhaps one
-    while (at_ != end_) {
-      if (at_ < last_end && read_plain()) continue;
-      if (++statements % statements_per_check == 0) check_deadline();
-      TextLines lines({at_, static_cast<std::size_t>(end_ - at_)}, next_line_, separator_);
-      lines.next();
-      line_ = lines.number();
-      LineWords words(lines.line());
-      read_statement(words.next(), words);
-      at_ = lines.rest();
-      next_line_ = lines.next_number();
-    }
+    while (at_ != end_)
+      if (at_ >= last_end || !read_plain()) read_any();
   }
 
   ObjCounts counts() const {
@@ -61,6 +50,19 @@ class PartReader {
   }
 
  private:
+  /// A line of any kind, with those that continue it.
+  void read_any() {
+    constexpr std::uint64_t lines_per_check = 4096;
+    if (next_line_ % lines_per_check == 0) check_deadline();
+    TextLines lines({at_, static_cast<std::size_t>(end_ - at_)}, next_line_, separator_);
+    lines.next();
+    line_ = lines.number();
+    LineWords words(lines.line());
+    read_statement(words.next(), words);
+    at_ = lines.rest();
+    next_line_ = lines.next_number();
+  }
+
   /// Nearly all lines, at full speed: vertices and faces without surprises. Moves behind the line, or answers false
   /// where read_statement has to look. A line's end is ahead, so that nothing else has to be looked out for.
   bool read_plain() {

@@ -29,13 +29,11 @@ class ObjVertexTable {
   }
 
   std::uint32_t number(const ObjCorner& corner, float3 made = {}) {
-    if (is_ordered_) return number_in_order(corner, made);
     int steps = 0;
     const std::size_t at = place(corner, made);
     for (std::uint32_t i = heads_[at]; i != none; i = next_[i], ++steps)
       if (corners_[i] == corner && this->made(i) == made) return i;
-    if (steps > 64 && is_scattered_) put_in_order();
-    if (is_ordered_) return number_in_order(corner, made);
+    if (steps > 64 || is_ordered_) return number_in_order(corner, made);
     return add(corner, made, at, steps > 24 && !is_scattered_);
   }
 
@@ -67,20 +65,24 @@ class ObjVertexTable {
             word(made.y),
             word(made.z)};
   }
+  /// From here on no chain is found, and so all are looked for in the map.
   void put_in_order() {
     is_ordered_ = true;
+    heads_.assign(1, none);
     for (std::uint32_t i = 0; i < corners_.size(); ++i) ordered_.try_emplace(key_of(corners_[i], this->made(i)), i);
   }
-  std::uint32_t number_in_order(const ObjCorner& corner, float3 made) {
+  [[gnu::noinline]] std::uint32_t number_in_order(const ObjCorner& corner, float3 made) {
+    if (!is_ordered_) put_in_order();
     const auto fresh = static_cast<std::uint32_t>(corners_.size());
     const auto [found, is_new] = ordered_.try_emplace(key_of(corner, made), fresh);
-    if (is_new) append(corner, made);
-    return found->second;
+    if (!is_new) return found->second;
+    append_made(made);
+    corners_.push_back(corner);
+    return fresh;
   }
-  void append(const ObjCorner& corner, float3 made) {
+  void append_made(float3 made) {
     if (made_.empty() && made != float3{}) made_.resize(corners_.size());
     if (!made_.empty() || made != float3{}) made_.push_back(made);
-    corners_.push_back(corner);
   }
 
   std::size_t place(const ObjCorner& corner, float3 made) const {
@@ -93,9 +95,10 @@ class ObjVertexTable {
                                 : v + 3 * t + 5 * n;
     return h & (heads_.size() - 1);
   }
-  std::uint32_t add(const ObjCorner& corner, float3 made, std::size_t at, bool is_crowded) {
+  [[gnu::noinline]] std::uint32_t add(const ObjCorner& corner, float3 made, std::size_t at, bool is_crowded) {
     const auto fresh = static_cast<std::uint32_t>(corners_.size());
-    append(corner, made);
+    append_made(made);
+    corners_.push_back(corner);
     next_.push_back(std::exchange(heads_[at], fresh));
     if (!is_crowded && corners_.size() <= heads_.size()) return fresh;
     is_scattered_ = is_scattered_ || is_crowded;

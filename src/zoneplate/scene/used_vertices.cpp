@@ -120,7 +120,9 @@ std::vector<std::size_t> UsedVertices::farthest_by_box(std::span<const float3> a
 std::vector<std::size_t> UsedVertices::reaching(std::span<const float3> axes) {
   const std::vector<Instance>& instances = scene_.instances;
   std::vector<std::size_t> out;
-  if (instances.size() <= 2 * scene_.meshes.size()) {
+  const bool are_small = std::all_of(scene_.meshes.begin(), scene_.meshes.end(),
+                                     [](const Mesh& m) { return m.position.size() <= few_vertices; });
+  if (are_small || instances.size() <= 2 * scene_.meshes.size()) {
     for (std::size_t i = 0; i < instances.size(); ++i) out.push_back(i);
     return out;
   }
