@@ -28,7 +28,9 @@ constexpr std::size_t always_kept = std::size_t{1} << 22;
 std::size_t mesh_vertices(std::span<const Draw> draws) {
   std::vector<std::pair<const void*, std::size_t>> meshes;
   for (const Draw& draw : draws) {
-    const void* const first = draw.clip.empty() ? static_cast<const void*>(draw.position.data()) : draw.clip.data();
+    const void* const first = draw.quads          ? static_cast<const void*>(draw.quads)
+                              : draw.clip.empty() ? static_cast<const void*>(draw.position.data())
+                                                  : draw.clip.data();
     if (meshes.empty() || meshes.back().first != first) meshes.emplace_back(first, draw.vertices());
   }
   std::sort(meshes.begin(), meshes.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
@@ -53,7 +55,12 @@ void project_batch(const ProjectedDraws& projected, std::size_t first, std::size
     const Part& part = parts[i];
     const Draw& draw = projected.draws[part.draw];
     ScreenVertex* screen = projected.screen[part.draw].data();
-    if (draw.clip.empty()) {
+    if (draw.quads) {
+      for (std::size_t v = part.begin; v < part.end; v += 4) {
+        const Quad quad = make_quad(*draw.quads, v / 4, draw.clip_from_object);
+        for (std::size_t k = 0; k < 4; ++k) screen[v + k] = project(quad.clip[k], projected.viewport);
+      }
+    } else if (draw.clip.empty()) {
       kernels.transform(draw.clip_from_object, draw.position.data() + part.begin, part.end - part.begin,
                         projected.viewport, screen + part.begin);
     } else {

@@ -10,6 +10,7 @@
 #include "zoneplate/raster/batch.h"
 #include "zoneplate/raster/interpolate.h"
 #include "zoneplate/raster/project.h"
+#include "zoneplate/raster/quads.h"
 #include "zoneplate/raster/setup.h"
 
 namespace zoneplate {
@@ -22,18 +23,16 @@ enum class Surface {
 
 /// Triangles that are drawn with one state: an instance of a mesh.
 ///
-/// Its vertices come as positions with a matrix, or as clip positions. Triangles are numbered through the draws in
-/// their order; the number is the last word where depths are equal.
+/// Its vertices come as positions with a matrix, as clip positions, or as those of quads. Triangles are numbered
+/// through the draws in their order; the number is the last word where depths are equal.
 struct Draw {
   std::span<const float3> position;
   float4x4 clip_from_object;
   std::span<const float4> clip;          ///< used where it is not empty
   std::span<const std::uint32_t> index;  ///< three a triangle
 
-  /// Lines and points are drawn as two triangles each. Their attributes run from the mesh's vertex `ends[2 i]` of
-  /// primitive i to `ends[2 i + 1]`, and a drawn vertex stands at its `share` of that way. Empty for triangles.
-  std::span<const std::uint32_t> ends;
-  std::span<const float> share;
+  /// Lines and points, drawn as two triangles each; null: triangles. `position` and `clip` are not used then.
+  const QuadMesh* quads = nullptr;
 
   Surface surface = Surface::Opaque;
   bool culls_back_faces = false;
@@ -41,10 +40,11 @@ struct Draw {
   int material = 0;
   std::uint32_t instance = 0;
 
-  std::size_t vertices() const { return clip.empty() ? position.size() : clip.size(); }
+  std::size_t vertices() const { return quads ? quads->vertices() : clip.empty() ? position.size() : clip.size(); }
   std::size_t triangles() const { return index.size() / 3; }
-  std::uint32_t primitive_of(std::uint32_t triangle) const { return ends.empty() ? triangle : triangle / 2; }
+  std::uint32_t primitive_of(std::uint32_t triangle) const { return quads ? triangle / 2 : triangle; }
   float4 clip_position(std::uint32_t v) const {
+    if (quads) return make_quad(*quads, v / 4, clip_from_object).clip[v % 4];
     return clip.empty() ? clip_from_object * float4{position[v].x, position[v].y, position[v].z, 1} : clip[v];
   }
 };

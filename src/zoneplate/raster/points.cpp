@@ -11,8 +11,8 @@ PointBatcher::PointBatcher(const ProjectedDraws& projected, const PointShader& s
       shader_(shader),
       interpolate_(interpolate_kernels(isa)),
       target_(target),
-      has_ends_(
-          std::any_of(projected.draws.begin(), projected.draws.end(), [](const Draw& d) { return !d.ends.empty(); })),
+      has_ends_(std::any_of(projected.draws.begin(), projected.draws.end(),
+                            [](const Draw& d) { return d.quads != nullptr; })),
       has_one_material_(std::all_of(projected.draws.begin(), projected.draws.end(),
                                     [&](const Draw& d) { return d.material == projected.draws[0].material; })) {}
 
@@ -93,7 +93,7 @@ void PointBatcher::put_triangle(std::size_t i, std::int32_t id) {
       found_corners_[k][i] = projected_.vertex(known_.number, v[k]);
       corners_.vertex[k][i] = &found_corners_[k][i];
     }
-    batch_->vertex[k][i] = draw.ends.empty() ? v[k] : draw.ends[local / 2 * 2 + std::min<std::size_t>(k, 1)];
+    batch_->vertex[k][i] = draw.quads ? draw.quads->ends[local / 2 * 2 + std::min<std::size_t>(k, 1)] : v[k];
   }
 }
 
@@ -136,7 +136,7 @@ void PointBatcher::fill(std::span<const PointRow> rows, std::span<const std::uin
 bool PointBatcher::are_of_one_draw(const PointList& list) {
   if (list.count == 0) return true;
   find_draw(list.id[0]);
-  if (!known_.draw->ends.empty() || !known_.screen) return false;
+  if (known_.draw->quads || !known_.screen) return false;
   if (projected_.draws.size() == 1) return true;
   const auto begin = static_cast<std::uint32_t>(known_.begin), size = static_cast<std::uint32_t>(known_.end) - begin;
   std::uint32_t others = 0;
@@ -301,9 +301,10 @@ void PointBatcher::weigh_ends() {
     const auto id = static_cast<std::int32_t>(batch_->triangle[batch_->told(i)]);
     find_draw(id);
     const Draw& d = *known_.draw;
-    if (d.ends.empty()) continue;
+    if (!d.quads) continue;
     const std::uint32_t* v = &d.index[3 * static_cast<std::size_t>(id - known_.begin)];
-    const float share[3] = {d.share[v[0]], d.share[v[1]], d.share[v[2]]};
+    const Quad quad = make_quad(*d.quads, v[0] / 4, d.clip_from_object);
+    const float share[3] = {quad.share[v[0] % 4], quad.share[v[1] % 4], quad.share[v[2] % 4]};
     const auto weigh = [&](float(&b)[2][Batch::room], float whole) {
       const float first = whole - b[0][i] - b[1][i];
       b[0][i] = (first * share[0] + b[0][i] * share[1]) + b[1][i] * share[2];

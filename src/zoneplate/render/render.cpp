@@ -8,6 +8,7 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/memory_limit.h"
 #include "zoneplate/raster/rasterize.h"
 #include "zoneplate/render/drawing.h"
 #include "zoneplate/render/edge_distances.h"
@@ -188,7 +189,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
-  SceneDraws draws = make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options);
+  SceneDraws draws = growing(
+      "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
   const ScenePoints points(scene, surroundings_of(scene, camera, clip_from_camera, options), options);
 
   Frame frame;
