@@ -10,19 +10,22 @@
 #include "zoneplate/antialias/analytic_fragments.h"
 #include "zoneplate/antialias/analytic_regions.h"
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/memory_limit.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/coverage.h"
 
 namespace zoneplate::antialias {
 namespace {
 
+constexpr std::size_t many_triangles = 32768;   // of a tile that is not drawn at once
 constexpr std::size_t enough_fragments = 2048;  // that are shaded together
 
 /// What all tiles look at.
 struct Whole {
   const Drawing& drawing;
   const ProjectedDraws& projected;
-  const ScreenTriangles& triangles;
+  const TileTriangles& triangles;
   const Target& target;
   const PolynomialFilter& filter;
   const AnalyticOptions& options;
@@ -31,10 +34,10 @@ struct Whole {
 
 /// The part of a tile that is drawn, and the pixels around that count for it.
 PixelRect drawn_rect(const Whole& whole, std::size_t tile) {
-  const ScreenTriangles& t = whole.triangles;
+  const TileTriangles& t = whole.triangles;
   const Target& target = whole.target;
-  const int x = (t.first_column + static_cast<int>(tile) % t.columns) * tile_size;
-  const int y = (t.first_row + static_cast<int>(tile) / t.columns) * tile_size;
+  const int x = (t.first_column() + static_cast<int>(tile) % t.columns()) * tile_size;
+  const int y = (t.first_row() + static_cast<int>(tile) / t.columns()) * tile_size;
   return {std::max(x, target.x), std::max(y, target.y), std::min(x + tile_size, target.x + target.width),
           std::min(y + tile_size, target.y + target.height)};
 }
@@ -65,10 +68,9 @@ class TileIntegrator {
     const auto pixels = static_cast<std::size_t>(drawn_.width()) * static_cast<std::size_t>(drawn_.height());
     sum_.assign(pixels, {});
     covered_.assign(pixels, 0);
-    candidates_.find(whole_.triangles, tile, around);
-    std::uint32_t pixel = 0;
-    for (int y = around.top; y < around.bottom; ++y)
-      for (int x = around.left; x < around.right; ++x) add_pixel(pixel++, x, y);
+    const int rows = rows_at_once(whole_.triangles.of_tile(tile).size());
+    for (int top = around.top; top < around.bottom; top += rows)
+      draw_rows(tile, {around.left, top, around.right, std::min(top + rows, around.bottom)});
     add_fragments();
     write();
   }
@@ -80,16 +82,33 @@ class TileIntegrator {
     double r = 0, g = 0, b = 0, a = 0;
   };
 
+  /// Of a tile with many triangles only a few rows are at work at a time: that bounds what is stored.
+  static int rows_at_once(std::size_t triangles) {
+    return triangles <= many_triangles ? 2 * tile_size : triangles <= 8 * many_triangles ? 8 : 1;
+  }
+
+  void draw_rows(std::size_t tile, const PixelRect& rect) {
+    growing("triangles of a row of pixels", [&] {
+      whole_.triangles.make(tile, rect.top, rect.bottom, triangles_);
+      candidates_.find(triangles_, rect);
+    });
+    std::uint32_t pixel = 0;
+    for (int y = rect.top; y < rect.bottom; ++y) {
+      check_deadline();
+      for (int x = rect.left; x < rect.right; ++x) add_pixel(pixel++, x, y);
+    }
+  }
+
   void add_pixel(std::uint32_t pixel, int x, int y) {
     const auto candidates = candidates_.of_pixel(pixel);
     if (candidates.empty()) return;
-    const ScreenTriangle& nearest = whole_.triangles.triangles[candidates[0].triangle];
+    const ScreenTriangle& nearest = triangles_[candidates[0].triangle];
     if (candidates.size() == 1 && candidates[0].covers_pixel && nearest.surface == Surface::Opaque) {
       list_.add_whole(nearest.shape.id, x, y);
     } else {
       here_.clear();
       for (const PixelCandidates::Candidate& c : candidates)
-        here_.push_back(at_pixel(whole_.triangles.triangles[c.triangle], c.covers_pixel, x, y));
+        here_.push_back(at_pixel(triangles_[c.triangle], c.covers_pixel, x, y));
       list_.begin_pixel(x, y);
       regions_.find(here_, [&](const PixelCells& cells) { list_.add(cells); });
     }
@@ -141,6 +160,7 @@ class TileIntegrator {
   const Whole& whole_;
   FragmentList list_;
   FragmentColors colors_;
+  std::vector<ScreenTriangle> triangles_;  ///< of the rows at work
   PixelCandidates candidates_;
   std::vector<PixelTriangle> here_;  ///< of the pixel at work
   PixelRegions regions_;
@@ -158,21 +178,26 @@ void draw_analytic(const Drawing& drawing, const AnalyticOptions& options) {
   const Target& target = drawing.target;
   const ProjectedDraws projected = project_draws(drawing.draws, target.viewport, drawing.rules.isa);
   const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};
-  const ScreenTriangles triangles = make_screen_triangles(projected, target, rules, filter.reach());
+  TileTriangles triangles(projected, target, rules, filter.reach());
   drawing.counts.geometry_ms = geometry.ms();
   drawing.counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
-  drawing.counts.set_up = triangles.triangles.size();
+  drawing.counts.set_up = triangles.count();
 
   const Stopwatch tiles;
   Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
   if (options.order == FilterOrder::Display)
     whole.shown.emplace(drawing.options.display ? *drawing.options.display : DisplayOptions{});
   std::vector<std::unique_ptr<TileIntegrator>> integrators(static_cast<std::size_t>(thread_limit()));
-  parallel_for(triangles.tiles(), [&](std::size_t tile) {
-    std::unique_ptr<TileIntegrator>& mine = integrators[static_cast<std::size_t>(thread_index())];
-    if (!mine) mine = std::make_unique<TileIntegrator>(whole);
-    mine->draw(tile);
-  });
+  for (int row = 0; row < triangles.rows();) {
+    const auto columns = static_cast<std::size_t>(triangles.columns());
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    row = triangles.list_rows(row);
+    parallel_for(static_cast<std::size_t>(row) * columns - first, [&](std::size_t tile) {
+      std::unique_ptr<TileIntegrator>& mine = integrators[static_cast<std::size_t>(thread_index())];
+      if (!mine) mine = std::make_unique<TileIntegrator>(whole);
+      mine->draw(first + tile);
+    });
+  }
   for (const auto& integrator : integrators)
     if (integrator) drawing.counts.shaded += integrator->shaded();
   drawing.counts.tiles_ms = tiles.ms();
