@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace zoneplate::antialias {
@@ -33,16 +34,15 @@ double depth_at_corner(const Triangle& t, int x, int y) {
 
 }  // namespace
 
-void PixelCandidates::find(const ScreenTriangles& triangles, std::size_t tile, const PixelRect& rect) {
-  const auto listed = triangles.of_tile(tile);
-  order_.assign(listed.begin(), listed.end());
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t p, std::uint32_t q) {
-    return comes_before(triangles.triangles[p].shape, triangles.triangles[q].shape);
-  });
+void PixelCandidates::find(std::span<const ScreenTriangle> triangles, const PixelRect& rect) {
+  order_.resize(triangles.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t p, std::uint32_t q) { return comes_before(triangles[p].shape, triangles[q].shape); });
   const auto pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   found_.clear();
   hidden_below_.assign(pixels, -1.0);
-  for (const std::uint32_t number : order_) find_pixels(number, triangles.triangles[number], rect);
+  for (const std::uint32_t number : order_) find_pixels(number, triangles[number], rect);
   sort_by_pixel(pixels);
 }
 

@@ -26,12 +26,12 @@ class PixelCandidates {
  public:
   struct Candidate {
     std::uint32_t pixel;     ///< within the rectangle, row by row
-    std::uint32_t triangle;  ///< in the frame's list
+    std::uint32_t triangle;  ///< in the list
     bool covers_pixel;
     double greatest_depth;  ///< no depth in the pixel is above it
   };
 
-  void find(const ScreenTriangles& triangles, std::size_t tile, const PixelRect& rect);
+  void find(std::span<const ScreenTriangle> triangles, const PixelRect& rect);
 
   std::span<const Candidate> of_pixel(std::uint32_t pixel) const {
     return std::span(sorted_).subspan(first_[pixel], first_[pixel + 1] - first_[pixel]);

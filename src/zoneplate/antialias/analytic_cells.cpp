@@ -47,13 +47,14 @@ void PixelCells::clear(const ConvexPolygon& region) {
   cells_.clear();
   cells_.push_back({region, 0, 0});
   free_ = 1;
+  is_full_ = false;
 }
 
 void PixelCells::insert(const PixelTriangle& triangle) {
   const auto number = static_cast<std::uint32_t>(triangles_.size());
   triangles_.push_back(triangle);
   const std::size_t count = cells_.size();
-  for (std::size_t i = 0; i < count; ++i) insert_in(i, number);
+  for (std::size_t i = 0; i < count && !is_full_; ++i) insert_in(i, number);
 }
 
 /// True if the cell's last layer is opaque and nearer than the triangle all over the polygon.
@@ -97,7 +98,7 @@ void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
 }
 
 void PixelCells::sort_in(const Cell& cell, std::uint32_t number) {
-  while (!pieces_.empty()) {
+  while (!pieces_.empty() && !is_full_) {
     const Piece piece = pieces_.back();
     pieces_.pop_back();
     if (piece.polygon.count <= many_corners) {
@@ -154,13 +155,19 @@ void PixelCells::store(const ConvexPolygon& polygon, std::uint32_t first_layer, 
   }
   cells_.push_back({polygon, first_layer, layers});
   free_ = cells_.size();
+  is_full_ = is_full_ || cells_.size() > most_cells || layers_.size() > most_layers;
 }
 
 /// The cell's layers with the triangle before layer `at`; nothing is behind an opaque one.
 void PixelCells::store_with(const ConvexPolygon& polygon, const Cell& cell, std::uint32_t at, std::uint32_t number) {
   if (at == cell.layers && cell.first_layer + at == layers_.size()) {
+    is_full_ = layers_.size() >= most_layers;
     layers_.push_back(number);  // the list is the last one: others that begin like it keep their length
     return store(polygon, cell.first_layer, at + 1);
+  }
+  if (layers_.size() + cell.layers >= most_layers) {
+    is_full_ = true;
+    return;
   }
   const auto first = static_cast<std::uint32_t>(layers_.size());
   const std::uint32_t behind = triangles_[number].surface == Surface::Opaque ? 0 : cell.layers - at;

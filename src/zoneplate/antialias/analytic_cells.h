@@ -33,6 +33,8 @@ struct PixelTriangle {
 /// Source    subtraction of nearer polygons: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978.
 class PixelCells {
  public:
+  static constexpr std::size_t most_cells = std::size_t{1} << 13, most_layers = std::size_t{1} << 20;
+
   struct Cell {
     ConvexPolygon polygon;
     std::uint32_t first_layer = 0, layers = 0;
@@ -42,11 +44,16 @@ class PixelCells {
   void clear(const ConvexPolygon& region);
   void insert(const PixelTriangle& triangle);
 
+  /// True once the cells or their layers are too many: they are then not complete, and nothing is inserted any more.
+  bool is_full() const { return is_full_; }
+
   std::span<const Cell> cells() const { return cells_; }
   /// Of a cell: numbers of triangles, in the order of insertion, near to far.
   std::span<const std::uint32_t> layers_of(const Cell& cell) const {
     return {layers_.data() + cell.first_layer, cell.layers};
   }
+  /// Entries in the cells' lists of layers, and in those that no cell has any more.
+  std::size_t layer_count() const { return layers_.size(); }
   const PixelTriangle& triangle(std::uint32_t number) const { return triangles_[number]; }
 
  private:
@@ -66,7 +73,8 @@ class PixelCells {
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> layers_;
   std::vector<Piece> pieces_;  ///< still to be placed
-  std::size_t free_ = 0;       ///< a cell whose place may be taken; cells_.size() if there is none
+  bool is_full_ = false;
+  std::size_t free_ = 0;  ///< a cell whose place may be taken; cells_.size() if there is none
 };
 
 }  // namespace zoneplate::antialias

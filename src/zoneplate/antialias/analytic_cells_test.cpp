@@ -173,7 +173,10 @@ TEST(PixelRegions, CrowdedPixelsShowTheSameAsOneRegionWould) {
     add_areas(cells_of(triangles), expected);
     PixelRegions regions;
     int regions_used = 0;
-    regions.find(triangles, [&](const PixelCells& cells) { add_areas(cells, found), ++regions_used; });
+    EXPECT_TRUE(regions.find(triangles, [&](const PixelCells& cells) {
+      add_areas(cells, found), ++regions_used;
+      return true;
+    }));
     EXPECT_GT(regions_used, 4) << seed;
     for (const auto& [id, area] : expected) {
       if (id < 0) continue;
@@ -204,10 +207,11 @@ TEST(PixelRegions, LayersInOneOrderAreNoCrowdAndLinesSideBySideAreQuarteredButTw
     PixelRegions regions;
     int regions_used = 0;
     std::size_t most = 0;
-    regions.find(triangles, [&](const PixelCells& cells) {
+    EXPECT_TRUE(regions.find(triangles, [&](const PixelCells& cells) {
       add_areas(cells, found), ++regions_used;
       for (const PixelCells::Cell& cell : cells.cells()) most = std::max<std::size_t>(most, cell.layers);
-    });
+      return true;
+    }));
     EXPECT_EQ(most, 40u);
     if (cut) {
       EXPECT_GT(regions_used, 4);
@@ -219,6 +223,25 @@ TEST(PixelRegions, LayersInOneOrderAreNoCrowdAndLinesSideBySideAreQuarteredButTw
       EXPECT_NEAR(found[id], id < 0 ? found[id] : area, 1e-12);  // regions without triangles are not given
     }
   }
+}
+
+TEST(PixelRegions, PixelsWithTooManyPolygonsAreGivenUp) {
+  // Blended triangles of all kinds about the pixel's middle: past the limits of one region long before the last.
+  Numbers random(3);
+  std::vector<PixelTriangle> triangles;
+  for (int i = 0; i < 1000; ++i) {
+    std::array<Corner, 3> c{};
+    for (Corner& p : c) p = {random(-1, 2), random(-1, 2), random(0.1, 0.9)};
+    triangles.push_back(make(c, i, Surface::Blended));
+  }
+  PixelRegions regions;
+  EXPECT_FALSE(regions.find(triangles, [](const PixelCells& cells) {
+    EXPECT_LE(cells.cells().size(), PixelCells::most_cells);
+    return true;
+  }));
+  // The next pixel knows nothing of it; who looks at the cells may give up too.
+  EXPECT_TRUE(regions.find(std::span(triangles).first(5), [](const PixelCells&) { return true; }));
+  EXPECT_FALSE(regions.find(std::span(triangles).first(5), [](const PixelCells&) { return false; }));
 }
 
 }  // namespace

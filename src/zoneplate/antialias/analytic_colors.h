@@ -10,25 +10,24 @@ namespace zoneplate::antialias {
 
 /// How large a fragment is for its shader: the side of its part of the pixel, in pixels.
 struct Footprints {
-  float part = 1;    ///< of most
-  float masked = 1;  ///< of those with a masked layer, whose parts are finer
+  float part = 1;        ///< of most
+  float fine = 1;        ///< of those in a part of the masked surfaces' grid: half of its side
+  float alpha = 1;       ///< of a place where alpha is tested
+  float alpha_part = 1;  ///< where alpha is asked for a whole part of that grid
 };
 
-/// Gives fragments their colours: asks which masked layers are there, shades what is seen, lays it over from far to
-/// near.
+/// Gives fragments their colours: shades their layers and lays them over each other from far to near.
 class FragmentColors {
  public:
   FragmentColors(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target,
                  Footprints footprints);
 
-  void find(const FragmentList& list);
+  void find(const FragmentTable& table);
 
-  /// Of fragment number i of that list.
+  /// Of fragment number i of that table.
   Linear color(std::size_t i) const { return colors_[i]; }
-  /// True if a surface that hides what is behind it is seen.
-  bool is_closed(std::size_t i) const { return is_closed_[i]; }
 
-  std::uint64_t shaded() const { return parts_.shader.shaded() + masked_.shader.shaded(); }
+  std::uint64_t shaded() const { return parts_.shader.shaded() + fine_.shader.shaded(); }
 
  private:
   /// Points of one footprint, with the places of their colours among all.
@@ -41,22 +40,18 @@ class FragmentColors {
     std::vector<std::size_t> place;
     std::vector<Linear> colors;
   };
-  /// A layer that is seen.
+  /// A layer of a fragment.
   struct Seen {
     std::size_t fragment;
-    bool is_surface;
+    bool is_surface;  ///< it hides what is behind it
     Linear color;
   };
 
-  void test_masks(const FragmentList& list);
-  void find_seen(const FragmentList& list);
   void shade(Group& group);
 
-  Group parts_, masked_;
-  std::vector<std::uint8_t> is_there_;  ///< by masked layer, in the order of the fragments
-  std::vector<Seen> seen_;              ///< fragment by fragment, near to far
-  std::vector<Linear> colors_;          ///< by fragment
-  std::vector<std::uint8_t> is_closed_;
+  Group parts_, fine_;
+  std::vector<Seen> seen_;      ///< fragment by fragment, near to far
+  std::vector<Linear> colors_;  ///< by fragment
 };
 
 }  // namespace zoneplate::antialias

@@ -61,6 +61,32 @@ ConvexPolygon clipped(const ConvexPolygon& polygon, const Line& line);
 /// Requires  four corners at least.
 void halve(const ConvexPolygon& polygon, ConvexPolygon& first, ConvexPolygon& second);
 
+/// Calls use(column, row, part) for what of the polygon lies in each cell of a grid of count × count squares, row by
+/// row. What is outside of the grid goes with the outermost cells.
+///
+/// Requires  fewer than capacity - 4 corners.
+template <class Use>
+void for_grid(const ConvexPolygon& polygon, Place corner, double side, int count, Use use) {
+  ConvexPolygon row, rest = polygon, below, cell, right;
+  for (int j = 0; j < count && !rest.empty(); ++j) {
+    below.count = 0;
+    if (j + 1 < count)
+      cut(rest, {0, -1, corner.y + (j + 1) * side}, row, below);
+    else
+      row = rest;
+    rest = below;
+    for (int i = 0; i < count && !row.empty(); ++i) {
+      right.count = 0;
+      if (i + 1 < count)
+        cut(row, {-1, 0, corner.x + (i + 1) * side}, cell, right);
+      else
+        cell = row;
+      if (!cell.empty()) use(i, j, cell);
+      row = right;
+    }
+  }
+}
+
 /// Area and first moments: ∫ dA, ∫ x dA and ∫ y dA.
 struct AreaMoments {
   double area = 0, x = 0, y = 0;

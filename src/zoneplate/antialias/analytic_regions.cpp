@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "zoneplate/base/deadline.h"
+
 namespace zoneplate::antialias {
 namespace {
 
@@ -31,15 +33,23 @@ bool misses(const PixelTriangle& triangle, const ConvexPolygon& square) {
 
 }  // namespace
 
-void PixelRegions::find(std::span<const PixelTriangle> triangles, const Use& use) {
+bool PixelRegions::find(std::span<const PixelTriangle> triangles, const Use& use) {
   triangles_ = triangles;
+  work_ = 0;
   members_.resize(most_levels + 2);
   members_[0].clear();
   for (std::uint32_t i = 0; i < triangles.size(); ++i) members_[0].push_back({i, triangles[i].covers_all, 0, 0});
   if (triangles.size() > crowd) return find_in(unit_square(), 1, {}, use);
   cells_.clear(unit_square());
-  for (const PixelTriangle& t : triangles) cells_.insert(t);
-  use(cells_);
+  for (const PixelTriangle& t : triangles)
+    if (!insert(t)) return false;
+  return use(cells_);
+}
+
+bool PixelRegions::insert(const PixelTriangle& triangle) {
+  work_ += cells_.cells().size() + cells_.layer_count() / 4;
+  cells_.insert(triangle);
+  return !cells_.is_full() && work_ <= most_work;
 }
 
 /// members_[level]: those of the level above that are in the square and not hidden all over it.
@@ -78,9 +88,10 @@ std::size_t PixelRegions::count_cutters(std::size_t level) {
   return cutters;
 }
 
-void PixelRegions::find_in(const ConvexPolygon& square, std::size_t level, Crowd above, const Use& use) {
+bool PixelRegions::find_in(const ConvexPolygon& square, std::size_t level, Crowd above, const Use& use) {
+  check_deadline();
   gather(square, level);
-  if (members_[level].empty()) return;
+  if (members_[level].empty()) return true;
   // Lines that run side by side through a pixel do so through its quarters too.
   const std::size_t cutters = count_cutters(level);
   const Crowd here{cutters, 4 * cutters > 3 * above.cutters && above.cutters > 0 ? above.in_vain + 1 : 0};
@@ -89,16 +100,16 @@ void PixelRegions::find_in(const ConvexPolygon& square, std::size_t level, Crowd
     const double half = (square[1].x - corner.x) / 2;
     for (const Place p :
          {corner, {corner.x + half, corner.y}, {corner.x, corner.y + half}, {corner.x + half, corner.y + half}})
-      find_in(square_at(p.x, p.y, half), level + 1, here, use);
-    return;
+      if (!find_in(square_at(p.x, p.y, half), level + 1, here, use)) return false;
+    return true;
   }
   cells_.clear(square);
   for (const Member& m : members_[level]) {
     PixelTriangle t = triangles_[m.number];
     t.covers_all = m.covers;
-    cells_.insert(t);
+    if (!insert(t)) return false;
   }
-  use(cells_);
+  return use(cells_);
 }
 
 }  // namespace zoneplate::antialias

@@ -15,13 +15,19 @@ namespace zoneplate::antialias {
 ///
 /// Exact     as PixelCells: the regions' polygons together fill the pixel. Whether a region is quartered depends on the
 ///           triangles' places alone.
-/// Cost      with n triangles that are seen, near n log n in place of n².
+/// Cost      with n triangles that are seen, near n log n in place of n². A pixel that would need more than `most_work`
+///           is given up.
 class PixelRegions {
  public:
-  using Use = std::function<void(const PixelCells&)>;
+  /// Returns false to give the pixel up.
+  using Use = std::function<bool(const PixelCells&)>;
 
-  /// Calls `use` with the cells of every region that has triangles.
-  void find(std::span<const PixelTriangle> triangles, const Use& use);
+  static constexpr std::size_t most_work = std::size_t{1}
+                                           << 24;  ///< cells that triangles are compared with, and layers in four
+
+  /// Calls `use` with the cells of every region that has triangles. False if the pixel is given up, because of `use` or
+  /// because its cells are too many; what was given to `use` is then not all.
+  bool find(std::span<const PixelTriangle> triangles, const Use& use);
 
  private:
   /// A triangle within a region.
@@ -36,7 +42,8 @@ class PixelRegions {
     int in_vain = 0;
   };
 
-  void find_in(const ConvexPolygon& square, std::size_t level, Crowd above, const Use& use);
+  bool find_in(const ConvexPolygon& square, std::size_t level, Crowd above, const Use& use);
+  bool insert(const PixelTriangle& triangle);
   void gather(const ConvexPolygon& square, std::size_t level);
   std::size_t count_cutters(std::size_t level);
 
@@ -44,6 +51,7 @@ class PixelRegions {
   std::vector<std::vector<Member>> members_;  ///< by level
   std::vector<Member> covering_;              ///< of the region at work, nearest first
   PixelCells cells_;
+  std::size_t work_ = 0;  ///< done for the pixel
 };
 
 }  // namespace zoneplate::antialias

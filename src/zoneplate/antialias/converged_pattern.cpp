@@ -40,11 +40,17 @@ std::uint8_t nearest_place(std::uint32_t v) {
 
 }  // namespace
 
+ScrambledPoint scrambled_point(std::uint32_t i, std::uint32_t seed) {
+  return {scrambled(reversed(i), 0, seed), scrambled(second(i), 1, seed)};
+}
+
 SamplePattern scrambled_pattern(int samples, std::uint32_t seed) {
   assert(samples > 0 && std::has_single_bit(static_cast<unsigned>(samples)));
   SamplePattern out;
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(samples); ++i)
-    out.push_back({nearest_place(scrambled(reversed(i), 0, seed)), nearest_place(scrambled(second(i), 1, seed))});
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(samples); ++i) {
+    const ScrambledPoint p = scrambled_point(i, seed);
+    out.push_back({nearest_place(p.x), nearest_place(p.y)});
+  }
   return out;
 }
 

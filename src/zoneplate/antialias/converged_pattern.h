@@ -17,4 +17,10 @@ namespace zoneplate::antialias {
 ///           above it.
 SamplePattern scrambled_pattern(int samples, std::uint32_t seed = 0);
 
+/// Point i of the same sequence before it is rounded, as fractions of the pixel in units of 2^-32.
+struct ScrambledPoint {
+  std::uint32_t x, y;
+};
+ScrambledPoint scrambled_point(std::uint32_t i, std::uint32_t seed = 0);
+
 }  // namespace zoneplate::antialias

@@ -43,12 +43,13 @@ class FlatTriangles : public PointShader {
       }
     return out;
   }
-  /// Of masked ones, by place in 1/256 pixel and the change of the first weight over the point's footprint.
-  std::function<float(std::int32_t x, std::int32_t y, float dbdx)> alpha_at;
+  /// Of masked ones, by place in 1/256 pixel, the change of the first weight over the point's footprint, and number
+  /// among the masked ones. The cutoff is 1/2.
+  std::function<float(std::int32_t x, std::int32_t y, float dbdx, std::uint32_t number)> alpha_at;
 
   LinearImage analytic(const AnalyticOptions& options = {}, std::optional<Crop> crop = {},
-                       Plane<float>* coverage = nullptr) const {
-    return with_target(crop, coverage, nullptr, [&](const Drawing& d) { draw_analytic(d, options); });
+                       Plane<float>* coverage = nullptr, Plane<float>* error = nullptr) const {
+    return with_target(crop, coverage, error, [&](const Drawing& d) { draw_analytic(d, options); });
   }
   LinearImage converged(const ConvergedOptions& options, Plane<float>* error = nullptr,
                         std::optional<Crop> crop = {}) const {
@@ -63,20 +64,22 @@ class FlatTriangles : public PointShader {
     });
   }
   RenderOptions render_options;
+  Isa isa = best_isa();
+  mutable RasterCounts counts;  ///< of the last picture that `analytic` or `converged` drew
 
   void shade(const Batch& batch, Wanted, Shaded& out) const override {
     for (int i = 0; i < batch.padded(); ++i) {
-      // Triangles are numbered through the lists; three vertices each.
       const std::size_t told = batch.told(static_cast<std::size_t>(i));
-      std::size_t primitive = batch.triangle[told];
-      for (std::size_t s = 0; s < batch.instance[told]; ++s) primitive -= lists_[s].clip.size() / 3;
-      const Linear c = lists_[batch.instance[told]].color[primitive];
+      const Linear c = lists_[batch.instance[told]].color[number_of(batch, told)];
       out.r[i] = c.r, out.g[i] = c.g, out.b[i] = c.b, out.a[i] = c.a;
     }
   }
   float alpha(const Batch& batch, float* out) const override {
     for (int i = 0; i < batch.padded(); ++i)
-      out[i] = alpha_at ? alpha_at(batch.x[i], batch.y[i], batch.dbdx[0][i]) : 1.0f;
+      out[i] = alpha_at
+                   ? alpha_at(batch.x[i], batch.y[i], batch.dbdx[0][i],
+                              static_cast<std::uint32_t>(number_of(batch, batch.told(static_cast<std::size_t>(i)))))
+                   : 1.0f;
     return 0.5f;
   }
 
@@ -85,6 +88,13 @@ class FlatTriangles : public PointShader {
     std::vector<float4> clip;
     std::vector<Linear> color;
   };
+
+  /// Triangles are numbered through the lists; three vertices each.
+  std::size_t number_of(const Batch& batch, std::size_t told) const {
+    std::size_t number = batch.triangle[told];
+    for (std::size_t s = 0; s < batch.instance[told]; ++s) number -= lists_[s].clip.size() / 3;
+    return number;
+  }
 
   template <class Use>
   LinearImage with_target(std::optional<Crop> crop, Plane<float>* coverage, Plane<float>* error, Use use) const {
@@ -108,8 +118,8 @@ class FlatTriangles : public PointShader {
     target.color = &image;
     if (coverage) *coverage = Plane<float>(c.width, c.height), target.coverage = coverage;
     if (error) *error = Plane<float>(c.width, c.height);
-    RasterCounts counts;
-    const RasterRules rules;
+    const RasterRules rules{.isa = isa};
+    counts = {};
     use(Drawing{draws, *this, rules, target, render_options, error, counts});
     return image;
   }

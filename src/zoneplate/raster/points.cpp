@@ -345,4 +345,14 @@ void PointBatcher::test_alpha(std::span<const Point> points, std::vector<std::ui
   });
 }
 
+void PointBatcher::find_alpha_margins(std::span<const Point> points, std::vector<float>& margins) {
+  shaded_ += points.size();
+  margins.resize(points.size());
+  for_batches(points, [&](std::span<const std::uint32_t> numbers) {
+    alignas(64) float alpha[Batch::room];
+    const float cutoff = shader_.alpha(*batch_, alpha);
+    for (std::size_t i = 0; i < numbers.size(); ++i) margins[numbers[i]] = alpha[i] - cutoff;
+  });
+}
+
 }  // namespace zoneplate

@@ -60,6 +60,9 @@ class PointBatcher {
   /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
   void test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there);
 
+  /// How far the points' alpha is above the cutoff, in their order: a surface is there where that is not negative.
+  void find_alpha_margins(std::span<const Point> points, std::vector<float>& margins);
+
   std::uint64_t shaded() const { return shaded_; }
 
  private:
