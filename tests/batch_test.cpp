@@ -194,6 +194,7 @@ TEST_F(Batch, ASandboxedItemOpensTheLibraryThatItNeeds) {
         "mtllib quad.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 "
         "4/4\n");
   EXPECT_EQ(run("quad.obj -o boxed.png --size 32x32"), 0) << complaint;
+  EXPECT_EQ(complaint, "");
   EXPECT_EQ(run("quad.obj -o open.png --size 32x32 --no-sandbox"), 0) << complaint;
   EXPECT_EQ(text_of(place / "boxed.png"), text_of(place / "open.png"));
 }

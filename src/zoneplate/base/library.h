@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "zoneplate/base/error.h"
@@ -10,10 +11,12 @@ namespace zoneplate {
 /// a small picture.
 enum class Library { Assimp, Meshoptimizer, OpenExr };
 
-/// Thrown in a sandboxed child, which has no right to load code, for a library that its parent had not opened.
-class LibraryNeeded : public Error {
+/// Thrown in a sandboxed child, which has no right to load code, for a library that its parent had not opened. It is no
+/// Error, so that what goes on without a texture that cannot be read does not go on without one that can.
+class LibraryNeeded : public std::runtime_error {
  public:
-  LibraryNeeded(Library library, const std::string& message) : Error(Trouble::Input, message), library_(library) {}
+  /// `message`: the error where the library is not installed.
+  LibraryNeeded(Library library, const std::string& message) : std::runtime_error(message), library_(library) {}
   Library library() const { return library_; }
 
  private:

@@ -14,6 +14,7 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/library.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/base/sandbox.h"
 
@@ -70,6 +71,8 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
     ::_exit(0);
   } catch (const Error& error) {
     if (!answer.is_begun()) tell(pipe, error.trouble(), error.what());
+  } catch (const LibraryNeeded& needed) {
+    if (!answer.is_begun()) tell(pipe, Trouble::Input, needed.what());
   } catch (const std::exception&) {
     if (!answer.is_begun())
       tell(pipe, Trouble::Input, with_options(task.place + ": needs more memory than the limit", task.limits));

@@ -15,8 +15,10 @@ namespace zoneplate::cli {
 std::string model_key(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1), c.variant,
-                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path);
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
+                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path,
+                     args.options.raw_colors,
+                     args.look.shading_model ? static_cast<int>(*args.look.shading_model) : -1);
 }
 
 Stage& RenderJobs::stage_of(const RenderArgs& args) {
@@ -55,6 +57,9 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Camera camera = choose_camera(scene, args.view, aspect);
   args.options.environment = stage.light(camera, args.look);
   summary.warnings = scene.warnings;
+  const Stopwatch texture_watch;
+  args.options.textures = &stage.take_textures(args.options.raw_colors);
+  summary.times.emplace_back("textures", texture_watch.ms());
   out.progress("render", 0.2);
   const Rendered picture = render_picture(args, scene, camera, *resolver, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));

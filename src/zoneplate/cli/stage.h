@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "zoneplate/cli/look.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/material_plan.h"
 
 namespace zoneplate::cli {
 
@@ -18,6 +20,13 @@ class Stage {
 
   const Scene& scene() const { return scene_; }
 
+  /// The textures of the scene as it was lit last. The first call makes them and frees the scene's images, so every
+  /// later call must have the same `raw_colors`, and the scene must be lit with the same shading model.
+  const TextureSet& take_textures(bool raw_colors) {
+    if (!textures_) textures_.emplace(TextureSet::take(scene_, raw_colors));
+    return *textures_;
+  }
+
   /// What apply_look does to the scene as it was loaded.
   float3 light(const Camera& camera, const Look& look) {
     scene_.lights = lights_;
@@ -30,6 +39,7 @@ class Stage {
   Scene scene_;
   std::vector<Light> lights_;
   std::vector<Material> materials_;
+  std::optional<TextureSet> textures_;
   float3 ambient_;
 };
 

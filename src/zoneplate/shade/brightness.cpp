@@ -6,6 +6,7 @@
 #include "zoneplate/shade/brdf.h"
 #include "zoneplate/shade/lighting.h"
 #include "zoneplate/shade/material_plan.h"
+#include "zoneplate/shade/texture.h"
 
 namespace zoneplate {
 namespace {
@@ -29,14 +30,17 @@ float highlight(const MaterialPlan& plan) {
   return inverse_pi / (2 * alpha * alpha * alpha);
 }
 
-/// Texels are at most 1, and so are diffuse weights, cosines and their powers.
+/// True for a texture of floats, whose texels may have any value; those of codes are at most 1.
+bool is_unbounded(const TextureSlot& slot) { return slot.texture != nullptr && slot.texture->view().values != nullptr; }
+
+/// Diffuse weights, cosines and their powers are at most 1.
 float brightest(const MaterialPlan& plan, float light, float environment) {
-  if (plan.attributes.color) return brightest_color;
+  if (plan.attributes.color || is_unbounded(plan.base_color) || is_unbounded(plan.emissive)) return brightest_color;
   const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
   if (!plan.is_lit) return base;
   // Twice the sum, for what rounding and the fit to the environment's integral add.
-  return 2 * (base * (1 + greatest(plan.ambient) + light + environment) + highlight(plan) * light + environment +
-              greatest(plan.emissive_factor));
+  return 2 * (base * (1 + greatest(plan.ambient_share) + light + environment) + greatest(plan.own_ambient) +
+              highlight(plan) * light + environment + greatest(plan.emissive_factor));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "zoneplate/shade/lighting.h"
 #include "zoneplate/shade/material_plan.h"
+#include "zoneplate/shade/texture.h"
 
 namespace zoneplate {
 namespace {
@@ -39,6 +40,18 @@ TEST(Brightness, IsThatOfTheBrightestMaterial) {
 TEST(Brightness, VertexColoursMayBeAnything) {
   MaterialPlan plan = plan_of(ShadingModel::Unlit);
   plan.attributes.color = true;
+  EXPECT_EQ(bound(plan), brightest_color);
+}
+
+TEST(Brightness, TexturesOfFloatsMayBeAnything) {
+  const Texture codes(TexelImage(Rgba8Image(2, 2)), TexelMeaning::Color);
+  const Texture light(TexelImage(Plane<float4>(2, 2)), TexelMeaning::Color);
+  MaterialPlan plan = plan_of(ShadingModel::MetallicRoughness);
+  plan.base_color.texture = plan.emissive.texture = &codes;
+  EXPECT_LT(bound(plan), 10);
+  plan.emissive.texture = &light;
+  EXPECT_EQ(bound(plan), brightest_color);
+  plan.emissive.texture = &codes, plan.base_color.texture = &light;
   EXPECT_EQ(bound(plan), brightest_color);
 }
 
