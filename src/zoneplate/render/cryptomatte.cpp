@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
@@ -21,7 +22,9 @@ struct Names {
 Names names_of(const Scene& scene, MatteKind kind) {
   Names out;
   std::map<std::string, std::uint32_t> numbers;
-  for (const Instance& instance : scene.instances) {
+  for (std::size_t number = 0; number < scene.instances.size(); ++number) {
+    if (number % 1024 == 0) check_deadline();
+    const Instance& instance = scene.instances[number];
     const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
     const bool is_object = kind == MatteKind::Object;
     const auto i = static_cast<std::size_t>(is_object ? instance.object : material);
