@@ -229,6 +229,7 @@ void draw_with_slots(const Drawing& drawing, const SamplePattern& samples, std::
   every.viewport = target.viewport;
   every.x = target.x, every.y = target.y, every.width = target.width, every.height = target.height;
   every.samples = samples;
+  every.keeps_hidden = true;
   every.sample_color = &sampled.color;
   every.sample_triangle = &sampled.triangle;
   RasterMemory own;

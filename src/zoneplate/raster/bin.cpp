@@ -40,8 +40,8 @@ class Binner {
     FragmentSink sink{.first_column = bins_.first_column,
                       .first_row = bins_.first_row,
                       .columns = bins_.columns,
-                      .last = worker_.fragments.data(),
-                      .owner = &worker_.arena,
+                      .last = worker_.fragments.last(),
+                      .owner = &worker_,
                       .grow = grow};
     FrontResult result;
     for (std::int32_t first = begin; first < end; first += FrontRun::capacity) {
@@ -97,11 +97,8 @@ class Binner {
   }
 
   static SampleFragments* grow(FragmentSink& sink, std::int32_t tile, std::int32_t first_id) {
-    auto* part = reinterpret_cast<SampleFragments*>(static_cast<Arena*>(sink.owner)->take(sizeof(SampleFragments)));
-    part->previous = sink.last[tile];
-    part->count = 0;
-    part->first_id = first_id;
-    return sink.last[tile] = part;
+    auto& worker = *static_cast<Bins::Worker*>(sink.owner);
+    return worker.fragments.grow(static_cast<std::size_t>(tile), first_id, worker.arena);
   }
 
   const std::uint32_t* corners(std::size_t d, std::int32_t triangle) const {
@@ -191,14 +188,14 @@ class Binner {
 
 }  // namespace
 
-void Bins::Worker::clear(std::size_t tile_count) {
+void Bins::Worker::clear(std::size_t tile_count, const Target& target) {
   arena.clear();
   triangles.clear();
   drawn = 0;
   for (std::array<TileList, 3>& lists : tiles)
     for (TileList& list : lists) list.clear();
   tiles.resize(tile_count);
-  fragments.assign(tile_count, nullptr);
+  fragments.clear(tile_count, static_cast<int>(target.samples.size()), target.keeps_hidden);
 }
 
 Bins make_bins(const Target& target, Bins reused) {
@@ -209,7 +206,7 @@ Bins make_bins(const Target& target, Bins reused) {
   bins.columns = (target.x + target.width - 1) / tile_size - bins.first_column + 1;
   bins.rows = (target.y + target.height - 1) / tile_size - bins.first_row + 1;
   bins.workers.resize(static_cast<std::size_t>(thread_limit()));
-  for (Bins::Worker& w : bins.workers) w.clear(bins.tiles());
+  for (Bins::Worker& w : bins.workers) w.clear(bins.tiles(), target);
   return bins;
 }
 

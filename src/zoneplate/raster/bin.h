@@ -7,6 +7,7 @@
 
 #include "zoneplate/raster/arena.h"
 #include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/fragments.h"
 #include "zoneplate/raster/front.h"
 #include "zoneplate/raster/setup.h"
 #include "zoneplate/raster/target.h"
@@ -33,11 +34,11 @@ struct Bins {
     Arena arena;
     ArenaArray<Triangle> triangles;
     std::vector<std::array<TileList, 3>> tiles;  ///< by tile and Surface: indices into triangles
-    std::vector<SampleFragments*> fragments;     ///< by tile: the last part of its list, or null
-    std::uint64_t drawn = 0;                     ///< triangles that became fragments
+    TileFragments fragments;
+    std::uint64_t drawn = 0;  ///< triangles that became fragments
 
-    /// Empties the lists and makes them for that number of tiles.
-    void clear(std::size_t tiles);
+    /// Empties the lists and makes them for that number of tiles and that target.
+    void clear(std::size_t tiles, const Target& target);
     bool is_empty(std::size_t tile) const {
       const auto& lists = this->tiles[tile];
       return lists[0].empty() && lists[1].empty() && lists[2].empty() && fragments[tile] == nullptr;

@@ -14,6 +14,7 @@ namespace zoneplate {
 struct SampleFragments {
   static constexpr int capacity = 510;
   static constexpr int most_samples = 16;
+  static constexpr std::int32_t most_ids = 0xffff;  ///< of a part, after its first
   SampleFragments* previous;
   std::int32_t count;
   std::int32_t first_id;

@@ -30,6 +30,7 @@ struct Target {
 
   SamplePattern samples;
   std::vector<float> weights;          ///< one a sample; empty: all equal
+  bool keeps_hidden = false;           ///< bins keep fragments behind others too, for those who draw in order
   bool is_per_sample = false;          ///< shade every sample by itself
   AlphaTest alpha = AlphaTest::Pixel;  ///< where not every sample is shaded
   Centroid centroid = Centroid::Mean;  ///< the same

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <limits>
 
+#include "zoneplate/base/deadline.h"
+
 namespace zoneplate {
 namespace {
 
@@ -319,7 +321,9 @@ void TileRenderer::draw_opaque() {
   for (int block = 0; block < TileVisibility::blocks; ++block)
     if (!is_drawn(block)) block_far_[block] = std::numeric_limits<float>::infinity();
   float tile_far = 0;  // no sample of the tile is below it
+  std::size_t number = 0;
   for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Opaque)]) {
+    if (++number % deadline_stride == 0) check_deadline();
     if (t->z_high < tile_far) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
     if (greatest_depth(tile_triangle_, pass_samples_) < tile_far) continue;

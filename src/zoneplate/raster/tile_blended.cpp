@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/raster/tile.h"
 
 namespace zoneplate {
@@ -45,7 +46,9 @@ void TileRenderer::collect_block_layers() {
   other_blocks_ = 0;
   unsorted_layers_.clear();
   block_layers_.clear();
+  std::size_t number = 0;
   for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Blended)]) {
+    if (++number % deadline_stride == 0) check_deadline();
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
     const int n = coverage_.collect_blocks(tile_triangle_, visibility_, nearest, found, other_blocks_);
     for (int i = 0; i < n; ++i) ++begin[found[i].block + 1];
@@ -158,7 +161,9 @@ bool TileRenderer::collect_row_layers(int top, int bottom) {
   std::uint32_t begin[tile_pixels / 8 + 1] = {};
   row_layers_.clear();
   std::fill_n(is_slow_row_ + top * 8, (bottom - top) * 8, std::uint8_t{0});
+  std::size_t number = 0;
   for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Blended)]) {
+    if (++number % deadline_stride == 0) check_deadline();
     if (t->max_y - tile_y_ < top || t->min_y - tile_y_ >= bottom) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
     tile_triangle_.first_y = std::max(tile_triangle_.first_y, top);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
@@ -23,7 +24,9 @@ Names names_of(const Scene& scene, MatteKind kind) {
   std::map<std::string, std::uint32_t> numbers;
   const bool is_object = kind == MatteKind::Object;
   std::vector<std::uint32_t> number_of(is_object ? scene.objects.texts().size() : 0, Frame::no_id);  // of each text
-  for (const Instance& instance : scene.instances) {
+  for (std::size_t number = 0; number < scene.instances.size(); ++number) {
+    if (number % 1024 == 0) check_deadline();
+    const Instance& instance = scene.instances[number];
     const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
     const auto i = static_cast<std::size_t>(is_object ? instance.object : material);
     const std::string& text = is_object ? scene.objects[i] : scene.materials[i].name;

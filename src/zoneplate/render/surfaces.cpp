@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "zoneplate/base/deadline.h"
+
 namespace zoneplate {
 namespace {
 
@@ -58,6 +60,7 @@ SceneDraws make_draws(const Scene& scene, const float4x4& clip_from_world, const
   make_quads(scene, options, out);
   out.draws.reserve(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (i % 1024 == 0) check_deadline();
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
