@@ -58,8 +58,7 @@ is_stale() {
   local stamp=$root/build/$1/.zoneplate-built
   [ -e "$stamp" ] || return 0
   local inputs=(src cmake CMakeLists.txt CMakePresets.json packages.txt)
-  [ "$1" = release ] || inputs+=(tests)
-  [ "$1" != fuzz ] || inputs+=(fuzz)
+  [ "$1" = release ] || inputs+=(tests fuzz)
   [ -n "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ]
 }
 

@@ -2,6 +2,12 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# Writes the inputs of tests/appetite_test.cpp; a program of its own, to be run by hand too.
+file(GLOB appetite_sources CONFIGURE_DEPENDS fuzz/appetite*.cpp)
+add_executable(fuzz_appetite ${appetite_sources})
+target_link_libraries(fuzz_appetite PRIVATE zoneplate_flags ${fmt} z)
+target_compile_options(fuzz_appetite PRIVATE ${built_quickly})
+
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
 find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests unpack
 target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate_cli GTest::gtest_main webpdemux)
@@ -12,8 +18,9 @@ set(laborious shade/surface_kernels shade/brdf raster/coverage raster/rasterize 
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${built_quickly}")
 target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
-                           ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>")
-add_dependencies(zoneplate_tests zoneplate_program)
+                           ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>"
+                           ZONEPLATE_APPETITE="$<TARGET_FILE:fuzz_appetite>")
+add_dependencies(zoneplate_tests zoneplate_program fuzz_appetite)
 target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
 gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISABLED_*")
 
@@ -22,6 +29,13 @@ foreach(pattern RANGE 5)
   add_test(NAME million_triangles_${pattern} CONFIGURATIONS Long
            COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Coverage/Million.*/${pattern})
   set_tests_properties(million_triangles_${pattern} PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endforeach()
+
+# Every input of fuzz_appetite takes minutes: only for `ctest -C Long`.
+foreach(test EveryInputStaysWithinTheLimits JobsBesideAllOfThemAreDone)
+  add_test(NAME Appetite.${test} CONFIGURATIONS Long
+           COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Appetite.DISABLED_${test})
+  set_tests_properties(Appetite.${test} PROPERTIES TIMEOUT 3600 RUN_SERIAL TRUE FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endforeach()
 
 # The 20-line program of README.md, built against an installed package as a user would.
