@@ -151,6 +151,8 @@ void make_points(ObjFile& file, ImportBudget& budget) {
 
 void add_meshes(ObjMeshes found, const ObjLayout& layout, Scene& scene, ImportBudget& budget) {
   scene.objects = layout.objects;
+  budget.take(found.meshes.size() * (sizeof(Mesh) + sizeof(Instance)));
+  scene.meshes.reserve(found.meshes.size()), scene.instances.reserve(found.meshes.size());
   for (ObjMesh& m : found.meshes) {
     budget.take(layout.objects[static_cast<std::size_t>(m.object)].size());
     m.mesh.name = layout.objects[static_cast<std::size_t>(m.object)];

@@ -234,6 +234,7 @@ ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::v
   budget.take(all_bytes);
 
   ObjMeshes out;
+  out.meshes.reserve(plans.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     out.not_finite += made[i].not_finite;
     out.too_concave += made[i].too_concave;
