@@ -26,7 +26,7 @@ Scene flat_scene(std::vector<float3> corners, Material material = {}) {
     mesh.normal.push_back({0, 0, 1});
     mesh.index.push_back(i++);
   }
-  scene.objects.emplace_back("mesh");
+  scene.objects.push_back("mesh");
   scene.meshes.push_back(std::move(mesh));
   scene.instances.push_back({});
   Camera camera;
