@@ -223,7 +223,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "--aov writes files beside OUT, which cannot be -; an .exr holds them itself"},
       {2,
        {"triangles", "-o", "a.png", "--aov", "error"},
-       "--aov error: msaa:n=8 has no estimate of its error; converged has"},
+       "--aov error: msaa:n=8 has no estimate of its error; converged and analytic have"},
       {2,
        {"triangles", "-o", "a.exr", "--aa", "fxaa"},
        "--anti-aliasing: fxaa works on the picture as shown, and .exr holds the light before that: write a .png, or "

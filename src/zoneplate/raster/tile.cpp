@@ -309,7 +309,7 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
   times_.visibility += watch_.lap_ms();
   visibility_.open_all();
   find_points();
-  shader_.shade(points_, colors_, nullptr);
+  shader_.shade(points_, colors_, shades_data() ? &data_ : nullptr);
   times_.shading += watch_.lap_ms();
   accumulate();
   times_.blending += watch_.lap_ms();

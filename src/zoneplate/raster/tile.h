@@ -150,9 +150,11 @@ class TileRenderer {
                   std::vector<Point>& points) const;
   void accumulate();
   void add_surfaces(std::uint32_t pixel);
+  bool shades_data() const { return target_.normal || target_.uv || target_.albedo; }
   void note_nearest();
+  void keep_data(std::uint32_t pixel, std::size_t p);
   void write_data();
-  void write_data(std::size_t p);
+  void write_data(std::uint32_t pixel);
   float depth_of(const Point& point, std::size_t draw, const Nearest& nearest) const;
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void store_color(std::uint32_t pixel, std::uint64_t samples, Linear color);
@@ -221,7 +223,8 @@ class TileRenderer {
   std::vector<Point> points_;
   std::vector<std::uint32_t> first_point_;  ///< by pixel, and the total at the end
   std::vector<Linear> colors_;
-  PointData data_;
+  PointData data_;        ///< of points_
+  PointData pixel_data_;  ///< of the nearest surface, by pixel
 
   std::vector<Fragment> fragments_;
   std::vector<Layer> layers_;
