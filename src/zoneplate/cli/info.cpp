@@ -177,21 +177,22 @@ void run_info(std::span<const std::string> arguments) {
                 .summary = "Tell what is in a model: meshes, materials, textures, lights, cameras, bounds",
                 .operands = "IN",
                 .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
-  syntax.options = {{"--json", "", "As one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
-                    {"--max-memory", "BYTES", "Memory for reading, as 512M; default 4G", "Options", false,
-                     [&](auto& text) { options.limits.memory = parse_bytes(text); }},
-                    {"--max-import-seconds", "S", "Give up reading after this time; default 60", "Options", false,
-                     [&](auto& text) { options.limits.seconds = parse_number(text, 0.001, 1e6); }},
-                    {"--max-seconds", "S", "Give up after this time; default no limit", "Options", false,
-                     [&](auto& text) { max_seconds = parse_number(text, 0.001, 1e9); }},
-                    {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
-                     [&](auto& text) { options.format = text; }},
-                    {"--sandbox", "", "Read in a process that may do nothing else: the default", "Options", false,
-                     [&](auto&) { is_sandboxed = true; }},
-                    {"--no-sandbox", "", "Read with all rights of the user: for models that you trust", "Options",
-                     false, [&](auto&) { is_sandboxed = false; }},
-                    {"--allow-path", "", "Let a model use files outside its own folder", "Options", false,
-                     [&](auto&) { options.limits.allow_path = true; }}};
+  syntax.options = {
+      {"--json", "", "As one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
+      {"--max-memory", "BYTES", "Memory for reading, as 512M; default 4G", "Options", false,
+       [&](auto& text) { options.limits.memory = parse_bytes(text); }},
+      {"--max-import-seconds", "S", "Give up reading after this time; default 60", "Options", false,
+       [&](auto& text) { options.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--max-seconds", "S", "Give up after this time; default no limit", "Options", false,
+       [&](auto& text) { max_seconds = parse_number(text, 0.001, 1e9); }},
+      {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
+       [&](auto& text) { options.format = text; }},
+      {"--sandbox", "", "Read in a process that may do nothing else: the default", "Options", false,
+       [&](auto&) { is_sandboxed = true; }},
+      {"--no-sandbox", "", "Read with all rights of the user: for models that you trust", "Options", false,
+       [&](auto&) { is_sandboxed = false; }},
+      {"--allow-path", "PATH", "Let a model use this file or folder, outside its own; may be given several times",
+       "Options", false, [&](auto& text) { options.limits.allowed_paths.push_back(text); }}};
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 1)
     throw Error(Trouble::Usage, "info takes one input: a model or a built-in scene");

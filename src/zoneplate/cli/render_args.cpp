@@ -281,8 +281,8 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto&) { a.is_sandboxed = true; }},
       {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust", group, false,
        [&](auto&) { a.is_sandboxed = false; }},
-      {"--allow-path", "", "Let a model use files outside its own folder", group, false,
-       [&](auto&) { a.load.limits.allow_path = true; }},
+      {"--allow-path", "PATH", "Let a model use this file or folder, outside its own; may be given several times",
+       group, false, [&](auto& text) { a.load.limits.allowed_paths.push_back(text); }},
   };
 }
 

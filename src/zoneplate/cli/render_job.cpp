@@ -16,8 +16,8 @@ std::string model_key(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
   return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
-                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, l.allow_path,
-                     args.options.raw_colors,
+                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds,
+                     fmt::join(l.allowed_paths, "\n"), args.options.raw_colors,
                      args.look.shading_model ? static_cast<int>(*args.look.shading_model) : -1);
 }
 

@@ -69,9 +69,9 @@ aiFile* AssimpFiles::open(const std::string& name) {
     std::string uri;
     for (const char c : std::filesystem::absolute(name).string())
       uri += c == '%' ? std::string("%25") : std::string(1, c);
-    const auto path = find_path(folder_, uri, budget_.limits().allow_path);
+    const auto path = find_path(folder_, uri, budget_.limits().allowed_paths);
     if (!path || is_stream(*path)) return nullptr;
-    others_.push_back(open_found(folder_, *path, budget_.limits().allow_path, budget_.limits().memory));
+    others_.push_back(open_found(folder_, *path, budget_.limits().allowed_paths, budget_.limits().memory));
     return &(new Open(others_.back().bytes()))->file;
   } catch (const Error&) {
     return nullptr;

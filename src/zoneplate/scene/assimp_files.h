@@ -13,7 +13,7 @@
 
 namespace zoneplate {
 
-/// The files that assimp may open, to read: the model, and what lies in its folder (or anywhere, with --allow-path).
+/// The files that assimp may open, to read: the model, and what lies in its folder or among LoadLimits::allowed_paths.
 class AssimpFiles {
  public:
   AssimpFiles(const std::string& path, const std::string& folder, std::string_view extension, ImportBudget& budget);

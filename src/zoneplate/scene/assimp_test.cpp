@@ -131,7 +131,7 @@ TEST(Assimp, ReadsNothingOutsideTheModelsFolder) {
   EXPECT_TRUE(s.images.empty());
   ASSERT_EQ(s.warnings.size(), 1u);
   EXPECT_NE(s.warnings[0].find("not found in the model's folder"), std::string::npos);
-  EXPECT_EQ(load_scene(path, {.limits = {.allow_path = true}, .format = "", .choice = {}}).images.size(), 1u);
+  EXPECT_EQ(load_scene(path, {.limits = {.allowed_paths = {"/"}}, .format = "", .choice = {}}).images.size(), 1u);
 }
 
 TEST(Assimp, SaysWhyNot) {

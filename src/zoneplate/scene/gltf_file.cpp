@@ -144,11 +144,11 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (has_scheme(uri)) owner.fail("uri is " + quoted(uri) + ", wants a relative path or a data: URI");
 
   const std::string folder = std::filesystem::path(path_).parent_path().string();
-  const auto path = find_path(folder, uri, budget_.limits().allow_path);
-  if (!path) owner.fail("uri " + quoted(uri) + " leads out of the model's folder (--allow-path permits it)");
+  const auto path = find_path(folder, uri, budget_.limits().allowed_paths);
+  if (!path) owner.fail("uri " + quoted(uri) + " leads out of the model's folder (--allow-path PATH permits more)");
   if (is_stream(*path)) owner.fail("uri " + quoted(uri) + " is not a regular file");
   try {
-    out.file.emplace(open_found(folder, *path, budget_.limits().allow_path, budget_.memory_left()));
+    out.file.emplace(open_found(folder, *path, budget_.limits().allowed_paths, budget_.memory_left()));
   } catch (const Error& e) {
     owner.fail(e.what());
   }

@@ -81,7 +81,7 @@ TEST(GltfFile, BufferErrors) {
   EXPECT_TRUE(has(error("data:;base64,AAAA"), "holds 3 bytes, wants 36"));
   EXPECT_TRUE(has(error("."), "leads out of"));
   EXPECT_TRUE(has(error_of(folder.write("m/g.gltf", m.json())), "uri is missing"));
-  expect_triangle(load_gltf(folder.write("m/f.gltf", m.json(R"(,"uri":"../out.bin")")), {.allow_path = true}));
+  expect_triangle(load_gltf(folder.write("m/f.gltf", m.json(R"(,"uri":"../out.bin")")), {.allowed_paths = {"/"}}));
 }
 
 TEST(GltfFile, ChunksAreChecked) {

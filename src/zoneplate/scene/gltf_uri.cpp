@@ -42,6 +42,15 @@ bool is_within(const std::filesystem::path& folder, const std::filesystem::path&
   return end == folder.end() && rest != file.end();
 }
 
+/// Whether a path, whose links were followed, is one of `allowed` or below one of them.
+bool is_allowed(std::span<const std::string> allowed, const std::filesystem::path& file) {
+  return std::any_of(allowed.begin(), allowed.end(), [&](const std::string& path) {
+    std::error_code trouble;
+    const std::filesystem::path known = std::filesystem::weakly_canonical(path, trouble);
+    return !trouble && (known == file || is_within(known, file));
+  });
+}
+
 }  // namespace
 
 std::string decode_percent(std::string_view text) {
@@ -85,24 +94,25 @@ bool has_scheme(std::string_view uri) {
          });
 }
 
-std::optional<std::string> find_path(const std::string& folder, std::string_view uri, bool allow_path) {
+std::optional<std::string> find_path(const std::string& folder, std::string_view uri,
+                                     std::span<const std::string> allowed) {
   namespace fs = std::filesystem;
   const std::string name = decode_percent(uri);
   constexpr std::size_t most_bytes = 4096;  // of a path that Linux opens (PATH_MAX)
   if (name.empty() || name.size() > most_bytes || name.find('\0') != std::string::npos) return std::nullopt;
   const fs::path file = fs::path(folder) / name;
-  if (allow_path) return file.string();
 
   // Links and ".." are followed first, so that what counts is the place of the file that would be opened.
   std::error_code trouble;
   const fs::path inside = fs::weakly_canonical(folder.empty() ? "." : folder, trouble);
   if (trouble) return std::nullopt;
   const fs::path found = fs::weakly_canonical(inside / name, trouble);
-  if (trouble || !is_within(inside, found)) return std::nullopt;
+  if (trouble || !(is_within(inside, found) || is_allowed(allowed, found))) return std::nullopt;
   return file.string();
 }
 
-FileBytes open_found(const std::string& folder, const std::string& path, bool allow_path, std::uint64_t limit) {
+FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
+                     std::uint64_t limit) {
   namespace fs = std::filesystem;
   const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, path + ": " + cause}; };
   // What is held open has a name that stays its own; to be held is not yet to be read, and waits for nobody.
@@ -118,7 +128,8 @@ FileBytes open_found(const std::string& folder, const std::string& path, bool al
   std::error_code trouble;
   const fs::path inside = fs::canonical(folder.empty() ? "." : folder, trouble);
   const fs::path opened = trouble ? fs::path() : fs::read_symlink(name, trouble);
-  if (!allow_path && (trouble || !is_within(inside, opened))) throw fail("leads out of the model's folder");
+  if (trouble || !(is_within(inside, opened) || is_allowed(allowed, opened)))
+    throw fail("leads out of the model's folder");
   try {
     return FileBytes(name, limit);
   } catch (const Error& error) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,14 +21,17 @@ std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
 bool has_scheme(std::string_view uri);
 
 /// The file that a relative, percent-encoded URI names, seen from `folder`; nothing if it leads out of that folder
-/// (absolute, through "..", or through a symbolic link) and `allow_path` does not permit it, or holds a zero byte.
-std::optional<std::string> find_path(const std::string& folder, std::string_view uri, bool allow_path);
+/// (absolute, through "..", or through a symbolic link) and is not one of `allowed` or below one of them, or holds a
+/// zero byte.
+std::optional<std::string> find_path(const std::string& folder, std::string_view uri,
+                                     std::span<const std::string> allowed);
 
-/// Opens a file that find_path found. The file that is open is checked to lie in the folder, not only the one that
-/// stood under that name before.
+/// Opens a file that find_path found. The file that is open is checked to lie in the folder or among `allowed`, not
+/// only the one that stood under that name before.
 ///
 /// Errors    Trouble::Input naming the path: it leads out of the folder by now, is no regular file, cannot be read.
-FileBytes open_found(const std::string& folder, const std::string& path, bool allow_path, std::uint64_t limit);
+FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
+                     std::uint64_t limit);
 
 /// Whether there is something under this path that has no end or waits for another program: a pipe, a socket, a device.
 bool is_stream(const std::string& path);

@@ -12,6 +12,9 @@
 namespace zoneplate {
 namespace {
 
+using Paths = std::vector<std::string>;
+const Paths everything = {"/"};
+
 std::string text_of(const std::optional<std::vector<std::uint8_t>>& bytes) {
   return bytes ? std::string(bytes->begin(), bytes->end()) : "nothing";
 }
@@ -53,19 +56,22 @@ TEST(GltfUri, StaysInTheFolder) {
   folder.write("model/in.bin", std::string("x"));
   folder.write("out.bin", std::string("x"));
   const std::string model = folder.path("model");
-  EXPECT_TRUE(find_path(model, "in.bin", false));
-  EXPECT_TRUE(find_path(model, "sub/../in.bin", false));
-  EXPECT_TRUE(find_path(model, "not%20there.bin", false));
-  EXPECT_FALSE(find_path(model, "../out.bin", false));
-  EXPECT_FALSE(find_path(model, "%2e%2e/out.bin", false));
-  EXPECT_FALSE(find_path(model, "sub/../../out.bin", false));
-  EXPECT_FALSE(find_path(model, "/etc/passwd", false));
-  EXPECT_FALSE(find_path(model, ".", false));
-  EXPECT_FALSE(find_path(model, "", false));
-  EXPECT_FALSE(find_path(model, "in.bin%00.png", false));
-  EXPECT_FALSE(find_path(model, "in.bin%00.png", true));
-  EXPECT_TRUE(find_path(model, "../out.bin", true));
-  EXPECT_FALSE(find_path(model, "../model2/x", false));
+  EXPECT_TRUE(find_path(model, "in.bin", {}));
+  EXPECT_TRUE(find_path(model, "sub/../in.bin", {}));
+  EXPECT_TRUE(find_path(model, "not%20there.bin", {}));
+  EXPECT_FALSE(find_path(model, "../out.bin", {}));
+  EXPECT_FALSE(find_path(model, "%2e%2e/out.bin", {}));
+  EXPECT_FALSE(find_path(model, "sub/../../out.bin", {}));
+  EXPECT_FALSE(find_path(model, "/etc/passwd", {}));
+  EXPECT_FALSE(find_path(model, ".", {}));
+  EXPECT_FALSE(find_path(model, "", {}));
+  EXPECT_FALSE(find_path(model, "in.bin%00.png", {}));
+  EXPECT_FALSE(find_path(model, "in.bin%00.png", everything));
+  EXPECT_TRUE(find_path(model, "../out.bin", everything));
+  EXPECT_TRUE(find_path(model, "../out.bin", Paths{folder.path("out.bin")}));
+  EXPECT_FALSE(find_path(model, "../out.bin", Paths{folder.path("model2"), folder.path("not there")}));
+  EXPECT_TRUE(find_path(model, "../model2/x", Paths{folder.path("model2")}));
+  EXPECT_FALSE(find_path(model, "../model2/x", {}));
 }
 
 TEST(GltfUri, AStreamIsNotAFile) {
@@ -96,8 +102,8 @@ TEST(GltfUri, FollowsLinksBeforeItAnswers) {
   folder.write("out.bin", std::string("x"));
   std::filesystem::create_symlink("../out.bin", folder.path("model/link.bin"));
   std::filesystem::create_symlink("in.bin", folder.path("model/near.bin"));
-  EXPECT_FALSE(find_path(folder.path("model"), "link.bin", false));
-  EXPECT_TRUE(find_path(folder.path("model"), "near.bin", false));
+  EXPECT_FALSE(find_path(folder.path("model"), "link.bin", {}));
+  EXPECT_TRUE(find_path(folder.path("model"), "near.bin", {}));
 }
 
 /// Between the answer of find_path and the opening another user may put a link in the file's place.
@@ -106,25 +112,25 @@ TEST(GltfUri, WhatIsOpenedIsCheckedAgain) {
   const std::string model = folder.path("model"), in = folder.write("model/in.bin", std::string("in"));
   const std::string out = folder.write("out.bin", std::string("out"));
   constexpr std::uint64_t limit = 100;
-  const auto refusal = [&](bool allow_path) -> std::string {
+  const auto refusal = [&](const Paths& allowed) -> std::string {
     try {
-      return std::to_string(open_found(model, in, allow_path, limit).bytes().size()) + " bytes";
+      return std::to_string(open_found(model, in, allowed, limit).bytes().size()) + " bytes";
     } catch (const Error& error) {
       return error.what();
     }
   };
-  EXPECT_EQ(refusal(false), "2 bytes");
+  EXPECT_EQ(refusal({}), "2 bytes");
   std::filesystem::remove(in);
-  EXPECT_EQ(refusal(false), in + ": cannot be read: No such file or directory");
+  EXPECT_EQ(refusal({}), in + ": cannot be read: No such file or directory");
   std::filesystem::create_symlink(out, in);
-  EXPECT_EQ(refusal(false), in + ": leads out of the model's folder");
-  EXPECT_EQ(refusal(true), "3 bytes");
+  EXPECT_EQ(refusal({}), in + ": leads out of the model's folder");
+  EXPECT_EQ(refusal(everything), "3 bytes");
   std::filesystem::remove(in);
   ASSERT_EQ(::mkfifo(in.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(false), in + ": is not a regular file");
+  EXPECT_EQ(refusal({}), in + ": is not a regular file");
   std::filesystem::remove(in);
   folder.write("model/in.bin", std::string(101, 'x'));
-  EXPECT_EQ(refusal(false).substr(0, in.size() + 2), in + ": ");
+  EXPECT_EQ(refusal({}).substr(0, in.size() + 2), in + ": ");
 }
 
 }  // namespace

@@ -125,13 +125,9 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
   return has_child ? read_in_child(name, options) : read_watched(name, options);
 }
 
-std::optional<std::vector<std::string>> readable_paths(const std::string& name, const LoadOptions& options) {
-  if (options.format.empty() && is_builtin_scene(name)) return std::vector<std::string>{};
-  if (options.limits.allow_path) return std::nullopt;
-  if (name == "-") return std::vector<std::string>{"."};
-  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
-  // The model itself by its own name: a symbolic link may lead out of its folder.
-  return std::vector<std::string>{folder.empty() ? "." : folder.string(), name};
+std::vector<std::string> readable_paths(const std::string& name, const LoadOptions& options) {
+  if (options.format.empty() && is_builtin_scene(name)) return {};
+  return model_paths(name, options.limits);
 }
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,9 +36,9 @@ struct LoadOptions {
 ///           parameters of a built-in scene, a format that is not read, and standard input without one.
 Scene load_scene(const std::string& name, const LoadOptions& options = {});
 
-/// The files and folders that loading this scene may read: the model, what is below its folder, and nothing for a
-/// built-in scene; of standard input, the working directory. Nothing where every file may be read (allow_path).
-std::optional<std::vector<std::string>> readable_paths(const std::string& name, const LoadOptions& options);
+/// The files and folders that loading this scene may read: the model, its folder (the working directory where the model
+/// is standard input) and LoadLimits::allowed_paths; none for a built-in scene.
+std::vector<std::string> readable_paths(const std::string& name, const LoadOptions& options);
 
 /// A model that stays open, to be loaded at several moments of its animation.
 ///

@@ -99,14 +99,14 @@ std::optional<std::string> ObjFolder::find_file(const std::string& within, std::
   const std::string last = path.substr(path.find_last_of('/') + 1);
   const std::string tries[] = {is_absolute ? path : within + path, path, within + last, last};
   for (const std::string& attempt : tries) {
-    const auto found = find_path(folder_, to_uri(attempt), budget_.limits().allow_path);
+    const auto found = find_path(folder_, to_uri(attempt), budget_.limits().allowed_paths);
     if (found && is_file(*found)) return found;
   }
   return std::nullopt;
 }
 
 FileBytes ObjFolder::open(const std::string& path) const {
-  return open_found(folder_, path, budget_.limits().allow_path, budget_.limits().memory);
+  return open_found(folder_, path, budget_.limits().allowed_paths, budget_.limits().memory);
 }
 
 int ObjFolder::image(const std::string& within, const std::string& name) {

@@ -93,8 +93,8 @@ TEST_F(MtlScene, FindsImagesWithinTheFolder) {
   EXPECT_EQ(first("C:\\textures\\100%25.png"), 7);  // the last part, in the model's folder
   EXPECT_EQ(first("../outside.png"), -1);
   EXPECT_EQ(first((folder_ / "outside.png").string()), -1);
-  EXPECT_EQ(first("../outside.png", {.allow_path = true}), 7);
-  EXPECT_EQ(first((folder_ / "outside.png").string(), {.allow_path = true}), 7);
+  EXPECT_EQ(first("../outside.png", {.allowed_paths = {"/"}}), 7);
+  EXPECT_EQ(first((folder_ / "outside.png").string(), {.allowed_paths = {"/"}}), 7);
   fs::create_symlink(folder_ / "outside.png", folder_ / "model/link.png");
   EXPECT_EQ(first("link.png"), -1);
   EXPECT_EQ(first("."), -1);

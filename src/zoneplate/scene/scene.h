@@ -62,7 +62,8 @@ struct LoadLimits {
   std::uint64_t pixels = std::uint64_t{1} << 28;  ///< of one image (--max-pixels)
   double seconds = 60;                            ///< for one import
   int node_depth = 256;
-  bool allow_path = false;  ///< may open files outside the model's own folder (--allow-path)
+  /// Files, and folders with all below them, that a model may use beside those in its own folder (--allow-path).
+  std::vector<std::string> allowed_paths = {};
 };
 
 }  // namespace zoneplate
