@@ -223,7 +223,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "--aov writes files beside OUT, which cannot be -; an .exr holds them itself"},
       {2,
        {"triangles", "-o", "a.png", "--aov", "error"},
-       "--aov error: msaa:n=8 has no estimate of its error; converged and analytic have"},
+       "triangles: --aov error: msaa:n=8 has no estimate of its error; converged and analytic have"},
       {2,
        {"triangles", "-o", "a.exr", "--aa", "fxaa"},
        "--anti-aliasing: fxaa works on the picture as shown, and .exr holds the light before that: write a .png, or "
@@ -240,7 +240,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2,
        {"triangles", "-o", "a.png", "--crop", "799,0,2,1"},
        "--crop: the rectangle is not inside the picture of 800x600"},
-      {2, {"triangles", "-o", "a.png", "--camera-index", "7"}, "--camera-index: the scene has cameras 0 to 0, not 7"},
+      {2, {"triangles", "-o", "a.png", "--camera-index", "7"}, "triangles: --camera-index: the scene has cameras 0 to 0, not 7"},
       {1,
        {"triangles", "-o", "a.png", "--size", "16384,16384", "--max-memory", "1G"},
        "triangles: a picture of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},

@@ -75,9 +75,10 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     } catch (const LibraryNeeded& needed) {
       sender.needs_library(needed.library(), needed.what());
     } catch (const Error& error) {
-      // What fails while rendering does not know the model's name.
+      // What fails after reading, or while rendering, does not know the model's name.
       const std::string message = error.what();
-      const bool is_named = error.trouble() != Trouble::Failed || message.find(limits_.name) != message.npos;
+      const bool wants_name = sender.is_past_reading() || error.trouble() == Trouble::Failed;
+      const bool is_named = !wants_name || message.find(limits_.name) != message.npos;
       sender.failure(error.trouble(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? Trouble::Failed : Trouble::Input,
