@@ -55,8 +55,8 @@ class ItemSender {
   bool is_past_reading_ = false;
 };
 
-/// What the receiver does with messages. A member may be null: such messages are errors of the sender, but for progress,
-/// which is then dropped.
+/// What the receiver does with messages. A member may be null: such messages are errors of the sender, but for
+/// progress, which is then dropped.
 struct ItemEvents {
   using Read = std::function<void(std::span<std::uint8_t>)>;  ///< fills the span with the message's next bytes
   std::function<void(std::string_view stage, double done)> progress;

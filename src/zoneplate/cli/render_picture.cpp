@@ -43,7 +43,8 @@ Request request_of(Resolver& resolver, const RenderArgs& args) {
   Request request = resolver.ask(0);
   for (const Aov* aov : args.aovs) request.planes.*(aov->plane) = request.planes.depth = true;
   if (request.planes.error && !request.estimates_error)
-    throw Error(Trouble::Usage, "--aov error: " + args.method + " has no estimate of its error; converged and analytic have");
+    throw Error(Trouble::Usage,
+                "--aov error: " + args.method + " has no estimate of its error; converged and analytic have");
   return request;
 }
 

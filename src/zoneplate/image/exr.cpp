@@ -27,7 +27,6 @@ struct Refusal {
   std::string cause;
 };
 
-
 /// A rectangle of pixels, both corners in it.
 struct Window {
   std::int32_t left = 0, top = 0, right = -1, bottom = -1;

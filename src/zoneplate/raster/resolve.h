@@ -22,9 +22,9 @@ struct Layers {
   Linear over(const Linear& behind) const;
 };
 
-/// The transmittance down to which layers count in a scene whose surfaces' channels are at most `brightest`: all that is
-/// behind it, the last surface too, adds at most 2^-25 to a channel, half of the smallest half float, whether layers are
-/// left out or not. 0, so that all layers count, for +infinity.
+/// The transmittance down to which layers count in a scene whose surfaces' channels are at most `brightest`: all that
+/// is behind it, the last surface too, adds at most 2^-25 to a channel, half of the smallest half float, whether layers
+/// are left out or not. 0, so that all layers count, for +infinity.
 inline float least_transmittance(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
 
 /// The same for eight pixels of a row.
