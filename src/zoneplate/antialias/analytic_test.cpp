@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "zoneplate/antialias/flat_triangles_for_test.h"
 #include "zoneplate/antialias/methods.h"
+#include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/builtin.h"
@@ -451,6 +454,17 @@ TEST(Analytic, ScenesAgreeWithManySamples) {
       for (const float off : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a}) squares += static_cast<double>(off) * off;
     }
     EXPECT_LT(std::sqrt(squares / static_cast<double>(4 * exact.values().size())), bound) << name;
+  }
+}
+
+TEST(Analytic, KeptScreenVerticesLeaveNoTrace) {
+  for (const char* name : {"near-axis", "city", "foliage"}) {
+    const Scene scene = *make_builtin_scene(name);
+    const RenderOptions all{.width = 64, .height = 48};
+    RenderOptions none = all;
+    none.room.screen_vertices = 0;
+    const LinearImage expected = shot(scene, "analytic", all), image = shot(scene, "analytic", none);
+    EXPECT_EQ(std::memcmp(image.values().data(), expected.values().data(), expected.values().size_bytes()), 0) << name;
   }
 }
 

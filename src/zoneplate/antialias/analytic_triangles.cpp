@@ -50,9 +50,9 @@ TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& targ
 template <class Use>
 void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) const {
   const Draw& draw = projected_.draws[number];
-  const auto& screen = projected_.screen[number];
   const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(id - projected_.first_triangle[number])];
-  const ScreenVertex &p = screen[v[0]], &q = screen[v[1]], &r = screen[v[2]];
+  const ScreenVertex p = projected_.vertex(number, v[0]), q = projected_.vertex(number, v[1]),
+                     r = projected_.vertex(number, v[2]);
   if (!p.needs_clipping() && !q.needs_clipping() && !r.needs_clipping()) {
     const std::int64_t area = doubled_area(p, q, r);
     if (area != 0 && !is_culled(draw, area > 0)) use(p, q, r, false);

@@ -95,8 +95,7 @@ ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std:
   return out;
 }
 
-void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::size_t, std::size_t)>& use) {
-  const ProjectKernels& kernels = project_kernels(isa);
+std::size_t project_kept(ProjectedDraws& p, Isa isa) {
   ScreenVertex* place = screen_memory(p.memory, p.kept);
   std::size_t left = p.kept, last = 0;
   for (; last < p.draws.size() && p.draws[last].vertices() <= left; ++last) {
@@ -104,7 +103,12 @@ void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::s
     p.screen[last] = {place, count};
     place += count, left -= count;
   }
-  project_batch(p, 0, last, kernels);
+  project_batch(p, 0, last, project_kernels(isa));
+  return last;
+}
+
+void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::size_t, std::size_t)>& use) {
+  std::size_t last = project_kept(p, isa);
   use(0, last);
 
   // The others, as many as fit into a batch, but at least one.
@@ -114,10 +118,10 @@ void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::s
     for (; last < p.draws.size() && last - first < batch_draws && count + p.draws[last].vertices() <= batch_vertices;
          ++last)
       count += p.draws[last].vertices();
-    place = screen_memory(p.batch_memory, count);
+    ScreenVertex* place = screen_memory(p.batch_memory, count);
     for (std::size_t d = first; d < last; place += p.draws[d++].vertices())
       p.screen[d] = {place, p.draws[d].vertices()};
-    project_batch(p, first, last, kernels);
+    project_batch(p, first, last, project_kernels(isa));
     use(first, last);
     for (std::size_t d = first; d < last; ++d) p.screen[d] = {};
   }
@@ -125,7 +129,7 @@ void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::s
 
 ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused) {
   ProjectedDraws out = number_draws(draws, viewport, std::numeric_limits<std::size_t>::max(), std::move(reused));
-  project_batches(out, isa, [](std::size_t, std::size_t) {});
+  project_kept(out, isa);
   return out;
 }
 

@@ -77,6 +77,9 @@ struct ProjectedDraws {
 ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std::optional<std::size_t> kept = {},
                             ProjectedDraws reused = {});
 
+/// Transforms the vertices of the draws that are kept, in parallel; returns the number of these draws.
+std::size_t project_kept(ProjectedDraws& projected, Isa isa);
+
 /// Transforms the vertices, in parallel, in batches of draws: `use(first, last)` is called batch after batch, when the
 /// screen vertices of the draws [first, last) are there. Draws that are kept fit into one batch.
 void project_batches(ProjectedDraws& projected, Isa isa, const std::function<void(std::size_t, std::size_t)>& use);
