@@ -150,7 +150,7 @@ void add_foreign_claims(Collection& out) {
 void add_binary_claims(Collection& out) {
   Bytes md3;
   append(md3, "IDP3"), append(md3, 15, 4), md3.resize(md3.size() + 64);
-  for (const std::uint64_t v : {0, 1, 0, 1000000, 0, 108, 108, 108, 108}) append(md3, v, 4);
+  for (const std::uint32_t v : {0u, 1u, 0u, 1000000u, 0u, 108u, 108u, 108u, 108u}) append(md3, v, 4);
   md3.resize(md3.size() + 500);
   out.add("md3", "foreign-surfaces.md3", md3, within_limits);
   Bytes tds;  // a chunk in a chunk in a chunk
