@@ -173,7 +173,7 @@ TEST_F(Batch, AnItemFailsAloneWhateverItTakes) {
             "{\"input\":\"teapot\",\"output\":\"f.png\"}\n");
   EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8 --aa none"), 5);
   ASSERT_EQ(lines.size(), 7u) << complaint;
-  for (const std::size_t i : {0, 6}) EXPECT_EQ(lines[i]["status"], "done") << i;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{6}}) EXPECT_EQ(lines[i]["status"], "done") << i;
   const auto error = [&](std::size_t i) { return lines[i].value("error", ""); };
   EXPECT_NE(error(1).find("File name too long"), std::string::npos) << error(1);
   EXPECT_NE(error(2).find("sphere:triangles=50000000: "), std::string::npos) << error(2);
