@@ -36,7 +36,7 @@ Bytes deflated_zeros(std::size_t count, bool is_last) {
   return out;
 }
 
-/// A zlib stream of so many zeros: a part of 1 MiB again and again.
+/// A zlib stream of `count` zeros: a part of 1 MiB again and again.
 Bytes zlib_zeros(std::uint64_t count) {
   constexpr std::uint64_t part = 1 << 20;
   Bytes out{0x78, 0xda};

@@ -27,7 +27,7 @@ SandboxSupport sandbox_support();
 /// Source    seccomp(2) by libseccomp; landlock(7).
 bool enter_sandbox(const std::optional<std::vector<std::string>>& readable);
 
-/// Lets this process have `bytes` more of memory (base/memory_limit.h) and so many seconds of processor time, and
+/// Limits this process to `bytes` more of memory (base/memory_limit.h) and `seconds` of processor time, and lets it
 /// neither make files larger nor leave a core dump. `seconds` may be infinite.
 void limit_resources(std::uint64_t bytes, double seconds);
 

@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// The names of numbered things. Things with one name share its text: each costs four bytes beside it.
+/// The names of numbered things. Things of the same name share its text: each takes four bytes more.
 class NameList {
  public:
   NameList() = default;
