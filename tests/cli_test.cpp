@@ -255,7 +255,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "formats)"},
       {3, {"missing.xyz", "-o", "a.png"}, "missing.xyz: no such file, and no built-in scene of that name"},
       {4, {"triangles", "-o", "folder.png"}, "folder.png: is a directory"},
-      {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: cannot be written: missing: No such file or directory"},
+      {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: cannot be written: no directory missing"},
   };
   for (const Refusal& refusal : refusals) {
     const Result result = run(refusal.words);

@@ -350,11 +350,12 @@ void check_savable(const std::string& path) {
   const std::filesystem::path target = follow_links(path);
   struct stat status {};
   const bool is_there = ::stat(path.c_str(), &status) == 0;
-  if (!is_there && errno == ENAMETOOLONG) throw write_error(path, cause_of(ENAMETOOLONG));
+  if (!is_there && errno != ENOENT) throw write_error(path, cause_of(errno));
   check_target(path, target, is_there ? &status : nullptr);
   if (is_written_in_place(target, is_there ? &status : nullptr)) return;
   const std::string folder = target.has_parent_path() ? target.parent_path().string() : ".";
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw write_error(path, folder + ": " + cause_of(errno));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw write_error(path, errno == ENOENT ? "no directory " + folder : folder + ": " + cause_of(errno));
 }
 
 void remove_temporaries() {

@@ -165,7 +165,7 @@ void run_demo(std::span<const std::string> arguments) {
     return name == "all" ? fmt::format("{}/{}.png", args.output, demo.name) : args.output;
   };
   for (const Demo& demo : lessons)
-    for (const std::string& file : files_of(demo, path_of(demo))) check_output_file(file);
+    for (const std::string& file : files_of(demo, path_of(demo))) check_savable(file);
   with_threads(args.threads, [&] {
     for (const Demo& demo : lessons) {
       const Lesson lesson = demo.make(args.size);

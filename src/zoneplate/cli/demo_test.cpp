@@ -102,7 +102,7 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
     }
     return std::string("no error");
   };
-  EXPECT_EQ(refusal("jaggies", "none/x.png"), "none/x.png: no directory " + root + "none");
+  EXPECT_EQ(refusal("jaggies", "none/x.png"), "none/x.png: cannot be written: no directory " + root + "none");
   EXPECT_EQ(refusal("jaggies", "lesson.png"), "lesson.png: cannot be written: it is a directory");
   EXPECT_EQ(refusal("wagon-wheel", "wheel.png"), "wheel.webp: cannot be written: it is a directory");
   EXPECT_EQ(refusal("all", "file"), "file: the folder cannot be made: File exists");

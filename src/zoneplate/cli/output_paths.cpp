@@ -122,17 +122,6 @@ class StagedFolder {
 
 }  // namespace
 
-void check_output_file(const std::string& path) {
-  check_parent(path);
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) {
-    if (errno == ENOENT) return;
-    refuse(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
-  if (S_ISDIR(status.st_mode)) refuse(path, "cannot be written: it is a directory");
-  if (::access(path.c_str(), W_OK) != 0) refuse(path, std::string("cannot be written: ") + std::strerror(errno));
-}
-
 void check_output_folder(const std::string& asked) {
   if (asked.empty()) throw Error(Trouble::Usage, "no output: give -o DIR");
   const std::string path = without_slashes(asked);

@@ -7,13 +7,8 @@
 
 namespace zoneplate::cli {
 
-/// Refuses before any work is done what `save_bytes(path)` would refuse after it: a folder under this name, a file or a
-/// folder that may not be written, a name that is too long, a folder that is missing.
-///
-/// Errors    Trouble::Output naming the path and the cause.
-void check_output_file(const std::string& path);
-
-/// The same for `save_folder(path)`: there must be nothing under this name, and a folder that it can be made in.
+/// Checks before any work that `save_folder(path)` will succeed: there must be nothing under this name, and a folder
+/// that it can be made in. Of single files: check_savable (base/file.h).
 ///
 /// Errors    Trouble::Usage for an empty path; Trouble::Output naming the path and the cause.
 void check_output_folder(const std::string& path);

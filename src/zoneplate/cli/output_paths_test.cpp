@@ -128,14 +128,14 @@ TEST_F(OutputPaths, FoldersAreRefusedBeforeTheWork) {
 }
 
 TEST_F(OutputPaths, FilesAreRefusedBeforeTheWork) {
-  const auto file = [&](const std::string& name) { return refusal([&] { check_output_file(at(name)); }); };
+  const auto file = [&](const std::string& name) { return refusal([&] { check_savable(at(name)); }); };
   put("file", "text");
   fs::create_directory(place / "there");
   EXPECT_EQ(file("new.png"), "");
   EXPECT_EQ(file("file"), "");  // is replaced
   EXPECT_EQ(file("there"), "there: cannot be written: it is a directory");
-  EXPECT_EQ(file("none/new.png"), "none/new.png: no directory none");
-  EXPECT_EQ(file("file/new.png"), "file/new.png: file is not a directory");
+  EXPECT_EQ(file("none/new.png"), "none/new.png: cannot be written: no directory none");
+  EXPECT_EQ(file("file/new.png"), "file/new.png: cannot be written: Not a directory");
   EXPECT_EQ(file(std::string(256, 'n')), std::string(256, 'n') + ": cannot be written: File name too long");
 }
 
