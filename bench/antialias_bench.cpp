@@ -17,12 +17,12 @@
 #include <vector>
 
 #include "scene_codes.h"
-#include "zoneplate/antialias/cmaa2.h"
-#include "zoneplate/antialias/ddaa.h"
-#include "zoneplate/antialias/dlaa.h"
-#include "zoneplate/antialias/fxaa.h"
-#include "zoneplate/antialias/mlaa.h"
-#include "zoneplate/antialias/smaa.h"
+#include "zoneplate/antialias/post/cmaa2/cmaa2.h"
+#include "zoneplate/antialias/post/ddaa/ddaa.h"
+#include "zoneplate/antialias/post/dlaa/dlaa.h"
+#include "zoneplate/antialias/post/fxaa/fxaa.h"
+#include "zoneplate/antialias/post/mlaa/mlaa.h"
+#include "zoneplate/antialias/post/smaa/smaa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/surfaces.h"
-#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate {
 namespace {

@@ -6,7 +6,7 @@
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/render.h"
-#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/default_lights.h"
 #include "zoneplate/scene/fit.h"
 

@@ -5,11 +5,11 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/raster/interpolate.h"
-#include "zoneplate/shade/filtering.h"
-#include "zoneplate/shade/surface_kernels.h"
-#include "zoneplate/shade/texture.h"
-#include "zoneplate/shade/vertices.h"
+#include "zoneplate/raster/fragment/interpolate.h"
+#include "zoneplate/shade/surface/surface_kernels.h"
+#include "zoneplate/shade/surface/vertices.h"
+#include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture.h"
 
 namespace zoneplate {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/signal/convolve.h"
-#include "zoneplate/signal/fourier.h"
-#include "zoneplate/signal/kernel.h"
+#include "zoneplate/signal/filter/convolve.h"
+#include "zoneplate/signal/filter/kernel.h"
+#include "zoneplate/signal/fourier/fourier.h"
 
 namespace zoneplate {
 namespace {

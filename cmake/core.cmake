@@ -19,9 +19,13 @@ set(BUILD_GMOCK OFF)
 set(INSTALL_GTEST OFF)
 add_subdirectory(/usr/src/googletest googletest EXCLUDE_FROM_ALL SYSTEM)
 
+# The rooms of the core are those that layers.txt lists before `os`.
+file(STRINGS src/zoneplate/layers.txt rooms REGEX "^[a-z]")
+list(FIND rooms os first_system_room)
+list(SUBLIST rooms 0 ${first_system_room} core_rooms)
+list(JOIN core_rooms "|" core_rooms)
 foreach(list library_sources simd_sources test_sources)
-  list(FILTER ${list} EXCLUDE REGEX "^src/zoneplate/(cli|metrics|report)/")
-  list(FILTER ${list} EXCLUDE REGEX "/(file|library|lost_bytes|memory_limit|apng|deflate|jpeg|png|webp|exr|hdr|draco|assimp|import_child|limited_child|sandbox|scene_bytes|gltf|load|image_file|mtl|obj|ply|stl)(_[a-z]+)*\\.cpp$")
+  list(FILTER ${list} INCLUDE REGEX "^src/zoneplate/(${core_rooms})/[^/]*$")
 endforeach()
 list(APPEND test_sources tests/pictures_test.cpp)
 
@@ -32,7 +36,7 @@ target_precompile_headers(zoneplate PRIVATE ${common_headers})
 add_kernels(zoneplate "${simd_sources}")
 
 # Of the tests, those that hold instruction sets or pictures to each other bit by bit; but not those that read files.
-list(FILTER test_sources EXCLUDE REGEX "/(fxaa|smaa|cryptomatte)(_[a-z]+)*_test\\.cpp$")
+list(FILTER test_sources EXCLUDE REGEX "/(fxaa|smaa)(_[a-z]+)*_test\\.cpp$")
 foreach(test IN LISTS test_sources)
   file(STRINGS ${test} bits REGEX "supported_isas|0x[0-9a-f]+u\\);")
   if(bits)

@@ -3,10 +3,10 @@
 # They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR
 # pictures that leaves the header.
 set(fuzzed_sources ${all_sources})
-list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|math|image|scene)/")
-list(FILTER fuzzed_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|scene/draco\\.cpp$")
+list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
+list(FILTER fuzzed_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|formats/gltf/draco\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
-list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|math|image|scene)/")
+list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
 
 add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp)
 foreach(isa IN LISTS isas)
@@ -34,7 +34,7 @@ foreach(format IN LISTS fuzz_formats)
   target_link_libraries(fuzz_${format} PRIVATE zoneplate_fuzzed)
   target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
 endforeach()
-add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/item_messages.cpp src/zoneplate/cli/render_summary.cpp)
+add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/render/item_messages.cpp src/zoneplate/cli/render/summary.cpp)
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)

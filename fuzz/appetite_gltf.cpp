@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "zoneplate/scene/gltf_maker_test.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
 
 namespace zoneplate::appetite {
 

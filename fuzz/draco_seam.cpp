@@ -2,7 +2,7 @@
 // that can be said of it.
 #include <algorithm>
 
-#include "zoneplate/scene/draco.h"
+#include "zoneplate/formats/gltf/draco.h"
 
 namespace zoneplate {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/scene/image_file.h"
+#include "zoneplate/formats/import/image_file.h"
 
 namespace {
 

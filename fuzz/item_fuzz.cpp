@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "zoneplate/cli/item_messages.h"
-#include "zoneplate/cli/render_summary.h"
+#include "zoneplate/cli/render/item_messages.h"
+#include "zoneplate/cli/render/summary.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace zoneplate;

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/scene/gltf_json.h"
+#include "zoneplate/formats/gltf/json.h"
 
 namespace zoneplate {
 namespace {

@@ -12,11 +12,11 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/scene/find_flaw.h"
-#include "zoneplate/scene/gltf.h"
-#include "zoneplate/scene/gltf_maker_test.h"
-#include "zoneplate/scene/load.h"
-#include "zoneplate/scene/mtl.h"
+#include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/load.h"
+#include "zoneplate/formats/obj/mtl.h"
+#include "zoneplate/scene/validate.h"
 
 namespace zoneplate {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/scene/find_flaw.h"
-#include "zoneplate/scene/scene_bytes.h"
+#include "zoneplate/formats/import/scene_bytes.h"
+#include "zoneplate/scene/validate.h"
 
 namespace zoneplate {
 namespace {

@@ -2,16 +2,16 @@
 #include <filesystem>
 #include <string>
 
-#include "zoneplate/base/file.h"
-#include "zoneplate/image/exr_encode.h"
-#include "zoneplate/image/jpeg_encode.h"
-#include "zoneplate/image/png.h"
-#include "zoneplate/image/webp_still.h"
+#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/jpeg_encode.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/codec/webp_still.h"
+#include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/gltf/sample_for_test.h"
+#include "zoneplate/formats/import/mesh_samples_for_test.h"
+#include "zoneplate/formats/import/scene_bytes.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/scene/gltf.h"
-#include "zoneplate/scene/gltf_sample_for_test.h"
-#include "zoneplate/scene/mesh_samples_for_test.h"
-#include "zoneplate/scene/scene_bytes.h"
+#include "zoneplate/os/file.h"
 
 namespace {
 

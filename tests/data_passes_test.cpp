@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <set>
 
-#include "zoneplate/base/file.h"
-#include "zoneplate/image/exr.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate {
 namespace {

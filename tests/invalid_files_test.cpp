@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "zoneplate/base/shared_files_for_test.h"
-#include "zoneplate/image/jpeg_encode.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/jpeg_encode.h"
+#include "zoneplate/codec/png.h"
 
 namespace {
 

@@ -1,14 +1,22 @@
-// The folders of src/zoneplate are layers: a file includes its own folder and those listed before it in layers.txt.
+// The structure of the source tree: which room may include which, how many files a folder holds, and one meaning for
+// each type name. src/zoneplate/layers.txt lists the rooms from the bottom up.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path source = fs::path(ZONEPLATE_SOURCE_DIR) / "src/zoneplate";
+constexpr std::size_t max_files_per_folder = 40;
 
 std::vector<std::string> lines_of(const fs::path& path) {
   std::ifstream file(path);
@@ -17,28 +25,116 @@ std::vector<std::string> lines_of(const fs::path& path) {
   return lines;
 }
 
-TEST(Layers, NoIncludePointsUp) {
-  const std::vector<std::string> layers = lines_of(source / "layers.txt");
-  const auto height = [&](const std::string& folder) {
-    return std::find(layers.begin(), layers.end(), folder) - layers.begin();
-  };
-  const std::string include = "#include \"zoneplate/";
-  int includes = 0;
+std::vector<std::string> rooms() {
+  std::vector<std::string> out;
+  for (const std::string& line : lines_of(source / "layers.txt"))
+    if (!line.empty() && line[0] != '#') out.push_back(line);
+  return out;
+}
+
+/// All headers and sources, as paths relative to `source`, in the order of their names.
+std::vector<fs::path> source_files() {
+  std::vector<fs::path> out;
   for (const auto& entry : fs::recursive_directory_iterator(source)) {
     const std::string extension = entry.path().extension();
-    if (extension != ".h" && extension != ".cpp") continue;
-    const std::string folder = *fs::relative(entry.path(), source).begin();
-    EXPECT_LT(height(folder), std::ssize(layers)) << entry.path() << ": layers.txt does not list its folder";
-    for (const std::string& line : lines_of(entry.path())) {
-      if (!line.starts_with(include)) continue;
-      const std::size_t end = line.find('/', include.size());
-      if (end == std::string::npos) continue;  // a header of no folder: version.h
+    if (extension == ".h" || extension == ".cpp") out.push_back(fs::relative(entry.path(), source));
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+bool is_test(const fs::path& file) {
+  return file.stem().string().ends_with("_test") || file.stem().string().ends_with("_for_test");
+}
+
+std::string layer_of(const std::string& room) { return room.substr(0, room.find('/')); }
+
+/// The header paths that a file includes from this project, relative to `source`.
+std::vector<std::string> includes_of(const fs::path& file) {
+  const std::string include = "#include \"zoneplate/";
+  std::vector<std::string> out;
+  for (const std::string& line : lines_of(source / file))
+    if (line.starts_with(include)) out.push_back(line.substr(include.size(), line.rfind('"') - include.size()));
+  return out;
+}
+
+// A test may also include the rooms above its own within the same layer, since readers are tested by their files.
+TEST(Layers, NoIncludePointsUp) {
+  const std::vector<std::string> order = rooms();
+  const auto height = [&](const std::string& room) {
+    return std::find(order.begin(), order.end(), room) - order.begin();
+  };
+  int includes = 0;
+  for (const fs::path& file : source_files()) {
+    const std::string room = file.parent_path();
+    EXPECT_LT(height(room), std::ssize(order)) << file << ": layers.txt does not list its folder";
+    for (const std::string& header : includes_of(file)) {
+      const std::string included = fs::path(header).parent_path();
+      if (included.empty()) continue;  // a header of no room: version.h
       ++includes;
-      EXPECT_LE(height(line.substr(include.size(), end - include.size())), height(folder))
-          << entry.path() << ": " << line;
+      if (is_test(file) && layer_of(included) == layer_of(room)) continue;
+      EXPECT_LE(height(included), height(room)) << file << " includes " << header;
     }
   }
-  EXPECT_GT(includes, 50);
+  EXPECT_GT(includes, 2000);
+}
+
+TEST(Layers, NoFolderIsCrowded) {
+  std::map<fs::path, std::size_t> files;
+  for (const auto& entry : fs::recursive_directory_iterator(source))
+    if (entry.is_regular_file()) ++files[entry.path().parent_path()];
+  for (const auto& [folder, count] : files)
+    EXPECT_LE(count, max_files_per_folder) << folder << ": divide this folder into rooms";
+  for (const std::string& room : rooms()) EXPECT_TRUE(files.contains(source / room)) << room << " is listed and empty";
+}
+
+/// Removes comments, the contents of literals, and preprocessor lines.
+std::string code_of(const fs::path& file) {
+  std::ifstream stream(source / file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  static const std::regex noise(
+      R"re(//[^\n]*|/\*[^]*?\*/|R"(\w*)\([^]*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+'|(?:^|\n)[ \t]*#(?:\\\n|[^\n])*)re");
+  return std::regex_replace(text, noise, " ");
+}
+
+/// The qualified names of the classes, structures and enumerations that a file defines outside functions and unnamed
+/// namespaces.
+std::vector<std::string> types_of(const fs::path& file) {
+  const std::string code = code_of(file);
+  static const std::regex token(
+      R"(\bnamespace\s*([\w:]*)\s*\{|\b(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{|\{|\})");
+  std::vector<std::string> scopes, out;  // a scope that defines nothing is "(body)"
+  for (std::sregex_iterator i(code.begin(), code.end(), token), end; i != end; ++i) {
+    const std::string found = i->str();
+    if (found == "}") {
+      if (!scopes.empty()) scopes.pop_back();
+    } else if (found == "{") {
+      scopes.push_back("(body)");
+    } else if (found.starts_with("namespace")) {
+      scopes.push_back((*i)[1].str().empty() ? "(unnamed)" : (*i)[1].str());
+    } else {
+      std::string name;
+      bool is_shared = true;
+      for (const std::string& scope : scopes) name += scope + "::", is_shared &= scope[0] != '(';
+      scopes.push_back((*i)[2]);
+      if (is_shared) out.push_back(name + (*i)[2].str());
+    }
+  }
+  EXPECT_TRUE(scopes.empty()) << file << ": braces that do not match";
+  return out;
+}
+
+// Two definitions of one qualified name in one program are undefined behaviour that no compiler reports.
+TEST(Layers, EachTypeNameIsDefinedOnce) {
+  std::map<std::string, std::set<fs::path>> files;
+  for (const fs::path& file : source_files())
+    for (const std::string& type : types_of(file)) files[type].insert(file);
+  EXPECT_GT(files.size(), 300u);
+  for (const auto& [type, where] : files) {
+    std::string list;
+    for (const fs::path& file : where) list += " " + file.string();
+    EXPECT_EQ(where.size(), 1u) << type << " is defined in" << list;
+  }
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "zoneplate/math/random.h"
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/raster/tile/rasterize.h"
 
 namespace zoneplate {
 namespace {

@@ -7,13 +7,13 @@
 #include <filesystem>
 
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/base/shared_files_for_test.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/load.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/render/render.h"
-#include "zoneplate/scene/gltf_maker_test.h"
-#include "zoneplate/scene/load.h"
 
 namespace zoneplate {
 namespace {

@@ -11,7 +11,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/picture.h"
-#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/default_lights.h"
 
 namespace zoneplate {

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <set>
 
-#include "zoneplate/base/file.h"
-#include "zoneplate/image/exr_encode.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate {
 namespace {

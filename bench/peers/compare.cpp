@@ -16,14 +16,14 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/png.h"
 #include "zoneplate/image/tonemap.h"
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/render.h"
-#include "zoneplate/scene/builtin.h"
-#include "zoneplate/shade/material_plan.h"
+#include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate::peers {
 namespace {

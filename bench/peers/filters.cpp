@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "../scene_codes.h"
-#include "zoneplate/antialias/fxaa.h"
-#include "zoneplate/antialias/smaa.h"
+#include "zoneplate/antialias/post/fxaa/fxaa.h"
+#include "zoneplate/antialias/post/smaa/smaa.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate::peers {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "zoneplate/image/pfm.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/pfm.h"
+#include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/image/exr_encode.h"
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/scene/scene.h"
 

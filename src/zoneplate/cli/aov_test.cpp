@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/png.h"
 
 namespace zoneplate::cli {
 namespace {

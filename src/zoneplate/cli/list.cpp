@@ -7,10 +7,10 @@
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/formats/assimp/assimp.h"
+#include "zoneplate/formats/load.h"
 #include "zoneplate/report/json.h"
-#include "zoneplate/scene/assimp.h"
-#include "zoneplate/scene/builtin.h"
-#include "zoneplate/scene/load.h"
+#include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -89,7 +89,7 @@ Json scenes_json() {
   return rows;
 }
 
-// The writers are chosen by these endings in render_picture.cpp and film.cpp.
+// The writers are chosen by these endings in render/picture.cpp and render/film.cpp.
 constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits a channel, sRGB; - writes it to stdout"},
                                            {".jpg", "quality 92, full colour resolution"},
                                            {".webp", "lossless; of several frames, a film"},

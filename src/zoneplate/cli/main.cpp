@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/base/isa.h"
-#include "zoneplate/base/lost_bytes.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/render/method.h"
-#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/version.h"
 
 namespace zoneplate::cli {

@@ -5,17 +5,17 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/compare.h"
-#include "zoneplate/metrics/magma.h"
+#include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/report/json.h"
 
 namespace zoneplate::cli {

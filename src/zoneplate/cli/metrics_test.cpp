@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "zoneplate/base/file.h"
-#include "zoneplate/image/png.h"
-#include "zoneplate/metrics/magma.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/metrics/flip/magma.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate::cli {

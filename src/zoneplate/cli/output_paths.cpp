@@ -13,7 +13,7 @@
 #include <set>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate::cli {
 namespace {

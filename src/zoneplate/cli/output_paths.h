@@ -8,7 +8,7 @@
 namespace zoneplate::cli {
 
 /// Checks before any work that `save_folder(path)` will succeed: there must be nothing under this name, and a folder
-/// that it can be made in. Of single files: check_savable (base/file.h).
+/// that it can be made in. Of single files: check_savable (os/file.h).
 ///
 /// Errors    Trouble::Usage for an empty path; Trouble::Output naming the path and the cause.
 void check_output_folder(const std::string& path);

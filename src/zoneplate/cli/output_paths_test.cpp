@@ -9,7 +9,7 @@
 #include <map>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "zoneplate/cli/look.h"
 #include "zoneplate/scene/scene.h"
-#include "zoneplate/shade/material_plan.h"
+#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate::cli {
 

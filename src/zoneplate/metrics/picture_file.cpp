@@ -11,12 +11,12 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
-#include "zoneplate/base/lost_bytes.h"
-#include "zoneplate/image/exr.h"
-#include "zoneplate/image/hdr.h"
-#include "zoneplate/image/jpeg.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/jpeg.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/os/mapped_file_guard.h"
 
 namespace zoneplate::metrics {
 namespace {

@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/file.h"
 #include "zoneplate/base/shared_files_for_test.h"
-#include "zoneplate/image/exr_encode.h"
-#include "zoneplate/image/png.h"
+#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/metrics.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate::metrics {
 namespace {

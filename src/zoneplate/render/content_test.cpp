@@ -6,7 +6,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/render/render.h"
-#include "zoneplate/scene/builtin.h"
+#include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate {
 namespace {

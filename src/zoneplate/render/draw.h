@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/raster/rasterize.h"
-#include "zoneplate/shade/shader.h"
+#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/shade/surface/shader.h"
 
 namespace zoneplate {
 

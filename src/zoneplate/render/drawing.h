@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/render.h"
 
 namespace zoneplate {

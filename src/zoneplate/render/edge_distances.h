@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/scene/scene.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/scene/camera.h"
 #include "zoneplate/scene/scene.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/raster/target.h"
+#include "zoneplate/raster/types/target.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/signal/samples.h"
 

@@ -6,7 +6,8 @@
 #include <optional>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/raster/interpolate.h"
+#include "zoneplate/raster/fragment/interpolate.h"
+#include "zoneplate/raster/geometry/triangle_facing.h"
 
 namespace zoneplate {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/raster/rasterize.h"
-#include "zoneplate/shade/material_plan.h"
+#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate {
 namespace {

@@ -8,14 +8,14 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/memory_limit.h"
-#include "zoneplate/raster/rasterize.h"
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/drawing.h"
 #include "zoneplate/render/edge_distances.h"
 #include "zoneplate/render/geometry_points.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/surfaces.h"
-#include "zoneplate/shade/surface.h"
+#include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/tonemap.h"
-#include "zoneplate/raster/room.h"
-#include "zoneplate/raster/stage_times.h"
+#include "zoneplate/raster/types/room.h"
+#include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
 #include "zoneplate/scene/scene.h"

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "zoneplate/raster/draw.h"
+#include "zoneplate/raster/geometry/draw.h"
 #include "zoneplate/render/render.h"
 
 namespace zoneplate {
 
 /// A scene as draws: an instance of a mesh each, opaque, masked and blended alike, in the scene's order.
 ///
-/// Lines and points become quads in clip space (raster/quads.h) of `line_width` and `point_size` pixels.
+/// Lines and points become quads in clip space (raster/geometry/quads.h) of `line_width` and `point_size` pixels.
 struct SceneDraws {
   std::vector<Draw> draws;
   // What the draws of lines and points look at, shared by all instances; kept here because a draw only views it.

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/image/png.h"
-#include "zoneplate/report/child.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/run_program.h"
 
 namespace zoneplate {
 namespace {

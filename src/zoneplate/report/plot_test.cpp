@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/report/child.h"
+#include "zoneplate/os/run_program.h"
 
 namespace zoneplate {
 namespace {

@@ -1,0 +1,107 @@
+// Geometry buffer antialiasing: each pixel stores how far the nearest edge of its triangle is along its row or column;
+// where that edge, or one that a neighbour stores, crosses the pixel, the pixel takes as much of the neighbour's colour
+// as lies beyond it.
+//
+// One shaded sample a pixel and two stored numbers. Exact for a straight level or upright edge up to the rounding of
+// 16-bit floats, within an eighth of a pixel for oblique ones, whatever the contrast. Weak where triangles are small: a
+// pixel stores one edge. Of what is thinner than a pixel it smooths one side and not the other; and near an outline the
+// nearest edge may be one inside the surface, so that outlines of fine meshes are mottled, as are those that come from
+// hidden or intersecting triangles (`axial` has those right).
+//
+// Source: Persson, Geometry Buffer Anti-Aliasing, SIGGRAPH 2011 course, and his demo of July 2011 (humus.name),
+// GBAA.shd: the neighbours' order, comparisons and the bilinear fetch are the demo's. Its fetch mixes linear light, as
+// here.
+#include "zoneplate/antialias/geometric/gbaa.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+
+float2 gbaa_offset(const Plane<float2>& distance, int x, int y) {
+  constexpr float none = Frame::no_edge;
+  const auto at = [&](int i, int j) {
+    return distance(std::clamp(i, 0, distance.width() - 1), std::clamp(j, 0, distance.height() - 1));
+  };
+  float2 offset = distance(x, y);
+  if (std::min(std::abs(offset.x), std::abs(offset.y)) < none) return offset;
+  // A background pixel stores nothing of the edge in front of it, but the pixel on the edge's other side does.
+  const float left = at(x - 1, y).x, right = at(x + 1, y).x, above = at(x, y - 1).y, below = at(x, y + 1).y;
+  offset = {none, none};
+  if (std::abs(left - 0.75f) < 0.25f) offset = {left - 1, none};
+  if (std::abs(right + 0.75f) < 0.25f) offset = {right + 1, none};
+  if (std::abs(above - 0.75f) < 0.25f) offset = {none, above - 1};
+  if (std::abs(below + 0.75f) < 0.25f) offset = {none, below + 1};
+  return offset;
+}
+
+namespace {
+
+/// Which neighbour a pixel takes from, and how much.
+struct Step {
+  int towards;
+  float share;
+};
+
+Step step_of(float offset) {
+  if (std::abs(offset) >= Frame::no_edge) return {0, 0};
+  return offset >= 0 ? Step{1, 0.5f - offset} : Step{-1, 0.5f + offset};
+}
+
+class Gbaa : public Resolver {
+ public:
+  Request ask(int) override {
+    color_ = {};
+    Request request;
+    request.halo = 1;
+    return request;
+  }
+  /// The picture first, then the distances.
+  std::optional<Request> ask_again(Frame& frame) override {
+    if (!color_.empty()) return std::nullopt;
+    color_ = std::move(frame.color);
+    Request request;
+    request.content = Content::EdgeDistances;
+    request.halo = 1;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (color_.empty()) return std::move(frame.color);
+    LinearImage out(color_.width(), color_.height());
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) out(x, y) = pixel(frame.edge_distance, x, y);
+    });
+    return out;
+  }
+
+ private:
+  /// At most one axis has an edge. Beyond the picture's sides its outermost pixels go on.
+  Linear pixel(const Plane<float2>& distance, int x, int y) const {
+    const float2 offset = gbaa_offset(distance, x, y);
+    const Step across = step_of(offset.x), down = step_of(offset.y);
+    const float share = across.share + down.share;
+    if (share == 0) return color_(x, y);
+    const Linear& other = color_(std::clamp(x + across.towards, 0, color_.width() - 1),
+                                 std::clamp(y + down.towards, 0, color_.height() - 1));
+    return color_(x, y) * (1 - share) + other * share;
+  }
+
+  LinearImage color_;
+};
+
+}  // namespace
+
+Method gbaa();
+
+Method gbaa() {
+  return {.name = "gbaa",
+          .summary = "one shaded sample a pixel, and the stored distance of its triangle's nearest edge",
+          .source = "Persson 2011",
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Gbaa>(); },
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

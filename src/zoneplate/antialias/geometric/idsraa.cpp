@@ -1,0 +1,137 @@
+// Subpixel reconstruction by triangle: each pixel is shaded once, at its centre; at more places the triangle is known,
+// and each of these takes the colour of the shaded pixels nearby that show its triangle.
+//
+// Subpixel reconstruction antialiasing with the triangles themselves in place of the likeness of normals and depths;
+// of a triangle that is shaded nowhere around, the pixel of the most alike depth stands in. With one colour a triangle
+// it is multisampling. Weak where surfaces are smaller than a pixel, and as blind as multisampling to what shading does
+// inside one. Blended surfaces show what the pixel's centre shows of them.
+//
+// Source: after Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011.
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// The pixels around, the nearest first; of equally unlike depths the first is taken.
+struct Offset {
+  int x, y;
+};
+constexpr Offset around[] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+
+/// Colours of pixels, and triangles of samples, the first of which are the pixels' centres.
+class Reconstruction {
+ public:
+  Reconstruction(const LinearImage& color, const Frame& frame) : color_(color), frame_(frame) {}
+
+  Linear pixel(int x, int y) const {
+    const std::uint32_t own = triangle(0, x, y);
+    const std::size_t samples = frame_.sample_triangle.size() - 1;
+    Linear sum{0, 0, 0, 0};
+    std::size_t own_count = 0;
+    for (std::size_t s = 1; s <= samples; ++s) {
+      if (triangle(s, x, y) == own)
+        ++own_count;
+      else
+        sum = sum + sample(s, x, y);
+    }
+    const Linear& color = color_(x, y);
+    if (own_count == samples) return color;
+    return (sum + color * static_cast<float>(own_count)) * (1 / static_cast<float>(samples));
+  }
+
+ private:
+  std::uint32_t triangle(std::size_t s, int x, int y) const { return frame_.sample_triangle[s](x, y); }
+  float depth(std::size_t s, int x, int y) const { return frame_.sample_depth[s](x, y); }
+  bool is_inside(int x, int y) const { return x >= 0 && y >= 0 && x < color_.width() && y < color_.height(); }
+
+  /// The mean of the pixels around that show the sample's triangle, else the one whose depth is most like its.
+  Linear sample(std::size_t s, int x, int y) const {
+    const std::uint32_t wanted = triangle(s, x, y);
+    const float z = depth(s, x, y);
+    Linear sum{0, 0, 0, 0}, nearest = color_(x, y);
+    int count = 0;
+    float least = 2;
+    for (const Offset o : around) {
+      const int i = x + o.x, j = y + o.y;
+      if (!is_inside(i, j)) continue;
+      const Linear& color = color_(i, j);
+      if (triangle(0, i, j) == wanted) sum = sum + color, ++count;
+      // Reversed depth goes as one over the distance: relative differences are those of distances.
+      const float other = depth(0, i, j), greater = std::max(z, other);
+      const float unlike = greater > 0 ? std::abs(z - other) / greater : 0;
+      if (unlike < least) least = unlike, nearest = color;
+    }
+    return count > 0 ? sum * (1 / static_cast<float>(count)) : nearest;
+  }
+
+  const LinearImage& color_;
+  const Frame& frame_;
+};
+
+class IdSraa : public Resolver {
+ public:
+  explicit IdSraa(int samples) {
+    pattern_ = {SamplePosition{}};
+    for (const SamplePosition p : standard_pattern(samples)) pattern_.push_back(p);
+  }
+  Request ask(int) override {
+    color_ = {};
+    Request request;
+    request.halo = 1;
+    return request;
+  }
+  /// The picture first, then the triangles.
+  std::optional<Request> ask_again(Frame& frame) override {
+    if (!color_.empty()) return std::nullopt;
+    color_ = std::move(frame.color);
+    Request request;
+    request.samples = pattern_;
+    request.content = Content::Visibility;
+    request.planes.samples = true;
+    request.centroid = Centroid::First;  // alpha of masked surfaces at the pixel's centre where the triangle is there
+    request.halo = 1;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (color_.empty()) return std::move(frame.color);
+    const Reconstruction reconstruction(color_, frame);
+    LinearImage out(color_.width(), color_.height());
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) out(x, y) = reconstruction.pixel(x, y);
+    });
+    return out;
+  }
+
+ private:
+  SamplePattern pattern_;
+  LinearImage color_;
+};
+
+constexpr int counts[] = {2, 4, 8, 16};
+constexpr Param params[] = {{.name = "n",
+                             .meaning = "samples a pixel whose triangles are known, in the standard pattern",
+                             .value = 8,
+                             .choices = counts}};
+
+constexpr std::string_view variants[] = {"n=4"};
+
+}  // namespace
+
+Method idsraa();
+
+Method idsraa() {
+  return {
+      .name = "idsraa",
+      .summary = "one shaded sample a pixel, given to the samples that show its triangle",
+      .source = "after Chajdas 2011",
+      .params = params,
+      .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<IdSraa>(s.integer("n")); },
+      .variants = variants,
+      .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

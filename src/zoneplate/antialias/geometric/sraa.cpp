@@ -1,0 +1,200 @@
+// Subpixel reconstruction antialiasing: each pixel is shaded once, at its centre; normals and distances are known at
+// more places, and each of these takes the mean of the shaded colours around it, weighted by the likeness of surfaces.
+//
+// Geometry is drawn at n samples a pixel and at its centre, without shading: normals are interpolated from the
+// vertices, so that a normal map is not seen. Weak where surfaces are narrower than a pixel: of one that is shaded
+// nowhere nearby the colour is another's; and inside a surface colours are blurred over about a pixel.
+//
+// Source: Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011: weights
+// exp(-scale max(1 - N·N', depth scale |z - z'|)) of their published kernel. It leaves both scales to the scene. Here
+// depths are compared relative to the nearer one, so that one scale serves scenes of any size; the scales' defaults
+// and the radius are ours. Blended surfaces are not in the geometry: their outlines stay as they were shaded.
+#include "zoneplate/antialias/geometric/sraa_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+/// The weight of what is shaded at one place for another.
+float likeness(const float* a, const float* b, const BilateralScales& scales) {
+  const float3 normal{a[0], a[1], a[2]}, other{b[0], b[1], b[2]};
+  const bool is_empty = normal == float3{}, is_other_empty = other == float3{};
+  if (is_empty || is_other_empty) return is_empty == is_other_empty ? 1.0f : 0.0f;
+  const float far = std::abs(a[3] - b[3]) / std::min(a[3], b[3]), turned = 1 - dot(normal, other);
+  return exp(-scales.scale * std::max(turned, scales.depth * far));
+}
+
+void add(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
+         float* weight, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float w = likeness(sample + 4 * i, centre + 4 * i, scales);
+    for (std::size_t c = 4 * i; c < 4 * i + 4; ++c) sum[c] += color[c] * w;
+    weight[i] += w;
+  }
+}
+
+}  // namespace
+
+const SraaKernels sraa_kernels = {.add = add};
+
+}  // namespace scalar
+
+namespace antialias {
+namespace {
+
+struct Bilateral {
+  BilateralScales scales;
+  double radius;  ///< pixels, from a sample to the centres whose colours count
+};
+
+/// A pixel near a sample, relative to the sample's own.
+struct Offset {
+  int x, y;
+};
+
+/// Those of the 3 × 3 pixels around whose centres lie within the radius, row by row.
+std::vector<Offset> offsets_around(SamplePosition sample, double radius) {
+  std::vector<Offset> out;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      const double dx = x + 0.5 - sample.x / 256.0, dy = y + 0.5 - sample.y / 256.0;
+      if (dx * dx + dy * dy <= radius * radius) out.push_back({x, y});
+    }
+  return out;
+}
+
+/// Colours of pixels and geometry of samples, the first of which are the pixels' centres.
+class Reconstruction {
+ public:
+  Reconstruction(const LinearImage& color, const std::vector<LinearImage>& geometry, const SamplePattern& pattern,
+                 const Bilateral& bilateral)
+      : color_(color),
+        geometry_(geometry),
+        scales_(bilateral.scales),
+        kernels_(pick(best_isa(), scalar::sraa_kernels)),
+        all_around_(offsets_around({}, 1.5)) {
+    for (const SamplePosition sample : pattern) around_.push_back(offsets_around(sample, bilateral.radius));
+  }
+
+  /// Fills row y, which is 0 before, with the means of its pixels' samples.
+  void row(int y, std::span<Linear> out) const {
+    const std::size_t width = out.size();
+    std::vector<Linear> sum(width);
+    std::vector<float> weight(width);
+    const float share = 1 / static_cast<float>(around_.size());
+    for (std::size_t s = 0; s < around_.size(); ++s) {
+      std::ranges::fill(sum, Linear{0, 0, 0, 0});
+      std::ranges::fill(weight, 0.0f);
+      for (const Offset o : around_[s]) add(s, o, 0, color_.width(), y, sum.data(), weight.data());
+      for (std::size_t x = 0; x < width; ++x)
+        out[x] = out[x] + (weight[x] > least_weight ? sum[x] * (1 / weight[x]) : other_mean(s, static_cast<int>(x), y));
+    }
+    for (Linear& c : out) c = c * share;
+  }
+
+ private:
+  static constexpr float least_weight = 1e-20f;
+
+  /// Adds what the pixels at an offset say of sample s of pixels [first, last) of row y, as far as there are such.
+  void add(std::size_t s, Offset o, int first, int last, int y, Linear* sum, float* weight) const {
+    const int begin = std::max(first, -o.x), end = std::min(last, color_.width() - o.x);
+    if (y + o.y < 0 || y + o.y >= color_.height() || begin >= end) return;
+    const int i = begin + o.x, j = y + o.y;
+    kernels_.add(&geometry_[s + 1](begin, y).r, &geometry_[0](i, j).r, &color_(i, j).r, scales_, &sum[begin - first].r,
+                 weight + (begin - first), static_cast<std::size_t>(end - begin));
+  }
+
+  /// A sample that is like no centre within the radius is compared with all of the 3 × 3 pixels around; like none of
+  /// them, it takes its own pixel's colour.
+  Linear other_mean(std::size_t s, int x, int y) const {
+    Linear sum{0, 0, 0, 0};
+    float weight = 0;
+    for (const Offset o : all_around_) add(s, o, x, x + 1, y, &sum, &weight);
+    return weight > least_weight ? sum * (1 / weight) : color_(x, y);
+  }
+
+  const LinearImage& color_;
+  const std::vector<LinearImage>& geometry_;
+  BilateralScales scales_;
+  const SraaKernels& kernels_;
+  std::vector<Offset> all_around_;
+  std::vector<std::vector<Offset>> around_;  ///< by sample of the pattern
+};
+
+class Sraa : public Resolver {
+ public:
+  Sraa(int samples, Bilateral bilateral) : pattern_(standard_pattern(samples)), bilateral_(bilateral) {}
+
+  Request ask(int) override {
+    color_ = {};
+    Request request;
+    request.halo = 1;
+    return request;
+  }
+  /// The picture first, then the geometry.
+  std::optional<Request> ask_again(Frame& frame) override {
+    if (!color_.empty()) return std::nullopt;
+    color_ = std::move(frame.color);
+    Request request;
+    request.content = Content::Geometry;
+    request.samples.insert(request.samples.end(), pattern_.begin(), pattern_.end());
+    request.halo = 1;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (color_.empty()) return std::move(frame.color);
+    const Reconstruction reconstruction(color_, frame.sample_geometry, pattern_, bilateral_);
+    LinearImage out(color_.width(), color_.height(), Linear{0, 0, 0, 0});
+    for_rows(out.height(), [&](int y) { reconstruction.row(y, out.row(y)); });
+    return out;
+  }
+
+ private:
+  SamplePattern pattern_;
+  Bilateral bilateral_;
+  LinearImage color_;
+};
+
+constexpr int counts[] = {2, 4, 8, 16};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "geometric samples a pixel, in the standard pattern", .value = 4, .choices = counts},
+    {.name = "scale", .meaning = "falloff of the bilateral weight", .value = 40, .low = 1, .high = 10000},
+    {.name = "depth", .meaning = "weight of depths against normals", .value = 10, .low = 0, .high = 10000},
+    {.name = "radius",
+     .meaning = "pixels from a sample to the shaded centres that count",
+     .value = 100,
+     .low = 75,
+     .high = 150,
+     .decimals = 2}};
+
+constexpr std::string_view variants[] = {"n=8"};
+
+}  // namespace
+
+Method sraa();
+
+Method sraa() {
+  return {.name = "sraa",
+          .summary = "one shaded sample a pixel, given to geometric samples of like normal and depth",
+          .source = "Chajdas 2011",
+          .params = params,
+          .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
+            const Bilateral bilateral{{static_cast<float>(s.integer("scale")), static_cast<float>(s.integer("depth"))},
+                                      s.number("radius")};
+            return std::make_unique<Sraa>(s.integer("n"), bilateral);
+          },
+          .variants = variants,
+          .is_specification_only = true};
+}
+
+}  // namespace antialias
+}  // namespace zoneplate

@@ -1,0 +1,119 @@
+#include "zoneplate/antialias/post/codes.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/transfer.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// What a transparent picture is laid on to be filtered.
+enum class Backdrop { Black, White };
+
+Display laid_on(const Display& c, Backdrop backdrop, Mixing mixing) {
+  const float rest = backdrop == Backdrop::White ? 1 - c.a : 0.0f;
+  const auto lay = [&](float code) {
+    return mixing == Mixing::Codes ? code * c.a + rest : encode_srgb(decode_srgb(code) * c.a + rest);
+  };
+  return {lay(c.r), lay(c.g), lay(c.b), c.a};
+}
+
+Display lifted_from(Rgba8 c, Backdrop backdrop, Mixing mixing) {
+  if (c.a == 0) return {0, 0, 0, 0};
+  const float a = static_cast<float>(c.a) / 255, rest = backdrop == Backdrop::White ? 1 - a : 0.0f;
+  const auto lift = [&](std::uint8_t code) {
+    const float v = mixing == Mixing::Codes ? (static_cast<float>(code) / 255 - rest) / a
+                                            : encode_srgb((decode_srgb8(code) - rest) / a);
+    return std::clamp(v, 0.0f, 1.0f);
+  };
+  return {lift(c.r), lift(c.g), lift(c.b), a};
+}
+
+Display shown(Rgba8 c) {
+  return {static_cast<float>(c.r) / 255, static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255,
+          static_cast<float>(c.a) / 255};
+}
+
+/// Calls `body(i)` for every pixel, blocks of pixels in parallel.
+template <class Body>
+void for_pixels(std::size_t count, const Body& body) {
+  constexpr std::size_t grain = 16384;
+  parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// A picture before and after a filter.
+struct Filtered {
+  Rgba8Image before, after;
+  bool is_changed(std::size_t i) const { return before.values()[i] != after.values()[i]; }
+  /// How far a pixel's alpha moved.
+  int alpha_change(std::size_t i) const { return std::abs(before.values()[i].a - after.values()[i].a); }
+};
+
+Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, const CodeFilter& filter) {
+  DisplayImage laid(image.width(), image.height());
+  for_pixels(image.values().size(),
+             [&](std::size_t i) { laid.values()[i] = laid_on(image.values()[i], backdrop, mixing); });
+  Filtered f{quantize8(laid), {}};
+  f.after = filter(f.before);
+  return f;
+}
+
+/// What is as dark as nothing shows on white, and what is as bright on black: where a silhouette was smoothed more,
+/// that result is taken.
+DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const CodeFilter& filter) {
+  const Filtered black = filter_on(image, Backdrop::Black, mixing, filter);
+  const Filtered white = filter_on(image, Backdrop::White, mixing, filter);
+  for_pixels(image.values().size(), [&](std::size_t i) {
+    if (white.alpha_change(i) > black.alpha_change(i))
+      image.values()[i] = lifted_from(white.after.values()[i], Backdrop::White, mixing);
+    else if (black.is_changed(i))
+      image.values()[i] = lifted_from(black.after.values()[i], Backdrop::Black, mixing);
+  });
+  return image;
+}
+
+}  // namespace
+
+DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& filter) {
+  if (image.empty()) return image;
+  if (std::ranges::any_of(image.values(), [](const Display& c) { return c.a < 1; }))
+    return filter_transparent(std::move(image), mixing, filter);
+  Filtered f{quantize8(image), {}};
+  f.after = filter(f.before);
+  for_pixels(image.values().size(), [&](std::size_t i) {
+    if (f.is_changed(i)) image.values()[i] = shown(f.after.values()[i]);
+  });
+  return image;
+}
+
+Linear light_of(Rgba8 codes) {
+  return {decode_srgb8(codes.r), decode_srgb8(codes.g), decode_srgb8(codes.b), code_share[codes.a]};
+}
+
+Rgba8 codes_of(Linear light) {
+  return {encode_srgb8(light.r), encode_srgb8(light.g), encode_srgb8(light.b),
+          rounded_code(std::clamp(light.a, 0.0f, 1.0f) * 255)};
+}
+
+Rgba8 mixed_light(Rgba8 a, Rgba8 b, float t) {
+  const Linear from = light_of(a), to = light_of(b);
+  return codes_of({from.r + (to.r - from.r) * t, from.g + (to.g - from.g) * t, from.b + (to.b - from.b) * t,
+                   from.a + (to.a - from.a) * t});
+}
+
+void for_rows(int height, const std::function<void(int)>& body) {
+  parallel_ranges(static_cast<std::size_t>(height), rows_a_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
+  });
+}
+
+Rgba8Image sized_like(const Rgba8Image& like, Rgba8Image memory) {
+  if (memory.width() == like.width() && memory.height() == like.height()) return memory;
+  return {like.width(), like.height()};
+}
+
+}  // namespace zoneplate::antialias

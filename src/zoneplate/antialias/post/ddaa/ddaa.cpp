@@ -1,0 +1,102 @@
+// DDAA: near the axes an edge search as FXAA's, but at every pixel; near the diagonals a short blur along the edge.
+//
+// Treats all angles more alike than FXAA does. Weak at diagonals of one pixel, which the blur thins.
+//
+// Source: Klein, Directional Diffusion Anti-Aliasing 2.4, 2025; gradients after Scharr.
+#include "zoneplate/antialias/post/ddaa/ddaa.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/ddaa/ddaa_kernels.h"
+#include "zoneplate/antialias/post/result_row.h"
+#include "zoneplate/antialias/post/rolling_rows.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr int reach = DdaaConstants::search + 2;
+
+}  // namespace
+
+Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8Image memory) {
+  if (image.empty()) return image;
+  const DdaaKernels& kernels = pick(options.isa, scalar::ddaa_kernels);
+  Rgba8Image out = sized_like(image, std::move(memory));
+  const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
+  // Blocks are large, for the power within reach of both is made by each of two.
+  constexpr std::size_t rows = 128;
+  parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
+    RollingRows<float> power(image.width(), image.height(), reach, static_cast<int>(begin));
+    ResultRow result(image, out, options.isa);
+    std::vector<std::uint8_t> seen(room);
+    std::vector<float> taps(4 * room);
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      power.make_around(y, [&](int row, float* to) { kernels.power_row(&image.row(row)[0].r, to, width); });
+      kernels.seen_row(power.at(0, y), power.stride(), options.threshold, options.least, seen.data(), width);
+      std::fill(seen.begin() + image.width(), seen.end(), std::uint8_t{0});
+      kernels.taps_row(power.at(0, y), power.stride(), options.strength, seen.data(), taps.data(), width);
+      std::array<const std::uint8_t*, 5> codes;
+      for (int j = 0; j < 5; ++j)
+        codes[static_cast<std::size_t>(j)] = &image.row(std::clamp(y + j - 2, 0, image.height() - 1))[0].r;
+      kernels.fetch_row(codes.data(), taps.data(), seen.data(), &result.begin(y)[0].r, width);
+      result.end();
+    }
+  });
+  return out;
+}
+
+namespace {
+
+struct Threshold {
+  std::string_view name;
+  float share, least;
+};
+constexpr Threshold thresholds[] = {{"low", 0.25f, 0.0833f}, {"medium", 0.166f, 0.0625f}, {"extreme", 0.031f, 0.0078f}};
+constexpr std::string_view threshold_names[] = {"low", "medium", "extreme"};
+constexpr Param params[] = {
+    {.name = "threshold", .meaning = "what contrast is treated", .value = 1, .names = threshold_names},
+    {.name = "strength", .meaning = "of the blur along edges", .value = 3, .low = 0, .high = 9},
+};
+
+class Ddaa : public Resolver {
+ public:
+  explicit Ddaa(const DdaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request;
+    request.halo = reach;
+    request.works_on_shown = true;
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame&) override {
+    return filter_codes(std::move(image), Mixing::Codes, [&](const Rgba8Image& i) { return apply_ddaa(i, options_); });
+  }
+
+ private:
+  DdaaOptions options_;
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  const Threshold& t = thresholds[s.integer("threshold")];
+  return std::make_unique<Ddaa>(
+      DdaaOptions{.threshold = t.share, .least = t.least, .strength = static_cast<float>(s.integer("strength"))});
+}
+
+}  // namespace
+
+Method ddaa();
+
+Method ddaa() {
+  return {.name = "ddaa",
+          .summary = "an edge search near the axes, a blur along edges near the diagonals",
+          .source = "Klein 2025, DDAA 2.4",
+          .params = params,
+          .make = make,
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

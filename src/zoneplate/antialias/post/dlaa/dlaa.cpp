@@ -1,0 +1,221 @@
+// DLAA: blur every pixel a little along the direction in which it changes less, and where long edges run, interpolate
+// it anew between its neighbours by a blur of sixteen pixels along them.
+//
+// Needs no search and no decision, and so never jumps. Weak in that it softens all contrast, text and texture included.
+//
+// Source: Andreev, Anti-Aliasing from a Different Perspective, GDC 2011 (Star Wars: The Force Unleashed 2).
+#include "zoneplate/antialias/post/dlaa/dlaa.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "zoneplate/antialias/post/bordered.h"
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/dlaa/dlaa_kernels.h"
+#include "zoneplate/antialias/post/result_row.h"
+#include "zoneplate/math/vec.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+int bend(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c) {
+  return std::abs(a[0] + b[0] - 2 * c[0]) + std::abs(a[1] + b[1] - 2 * c[1]) + std::abs(a[2] + b[2] - 2 * c[2]);
+}
+
+void edge_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
+              std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    int sum = 0;
+    for (std::size_t at = 4 * i; at < 4 * i + 3; ++at)
+      sum += std::abs(*(here + at - 4) + here[at + 4] + above[at] + below[at] - 4 * here[at]);
+    edges[i] = static_cast<std::uint8_t>(std::min(255, (4 * sum + 1) / 3));
+  }
+}
+
+void sum_row(const std::uint8_t* edges, std::int16_t* sums, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    int sum = 0;
+    for (std::ptrdiff_t k = -8; k <= 8; ++k) sum += *(edges + i + k);
+    sums[i] = static_cast<std::int16_t>(sum);
+  }
+}
+
+void slide_row(const std::uint8_t* added, const std::uint8_t* removed, std::int16_t* sums, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) sums[i] = static_cast<std::int16_t>(sums[i] + added[i] - removed[i]);
+}
+
+void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
+              const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint8_t* c = here + 4 * i;
+    const int most = std::max(bend(c - 4, c + 4, c), bend(above + 4 * i, below + 4 * i, c));
+    seen[i] = most > least_bend || std::max(level[i], upright[i]) > least_sum ? 1 : 0;
+  }
+}
+
+using Constants = DlaaConstants;
+
+float4 values_of(const std::uint8_t* c) {
+  return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255,
+          static_cast<float>(c[3]) / 255};
+}
+float luma(const float4& c) { return (c.x + c.y + c.z) / 3; }
+float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // what is not a number gives 0
+float4 mixed(const float4& a, const float4& b, float t) {
+  return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
+}
+/// lambda times the luma of half a bend, less epsilon.
+float edge_of(int bend) { return Constants::lambda * (static_cast<float>(bend) / (3 * 2 * 255)) - Constants::epsilon; }
+
+/// Where, between two neighbours at the ends of a line through `c`, the blur along it lies; both are lumas' shares.
+float4 between(const float4& first, const float4& c, const float4& last, const float4& blur) {
+  const float to_first = luma(c) - luma(first), to_last = luma(c) - luma(last);
+  const float a = to_first == 0 ? 1.0f : saturated((luma(blur) - luma(first)) / to_first);
+  const float b = to_last == 0 ? 1.0f : saturated(1 + (luma(blur) - luma(c)) / to_last);
+  return mixed(last, mixed(first, c, a), b);
+}
+
+/// The mean of the sixteen pixels around, `step` bytes from each other, the middle left out.
+float4 long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
+  int r = 0, g = 0, b = 0, a = 0;
+  for (int i = -Constants::half_blur; i <= Constants::half_blur; ++i) {
+    if (i == 0) continue;
+    const std::uint8_t* c = pixel + i * step;
+    r += c[0], g += c[1], b += c[2], a += c[3];
+  }
+  constexpr float scale = Constants::whole;
+  return {static_cast<float>(r) / scale, static_cast<float>(g) / scale, static_cast<float>(b) / scale,
+          static_cast<float>(a) / scale};
+}
+
+/// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
+float mask_of(int sum) { return 2 * sum <= Constants::whole ? 0 : static_cast<float>(2 * sum) / Constants::whole - 1; }
+
+void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float upright_mask, std::uint8_t* to) {
+  const int level_bend = bend(p - 4, p + 4, p), upright_bend = bend(p - s, p + s, p);
+  const bool has_long = std::abs(level_mask - upright_mask) > Constants::least_unlike;
+  if (std::max(level_bend, upright_bend) <= Constants::unseen_bend && !has_long) return;
+  const float level = edge_of(level_bend), upright = edge_of(upright_bend);
+  const float4 c = values_of(p), l = values_of(p - 4), r = values_of(p + 4), t = values_of(p - s), b = values_of(p + s);
+
+  // Short edges: six pixels along the direction that changes less.
+  const auto blurred = [&](const float4& two, const float4& one, const float4& next, const float4& after) {
+    return (two + one + next + after + c * 2) * (1.0f / 6);
+  };
+  const float4 along = blurred(values_of(p - 8), l, r, values_of(p + 8));
+  const float4 down = blurred(values_of(p - 2 * s), t, b, values_of(p + 2 * s));
+  float4 out = mixed(c, along, saturated(upright / luma(along)));
+  out = mixed(out, down, 0.5f * saturated(level / luma(down)));
+
+  if (has_long) {
+    out = mixed(out, between(l, c, r, long_blur(p, s)), upright_mask);
+    out = mixed(out, between(t, c, b, long_blur(p, 4)), level_mask);
+  }
+  const auto code = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5f); };
+  to[0] = code(out.x), to[1] = code(out.y), to[2] = code(out.z), to[3] = code(out.w);
+}
+
+void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i)
+    if (seen[i])
+      blur_pixel(rows.codes + 4 * i, rows.stride, mask_of(rows.level[i] - rows.edges[i]),
+                 mask_of(rows.upright[i] - rows.edges[i]), out + 4 * i);
+}
+
+}  // namespace
+
+const DlaaKernels dlaa_kernels = {
+    .edge_row = edge_row, .sum_row = sum_row, .slide_row = slide_row, .seen_row = seen_row, .blur_row = blur_row};
+
+}  // namespace scalar
+
+namespace antialias {
+namespace {
+
+using Constants = DlaaConstants;
+constexpr int reach = Constants::half_blur + 1;
+
+/// The picture with its border, and the first pass: four times the Laplacian's luma, as a code.
+struct Source {
+  Bordered<Rgba8> colors;
+  Bordered<std::uint8_t> edges;
+
+  Source(const Rgba8Image& image, const DlaaKernels& kernels)
+      : colors(image.width(), image.height(), reach), edges(image.width(), image.height(), Constants::half_blur) {
+    for_rows(image.height(),
+             [&](int y) { std::memcpy(colors.at(0, y), image.row(y).data(), image.row(y).size_bytes()); });
+    colors.extend();
+    for_rows(image.height(), [&](int y) {
+      kernels.edge_row(codes(y - 1), codes(y), codes(y + 1), edges.at(0, y), static_cast<std::size_t>(image.width()));
+    });
+    edges.extend();
+  }
+  const std::uint8_t* codes(int y) const { return &colors.at(0, y)->r; }
+};
+
+}  // namespace
+
+Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
+  if (image.empty()) return image;
+  const DlaaKernels& kernels = pick(isa, scalar::dlaa_kernels);
+  const Source source(image, kernels);
+  Rgba8Image out = sized_like(image, std::move(memory));
+  const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
+  parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
+    // The sums of the edge codes of eight rows above and below move down with the rows.
+    std::vector<std::int16_t> level(room), upright(room);
+    std::vector<std::uint8_t> seen(room), nothing(room);
+    ResultRow result(image, out, isa);
+    constexpr int half_blur = Constants::half_blur;
+    const int first = static_cast<int>(begin);
+    for (int y = first - half_blur; y < first + half_blur; ++y)
+      kernels.slide_row(source.edges.at(0, y), nothing.data(), upright.data(), width);
+    for (int y = first; y < static_cast<int>(end); ++y) {
+      const std::uint8_t* before = y == first ? nothing.data() : source.edges.at(0, y - half_blur - 1);
+      kernels.slide_row(source.edges.at(0, y + half_blur), before, upright.data(), width);
+      kernels.sum_row(source.edges.at(0, y), level.data(), width);
+      kernels.seen_row(source.codes(y - 1), source.codes(y), source.codes(y + 1), level.data(), upright.data(),
+                       Constants::unseen_bend, Constants::whole / 2, seen.data(), width);
+      const DlaaRows rows{source.codes(y), static_cast<std::ptrdiff_t>(sizeof(Rgba8)) * source.colors.stride(),
+                          source.edges.at(0, y), level.data(), upright.data()};
+      kernels.blur_row(rows, seen.data(), &result.begin(y)[0].r, width);
+      result.end();
+    }
+  });
+  return out;
+}
+
+namespace {
+
+class Dlaa : public Resolver {
+ public:
+  Request ask(int) override {
+    Request request;
+    request.halo = reach;
+    request.works_on_shown = true;
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame&) override {
+    return filter_codes(std::move(image), Mixing::Codes, [](const Rgba8Image& i) { return apply_dlaa(i); });
+  }
+};
+
+}  // namespace
+
+Method dlaa();
+
+Method dlaa() {
+  return {.name = "dlaa",
+          .summary = "short and long blurs along edges, without a search",
+          .source = "Andreev 2011",
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Dlaa>(); },
+          .is_specification_only = true};
+}
+
+}  // namespace antialias
+}  // namespace zoneplate

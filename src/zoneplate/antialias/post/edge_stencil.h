@@ -1,0 +1,13 @@
+#pragma once
+
+namespace zoneplate {
+
+/// Rows of which an edge row is made: two above, one above, the row itself, one below.
+///
+/// Shape     valid from two values before the first to 33 after the last.
+template <class T>
+struct EdgeRows {
+  const T* row[4];
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,212 @@
+// Morphological antialiasing: take the borders between unlike pixels for steps of straight lines, and give each pixel
+// the share of the other side that the line through the steps' middles cuts off.
+//
+// SMAA's ancestor, in both published forms. Weak at corners, which it rounds, and where noise breaks the borders.
+//
+// Source: Jimenez, Masia, Echevarria, Navarro, Gutierrez, Practical Morphological Anti-Aliasing, GPU Pro 2, 2011 (code
+// 2.0); Reshetov, Morphological Antialiasing, HPG 2009 (see reshetov.cpp).
+#include "zoneplate/antialias/post/mlaa/mlaa.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
+#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+#include "zoneplate/antialias/post/smaa/tables.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// Areas of every pair of distances and of what crosses the ends, without the smoothing that SMAA added; in codes.
+class MlaaAreas {
+ public:
+  explicit MlaaAreas(int greatest) : size_(greatest + 1), codes_(16 * static_cast<std::size_t>(size_ * size_)) {
+    for (int pattern = 0; pattern < 16; ++pattern)
+      for (int right = 0; right < size_; ++right)
+        for (int left = 0; left < size_; ++left) {
+          const AreaPair area = orthogonal_area(pattern, left, right, 0, false);
+          codes_[index(pattern, left, right)] = {static_cast<std::uint8_t>(255 * area.below + 0.5),
+                                                 static_cast<std::uint8_t>(255 * area.above + 0.5)};
+        }
+  }
+  struct Codes {
+    std::uint8_t below, above;
+  };
+  Codes at(int pattern, int left, int right) const { return codes_[index(pattern, left, right)]; }
+
+ private:
+  std::size_t index(int pattern, int left, int right) const {
+    return static_cast<std::size_t>((pattern * size_ + right) * size_ + left);
+  }
+  int size_;
+  std::vector<Codes> codes_;
+};
+
+EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int border) {
+  constexpr float white = 255 * 10000;
+  const float threshold = std::round(static_cast<float>(options.threshold) * white);
+  const auto width = static_cast<std::size_t>(image.width());
+  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const MlaaKernels& edge_kernels = pick(options.isa, scalar::mlaa_kernels);
+  EdgePlane edges(image.width(), image.height(), border);
+  detect_edges<float>(
+      edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },
+      [&](const EdgeRows<float>& rows, std::uint8_t* out) { edge_kernels.luma_edges(rows, threshold, out, width); });
+  edges.extend();
+  return edges;
+}
+
+/// The edges along a line from one of its pixels, two at a time as the shader fetches them.
+struct Line {
+  const std::uint8_t* pixel;
+  std::ptrdiff_t along, across;
+  std::uint8_t own, cross;
+
+  int is(int i, int j, std::uint8_t edge) const { return pixel[i * along + j * across] & edge ? 1 : 0; }
+
+  /// How far the line goes on; of the last two pixels it is not known which one was an edge.
+  int distance(int direction, int steps) const {
+    for (int i = 0; i < steps; ++i) {
+      const int both = is(direction * (2 * i + 1), 0, own) + is(direction * (2 * i + 2), 0, own);
+      if (both < 2) return 2 * i + both;
+    }
+    return 2 * steps;
+  }
+
+  MlaaAreas::Codes areas(const MlaaAreas& table, int steps) const {
+    const int left = distance(-1, steps), right = distance(1, steps);
+    const int pattern = is(-left, 0, cross) * left_down | is(-left, -1, cross) * left_up |
+                        is(right + 1, 0, cross) * right_down | is(right + 1, -1, cross) * right_up;
+    return table.at(pattern, left, right);
+  }
+};
+
+/// Every weight's mixture counts by its weight.
+Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
+  const auto at = [&](int i, int j) {
+    const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
+    if (mixes_light) return light_of(c);
+    return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
+  };
+  const Linear here = at(x, y), others[4] = {at(x, y - 1), at(x, y + 1), at(x - 1, y), at(x + 1, y)};
+  const std::uint8_t weights[4] = {taken.above, taken.below, taken.left, taken.right};
+  Linear sum{0, 0, 0, 0};
+  float total = 0;
+  for (int i = 0; i < 4; ++i) {
+    const float a = code_share[weights[i]];
+    sum = sum + (here * (1 - a) + others[i] * a) * a;
+    total += a;
+  }
+  const Linear out{sum.r / total, sum.g / total, sum.b / total, sum.a / total};
+  if (mixes_light) return codes_of(out);
+  return {rounded_code(out.r), rounded_code(out.g), rounded_code(out.b), rounded_code(out.a)};
+}
+
+int reach_of(const MlaaOptions& options) {
+  constexpr int whole_picture = 32768;
+  return options.kind == MlaaOptions::Kind::Reshetov ? whole_picture : 2 * options.steps + 4;
+}
+
+/// The second pass of one row, by the distances to the ends of its edges.
+void weigh(const EdgePlane& edges, const MlaaAreas& table, int steps, int y, WeightRow& out) {
+  for (int block = 0; block < edges.width(); block += 8) {
+    std::uint64_t any = 0;
+    std::memcpy(&any, edges.at(block, y), sizeof any);
+    if (any == 0) continue;
+    for (int x = block; x < std::min(block + 8, edges.width()); ++x) {
+      const std::uint8_t* pixel = edges.at(x, y);
+      EdgeWeights w;
+      if (*pixel & top_edge) {
+        const auto codes = Line{pixel, 1, edges.stride(), top_edge, left_edge}.areas(table, steps);
+        w.from_above = codes.below, w.to_above = codes.above;
+      }
+      if (*pixel & left_edge) {
+        const auto codes = Line{pixel, edges.stride(), 1, left_edge, top_edge}.areas(table, steps);
+        w.from_left = codes.below, w.to_left = codes.above;
+      }
+      if (*pixel != 0) out.put(x, w);
+    }
+  }
+}
+
+}  // namespace
+
+Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8Image memory) {
+  if (image.empty()) return image;
+  Rgba8Image out = sized_like(image, std::move(memory));
+  const auto mix = [&](int x, int y, const TakenWeights& taken) {
+    return mixed_pixel(image, x, y, taken, options.mixes_light);
+  };
+  if (options.kind == MlaaOptions::Kind::Reshetov) {
+    const WeightPlane weights = mlaa_reshetov_weights(image, options.isa);
+    mix_by_weights(
+        image, out, [&](int y, WeightRow& row) { row.assign(weights.at(0, y)); }, mix);
+    return out;
+  }
+  const MlaaAreas table(2 * options.steps);
+  const EdgePlane edges = find_edges(image, options, reach_of(options));
+  mix_by_weights(
+      image, out, [&](int y, WeightRow& row) { weigh(edges, table, options.steps, y, row); }, mix);
+  return out;
+}
+
+namespace {
+
+constexpr std::string_view kinds[] = {"jimenez", "reshetov"};
+constexpr std::string_view mixings[] = {"light", "codes"};
+constexpr int step_choices[] = {4, 8, 16, 32, 64};
+constexpr Param params[] = {
+    {.name = "kind",
+     .meaning = "of limited length with a table, or the first of any length",
+     .value = 0,
+     .names = kinds},
+    {.name = "steps",
+     .meaning = "jimenez: how far an edge is followed, by two pixels",
+     .value = 16,
+     .choices = step_choices},
+    {.name = "mix", .meaning = "in what colours are mixed", .value = 0, .names = mixings},
+};
+
+class Mlaa : public Resolver {
+ public:
+  explicit Mlaa(const MlaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request;
+    request.halo = reach_of(options_);
+    request.works_on_shown = true;
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame&) override {
+    const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
+    return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_mlaa(i, options_); });
+  }
+
+ private:
+  MlaaOptions options_;
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  return std::make_unique<Mlaa>(MlaaOptions{.kind = static_cast<MlaaOptions::Kind>(s.integer("kind")),
+                                            .steps = s.integer("steps"),
+                                            .mixes_light = s.chosen("mix") == "light"});
+}
+
+constexpr std::string_view variants[] = {"kind=reshetov"};
+
+}  // namespace
+
+Method mlaa();
+
+Method mlaa() {
+  return {.name = "mlaa",
+          .summary = "borders taken for steps of straight lines, pixels mixed by the areas cut off",
+          .source = "Reshetov 2009, Jimenez 2011",
+          .params = params,
+          .make = make,
+          .variants = variants,
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "zoneplate/antialias/post/smaa/smaa.h"
+
+namespace zoneplate::antialias {
+
+struct MlaaOptions {
+  enum class Kind {
+    Jimenez,   ///< of the graphics processor, 2011: searches of limited length, areas from a table
+    Reshetov,  ///< the first, 2009: lines of any length, split where the colours of both sides meet
+  };
+
+  Kind kind = Kind::Jimenez;
+  double threshold = 0.1;   ///< Jimenez: least difference of luma, code / 255
+  int steps = 16;           ///< Jimenez: of two pixels, along an edge; 4, 8 or 16 in the original
+  bool mixes_light = true;  ///< mix linear light; else codes
+  Isa isa = best_isa();
+};
+
+/// Morphological antialiasing of a picture of codes; `memory` as for apply_smaa.
+///
+/// Edges     beyond the sides the outermost pixels go on (Jimenez); a line ends at the sides (Reshetov).
+/// Source    Reshetov, Morphological Antialiasing, HPG 2009; Jimenez et al., Practical Morphological Anti-Aliasing, GPU
+///           Pro 2, 2011.
+Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8Image memory = {});
+
+/// The weights of all edges of the first kind, which have no order of rows.
+using WeightPlane = Bordered<EdgeWeights>;
+WeightPlane mlaa_reshetov_weights(const Rgba8Image& image, Isa isa);
+
+/// The height in [0, 1] at which a line crosses the step between two columns, so that the mixed colours of both sides
+/// meet: ½ where none does. `near` and `across` are lumas at the line's end, this side of its border and the other;
+/// `beyond` and `beyond_near` those of the next column, in the same row as `near` and one farther from the border.
+float split_height(int near, int across, int beyond, int beyond_near);
+
+}  // namespace zoneplate::antialias

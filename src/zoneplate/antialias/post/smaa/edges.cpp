@@ -1,0 +1,188 @@
+// SMAA's first pass: a border is an edge where its difference reaches the threshold and half of the greatest difference
+// around it (local contrast adaptation). With predication a border's threshold depends on whether a second buffer
+// crosses it, which is found out first and noted in the edges themselves.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/edge_rows.h"
+#include "zoneplate/antialias/post/smaa/smaa.h"
+#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
+    luma[i] = 2126 * r + 7152 * g + 722 * b;
+  }
+}
+
+/// The thresholds of a pixel's left and top border.
+template <class T>
+struct Least {
+  T left, top;
+};
+template <class T>
+Least<T> least_of(T threshold, const std::uint8_t*) {
+  return {threshold, threshold};
+}
+/// `crossed`: what the edges hold before.
+template <class T>
+Least<T> least_of(const PredicatedThreshold<T>& threshold, const std::uint8_t* crossed) {
+  const auto of = [&](int border) { return *crossed & border ? threshold.crossed : threshold.plain; };
+  return {of(1), of(2)};
+}
+
+template <class T>
+std::uint8_t edges_of(T to_left, T to_top, T greatest, Least<T> least) {
+  const bool is_left = to_left >= least.left && to_left + to_left >= greatest;
+  const bool is_top = to_top >= least.top && to_top + to_top >= greatest;
+  return static_cast<std::uint8_t>(is_left | is_top << 1);
+}
+
+template <class Threshold>
+void find_luma_edges(const EdgeRows<float>& rows, const Threshold& threshold, std::uint8_t* edges, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float *above2 = rows.row[0] + i, *above = rows.row[1] + i, *here = rows.row[2] + i, *below = rows.row[3] + i;
+    const float to_left = std::abs(here[0] - here[-1]), to_top = std::abs(here[0] - above[0]);
+    const float greatest = std::max({to_left, to_top, std::abs(here[0] - here[1]), std::abs(here[0] - below[0]),
+                                     std::abs(here[-1] - here[-2]), std::abs(above[0] - above2[0])});
+    edges[i] = edges_of(to_left, to_top, greatest, least_of(threshold, edges + i));
+  }
+}
+
+void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
+  find_luma_edges(rows, threshold, edges, n);
+}
+
+void predicated_luma_edges(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
+                           std::uint8_t* edges, std::size_t n) {
+  find_luma_edges(rows, threshold, edges, n);
+}
+
+std::uint32_t difference(std::uint32_t a, std::uint32_t b) {
+  const auto channel = [&](int shift) {
+    return static_cast<std::uint32_t>(
+        std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
+  };
+  return std::max({channel(0), channel(8), channel(16)});
+}
+
+// The original compares the pixel itself, not its neighbour, with the one after that.
+template <class Threshold>
+void find_color_edges(const EdgeRows<std::uint32_t>& rows, const Threshold& threshold, std::uint8_t* edges,
+                      std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t* here = rows.row[2] + i;
+    const auto to = [&](std::uint32_t other) { return difference(*here, other); };
+    const std::uint32_t to_left = to(here[-1]), to_top = to(rows.row[1][i]);
+    const std::uint32_t greatest =
+        std::max({to_left, to_top, to(here[1]), to(rows.row[3][i]), to(here[-2]), to(rows.row[0][i])});
+    edges[i] = edges_of(to_left, to_top, greatest, least_of(threshold, edges + i));
+  }
+}
+
+void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n) {
+  find_color_edges(rows, threshold, edges, n);
+}
+
+void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const PredicatedThreshold<std::uint32_t>& threshold,
+                            std::uint8_t* edges, std::size_t n) {
+  find_color_edges(rows, threshold, edges, n);
+}
+
+}  // namespace
+
+const SmaaKernels smaa_kernels = {.luma_row = luma_row,
+                                  .luma_edges = luma_edges,
+                                  .color_edges = color_edges,
+                                  .predicated_luma_edges = predicated_luma_edges,
+                                  .predicated_color_edges = predicated_color_edges};
+
+}  // namespace scalar
+
+namespace antialias {
+namespace {
+
+/// Differences of depth or of the predication buffer, without adaptation.
+void detect_plain_edges(const Plane<float>& values, float threshold, EdgePlane& edges) {
+  for_rows(edges.height(), [&](int y) {
+    for (int x = 0; x < edges.width(); ++x) {
+      const float v = values(x, y);
+      const bool is_left = std::abs(v - values(std::max(x - 1, 0), y)) >= threshold;
+      const bool is_top = std::abs(v - values(x, std::max(y - 1, 0))) >= threshold;
+      *edges.at(x, y) = static_cast<std::uint8_t>(is_left | is_top << 1);
+    }
+  });
+}
+
+/// The thresholds of both kinds of borders, each rounded by `rounded` to what the kernels compare with.
+template <class T, class Rounded>
+PredicatedThreshold<T> predicated(const SmaaOptions& options, Rounded rounded) {
+  const double plain = options.predication_scale * options.threshold;
+  return {rounded(plain), rounded(plain * (1 - options.predication_strength))};
+}
+
+void detect_luma_edges(const Rgba8Image& image, const SmaaOptions& options, EdgePlane& edges) {
+  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const auto width = static_cast<std::size_t>(image.width());
+  const auto fill = [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); };
+  const auto rounded = [](double threshold) {
+    constexpr double white = 255 * 10000;
+    return static_cast<float>(std::round(threshold * white));
+  };
+  if (options.is_predicated) {
+    const auto thresholds = predicated<float>(options, rounded);
+    detect_edges<float>(edges, fill, [&](const EdgeRows<float>& rows, std::uint8_t* out) {
+      kernels.predicated_luma_edges(rows, thresholds, out, width);
+    });
+    return;
+  }
+  const float threshold = rounded(options.threshold);
+  detect_edges<float>(edges, fill, [&](const EdgeRows<float>& rows, std::uint8_t* out) {
+    kernels.luma_edges(rows, threshold, out, width);
+  });
+}
+
+void detect_color_edges(const Rgba8Image& image, const SmaaOptions& options, EdgePlane& edges) {
+  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const auto width = static_cast<std::size_t>(image.width());
+  const auto fill = [&](int y, std::uint32_t* row) { std::memcpy(row, image.row(y).data(), width * sizeof(Rgba8)); };
+  const auto rounded = [](double threshold) { return static_cast<std::uint32_t>(std::ceil(threshold * 255)); };
+  if (options.is_predicated) {
+    const auto thresholds = predicated<std::uint32_t>(options, rounded);
+    detect_edges<std::uint32_t>(edges, fill, [&](const EdgeRows<std::uint32_t>& rows, std::uint8_t* out) {
+      kernels.predicated_color_edges(rows, thresholds, out, width);
+    });
+    return;
+  }
+  const std::uint32_t threshold = rounded(options.threshold);
+  detect_edges<std::uint32_t>(edges, fill, [&](const EdgeRows<std::uint32_t>& rows, std::uint8_t* out) {
+    kernels.color_edges(rows, threshold, out, width);
+  });
+}
+
+}  // namespace
+
+EdgePlane smaa_edges(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options) {
+  EdgePlane edges(image.width(), image.height(), smaa_reach(options));
+  const bool is_depth = options.edges == SmaaOptions::Edges::Depth;
+  assert(!(is_depth && options.is_predicated));
+  if (is_depth || options.is_predicated) {
+    assert(depth != nullptr && depth->width() == image.width() && depth->height() == image.height());
+    const double least = is_depth ? options.threshold * 0.1 : options.predication_threshold;
+    detect_plain_edges(*depth, static_cast<float>(least), edges);
+  }
+  if (options.edges == SmaaOptions::Edges::Luma) detect_luma_edges(image, options, edges);
+  if (options.edges == SmaaOptions::Edges::Color) detect_color_edges(image, options, edges);
+  edges.extend();
+  return edges;
+}
+
+}  // namespace antialias
+}  // namespace zoneplate

@@ -1,0 +1,217 @@
+// SMAA: find edges by contrast, follow each to its ends, and give its pixels the areas that the line through them
+// takes.
+//
+// Keeps corners, finds diagonals, and smooths long edges better than FXAA. Weak where there is less than a pixel: thin
+// wires stay broken, and an edge beyond the search's length is taken for two. S2x mends the wires and steep edges; long
+// edges that stand alone come out farther from the truth than with one sample, for the original's areas of samples
+// beside the centre are the mean of each step's line and of two halves.
+//
+// Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
+// code v2.8: 1x, S2x and predicated thresholds. Edges are found on codes, colours are mixed in linear light.
+//
+// Predication doubles the thresholds except where a second buffer changes, by which textures are left alone and faint
+// outlines are still found. The original reads any buffer; of the depth buffer as it is tested it says that it serves
+// short ranges only. Here the buffer holds the logarithm of the distance along the view axis, so that 0.01 is one
+// percent everywhere, or the objects' numbers. Weak where neither changes: creases and coplanar borders.
+#include "zoneplate/antialias/post/smaa/smaa.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+/// A pixel mixed with its neighbours on the axis of its greater weight.
+Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
+  const auto at = [&](int i, int j) {
+    const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
+    if (mixes_light) return light_of(c);
+    return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
+  };
+  const bool is_horizontal = std::max(taken.right, taken.left) > std::max(taken.below, taken.above);
+  const float first = code_share[is_horizontal ? taken.right : taken.below];
+  const float second = code_share[is_horizontal ? taken.left : taken.above];
+  const Linear here = at(x, y);
+  const Linear a = is_horizontal ? at(x + 1, y) : at(x, y + 1), b = is_horizontal ? at(x - 1, y) : at(x, y - 1);
+  const float sum = first + second, u = first / sum, v = second / sum;
+  const auto mix = [&](float c, float p, float q) { return u * (c + (p - c) * first) + v * (c + (q - c) * second); };
+  const Linear out{mix(here.r, a.r, b.r), mix(here.g, a.g, b.g), mix(here.b, a.b, b.b), mix(here.a, a.a, b.a)};
+  if (mixes_light) return codes_of(out);
+  return {rounded_code(out.r), rounded_code(out.g), rounded_code(out.b), rounded_code(out.a)};
+}
+
+}  // namespace
+
+Rgba8Image apply_smaa(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options,
+                      Rgba8Image memory) {
+  if (image.empty()) return image;
+  const EdgePlane edges = smaa_edges(image, depth, options);
+  const SmaaWeigher weigher(edges, options);
+  Rgba8Image out = sized_like(image, std::move(memory));
+  mix_by_weights(
+      image, out, [&](int y, WeightRow& row) { weigher.weigh(y, row); },
+      [&](int x, int y, const TakenWeights& taken) { return mixed_pixel(image, x, y, taken, options.mixes_light); });
+  return out;
+}
+
+namespace {
+
+struct Preset {
+  std::string_view name;
+  double threshold;
+  int steps, diagonal_steps, corner_rounding;
+};
+constexpr Preset presets[] = {
+    {"low", 0.15, 4, 0, 100}, {"medium", 0.1, 8, 0, 100}, {"high", 0.1, 16, 8, 25}, {"ultra", 0.05, 32, 16, 25}};
+constexpr std::string_view preset_names[] = {"low", "medium", "high", "ultra"};
+constexpr std::string_view edges_names[] = {"luma", "color", "depth"};
+constexpr std::string_view modes[] = {"1x", "s2x"};
+constexpr std::string_view predications[] = {"none", "depth", "objects"};
+constexpr Param params[] = {
+    {.name = "preset", .meaning = "how faint and how long edges are found", .value = 2, .names = preset_names},
+    {.name = "edges", .meaning = "what edges are found in", .value = 0, .names = edges_names},
+    {.name = "mode", .meaning = "s2x: two samples a pixel, each treated as a picture", .value = 0, .names = modes},
+    {.name = "predication", .meaning = "what lowers the threshold where it changes", .value = 0, .names = predications},
+    {.name = "pthreshold",
+     .meaning = "least change of the logarithm of depth, or of object ids",
+     .value = 10,
+     .low = 0,
+     .high = 1000,
+     .decimals = 3},
+    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 20, .low = 10, .high = 50, .decimals = 1},
+    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 40, .low = 0, .high = 100, .decimals = 2},
+};
+
+/// What the predication buffer is made of.
+enum class Predication { None, Depth, Objects };
+
+SmaaOptions options_of(const Settings& s) {
+  SmaaOptions o;
+  for (const Preset& p : presets)
+    if (p.name == s.chosen("preset"))
+      o.threshold = p.threshold, o.steps = p.steps, o.diagonal_steps = p.diagonal_steps,
+      o.corner_rounding = p.corner_rounding;
+  o.edges = static_cast<SmaaOptions::Edges>(s.integer("edges"));
+  o.is_predicated = s.chosen("predication") != "none";
+  o.predication_threshold = s.number("pthreshold");
+  o.predication_scale = s.number("pscale");
+  o.predication_strength = s.number("pstrength");
+  return o;
+}
+
+/// A plane of the same size whose values are those of another plane, changed by `change`.
+template <class T, class Change>
+Plane<float> changed(const Plane<T>& from, Change change) {
+  Plane<float> out(from.width(), from.height());
+  for_rows(out.height(), [&](int y) { std::ranges::transform(from.row(y), out.row(y).begin(), change); });
+  return out;
+}
+
+class Smaa : public Resolver {
+ public:
+  Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
+  Request ask(int) override {
+    Request request;
+    request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
+    request.planes.object_id = predication_ == Predication::Objects;
+    request.halo = smaa_reach(options_);
+    request.works_on_shown = true;
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    const Plane<float> predicate = predication_buffer(frame);
+    const Plane<float>& depth = options_.is_predicated ? predicate : frame.reversed_depth;
+    return filter_codes(std::move(image), Mixing::Light,
+                        [&](const Rgba8Image& i) { return apply_smaa(i, &depth, options_); });
+  }
+
+ private:
+  /// Of depths the logarithms: their differences are relative ones, whatever the scene's size and the projection are.
+  Plane<float> predication_buffer(const Frame& frame) const {
+    if (predication_ == Predication::Depth)
+      return changed(frame.depth, [](float d) { return d < std::numeric_limits<float>::infinity() ? log(d) : d; });
+    if (predication_ == Predication::Objects)
+      return changed(frame.object_id, [](std::uint32_t id) { return static_cast<float>(id); });
+    return {};
+  }
+
+  SmaaOptions options_;
+  Predication predication_;
+};
+
+/// The mean of two shown pictures in linear light, premultiplied.
+Display mean_light(const Display& a, const Display& b) {
+  if (a == b) return a;
+  const float alpha = (a.a + b.a) / 2;
+  if (!(alpha > 0)) return {0, 0, 0, 0};
+  const auto mean = [&](float p, float q) {
+    return encode_srgb((decode_srgb(p) * a.a + decode_srgb(q) * b.a) / (2 * alpha));
+  };
+  return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
+}
+
+/// S2x: both samples of the standard pattern of two are shown and treated by themselves, with the areas of their
+/// places.
+class SmaaS2x : public Resolver {
+ public:
+  explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
+  Request ask(int) override {
+    Request request{.samples = standard_pattern(2), .rate = Rate::Surface, .weights = {}, .planes = {}};
+    request.planes.samples = true;
+    request.halo = smaa_reach(options_);
+    request.works_on_shown = true;
+    return request;
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    constexpr std::array<int, 4> slots[2] = {{1, 1, 1, 0}, {2, 2, 2, 0}};
+    DisplayImage treated[2];
+    for (std::size_t s = 0; s < 2; ++s) {
+      SmaaOptions options = options_;
+      options.slots = slots[s];
+      treated[s] = filter_codes(make_display(frame.sample_color[s], frame.display), Mixing::Light,
+                                [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
+    }
+    for_rows(image.height(), [&](int y) {
+      for (int x = 0; x < image.width(); ++x) image(x, y) = mean_light(treated[0](x, y), treated[1](x, y));
+    });
+    return image;
+  }
+
+ private:
+  SmaaOptions options_;
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  const SmaaOptions options = options_of(s);
+  const auto predication = static_cast<Predication>(s.integer("predication"));
+  if (options.is_predicated && (options.edges == SmaaOptions::Edges::Depth || s.chosen("mode") == "s2x"))
+    throw Error(Trouble::Usage, "smaa: predication is for luma and color edges of mode=1x");
+  if (!options.is_predicated && (s.is_given("pthreshold") || s.is_given("pscale") || s.is_given("pstrength")))
+    throw Error(Trouble::Usage, "smaa: pthreshold, pscale and pstrength are predication's: give predication=depth");
+  if (s.chosen("mode") == "s2x") return std::make_unique<SmaaS2x>(options);
+  return std::make_unique<Smaa>(options, predication);
+}
+
+constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "predication=depth"};
+
+}  // namespace
+
+Method smaa();
+
+Method smaa() {
+  return {.name = "smaa",
+          .summary = "edges followed to their ends, pixels mixed by the areas of the lines through them",
+          .source = "Jimenez 2012, SMAA 2.8",
+          .params = params,
+          .make = make,
+          .variants = variants};
+}
+
+}  // namespace zoneplate::antialias

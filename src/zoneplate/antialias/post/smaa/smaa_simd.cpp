@@ -1,0 +1,144 @@
+#include <hwy/highway.h>
+
+#include "zoneplate/antialias/post/edges_simd.h"
+#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace zoneplate::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Every product and sum is a whole number below 2^24, so that floats are exact.
+template <class D>
+HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_t i) {
+  const hn::RebindToSigned<D> di;
+  const hn::Repartition<std::uint8_t, D> bytes;
+  const auto pixels = hn::BitCast(di, hn::LoadU(bytes, rgba + 4 * i));
+  const auto mask = hn::Set(di, 255);
+  const auto r = hn::ConvertTo(d, hn::And(pixels, mask));
+  const auto g = hn::ConvertTo(d, hn::And(hn::ShiftRight<8>(pixels), mask));
+  const auto b = hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(pixels), mask));
+  const auto rg = hn::Add(hn::Mul(r, hn::Set(d, 2126.0f)), hn::Mul(g, hn::Set(d, 7152.0f)));
+  hn::StoreU(hn::Add(rg, hn::Mul(b, hn::Set(d, 722.0f))), d, luma + i);
+}
+
+void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
+  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_some(d, rgba, luma, i); });
+}
+
+/// The thresholds of the left and top borders of some pixels.
+template <class V>
+struct Least {
+  V left, top;
+};
+template <class D, class T>
+HWY_INLINE Least<hn::Vec<D>> least_of(D d, T threshold, const std::uint8_t*) {
+  return {hn::Set(d, threshold), hn::Set(d, threshold)};
+}
+/// `crossed`: what the edges hold before.
+template <class D, class T>
+HWY_INLINE Least<hn::Vec<D>> least_of(D d, const PredicatedThreshold<T>& threshold, const std::uint8_t* crossed) {
+  const hn::RebindToUnsigned<D> du;
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const auto bits = hn::PromoteTo(du, hn::LoadU(bytes, crossed));
+  const auto plain = hn::Set(d, threshold.plain), other = hn::Set(d, threshold.crossed);
+  const auto left = hn::TestBit(bits, hn::Set(du, 1)), top = hn::TestBit(bits, hn::Set(du, 2));
+  return {hn::IfThenElse(hn::RebindMask(d, left), other, plain), hn::IfThenElse(hn::RebindMask(d, top), other, plain)};
+}
+
+template <class D, class Threshold>
+HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, const Threshold& threshold, std::uint8_t* edges,
+                                std::size_t i) {
+  const hn::RebindToUnsigned<D> du;
+  const float *above2 = rows.row[0] + i, *above = rows.row[1] + i, *here = rows.row[2] + i, *below = rows.row[3] + i;
+  const auto least = least_of(d, threshold, edges + i);
+  const auto m = hn::LoadU(d, here), l = hn::LoadU(d, here - 1), t = hn::LoadU(d, above);
+  const auto to_left = hn::Abs(hn::Sub(m, l)), to_top = hn::Abs(hn::Sub(m, t));
+  const auto is_left = hn::Ge(to_left, least.left), is_top = hn::Ge(to_top, least.top);
+  if (hn::AllFalse(d, hn::Or(is_left, is_top))) {
+    const hn::Rebind<std::uint8_t, D> bytes;
+    hn::StoreU(hn::Zero(bytes), bytes, edges + i);
+    return;
+  }
+  const auto to_right = hn::Abs(hn::Sub(m, hn::LoadU(d, here + 1)));
+  const auto to_bottom = hn::Abs(hn::Sub(m, hn::LoadU(d, below)));
+  const auto far_left = hn::Abs(hn::Sub(l, hn::LoadU(d, here - 2)));
+  const auto far_top = hn::Abs(hn::Sub(t, hn::LoadU(d, above2)));
+  const auto near = hn::Max(hn::Max(to_left, to_top), hn::Max(to_right, to_bottom));
+  const auto greatest = hn::Max(near, hn::Max(far_left, far_top));
+  const auto left = hn::And(is_left, hn::Ge(hn::Add(to_left, to_left), greatest));
+  const auto top = hn::And(is_top, hn::Ge(hn::Add(to_top, to_top), greatest));
+  store_edges(du, hn::RebindMask(du, left), hn::RebindMask(du, top), edges + i);
+}
+
+void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
+  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+}
+
+void predicated_luma_edges(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
+                           std::uint8_t* edges, std::size_t n) {
+  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+}
+
+/// The greatest difference of the three colours of each pixel.
+template <class D, class V>
+HWY_INLINE V difference(D d, V a, V b) {
+  const hn::Repartition<std::uint8_t, D> bytes;
+  const auto x = hn::BitCast(bytes, a), y = hn::BitCast(bytes, b);
+  const auto each = hn::BitCast(d, hn::Or(hn::SaturatedSub(x, y), hn::SaturatedSub(y, x)));
+  const auto mask = hn::Set(d, 255u);
+  const auto r = hn::And(each, mask), g = hn::And(hn::ShiftRight<8>(each), mask);
+  return hn::Max(r, hn::Max(g, hn::And(hn::ShiftRight<16>(each), mask)));
+}
+
+template <class D, class Threshold>
+HWY_INLINE void color_edges_some(D d, const EdgeRows<std::uint32_t>& rows, const Threshold& threshold,
+                                 std::uint8_t* edges, std::size_t i) {
+  const hn::RebindToSigned<D> di;
+  const std::uint32_t *above2 = rows.row[0] + i, *above = rows.row[1] + i, *here = rows.row[2] + i;
+  const auto m = hn::LoadU(d, here);
+  const auto to = [&](const std::uint32_t* other)
+                      HWY_ATTR { return hn::BitCast(di, difference(d, m, hn::LoadU(d, other))); };
+  const auto least = least_of(d, threshold, edges + i);
+  const auto below_left = hn::Sub(hn::BitCast(di, least.left), hn::Set(di, 1));
+  const auto below_top = hn::Sub(hn::BitCast(di, least.top), hn::Set(di, 1));
+  const auto to_left = to(here - 1), to_top = to(above), far_left = to(here - 2), far_top = to(above2);
+  const auto to_right = to(here + 1), to_bottom = to(rows.row[3] + i);
+  const auto near = hn::Max(hn::Max(to_left, to_top), hn::Max(to_right, to_bottom));
+  const auto limit = hn::Sub(hn::Max(near, hn::Max(far_left, far_top)), hn::Set(di, 1));
+  const auto left = hn::And(hn::Gt(to_left, below_left), hn::Gt(hn::Add(to_left, to_left), limit));
+  const auto top = hn::And(hn::Gt(to_top, below_top), hn::Gt(hn::Add(to_top, to_top), limit));
+  store_edges(d, hn::RebindMask(d, left), hn::RebindMask(d, top), edges + i);
+}
+
+template <class Threshold>
+HWY_INLINE void find_color_edges(const EdgeRows<std::uint32_t>& rows, const Threshold& threshold, std::uint8_t* edges,
+                                 std::size_t n) {
+  const hn::CappedTag<std::uint32_t, 8> full;
+  const hn::CappedTag<std::uint32_t, 1> one;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) color_edges_some(full, rows, threshold, edges, i);
+  for (; i < n; ++i) color_edges_some(one, rows, threshold, edges, i);
+}
+
+void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n) {
+  find_color_edges(rows, threshold, edges, n);
+}
+
+void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const PredicatedThreshold<std::uint32_t>& threshold,
+                            std::uint8_t* edges, std::size_t n) {
+  find_color_edges(rows, threshold, edges, n);
+}
+
+}  // namespace
+
+}  // namespace zoneplate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const SmaaKernels SmaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
+                                                .luma_edges = HWY_NAMESPACE::luma_edges,
+                                                .color_edges = HWY_NAMESPACE::color_edges,
+                                                .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,
+                                                .predicated_color_edges = HWY_NAMESPACE::predicated_color_edges};
+}  // namespace zoneplate

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zoneplate/antialias/reference/analytic/polygon.h"
+#include "zoneplate/raster/fragment/fragment_batcher.h"
+
+namespace zoneplate::antialias {
+
+/// Asks how far the alpha of masked triangles is above their cutoffs, for one footprint.
+class AlphaTester {
+ public:
+  AlphaTester(const ProjectedDraws& projected, const PointShader& shader, Isa isa, Target target, float spacing)
+      : target_(std::move(target)), shader_(projected, shader, isa, target_) {
+    target_.spacing = spacing;
+  }
+  AlphaTester(const AlphaTester&) = delete;  // the shader looks at this target
+
+  /// By point: alpha less the cutoff. The surface is there where that is >= 0.
+  std::span<const float> margins(std::span<const Point> points) {
+    shader_.find_alpha_margins(points, margins_);
+    return margins_;
+  }
+  std::uint64_t asked() const { return shader_.shaded(); }
+
+ private:
+  Target target_;
+  PointBatcher shader_;
+  std::vector<float> margins_;
+};
+
+/// Where masked triangles are there: the line where alpha crosses the cutoff, as a polyline, in parts of a pixel.
+///
+/// A part is one of grid × grid squares. Where alpha at its four corners lies on one side of the cutoff, and alpha at
+/// its centre for the footprint of the whole part hardly differs from their mean, the triangle is there all over the
+/// part, or nowhere in it. Else the part is divided into 4 × 4 squares, and where the corners of one differ the line
+/// runs straight between its crossings of the square's sides (marching squares). A crossing is found by bisection to
+/// 1/256 pixel and interpolated from there.
+///
+/// Alpha     is asked for a footprint of 1/16 of a part, and beyond the triangle's sides, whose planes go on.
+/// Errors    a smooth edge is off by its sagitta over a quarter of a part; an edge at which alpha jumps (textures that
+///           are not interpolated) by 1/512 pixel. Holes and islands smaller than a quarter of a part may be missed.
+/// Source    Lorensen and Cline, Marching Cubes, SIGGRAPH 1987, in two dimensions.
+class AlphaEdges {
+ public:
+  static constexpr int cells = 4;  ///< squares along the side of a part
+
+  AlphaEdges(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target, int grid,
+             float part_footprint, float footprint);
+
+  void clear() { asked_.clear(); }
+  std::size_t size() const { return asked_.size(); }
+  /// Forgets what was asked after the first `count`.
+  void shrink(std::size_t count) { asked_.resize(count); }
+  /// Asks for a triangle in a part of the pixel (x, y); gives the number of the answer.
+  std::uint32_t ask(int x, int y, std::int32_t id, std::uint32_t part);
+  /// Answers all that was asked.
+  void solve();
+
+  /// Splits a polygon in the part of answer `number`: calls there(p) and away(p) with its pieces.
+  /// Requires  not more than 12 corners.
+  template <class There, class Away>
+  void split(std::uint32_t number, const ConvexPolygon& polygon, There there, Away away) const;
+
+  std::uint64_t shaded() const { return coarse_.asked() + fine_.asked(); }
+
+ private:
+  static constexpr std::size_t corners = (cells + 1) * (cells + 1);
+  static constexpr std::size_t sides = 2 * cells * (cells + 1);  ///< level ones row by row, then upright ones
+
+  struct Asked {
+    std::int32_t x, y;  ///< the pixel, in 1/256 pixel
+    std::int32_t id;
+    int column, row;  ///< of the part
+    bool is_there = false;
+    std::int32_t edge = -1;  ///< of edges_, where the answer is not the same all over the part
+  };
+  struct Edge {
+    std::uint32_t asked;
+    std::array<float, corners> margin;  ///< row by row
+    std::array<float, sides> crossing;  ///< where it is on a side, from its left or upper end: in [0, 1]
+  };
+  /// A side of a square that alpha's edge crosses, between two places of the lattice.
+  struct Crossing {
+    std::uint32_t edge, side;
+    Point low, high;  ///< in x or y
+    float margin_low, margin_high;
+    std::int32_t begin, length;
+  };
+
+  std::int32_t place(int cell) const;
+  Point corner_point(const Asked& a, int column, int row) const;
+  void find_mixed();
+  void find_corners();
+  void find_crossings();
+  void add_crossing(std::uint32_t edge, std::uint32_t side, int column, int row, bool is_upright);
+  void bisect();
+  Place crossing_place(const Asked& a, const Edge& e, int column, int row, bool is_upright) const;
+  /// Lines that cut off what is there of a square (`keeps`), or what is away.
+  struct Cuts {
+    bool keeps;
+    int count = 0;
+    std::array<Line, 2> line;
+  };
+  Cuts cuts_of(const Asked& a, const Edge& e, int column, int row) const;
+
+  const int grid_;
+  AlphaTester coarse_, fine_;
+  std::vector<Asked> asked_;
+  std::vector<Edge> edges_;
+  std::vector<Crossing> crossings_;
+  std::vector<Point> points_, centres_;
+};
+
+template <class There, class Away>
+void AlphaEdges::split(std::uint32_t number, const ConvexPolygon& polygon, There there, Away away) const {
+  const Asked& a = asked_[number];
+  if (a.edge < 0) return a.is_there ? there(polygon) : away(polygon);
+  const Edge& e = edges_[static_cast<std::size_t>(a.edge)];
+  const double part = 1.0 / grid_;
+  for_grid(polygon, {a.column * part, a.row * part}, part / cells, cells,
+           [&](int column, int row, const ConvexPolygon& square) {
+             const Cuts cuts = cuts_of(a, e, column, row);
+             ConvexPolygon rest = square, inside, outside;
+             for (int i = 0; i < cuts.count && !rest.empty(); ++i) {
+               cut(rest, cuts.line[static_cast<std::size_t>(i)], inside, outside);
+               if (!inside.empty()) cuts.keeps ? there(inside) : away(inside);
+               rest = outside;
+             }
+             if (!rest.empty()) cuts.keeps ? away(rest) : there(rest);
+           });
+}
+
+}  // namespace zoneplate::antialias

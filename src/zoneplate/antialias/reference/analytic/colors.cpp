@@ -1,0 +1,58 @@
+#include "zoneplate/antialias/reference/analytic/colors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zoneplate::antialias {
+namespace {
+
+Point point_of(const Fragment& f, std::int32_t id) {
+  // A sliver too thin for its own area has its centroid anywhere in the pixel.
+  const AreaMoments& m = f.moments;
+  const auto within = [&](double moment) {
+    const double at = m.area > 0 ? moment / m.area : 0.5;
+    return static_cast<std::int32_t>(std::floor((at > 0 ? at < 1 ? at : 1.0 : 0.0) * 256 + 0.5));
+  };
+  return {f.x * 256 + within(m.x), f.y * 256 + within(m.y), id, 0, 0};
+}
+
+}  // namespace
+
+FragmentColors::Group::Group(const ProjectedDraws& projected, const PointShader& point_shader, Isa isa, Target of,
+                             float spacing)
+    : target(std::move(of)), shader(projected, point_shader, isa, target) {
+  target.spacing = spacing;
+}
+
+FragmentColors::FragmentColors(const ProjectedDraws& projected, const PointShader& shader, Isa isa,
+                               const Target& target, Footprints footprints)
+    : parts_(projected, shader, isa, target, footprints.part), fine_(projected, shader, isa, target, footprints.fine) {}
+
+void FragmentColors::find(const FragmentTable& table) {
+  seen_.clear();
+  for (Group* group : {&parts_, &fine_}) group->points.clear(), group->place.clear();
+  for (std::size_t i = 0; i < table.fragments().size(); ++i) {
+    const Fragment& f = table.fragments()[i];
+    Group& group = f.is_fine ? fine_ : parts_;
+    for (const Layer& layer : table.layers_of(f)) {
+      group.points.push_back(point_of(f, layer.id));
+      group.place.push_back(seen_.size());
+      seen_.push_back({i, layer.surface != Surface::Blended, {}});
+    }
+  }
+  shade(parts_);
+  shade(fine_);
+  colors_.assign(table.fragments().size(), Linear{0, 0, 0, 0});
+  for (std::size_t i = seen_.size(); i-- > 0;) {
+    const Seen& layer = seen_[i];
+    Linear& color = colors_[layer.fragment];
+    color = layer.is_surface ? layer.color : layer.color + color * (1 - layer.color.a);
+  }
+}
+
+void FragmentColors::shade(Group& group) {
+  group.shader.shade(group.points, group.colors, nullptr);
+  for (std::size_t i = 0; i < group.points.size(); ++i) seen_[group.place[i]].color = group.colors[i];
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zoneplate/antialias/post/display_light.h"
+#include "zoneplate/antialias/reference/analytic/alpha.h"
+#include "zoneplate/antialias/reference/analytic/cells.h"
+#include "zoneplate/antialias/reference/analytic/colors.h"
+#include "zoneplate/antialias/reference/analytic/net.h"
+
+namespace zoneplate::antialias {
+
+/// Samples the pixels that are too crowded for polygons: exact depths and alpha at stratified places, as many as the
+/// spread of their light asks for.
+///
+/// The samples of a round form four groups, each stratified by itself; the spread of the groups' means gives a standard
+/// error, the greatest of the channels. It is too great as a rule, because all samples together are stratified finer.
+/// A pixel takes 256 samples, then 1,024, then 4,096, until that estimate is at most `bound`, or until more than
+/// `most_shaded` layers were shaded for it. What the samples of a
+/// part of the pixel see of one surface is shaded once, at its centroid.
+///
+/// Units     `bound` and the errors: of the light, or of what the display shows of it.
+/// Exact     the same bits for any order of the triangles, any crop: places depend on the pixel's coordinates alone.
+/// Cost      time near n log n for n triangles; memory for the layers of a few thousand samples at most, and of one
+///           sample at least.
+class CrowdSampler {
+ public:
+  static constexpr double bound = 1.0 / 512;
+  static constexpr std::size_t most_shaded = std::size_t{1} << 17;
+
+  /// What a pixel gives to one around it: weighted light and alpha, and the square of its standard error.
+  struct Share {
+    double r = 0, g = 0, b = 0, a = 0, variance = 0;
+  };
+
+  CrowdSampler(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target,
+               const PolynomialFilter& filter, int shading, int grid, Footprints footprints);
+
+  /// Samples the pixel (x, y).
+  void find(std::span<const PixelTriangle> triangles, int x, int y, const ShownLight* shown);
+
+  /// By pixel around, rows from the top.
+  std::span<const Share> shares() const { return shares_; }
+  /// The share of the pixel where a surface hides what is behind.
+  double covered() const { return covered_; }
+
+  std::uint64_t shaded() const { return colors_.shaded() + alpha_.asked(); }
+  std::uint64_t samples() const { return samples_taken_; }
+
+ private:
+  /// A triangle within a square of the pixel.
+  struct Member {
+    std::uint32_t number;
+    bool covers;
+    double greatest_depth;
+  };
+  /// A triangle at a sample.
+  struct Hit {
+    double depth;
+    std::uint32_t number;
+  };
+  struct Sample {
+    double x, y;
+    std::uint32_t group;
+    std::uint32_t first, hits, next;  ///< in hits_
+    std::uint32_t seen;               ///< so many of its hits, moved to the front, are seen
+  };
+
+  void take_round(std::size_t round);
+  void visit(std::size_t round, int level, std::uint32_t column, std::uint32_t row);
+  void gather(int level, Place centre, double half);
+  void test_samples(std::size_t round, int level, std::uint32_t column, std::uint32_t row);
+  void add_hits(SampleNet::Sample place, std::span<const Member> members);
+  void finish_samples();
+  bool advance(Sample& sample);
+  void store(const Sample& sample);
+  void fold();
+  void join_groups();
+  void estimate(std::size_t count);
+
+  const PolynomialFilter& filter_;
+  const int shading_, grid_;
+  const SampleNet net_;
+  AlphaTester alpha_;
+  FragmentColors colors_;
+  std::vector<double> density_;  ///< by square of 8 × 8: the filter's mean weight there, for each pixel around
+
+  int x_ = 0, y_ = 0;  ///< the pixel at work
+  SampleNet::Shift shift_;
+  std::span<const PixelTriangle> triangles_;
+  bool is_fine_ = false;  ///< some are masked: the pixel has grid × grid parts, else shading × shading
+  std::vector<std::vector<Member>> members_;  ///< by level
+  std::vector<Hit> hits_;
+  std::vector<Sample> samples_;
+  std::vector<std::uint32_t> waiting_;  ///< samples whose next hit is masked
+  std::vector<Point> points_;
+  std::vector<Layer> layers_;
+  FragmentTable table_;     ///< weights by group and pixel around
+  std::vector<Share> sum_;  ///< of what was shaded, by group and pixel around
+  std::size_t layers_shaded_ = 0;
+  std::vector<Share> shares_;
+  double covered_ = 0;
+  const ShownLight* shown_ = nullptr;
+  std::uint64_t samples_taken_ = 0;
+};
+
+}  // namespace zoneplate::antialias

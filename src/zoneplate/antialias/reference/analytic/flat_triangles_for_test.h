@@ -1,0 +1,146 @@
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "zoneplate/antialias/reference/analytic/draw.h"
+#include "zoneplate/antialias/reference/converged/draw.h"
+#include "zoneplate/math/random.h"
+
+namespace zoneplate::antialias {
+
+/// A corner of a flat triangle: pixels from the picture's top-left corner, and reversed depth.
+struct FlatCorner {
+  double x, y;
+  float z = 0.5f;
+};
+
+/// Triangles of one colour each, which pictures of a power of two of pixels a side show exactly where they were put.
+class FlatTriangles : public PointShader {
+ public:
+  FlatTriangles(int width, int height) : width_(width), height_(height) {}
+
+  void add(FlatCorner p, FlatCorner q, FlatCorner r, Linear color, Surface surface = Surface::Opaque) {
+    auto& list = lists_[static_cast<std::size_t>(surface)];
+    for (const FlatCorner c : {p, q, r})
+      list.clip.push_back(
+          {static_cast<float>(2 * c.x / width_ - 1), static_cast<float>(1 - 2 * c.y / height_), c.z, 1});
+    list.color.push_back(color);
+  }
+  void add_quad(FlatCorner p, FlatCorner q, FlatCorner r, FlatCorner s, Linear color,
+                Surface surface = Surface::Opaque) {
+    add(p, q, r, color, surface);
+    add(p, r, s, color, surface);
+  }
+  /// The same triangles of each surface, numbered the other way round.
+  FlatTriangles reversed() const {
+    FlatTriangles out(width_, height_);
+    for (std::size_t s = 0; s < 3; ++s)
+      for (std::size_t i = lists_[s].color.size(); i-- > 0;) {
+        out.lists_[s].color.push_back(lists_[s].color[i]);
+        for (std::size_t k = 0; k < 3; ++k) out.lists_[s].clip.push_back(lists_[s].clip[3 * i + k]);
+      }
+    return out;
+  }
+  /// Of masked ones, by place in 1/256 pixel, the change of the first weight over the point's footprint, and number
+  /// among the masked ones. The cutoff is 1/2.
+  std::function<float(std::int32_t x, std::int32_t y, float dbdx, std::uint32_t number)> alpha_at;
+
+  LinearImage analytic(const AnalyticOptions& options = {}, std::optional<Crop> crop = {},
+                       Plane<float>* coverage = nullptr, Plane<float>* error = nullptr) const {
+    return with_target(crop, coverage, error, [&](const Drawing& d) { draw_analytic(d, options); });
+  }
+  LinearImage converged(const ConvergedOptions& options, Plane<float>* error = nullptr,
+                        std::optional<Crop> crop = {}) const {
+    return with_target(crop, nullptr, error, [&](const Drawing& d) { draw_converged(d, options); });
+  }
+  LinearImage sampled(const SamplePattern& pattern) const {
+    return with_target({}, nullptr, nullptr, [&](const Drawing& d) {
+      Target target = d.target;
+      target.samples = pattern;
+      target.is_per_sample = true;
+      rasterize(d.draws, *this, {}, target);
+    });
+  }
+  RenderOptions render_options;
+  Isa isa = best_isa();
+  mutable RasterCounts counts;  ///< of the last picture that `analytic` or `converged` drew
+
+  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+    for (int i = 0; i < batch.padded(); ++i) {
+      const std::size_t told = batch.told(static_cast<std::size_t>(i));
+      const Linear c = lists_[batch.instance[told]].color[number_of(batch, told)];
+      out.r[i] = c.r, out.g[i] = c.g, out.b[i] = c.b, out.a[i] = c.a;
+    }
+  }
+  float alpha(const Batch& batch, float* out) const override {
+    for (int i = 0; i < batch.padded(); ++i)
+      out[i] = alpha_at
+                   ? alpha_at(batch.x[i], batch.y[i], batch.dbdx[0][i],
+                              static_cast<std::uint32_t>(number_of(batch, batch.told(static_cast<std::size_t>(i)))))
+                   : 1.0f;
+    return 0.5f;
+  }
+
+ private:
+  struct List {
+    std::vector<float4> clip;
+    std::vector<Linear> color;
+  };
+
+  /// Triangles are numbered through the lists; three vertices each.
+  std::size_t number_of(const Batch& batch, std::size_t told) const {
+    std::size_t number = batch.triangle[told];
+    for (std::size_t s = 0; s < batch.instance[told]; ++s) number -= lists_[s].clip.size() / 3;
+    return number;
+  }
+
+  template <class Use>
+  LinearImage with_target(std::optional<Crop> crop, Plane<float>* coverage, Plane<float>* error, Use use) const {
+    std::vector<Draw> draws;
+    std::vector<std::uint32_t> index[3];
+    for (std::size_t s = 0; s < 3; ++s) {
+      for (std::uint32_t i = 0; i < lists_[s].clip.size(); ++i) index[s].push_back(i);
+      Draw d;
+      d.clip = lists_[s].clip;
+      d.index = index[s];
+      d.surface = static_cast<Surface>(s);
+      d.material = static_cast<int>(s);
+      d.instance = static_cast<std::uint32_t>(s);
+      if (!d.clip.empty()) draws.push_back(d);
+    }
+    const Crop c = crop.value_or(Crop{0, 0, width_, height_});
+    LinearImage image(c.width, c.height, Linear{0, 0, 0, 0});
+    Target target;
+    target.viewport = {width_, height_};
+    target.x = c.x, target.y = c.y, target.width = c.width, target.height = c.height;
+    target.color = &image;
+    if (coverage) *coverage = Plane<float>(c.width, c.height), target.coverage = coverage;
+    if (error) *error = Plane<float>(c.width, c.height);
+    const RasterRules rules{.isa = isa};
+    counts = {};
+    use(Drawing{draws, *this, rules, target, render_options, error, counts});
+    return image;
+  }
+
+  int width_, height_;
+  List lists_[3];  ///< by Surface
+};
+
+/// Numbers in [low, high) that follow from a seed.
+class Numbers {
+ public:
+  explicit Numbers(std::uint32_t seed) : seed_(seed) {}
+  double operator()(double low, double high) { return low + (high - low) * unit_float(hash(seed_, count_++)); }
+
+ private:
+  std::uint32_t seed_, count_ = 0;
+};
+
+inline bool same_bits(const LinearImage& p, const LinearImage& q) {
+  return p.values().size() == q.values().size() &&
+         std::memcmp(p.values().data(), q.values().data(), p.values().size_bytes()) == 0;
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zoneplate/antialias/reference/analytic/cells.h"
+#include "zoneplate/antialias/reference/analytic/filter.h"
+
+namespace zoneplate::antialias {
+
+/// A layer of a fragment.
+struct Layer {
+  std::int32_t id;  ///< triangle
+  Surface surface;
+  bool operator==(const Layer&) const = default;
+};
+
+/// A part of a pixel with one order of layers, shaded at one place: the centroid of its area.
+struct Fragment {
+  int x = 0, y = 0;                           ///< the pixel
+  std::uint32_t part = 0;                     ///< of the pixel's grid, if it is cut by one
+  std::uint32_t first_layer = 0, layers = 0;  ///< near to far; one that is not blended is the last
+  AreaMoments moments;
+  bool is_fine = false;  ///< its grid is the finer one, of masked surfaces
+};
+
+/// Fragments in the order of their pixels, each with so many weights. What of a part of a pixel shows the same layers
+/// is one fragment.
+class FragmentTable {
+ public:
+  explicit FragmentTable(std::size_t weights) : weights_each_(weights) {}
+
+  void clear();
+  /// What is found from now on is of the pixel (x, y).
+  void begin_pixel(int x, int y);
+  /// Forgets the fragments of this pixel.
+  void abandon_pixel();
+
+  /// The number of the pixel's fragment of this part with these layers, which is new and empty if there was none.
+  std::size_t find(std::uint32_t part, bool is_fine, std::span<const Layer> layers);
+  /// Adds a fragment that no later `find` finds.
+  void append(const Fragment& fragment, Layer layer, std::span<const double> weights);
+
+  std::span<const Fragment> fragments() const { return fragments_; }
+  std::size_t layer_count() const { return layers_.size(); }
+  Fragment& fragment(std::size_t i) { return fragments_[i]; }
+  std::span<const Layer> layers_of(const Fragment& f) const {
+    return std::span(layers_).subspan(f.first_layer, f.layers);
+  }
+  std::span<const double> weights_of(std::size_t i) const {
+    return std::span(weights_).subspan(i * weights_each_, weights_each_);
+  }
+  std::span<double> weights_of(std::size_t i) { return std::span(weights_).subspan(i * weights_each_, weights_each_); }
+
+ private:
+  const std::size_t weights_each_;
+  std::vector<Fragment> fragments_;
+  std::vector<double> weights_;
+  std::vector<Layer> layers_;
+  int x_ = 0, y_ = 0;                                     ///< the pixel at work
+  std::size_t first_of_pixel_ = 0, layers_of_pixel_ = 0;  ///< fragments and layers before it
+  std::vector<std::int32_t> head_;                        ///< its fragments by a hash: the last one, or -1
+  std::vector<std::int32_t> next_;                        ///< by fragment: an earlier one of the same hash, or -1
+};
+
+/// Makes fragments of the polygons of pixels, with their filter weights.
+///
+/// A pixel's polygons are cut by a grid of `shading` × `shading` cells.
+class FragmentList {
+ public:
+  FragmentList(const PolynomialFilter& filter, int shading);
+
+  void clear() { table_.clear(); }
+  void begin_pixel(int x, int y) { table_.begin_pixel(x, y); }
+  void abandon_pixel() { table_.abandon_pixel(); }
+  void add(const ConvexPolygon& polygon, std::span<const Layer> layers);
+  /// A polygon that lies in one part of the grid of masked surfaces.
+  void add_fine(const ConvexPolygon& polygon, std::uint32_t part, std::span<const Layer> layers);
+  /// A pixel that one opaque triangle covers.
+  void add_whole(std::int32_t id, int x, int y);
+
+  const FragmentTable& table() const { return table_; }
+  std::span<const Fragment> fragments() const { return table_.fragments(); }
+  /// Of fragment number i: for each pixel around, rows from the top.
+  std::span<const double> weights_of(std::size_t i) const { return table_.weights_of(i); }
+
+ private:
+  void add_part(const ConvexPolygon& polygon, std::uint32_t part, bool is_fine, std::span<const Layer> layers);
+
+  const PolynomialFilter& filter_;
+  const int shading_;
+  FragmentTable table_;
+  std::vector<AreaMoments> whole_;  ///< of the grid's parts of a whole pixel
+  std::vector<double> whole_weights_;
+};
+
+}  // namespace zoneplate::antialias

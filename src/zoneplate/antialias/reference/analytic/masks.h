@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zoneplate/antialias/reference/analytic/alpha.h"
+#include "zoneplate/antialias/reference/analytic/colors.h"
+#include "zoneplate/antialias/reference/analytic/fragments.h"
+
+namespace zoneplate::antialias {
+
+/// The polygons of pixels that masked surfaces lie over, until alpha is known: cut by a grid, then along alpha's edges.
+class MaskedPolygons {
+ public:
+  static constexpr std::size_t most_triangles = 8;  ///< masked, in a pixel
+
+  MaskedPolygons(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target, int grid,
+                 Footprints footprints)
+      : grid_(grid), edges_(projected, shader, isa, target, grid, footprints.alpha_part, footprints.alpha) {}
+
+  void clear();
+  /// Polygons and alphas that are asked.
+  std::size_t size() const { return stored_.size() + edges_.size(); }
+  void begin_pixel(int x, int y);
+  /// Forgets the polygons of this pixel.
+  void abandon_pixel();
+  /// Stores a polygon with its layers. False, and nothing is stored, past the limits of a pixel.
+  bool add(const ConvexPolygon& polygon, std::span<const Layer> layers);
+
+  /// Asks the alphas and adds what is seen to the list, pixel by pixel.
+  void resolve(FragmentList& out);
+
+  std::uint64_t shaded() const { return edges_.shaded(); }
+
+ private:
+  struct Stored {
+    ConvexPolygon polygon;
+    int x, y;
+    std::uint32_t part;
+    std::uint32_t first_layer, layers;
+    std::uint32_t first_answer;  ///< of its masked layers, in their order
+  };
+
+  bool knows_masked(std::span<const Layer> layers);
+  void store(const ConvexPolygon& polygon, std::uint32_t part, std::span<const Layer> layers);
+  std::uint32_t answer_of(std::int32_t id, std::uint32_t part);
+  void walk(const Stored& stored, const ConvexPolygon& polygon, std::uint32_t layer, std::uint32_t answer,
+            FragmentList& out);
+
+  const int grid_;
+  AlphaEdges edges_;
+  std::vector<Stored> stored_;
+  std::vector<Layer> layers_;
+  std::vector<std::uint32_t> answers_;  ///< numbers in edges_
+  std::vector<Layer> seen_;             ///< in front of the piece at work
+
+  int x_ = 0, y_ = 0;  ///< the pixel at work
+  std::size_t stored_before_ = 0, layers_before_ = 0, answers_before_ = 0, asked_before_ = 0;
+  std::vector<std::int32_t> masked_;         ///< its masked triangles
+  std::vector<std::uint32_t> known_answer_;  ///< by masked triangle and part: the answer's number and one, or 0
+};
+
+}  // namespace zoneplate::antialias

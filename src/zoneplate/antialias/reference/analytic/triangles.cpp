@@ -1,0 +1,143 @@
+#include "zoneplate/antialias/reference/analytic/triangles.h"
+
+#include <algorithm>
+
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/coverage/coverage.h"
+#include "zoneplate/raster/geometry/clip.h"
+#include "zoneplate/raster/geometry/triangle_facing.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr std::int32_t part_size = 4096;
+
+bool is_culled(const Draw& draw, bool is_clockwise) {
+  return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
+}
+
+}  // namespace
+
+TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, int reach)
+    : projected_(projected), target_(target), rules_(rules), reach_(reach) {
+  first_column_ = target.x / tile_size;
+  first_row_ = target.y / tile_size;
+  columns_ = (target.x + target.width - 1) / tile_size - first_column_ + 1;
+  rows_ = (target.y + target.height - 1) / tile_size - first_row_ + 1;
+  for (std::size_t d = 0; d < projected.draws.size(); ++d)
+    for (std::int32_t t = projected.first_triangle[d]; t < projected.first_triangle[d + 1];
+         t += std::min(part_size, projected.first_triangle[d + 1] - t))
+      parts_.push_back({d, t, t + std::min(part_size, projected.first_triangle[d + 1] - t)});
+
+  const auto tiles = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  counter_ = std::make_unique<std::atomic<std::uint32_t>[]>(tiles);
+  std::atomic<std::uint64_t> count = 0;
+  parallel_for(parts_.size(), [&](std::size_t i) {
+    std::uint64_t here = 0;
+    for_triangles(parts_[i], [&](std::int32_t, const Box& box) {
+      ++here;
+      for_tiles(box, [&](std::size_t tile) { counter_[tile].fetch_add(1, std::memory_order_relaxed); });
+    });
+    count += here;
+  });
+  count_ = count;
+  first_.assign(tiles + 1, 0);
+  for (std::size_t i = 0; i < tiles; ++i) first_[i + 1] = first_[i] + counter_[i];
+}
+
+/// Calls use(p, q, r, is_piece) for what is left of a triangle after culling and clipping. Of a clipped one, a sliver
+/// that snapping turned over is covered by the pieces beside it.
+template <class Use>
+void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) const {
+  const Draw& draw = projected_.draws[number];
+  const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(id - projected_.first_triangle[number])];
+  const ScreenVertex p = projected_.vertex(number, v[0]), q = projected_.vertex(number, v[1]),
+                     r = projected_.vertex(number, v[2]);
+  if (!p.needs_clipping() && !q.needs_clipping() && !r.needs_clipping()) {
+    const std::int64_t area = doubled_area(p, q, r);
+    if (area != 0 && !is_culled(draw, area > 0)) use(p, q, r, false);
+    return;
+  }
+  const ClippedPolygon polygon =
+      clip_triangle(draw.clip_position(v[0]), draw.clip_position(v[1]), draw.clip_position(v[2]), rules_.viewport);
+  if (polygon.count < 3) return;
+  const TriangleFacing facing = face_of(projected_, number, id, rules_.viewport);
+  if (facing.is_degenerate || is_culled(draw, facing.is_clockwise)) return;
+  for (int i = 2; i < polygon.count; ++i) {
+    const ScreenVertex& first = polygon.vertex[0];
+    const ScreenVertex& second = polygon.vertex[static_cast<std::size_t>(i - 1)];
+    const ScreenVertex& third = polygon.vertex[static_cast<std::size_t>(i)];
+    const std::int64_t area = doubled_area(first, second, third);
+    if (area != 0 && (area > 0) == facing.is_clockwise) use(first, second, third, true);
+  }
+}
+
+/// Calls use(id, box) for the triangles of a part that touch the target; the box is that of all pieces.
+template <class Use>
+void TileTriangles::for_triangles(const Part& part, Use use) const {
+  const int centre_x = rules_.viewport.width * 128, centre_y = rules_.viewport.height * 128;
+  for (std::int32_t id = part.begin; id < part.end; ++id) {
+    bool is_seen = false;
+    Box box{0, 0, 0, 0};
+    for_pieces(part.draw, id, [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, bool) {
+      const Box here{(std::min({p.x, q.x, r.x}) + centre_x) >> 8, (std::min({p.y, q.y, r.y}) + centre_y) >> 8,
+                     (std::max({p.x, q.x, r.x}) + centre_x) >> 8, (std::max({p.y, q.y, r.y}) + centre_y) >> 8};
+      box = is_seen ? Box{std::min(box.left, here.left), std::min(box.top, here.top), std::max(box.right, here.right),
+                          std::max(box.bottom, here.bottom)}
+                    : here;
+      is_seen = true;
+    });
+    if (is_seen && box.left < target_.x + target_.width + reach_ && box.right >= target_.x - reach_ &&
+        box.top < target_.y + target_.height + reach_ && box.bottom >= target_.y - reach_)
+      use(id, box);
+  }
+}
+
+/// Calls use(tile) for every tile within `reach` pixels of a box.
+template <class Use>
+void TileTriangles::for_tiles(const Box& box, Use use) const {
+  const int left = std::max(box.left - reach_, target_.x);
+  const int right = std::min(box.right + reach_, target_.x + target_.width - 1);
+  const int top = std::max(box.top - reach_, target_.y);
+  const int bottom = std::min(box.bottom + reach_, target_.y + target_.height - 1);
+  for (int row = top / tile_size; row <= bottom / tile_size; ++row)
+    for (int column = left / tile_size; column <= right / tile_size; ++column)
+      use(static_cast<std::size_t>((row - first_row_) * columns_ + column - first_column_));
+}
+
+int TileTriangles::list_rows(int first) {
+  const auto tile_of = [&](int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_); };
+  listed_from_ = first_[tile_of(first)];
+  int last = first + 1;
+  while (last < rows_ && first_[tile_of(last + 1)] - listed_from_ <= most_listed) ++last;
+  const std::size_t begin = tile_of(first), end = tile_of(last);
+  growing("numbers of triangles in tiles", [&] { listed_.resize(first_[end] - listed_from_); });
+  for (std::size_t tile = begin; tile < end; ++tile) counter_[tile] = 0;
+  parallel_for(parts_.size(), [&](std::size_t i) {
+    for_triangles(parts_[i], [&](std::int32_t id, const Box& box) {
+      for_tiles(box, [&](std::size_t tile) {
+        if (tile < begin || tile >= end) return;
+        listed_[first_[tile] - listed_from_ + counter_[tile].fetch_add(1, std::memory_order_relaxed)] = id;
+      });
+    });
+  });
+  return last;
+}
+
+void TileTriangles::make(std::size_t tile, int top, int bottom, std::vector<ScreenTriangle>& out) const {
+  out.clear();
+  std::size_t draw = 0;
+  for (const std::int32_t id : of_tile(tile)) {
+    if (id < projected_.first_triangle[draw] || id >= projected_.first_triangle[draw + 1])
+      draw = projected_.draw_of(id);
+    for_pieces(draw, id, [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, bool is_piece) {
+      const int centre = rules_.viewport.height * 128;
+      if ((std::max({p.y, q.y, r.y}) + centre) >> 8 < top || (std::min({p.y, q.y, r.y}) + centre) >> 8 >= bottom)
+        return;
+      out.push_back({make_triangle(p, q, r, id, rules_), projected_.draws[draw].surface, is_piece});
+    });
+  }
+}
+
+}  // namespace zoneplate::antialias

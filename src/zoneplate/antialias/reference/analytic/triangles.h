@@ -1,0 +1,82 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "zoneplate/raster/geometry/draw.h"
+#include "zoneplate/raster/geometry/setup.h"
+#include "zoneplate/raster/types/target.h"
+
+namespace zoneplate::antialias {
+
+/// A triangle on the screen: the rasterizer's own snapped vertices and depth plane, whether it holds a sample or not.
+struct ScreenTriangle {
+  Triangle shape;  ///< every triangle owns its edges: E is the exact doubled area
+  Surface surface = Surface::Opaque;
+  bool is_piece = false;  ///< of a clipped triangle
+};
+
+/// The triangles of a frame, culled and clipped as for drawing, by the tiles whose pixels they may touch.
+///
+/// Only their numbers are kept, of some rows of tiles at a time; the triangles themselves are made for the rows of
+/// pixels that are at work.
+///
+/// Exact     each tile gets the same triangles for any number of threads, in any order.
+/// Memory    4 bytes for each triangle and tile of the rows that are listed: not more than `most_listed`, or one row.
+class TileTriangles {
+ public:
+  static constexpr std::size_t most_listed = std::size_t{1} << 24;
+
+  /// A tile's list holds what comes within `reach` pixels of the tile.
+  TileTriangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, int reach);
+
+  int first_column() const { return first_column_; }  ///< tiles of 64 × 64 on the picture's own grid
+  int first_row() const { return first_row_; }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  std::uint64_t count() const { return count_; }  ///< triangles that are seen from their front and touch the target
+
+  /// Lists the tiles of the rows from `first` on, in place of what was listed; gives the row after the last.
+  int list_rows(int first);
+  /// The triangles' numbers, of a tile that is listed: row by row from the first row of all.
+  std::span<const std::int32_t> of_tile(std::size_t tile) const {
+    return std::span(listed_).subspan(first_[tile] - listed_from_, first_[tile + 1] - first_[tile]);
+  }
+  /// Makes the tile's triangles that touch the rows of pixels [top, bottom).
+  void make(std::size_t tile, int top, int bottom, std::vector<ScreenTriangle>& out) const;
+
+ private:
+  /// The pixels that a triangle may touch, its right and lower end included.
+  struct Box {
+    int left, top, right, bottom;
+  };
+  /// A run of consecutive triangles of one draw.
+  struct Part {
+    std::size_t draw;
+    std::int32_t begin, end;
+  };
+
+  template <class Use>
+  void for_pieces(std::size_t draw, std::int32_t id, Use use) const;
+  template <class Use>
+  void for_triangles(const Part& part, Use use) const;
+  template <class Use>
+  void for_tiles(const Box& box, Use use) const;
+
+  const ProjectedDraws& projected_;
+  const Target& target_;
+  const SetupRules rules_;
+  const int reach_;
+  int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;
+  std::uint64_t count_ = 0;
+  std::vector<Part> parts_;
+  std::vector<std::size_t> first_;                         ///< of each tile among all, and the total at the end
+  std::unique_ptr<std::atomic<std::uint32_t>[]> counter_;  ///< by tile
+  std::vector<std::int32_t> listed_;
+  std::size_t listed_from_ = 0;  ///< the first that is listed, among all
+};
+
+}  // namespace zoneplate::antialias

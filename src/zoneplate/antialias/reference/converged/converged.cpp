@@ -1,0 +1,72 @@
+// The converged reference: so many shaded samples a pixel that what is left of the error can be told from their spread.
+//
+// The truth for what happens inside of a surface, textures and highlights and alpha, where exact coverage has no closed
+// form; any reconstruction filter, and an estimate of each pixel's error (--aov error). Weak for its cost, and for
+// edges along an axis, which the samples' lattice of 1/256 pixel knows to half a step: there `analytic` is exact.
+//
+// Source: Owen-scrambled Sobol points, Owen 1995; the estimate by independent groups is the method of batch means.
+#include "zoneplate/antialias/reference/converged/draw.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+class Converged : public Resolver {
+ public:
+  explicit Converged(ConvergedOptions options) : options_(std::move(options)) {}
+  Request ask(int) override {
+    Request request{.samples = standard_pattern(8)};
+    request.draw = [options = options_](const Drawing& drawing) { draw_converged(drawing, options); };
+    request.estimates_error = true;
+    request.works_on_shown = options_.order == FilterOrder::Display;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (options_.order == FilterOrder::Display) light_ = frame.color;
+    return std::move(frame.color);
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    return options_.order == FilterOrder::Scene ? image : display_shown_light(light_, frame.display);
+  }
+
+ private:
+  ConvergedOptions options_;
+  LinearImage light_;  ///< as shown, kept for `finish`
+};
+
+constexpr int counts[] = {64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384};
+constexpr std::string_view filters[] = {"box",         "tent",     "quadratic", "b-spline", "mitchell",
+                                        "catmull-rom", "gaussian", "lanczos2",  "lanczos3", "blackman-harris",
+                                        "kaiser"};
+constexpr std::string_view orders[] = {"scene", "display"};
+constexpr Param params[] = {
+    {.name = "samples", .meaning = "a pixel, each shaded", .value = 1024, .choices = counts},
+    {.name = "filter", .meaning = "weighs the samples around; gaussian has sigma 0.5", .value = 0, .names = filters},
+    {.name = "order",
+     .meaning = "filter the scene's light, or what the display shows of it",
+     .value = 0,
+     .names = orders},
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  const std::string filter(s.chosen("filter"));
+  return std::make_unique<Converged>(
+      ConvergedOptions{.samples = s.integer("samples"),
+                       .filter = filter == "gaussian" ? "gaussian:sigma=0.5" : filter,
+                       .order = s.chosen("order") == "scene" ? FilterOrder::Scene : FilterOrder::Display});
+}
+
+}  // namespace
+
+Method converged();
+
+Method converged() {
+  return {.name = "converged",
+          .summary = "very many stratified samples and an estimate of their error, the reference for shading",
+          .source = "Owen 1995",
+          .params = params,
+          .make = make,
+          .is_reference = true};
+}
+
+}  // namespace zoneplate::antialias

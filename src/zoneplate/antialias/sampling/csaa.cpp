@@ -1,0 +1,60 @@
+// Coverage sampling: many places where coverage and depth are known, few slots for colours.
+//
+// A pixel keeps the colours of as many surfaces as it has slots, in the order of drawing; where one more comes the
+// surface with the fewest samples is forgotten, and its samples count for nobody until something else is drawn there.
+// Smooth where two surfaces meet, at the memory of the slots. Weak where more surfaces than slots share a pixel, if
+// only for a while: fine meshes and corners lose some, and which depends on the order.
+//
+// Source: NVIDIA, Coverage-Sampled Antialiasing, 2006; AMD, EQAA Modes for AMD 6900 Series Graphics Cards, 2011, with a
+// depth for every sample of coverage: n=8,slots=4 is CSAA 8x, n=16,slots=4 its 16x, n=4,slots=2 EQAA 2f4x. Neither says
+// which surface is forgotten. What a slot's surface looks like is found in the end, where it is seen.
+#include "zoneplate/antialias/sampling/csaa_draw.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+class Csaa : public Resolver {
+ public:
+  Csaa(int samples, int slots) : pattern_(standard_pattern(samples)), slots_(static_cast<std::size_t>(slots)) {}
+  Request ask(int) override {
+    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
+    request.draw = [samples = pattern_, slots = slots_](const Drawing& drawing) {
+      draw_with_slots(drawing, samples, slots);
+    };
+    return request;
+  }
+
+ private:
+  SamplePattern pattern_;
+  std::size_t slots_;
+};
+
+constexpr int counts[] = {4, 8, 16}, slot_counts[] = {1, 2, 4, 8};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "samples of coverage, of the standard pattern", .value = 8, .choices = counts},
+    {.name = "slots", .meaning = "colours that a pixel keeps", .value = 4, .choices = slot_counts}};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  if (s.integer("slots") > s.integer("n")) throw Error(Trouble::Usage, "csaa: more slots than samples: give n=16");
+  return std::make_unique<Csaa>(s.integer("n"), s.integer("slots"));
+}
+
+constexpr std::string_view variants[] = {"n=8,slots=2", "n=16,slots=4"};
+
+}  // namespace
+
+Method csaa();
+
+Method csaa() {
+  return {.name = "csaa",
+          .summary = "coverage at many samples, colours of few surfaces (CSAA, EQAA)",
+          .source = "after NVIDIA 2006",
+          .params = params,
+          .make = make,
+          .variants = variants,
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,105 @@
+// Multisampling: coverage and depth at every sample, shading once per surface and pixel.
+//
+// Smooths the edges of geometry at little more than the cost of one sample; does nothing for what shading itself
+// makes of a pixel: textures, highlights. Because visibility is kept per sample and shading is deferred, a pixel where
+// two surfaces meet mixes their two colours and never the background's (the black edge of one depth a pixel). Alpha
+// tests are edges that coverage does not see, unless alpha is made into coverage.
+//
+// Source: Akeley, RealityEngine Graphics, SIGGRAPH 1993; patterns of Direct3D 11.1 and Vulkan. A surface that owns
+// every sample is shaded at the pixel's centre, another at the mean of its samples (centroid sampling:
+// raster/coverage/centroid.h has this and other rules), so that a plane looks the same however many triangles it is
+// made of. Sharpened alpha: Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
+#include "zoneplate/antialias/sampling/sample_gather.h"
+#include "zoneplate/base/error.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+class Msaa : public Resolver {
+ public:
+  Msaa(SamplePattern pattern, Gathering gathering, AlphaTest alpha, Centroid centroid)
+      : pattern_(std::move(pattern)),
+        gathering_(std::move(gathering)),
+        gather_(gathering_),
+        alpha_(alpha),
+        centroid_(centroid) {}
+  Request ask(int) override {
+    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
+    request.alpha = alpha_;
+    request.centroid = centroid_;
+    request.is_local = gathering_.is_plain();
+    request.planes.sample_colors = !gathering_.is_plain();
+    request.halo = gathering_.reach();
+    request.works_on_shown = gathering_.weight == SampleWeight::Display;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (gathering_.is_plain()) return std::move(frame.color);
+    gather_ = SampleGather(gathering_);
+    gather_.add(frame, pattern_);
+    return gather_.light();
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
+  }
+
+ private:
+  SamplePattern pattern_;
+  Gathering gathering_;
+  SampleGather gather_;
+  AlphaTest alpha_;
+  Centroid centroid_;
+};
+
+constexpr int counts[] = {2, 4, 8, 16};
+constexpr std::string_view alphas[] = {"test", "samples", "coverage", "sharp"};
+constexpr std::string_view centroids[] = {"mean", "first", "centre"};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "samples of the standard pattern", .value = 4, .choices = counts},
+    {.name = "grid", .meaning = "a regular grid of grid × grid samples, instead of n", .value = 4, .low = 1, .high = 8},
+    resolve_param,
+    filter_param,
+    radius_param,
+    {.name = "alpha",
+     .meaning = "of masked surfaces: tested once a pixel or at every sample, or made into coverage, sharpened or not",
+     .names = alphas},
+    {.name = "centroid",
+     .meaning = "where a surface that owns some of a pixel's samples is shaded: at their mean, at the first, or at the "
+                "pixel's centre, even if it is not there",
+     .names = centroids},
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  if (s.is_given("n") && s.is_given("grid"))
+    throw Error(Trouble::Usage, "msaa: n and grid exclude each other: n is a standard pattern, grid a regular one");
+  return std::make_unique<Msaa>(s.is_given("grid") ? grid_pattern(s.integer("grid")) : standard_pattern(s.integer("n")),
+                                gathering_of("msaa", s), static_cast<AlphaTest>(s.integer("alpha")),
+                                static_cast<Centroid>(s.integer("centroid")));
+}
+
+constexpr std::string_view variants[] = {"n=2",
+                                         "n=8",
+                                         "n=16",
+                                         "grid=4",
+                                         "n=8,resolve=karis",
+                                         "n=8,resolve=max3",
+                                         "n=8,resolve=display",
+                                         "n=8,filter=b-spline,radius=1",
+                                         "n=8,alpha=samples",
+                                         "n=8,alpha=coverage",
+                                         "n=8,alpha=sharp"};
+
+}  // namespace
+
+Method msaa();
+
+Method msaa() {
+  return {.name = "msaa",
+          .summary = "coverage per sample, shading once per surface and pixel",
+          .source = "Akeley 1993",
+          .params = params,
+          .make = make,
+          .variants = variants};
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,51 @@
+// Quincunx: two samples a pixel, its centre and a corner; the corners of four pixels are shared between them.
+//
+// Five samples for the price of two, and with them a blur over three by three half-pixels: edges are smooth, textures
+// soft. That is why it was given up.
+//
+// Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre counts ½, each corner ⅛.
+#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+class Quincunx : public Resolver {
+ public:
+  Request ask(int) override {
+    Request request{.samples = {{128, 128}, {0, 0}}, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
+    request.planes.sample_colors = true;
+    request.halo = 1;
+    return request;
+  }
+  /// The corners beyond the picture's right and lower side are not there; the others take their weight.
+  LinearImage resolve(Frame& frame) override {
+    const LinearImage &centre = frame.sample_color[0], &corner = frame.sample_color[1];
+    LinearImage out(centre.width(), centre.height());
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) {
+        Linear sum = centre(x, y) * 0.5f;
+        float weight = 0.5f;
+        for (int j = y; j <= std::min(y + 1, out.height() - 1); ++j)
+          for (int i = x; i <= std::min(x + 1, out.width() - 1); ++i)
+            sum = sum + corner(i, j) * 0.125f, weight += 0.125f;
+        out(x, y) = sum * (1 / weight);
+      }
+    });
+    return out;
+  }
+};
+
+}  // namespace
+
+Method quincunx();
+
+Method quincunx() {
+  return {.name = "quincunx",
+          .summary = "the centre and four corners that pixels share",
+          .source = "NVIDIA 2001",
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Quincunx>(); },
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

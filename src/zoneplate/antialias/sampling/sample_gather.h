@@ -1,0 +1,88 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "zoneplate/render/method.h"
+#include "zoneplate/signal/filter/kernel.h"
+
+namespace zoneplate::antialias {
+
+/// What a sample's colour counts as, before samples are averaged.
+enum class SampleWeight {
+  Even,     ///< linear light as it is
+  Karis,    ///< less the brighter it is: 1 / (1 + luma × exposure)
+  Max3,     ///< mapped by c / (1 + max(c)), the mean mapped back
+  Display,  ///< as it is shown, tone mapped over the background: the mean of what a screen would show
+};
+
+/// How a method makes one colour of many samples.
+struct Gathering {
+  SampleWeight weight = SampleWeight::Even;
+  std::optional<Kernel> kernel;  ///< of pixels; none: the samples of the pixel alone count, all alike
+
+  /// True for the plain mean, which the renderer makes by itself.
+  bool is_plain() const { return weight == SampleWeight::Even && !kernel; }
+  /// How many pixels to each side the samples are taken from.
+  int reach() const;
+};
+
+/// The parameters `resolve`, `filter` and `radius` of methods that gather samples, and what they say.
+///
+/// `radius` is the filter's in hundredths of a pixel; 0 leaves it as the kernel has it.
+/// Errors    Trouble::Usage where the radius has no filter.
+inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
+inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
+                                                    "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
+inline constexpr Param resolve_param = {
+    .name = "resolve",
+    .meaning = "averages light, light that weighs less the brighter, or what is shown",
+    .names = resolve_names};
+inline constexpr Param filter_param = {
+    .name = "filter", .meaning = "over samples of pixels around too, or the pixel's own", .names = filter_names};
+inline constexpr Param radius_param = {.name = "radius",
+                                       .meaning = "of the filter, in pixels; 0: its own",
+                                       .value = 0,
+                                       .low = 0,
+                                       .high = 400,
+                                       .decimals = 2};
+Gathering gathering_of(std::string_view method, const Settings& settings);
+
+class SampleRow;
+
+/// Sums samples that come in one frame or several. A filter goes along the rows first, then down the columns.
+///
+/// Edges     samples beyond the picture's sides are not there; the weights of the others are divided by their sum.
+/// Exact     in float, in the order of samples, then rows, of each the sum along it from left to right; the same for
+///           any number of threads and instruction set.
+/// Cost      a sample takes as many products a channel as the filter is wide and high, not as it has pixels.
+/// Source    wide resolves and weights: Pettineo, Experimenting with Reconstruction Filters for MSAA Resolve, 2012;
+///           Karis, Tone Mapping, 2013; Lottes, Optimized Reversible Tonemapper for Resolve, 2016.
+class SampleGather {
+ public:
+  explicit SampleGather(Gathering gathering) : gathering_(std::move(gathering)) {}
+
+  /// Takes a frame's samples; `positions` are theirs.
+  void add(const Frame& frame, std::span<const SamplePosition> positions);
+  bool is_empty() const { return sum_.empty(); }
+
+  /// The mean in linear light; for SampleWeight::Display it has no meaning.
+  LinearImage light() const;
+  /// The mean of what is shown, in place of `image`, for SampleWeight::Display; else `image`.
+  DisplayImage shown(DisplayImage image, const DisplayOptions& display) const;
+
+ private:
+  struct Taps {
+    std::vector<float> across, down;  ///< by distance, the farthest to the left or above first
+  };
+  void begin(int width, int height);
+  void add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last);
+  void spread(const SampleRow& row, const Taps& taps, int y, int first, int last);
+
+  Gathering gathering_;
+  int width_ = 0, height_ = 0;
+  std::size_t stride_ = 0;           ///< pixels a row, in whole vectors
+  std::vector<float> sum_, weight_;  ///< four floats a pixel, and one
+};
+
+}  // namespace zoneplate::antialias

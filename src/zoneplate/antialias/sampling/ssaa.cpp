@@ -1,0 +1,111 @@
+// Supersampling: shade every sample of a pattern and average them in linear light.
+//
+// Tends to the box-filtered image as the number of samples grows, at a cost that grows with it. Weak where an edge
+// follows the grid: a nearly vertical edge shows n levels of coverage on an n × n grid, not n². Halton's points have
+// their mean beside the pixel's middle, and move the picture by that.
+//
+// Source: Crow, The Aliasing Problem in Computer-Generated Shaded Images, CACM 20(11), 1977. The patterns are those of
+// signal/samples.h, the filters those of signal/filter/kernel.h.
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/antialias/sampling/sample_gather.h"
+#include "zoneplate/base/error.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr std::size_t samples_a_round = 16;  // so that no more of them need be stored at a time
+
+class Ssaa : public Resolver {
+ public:
+  Ssaa(SamplePattern pattern, Gathering gathering)
+      : pattern_(std::move(pattern)), gathering_(std::move(gathering)), gather_(gathering_) {}
+
+  Request ask(int) override {
+    if (gathering_.is_plain())
+      return {.samples = pattern_, .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}, .is_local = true};
+    gather_ = SampleGather(gathering_);
+    taken_ = 0;
+    return next_round();
+  }
+  std::optional<Request> ask_again(Frame& frame) override {
+    if (gathering_.is_plain()) return std::nullopt;
+    take(frame);
+    if (taken_ == pattern_.size()) return std::nullopt;
+    return next_round();
+  }
+  LinearImage resolve(Frame& frame) override {
+    if (gathering_.is_plain()) return std::move(frame.color);
+    if (gather_.is_empty()) take(frame);
+    return gather_.light();
+  }
+  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+    return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
+  }
+
+ private:
+  SamplePattern round() const {
+    const auto first = pattern_.begin() + static_cast<std::ptrdiff_t>(taken_);
+    return {first, first + static_cast<std::ptrdiff_t>(std::min(samples_a_round, pattern_.size() - taken_))};
+  }
+  Request next_round() const {
+    Request request{.samples = round(), .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}};
+    request.planes.sample_colors = true;
+    request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
+    request.halo = gathering_.reach();
+    request.works_on_shown = gathering_.weight == SampleWeight::Display;
+    return request;
+  }
+  void take(const Frame& frame) {
+    const SamplePattern own = round();
+    gather_.add(frame, own);
+    taken_ += own.size();
+  }
+
+  SamplePattern pattern_;
+  Gathering gathering_;
+  SampleGather gather_;
+  std::size_t taken_ = 0;  // samples of the pattern that are in the sums
+};
+
+constexpr std::string_view patterns[] = {"grid", "rotated", "halton", "sobol", "nrooks"};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "an n × n grid of samples", .value = 2, .low = 1, .high = 16},
+    {.name = "pattern", .meaning = "where the samples lie", .value = 0, .names = patterns},
+    {.name = "samples", .meaning = "samples a pixel, instead of n", .value = 4, .low = 1, .high = 1024},
+    resolve_param,
+    filter_param,
+    radius_param,
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  if (s.is_given("n") && s.is_given("samples"))
+    throw Error(Trouble::Usage, "ssaa: n and samples exclude each other: n=4 is samples=16");
+  const int samples = s.is_given("samples") ? s.integer("samples") : s.integer("n") * s.integer("n");
+  return std::make_unique<Ssaa>(named_pattern(std::string(s.chosen("pattern")), samples), gathering_of("ssaa", s));
+}
+
+constexpr std::string_view variants[] = {"n=4",
+                                         "pattern=rotated,samples=4",
+                                         "pattern=halton,samples=16",
+                                         "pattern=sobol,samples=16",
+                                         "pattern=nrooks,samples=16",
+                                         "n=4,resolve=display",
+                                         "n=4,filter=tent",
+                                         "n=4,filter=mitchell"};
+
+}  // namespace
+
+Method ssaa();
+
+Method ssaa() {
+  return {.name = "ssaa",
+          .summary = "shade every sample of a pattern and average them",
+          .source = "Crow 1977",
+          .params = params,
+          .make = make,
+          .variants = variants};
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,170 @@
+// zoneplate bench: frames of the benchmark scenes, timed stage by stage.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/bench/frames.h"
+#include "zoneplate/cli/bench/limits.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/report/json.h"
+#include "zoneplate/version.h"
+
+namespace zoneplate::cli {
+namespace {
+
+struct BenchArgs {
+  std::vector<std::string> scenes;
+  BenchWork work;   // but for the scene and the samples
+  int samples = 0;  // 0: 1 and 4
+  int threads = 0;
+  std::string peer = "zoneplate";
+  bool wants_json = false;
+};
+
+constexpr std::string_view bench_scenes[] = {"tri1m", "fill", "fillblend", "city", "city-trilinear", "micro"};
+
+Json stages_json(const BenchTiming& t) {
+  const StageTimes& s = t.best.stages;
+  return Json::Object{{"prepare", t.best.prepare_ms}, {"vertices", s.vertices}, {"triangles", s.triangles},
+                      {"visibility", s.visibility},   {"shading", s.shading},   {"blending", s.blending},
+                      {"output", s.output},           {"encode", t.encode_ms}};
+}
+
+Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming& t) {
+  return Json::Object{{"peer", args.peer},
+                      {"api", "zoneplate"},
+                      {"renderer", name_of(work.isa)},
+                      {"version", version},
+                      {"scene", work.scene},
+                      {"w", work.size.x},
+                      {"h", work.size.y},
+                      {"samples", work.samples},
+                      {"max_samples", 16},
+                      {"aniso", t.anisotropy},
+                      {"triangles", t.best.triangles},
+                      {"threads", thread_limit()},
+                      {"frames", static_cast<std::uint64_t>(t.frame_ms.size())},
+                      {"min_ms", least(t.frame_ms)},
+                      {"median_ms", median(t.frame_ms)},
+                      {"mean_ms", mean(t.frame_ms)},
+                      {"readback_ms", 0},
+                      {"first_frame_ms", t.first_ms},
+                      {"cpu_ms_per_frame", t.processor_ms},
+                      {"other_cores_busy", t.others_busy},
+                      {"shaded", t.best.shaded},
+                      {"triangles_set_up", t.best.triangles_set_up},
+                      {"min_ms_by_stage", Json::Object{{"geometry", t.geometry_ms}, {"tiles", t.tiles_ms}}},
+                      {"stages_of_best_ms", stages_json(t)}};
+}
+
+// A stage's share of the frame; what happens on all threads at once counts a thread's share of it.
+std::string stage_text(const char* name, double ms, double count, const char* unit, double bytes,
+                       const MachineLimits& limits) {
+  std::string text = fmt::format("  {:<11}{:9.3f} ms", name, ms);
+  if (count > 0) text += fmt::format(" {:8.2f} ns a {:<9}", 1e6 * ms / count, unit);
+  if (bytes > 0)
+    text += fmt::format("from memory {:7.3f} ms ({:.1f} MB)", bytes * 1e-6 / limits.read_gb_s, bytes * 1e-6);
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text + '\n';
+}
+
+std::string timing_text(const BenchWork& work, const BenchTiming& t, const MachineLimits& limits) {
+  const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
+  const double vertices = number(t.best.vertices), triangles = number(t.best.triangles);
+  const double pixels = static_cast<double>(work.size.x) * work.size.y, threads = thread_limit();
+  const StageTimes& s = t.best.stages;
+  std::string text = fmt::format(
+      "{} {}x: {:.2f} ms a frame, median {:.2f}, processor {:.2f}; {} vertices, {} triangles ({} in view), {} points\n",
+      work.scene, work.samples, least(t.frame_ms), median(t.frame_ms), t.processor_ms, t.best.vertices,
+      t.best.triangles, t.best.triangles_set_up, t.best.shaded);
+  text += stage_text("prepare", t.best.prepare_ms, 0, "", 0, limits);
+  text += stage_text("vertices", s.vertices, vertices, "vertex", 28 * vertices, limits);
+  text += stage_text("triangles", s.triangles, triangles, "triangle", 12 * triangles + 16 * vertices, limits);
+  text += stage_text("visibility", s.visibility / threads, pixels, "pixel", 0, limits);
+  text += stage_text("shading", s.shading / threads, number(t.best.shaded), "point", 0, limits);
+  if (s.blending / threads > 1e-3)
+    text += stage_text("blending", s.blending / threads, number(t.best.shaded), "point", 0, limits);
+  text += stage_text("output", s.output / threads, pixels, "pixel", 4 * pixels, limits);
+  return text + stage_text("(encode)", t.encode_ms, pixels, "pixel", 0, limits);
+}
+
+std::string limits_text(const MachineLimits& l, Isa isa) {
+  return fmt::format(
+      "{} threads, {}. Memory: {:.1f} GB/s read, {:.1f} written; 1920x1080 of colour and depth cleared in {:.2f} ms, "
+      "in "
+      "new memory\nin {:.1f} ms. Eight words gathered from 8 KiB in {:.1f} ns, from 256 KiB in {:.1f}, from 4 MiB in "
+      "{:.1f}.\n",
+      thread_limit(), name_of(isa), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
+      l.gather_l2_ns, l.gather_l3_ns);
+}
+
+Syntax syntax_of(BenchArgs& args) {
+  Syntax syntax{.verb = "bench",
+                .summary = "Time frames of the benchmark scenes, from a scene in memory to its 8-bit picture",
+                .operands = "[SCENE]...",
+                .examples =
+                    "  zoneplate bench\n"
+                    "  zoneplate bench fill --samples 4 --threads 1\n"
+                    "  zoneplate bench city --isa avx2\n"
+                    "  zoneplate bench tri1m --json\n"};
+  syntax.notes =
+      "The least of all frames is shown: what the work takes when nothing else runs. Of that frame the\n"
+      "stages are told, beside what this machine can do at best: \"from memory\" is the time to move the\n"
+      "bytes that a stage cannot do without if no cache held any of them. Scenes by default: tri1m, fill,\n"
+      "fillblend, city, city-trilinear, micro. Reading, and making textures' levels, are done before the\n"
+      "clock starts; encoding as PNG is timed beside the frame.\n";
+  const auto whole = [](int& to, int low, int high) {
+    return [&to, low, high](const std::string& text) { to = parse_whole(text, low, high); };
+  };
+  syntax.options = {
+      {"--scene", "NAME", "A scene to time; the result is then a line of JSON, as harnesses want it", "Work", false,
+       [&](const std::string& text) { args.scenes.push_back(text); }},
+      {"--samples", "N", "Samples a pixel: 1, 2, 4, 8 or 16; default both 1 and 4", "Work", true,
+       whole(args.samples, 1, 16)},
+      {"--size", "WxH", "Size of the picture; default 1920x1080", "Work", true,
+       [&](const std::string& text) { args.work.size = parse_size(text, 16384); }},
+      {"--aniso", "N", "Anisotropy of base colours' filters, 1 to 16; default: the scene's own", "Work", false,
+       whole(args.work.anisotropy, 1, 16)},
+      {"--threads", "N", "Threads; default: as many as there are processors", "Work", true,
+       whole(args.threads, 1, 1024)},
+      {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default the best there is", "Work", false,
+       [&](const std::string& text) { args.work.isa = parse_isa(text); }},
+      {"--frames", "N", "Frames at most; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
+      {"--warmup", "N", "Frames before the clock starts; default 2", "Work", false, whole(args.work.warm_up, 1, 1000)},
+      {"--budget-ms", "MS", "No new frame after this time (three are drawn in any case); default 4000", "Work", false,
+       [&](const std::string& text) { args.work.budget_ms = parse_number(text, 1, 1e7); }},
+      {"--peer", "NAME", "How the result calls this program; default zoneplate", "Result", false,
+       [&](const std::string& text) { args.peer = text; }},
+      {"--json", "", "One line of JSON a scene", "Result", true, [&](auto&) { args.wants_json = true; }}};
+  return syntax;
+}
+
+}  // namespace
+
+void run_bench(std::span<const std::string> arguments) {
+  BenchArgs args;
+  Syntax syntax = syntax_of(args);
+  if (!parse(syntax, arguments)) return;
+  const bool names_one = !args.scenes.empty();
+  args.scenes.insert(args.scenes.end(), syntax.found_operands.begin(), syntax.found_operands.end());
+  if (args.scenes.empty()) args.scenes.assign(std::begin(bench_scenes), std::end(bench_scenes));
+  const std::vector<int> counts = args.samples ? std::vector{args.samples} : std::vector{1, 4};
+  const bool wants_json = args.wants_json || names_one;
+  with_threads(args.threads, [&] {
+    MachineLimits limits;
+    if (!wants_json) print(limits_text(limits = measure_limits(), args.work.isa));
+    for (const std::string& scene : args.scenes)
+      for (const int samples : counts) {
+        BenchWork work = args.work;
+        work.scene = scene, work.samples = samples;
+        const BenchTiming timing = time_frames(work);
+        print(wants_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
+      }
+  });
+}
+
+}  // namespace zoneplate::cli

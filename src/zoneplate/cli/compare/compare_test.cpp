@@ -1,0 +1,240 @@
+// The verb as scripts meet it, and what it measures with. Runs the built program.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/cli/compare/report.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/metrics/metrics.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/report/json_for_test.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Answer {
+  int code = -1;
+  std::string out;  ///< stdout and stderr together
+};
+
+class CompareVerb : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "zoneplate_compare_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+  }
+  void TearDown() override { fs::remove_all(place); }
+  Answer run(const std::string& arguments) const {
+    const std::string command = "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    Answer answer;
+    std::array<char, 4096> part{};
+    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) answer.out.append(part.data(), n);
+    answer.code = WEXITSTATUS(::pclose(pipe));
+    return answer;
+  }
+  std::string text_of(const std::string& name) const {
+    const FileBytes file((place / name).string());
+    return {file.bytes().begin(), file.bytes().end()};
+  }
+  fs::path place;
+};
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+constexpr const char* small = " --size 64x48 --turns 1 --reference ssaa:n=4 ";
+
+TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
+  const Answer answer =
+      run(std::string("compare triangles cyclic --aa none,ssaa:n=2,ssaa:pattern=halton,samples=8 -o out") + small);
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  EXPECT_EQ(answer.out, text_of("out/compare.txt"));
+  const auto json = parsed_json(text_of("out/compare.json"));
+  EXPECT_EQ(json["format"], "zoneplate-compare");
+  EXPECT_EQ(json["version"], report_version);
+  ASSERT_EQ(json["scenes"].size(), 2u);
+  std::size_t files = 5;  // cost.svg, compare.txt, compare.md, compare.csv, compare.json
+  for (const auto& scene : json["scenes"]) {
+    for (const auto& name : {scene["reference"]["picture"], scene["crops"], scene["plot"]}) {
+      EXPECT_TRUE(fs::exists(place / "out" / std::string(name))) << name;
+      ++files;
+    }
+    ASSERT_EQ(scene["methods"].size(), 3u);
+    for (const auto& method : scene["methods"]) {
+      for (const char* file : {"picture", "error_map", "worst_picture"}) {
+        EXPECT_TRUE(fs::exists(place / "out" / std::string(method[file]))) << method[file];
+        ++files;
+      }
+      EXPECT_GT(method["metrics"]["psnr"]["value"], 10);
+      EXPECT_GT(method["ms"], 0);
+      EXPECT_GT(method["shaded"], 100);
+      EXPECT_GE(method["worst"].size(), 1u);
+    }
+    // More samples, less error; and each costs what it says.
+    EXPECT_GT(scene["methods"][0]["metrics"]["flip"]["value"], scene["methods"][1]["metrics"]["flip"]["value"]);
+    EXPECT_GT(scene["methods"][0]["metrics"]["edge_error"]["value"],
+              scene["methods"][1]["metrics"]["edge_error"]["value"]);
+    const double four = scene["methods"][1]["shaded"], eight = scene["methods"][2]["shaded"];
+    EXPECT_NEAR(eight / four, 2, 0.1);
+  }
+  std::size_t found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(place / "out")) found += entry.is_regular_file();
+  EXPECT_EQ(found, files);
+  const std::string csv = text_of("out/compare.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+  EXPECT_TRUE(contains(csv, "triangles,,\"ssaa:pattern=halton,samples=8\","));
+  // The nearest is the first, and on the front.
+  const std::string table = text_of("out/compare.md");
+  EXPECT_TRUE(table.starts_with("| method | mean | triangles | cyclic | near axis % | shaded | MB | ms |\n|---|"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_TRUE(contains(table, "|---|---|\n| **`ssaa:")) << table;
+  EXPECT_LT(table.find("`ssaa:pattern=halton,samples=8`"), table.find("`none`"));
+}
+
+TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
+  ASSERT_EQ(run(std::string("compare cyclic --aa fxaa -o out") + small).code, 0);
+  const auto json = parsed_json(text_of("out/compare.json"));
+  const auto own = parsed_json(
+      run("metrics out/cyclic/reference.png out/cyclic/fxaa.png --metric psnr,flip,edge_error --json --threshold "
+          "psnr=1,flip=1,edge_error=1")
+          .out);
+  for (const char* name : {"psnr", "flip", "edge_error"})
+    EXPECT_EQ(json["scenes"][0]["methods"][0]["metrics"][name]["value"], own["metrics"][name]["value"]) << name;
+  // A picture is a reference too; and against itself a method is without error.
+  const Answer again = run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
+  ASSERT_EQ(again.code, 0) << again.out;
+  EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
+}
+
+TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
+  const auto expect = [&](const std::string& arguments, int code, std::string_view words) {
+    const Answer answer = run("compare " + arguments);
+    EXPECT_EQ(answer.code, code) << arguments;
+    EXPECT_TRUE(contains(answer.out, words)) << answer.out;
+  };
+  expect("-o out", 2, "no scene");
+  expect("triangles", 2, "no output: give -o DIR");
+  expect("triangles --aa nome -o out", 2, "did you mean 'none'?");
+  expect("triangles --aa msaa:n=3 -o out", 2, "2, 4, 8, 16");
+  expect("triangles --reference mssa -o out", 2, "did you mean 'msaa'?");
+  expect("triangles --reference truth.png -o out", 3, "truth.png: no such file");
+  expect("triangles --metric flop -o out", 2, "unknown metric flop");
+  expect("triangles --aa none -o none/out", 4, "no directory");
+  // Whatever the others are: these would take minutes to be drawn.
+  const std::string slow = "city --turns 100 --aa ssaa:n=16 -o out --size 4096x4096 ";
+  expect(slow + "missing.glb", 3, "missing.glb");
+  expect(slow + "sphere:triangels=9", 2, "scene sphere: unknown parameter 'triangels'");
+  expect(slow + "sphere:triangles=many", 2, "scene sphere: triangles is 'many'");
+  save_bytes((place / "small.png").string(), encode_png(Rgba8Image(16, 16)));
+  expect("triangles --aa none -o out --size 64x48 --reference small.png", 3,
+         "has 16x16 pixels, the pictures have 64x48");
+  expect("triangles cyclic --aa none -o out --reference small.png", 2, "one picture is the truth of one scene");
+  fs::create_directory(place / "there");
+  expect("triangles --aa none -o there", 4, "is there already");
+  std::size_t names = 0;
+  for (const auto& entry : fs::directory_iterator(place)) names += !entry.path().empty();
+  EXPECT_EQ(names, 2u);  // small.png and there
+}
+
+TEST_F(CompareVerb, RefusesNamesThatNoFolderCanHave) {
+  const std::string slow =
+      "compare city --turns 100 --aa ssaa:n=16 --size 4096x4096 -o ";  // not before minutes of work
+  save_bytes((place / "file").string(), {});
+  Answer answer = run(slow + "file");
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(answer.out, "zoneplate: error: file: is there already; give another folder or remove it\n");
+  answer = run(slow + "file/out");
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(answer.out, "zoneplate: error: file/out: file is not a directory\n");
+  answer = run(slow + std::string(256, 'n'));
+  EXPECT_EQ(answer.code, 4);
+  EXPECT_EQ(answer.out, "zoneplate: error: " + std::string(256, 'n') + ": cannot be made: File name too long\n");
+}
+
+TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
+  fs::create_directory(place / ".out.tmp");
+  save_bytes((place / ".out.tmp/notes.txt").string(), std::vector<std::uint8_t>{'p'});
+  const std::string one = std::string("compare triangles --aa none -o out") + small;
+  ASSERT_EQ(run(one).code, 0);
+  EXPECT_EQ(text_of(".out.tmp/notes.txt"), "p");
+  // Of runs at the same time one makes the folder, whole; the others say that it is there.
+  fs::remove_all(place / "out");
+  std::vector<std::thread> runs;
+  std::array<Answer, 4> answers;
+  for (Answer& answer : answers) runs.emplace_back([&] { answer = run(one); });
+  for (std::thread& thread : runs) thread.join();
+  int made = 0;
+  for (const Answer& answer : answers) {
+    made += answer.code == 0;
+    EXPECT_TRUE(answer.code == 0 || (answer.code == 4 && contains(answer.out, "out: is there already"))) << answer.out;
+  }
+  EXPECT_EQ(made, 1);
+  EXPECT_TRUE(fs::exists(place / "out/compare.json"));
+  EXPECT_TRUE(fs::exists(place / "out/triangles/none.png"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 2);  // out and .out.tmp
+}
+
+// Where a surface's texture has no smaller levels, exact edges are not enough: the default reference samples surfaces
+// too.
+TEST_F(CompareVerb, TheDefaultReferenceIsRightInsideOfSurfacesToo) {
+  const Answer answer = run("compare tiles --aa analytic,converged:samples=256 --turns 1 --size 64x48 -o out --json");
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  const auto scene = parsed_json(answer.out)["scenes"][0];
+  EXPECT_EQ(scene["reference"]["source"], "converged");
+  EXPECT_LT(scene["methods"][0]["metrics"]["psnr"]["value"], 30);
+  EXPECT_GT(scene["methods"][1]["metrics"]["psnr"]["value"], 40);
+}
+
+TEST(WorstPlaces, AreFoundInOrderAndDoNotOverlap) {
+  Plane<float> error(100, 80);
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x) error(10 + x, 20 + y) = 0.5f, error(60 + x, 50 + y) = 0.75f;
+  const std::vector<Place> worst = worst_places(error, 3);
+  ASSERT_EQ(worst.size(), 3u);
+  EXPECT_EQ((std::array{worst[0].x, worst[0].y, worst[1].x, worst[1].y}), (std::array{60, 50, 10, 20}));
+  EXPECT_NEAR(worst[0].error, 0.75, 1e-9);
+  EXPECT_NEAR(worst[1].error, 0.5, 1e-9);
+  EXPECT_LT(worst[2].error, 0.01);
+  EXPECT_TRUE(worst_places(Plane<float>(20, 100), 3).empty());
+}
+
+TEST(ParetoFront, HoldsWhatNothingBeats) {
+  const metrics::Metric* flip = nullptr;
+  for (const metrics::Metric& m : metrics::metrics())
+    if (m.name == "flip") flip = &m;
+  const auto trial = [&](double ms, double error) {
+    Trial t{.processor_ms = {ms + 1, ms}};
+    t.results.push_back({.metric = flip, .value = error});
+    return t;
+  };
+  std::vector<Trial> trials = {trial(1, 9), trial(2, 5), trial(3, 6), trial(4, 5), trial(5, 1), trial(5, 2)};
+  find_front(trials);
+  std::vector<bool> front;
+  for (const Trial& t : trials) front.push_back(t.is_on_front);
+  EXPECT_EQ(front, (std::vector<bool>{true, true, false, false, true, false}));
+}
+
+TEST(Report, SpecsMakeFileNames) {
+  EXPECT_EQ(file_name_of("msaa"), "msaa");
+  EXPECT_EQ(file_name_of("ssaa:pattern=halton,samples=64"), "ssaa-pattern-halton-samples-64");
+  EXPECT_EQ(file_name_of("../a b/..."), "a-b-...");
+  EXPECT_EQ(file_name_of(std::string(300, 'x')).size(), 100u);
+}
+
+TEST(Methods, VariantsAreMethodsToo) {
+  for (const Method& m : antialias::methods())
+    for (const std::string_view v : m.variants)
+      EXPECT_NO_THROW(make_resolver(antialias::methods(), std::string(m.name) + ":" + std::string(v))) << m.name;
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

@@ -1,0 +1,142 @@
+// What a comparison shows: crops of the worst places, and cost against quality.
+#include "zoneplate/cli/compare/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/metrics/flip/magma.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr int factor = 8;
+constexpr Rgba8 mark_color{255, 196, 0, 255};
+
+Rgba8Image crop(const Rgba8Image& picture, const Place& place) {
+  const int w = std::min(Place::side, picture.width()), h = std::min(Place::side, picture.height());
+  Rgba8Image part(w, h);
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) part(x, y) = picture(place.x + x, place.y + y);
+  return enlarged(part, factor);
+}
+
+Rgba8Image with_mark(Rgba8Image picture, const Place& place) {
+  const auto set = [&](int x, int y) {
+    if (x >= 0 && y >= 0 && x < picture.width() && y < picture.height()) picture(x, y) = mark_color;
+  };
+  for (int i = -1; i <= Place::side; ++i) {
+    set(place.x + i, place.y - 1), set(place.x + i, place.y + Place::side);
+    set(place.x - 1, place.y + i), set(place.x + Place::side, place.y + i);
+  }
+  return picture;
+}
+
+/// FLIP as a picture that is bright where the greatest error is.
+Rgba8Image painted(const Plane<float>& map) { return metrics::paint_magma(map); }
+
+/// With places where a line may end.
+std::string heading_of(std::string method) {
+  for (std::size_t at = 0; (at = method.find(',', at)) != std::string::npos; at += 2) method.insert(at + 1, " ");
+  return method;
+}
+
+std::string figures_of(const Trial& t) {
+  return fmt::format("FLIP {:.2f}, PSNR {:.1f} dB, {:.1f} ms", 1000 * t.value("flip").value_or(0),
+                     t.value("psnr").value_or(0), t.least_processor_ms());
+}
+
+/// A dot of the plot.
+struct Dot {
+  std::string method;
+  double ms, error;
+  bool is_on_front;
+};
+
+Plot plot_of(const std::string& title, std::vector<Dot> dots) {
+  std::ranges::stable_sort(dots, {}, &Dot::ms);
+  // Left of the front and below it there is nothing that its names could cover.
+  Curve front{
+      .name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1, .labels_are = Curve::Beside::LeftBelow};
+  Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
+  constexpr double apart = 0.94;  // of errors whose names do not touch
+  double last_named = HUGE_VAL;
+  for (const Dot& d : dots) {
+    Curve& curve = d.is_on_front ? front : others;
+    curve.points.emplace_back(d.ms, 1000 * d.error);
+    const bool is_named = !d.is_on_front || d.error <= apart * last_named;
+    curve.labels.push_back(is_named ? d.method : "");
+    if (d.is_on_front && is_named) last_named = d.error;
+  }
+  // The names of many would cover one another; those on the front are what matters.
+  constexpr std::size_t few = 16;
+  if (dots.size() > few) others.labels.clear();
+  const bool is_logarithmic = std::ranges::all_of(dots, [](const Dot& d) { return d.error > 0; });
+  Plot plot{.title = title,
+            .x = {.label = "processor time of a frame (ms)", .is_logarithmic = true},
+            .y = {.label = "mean FLIP × 1000", .is_logarithmic = is_logarithmic}};
+  // Room for the names on both sides.
+  if (!dots.empty()) plot.x.low = dots.front().ms / 2.5, plot.x.high = dots.back().ms * (dots.size() > few ? 1.3 : 2.5);
+  if (is_logarithmic && !dots.empty()) {
+    const auto [least, most] = std::ranges::minmax(dots, {}, &Dot::error);
+    plot.y.low = 1000 * least.error / 1.5, plot.y.high = 1000 * most.error * 1.5;
+  }
+  plot.curves = {std::move(others), std::move(front)};
+  return plot;
+}
+
+}  // namespace
+
+Rgba8Image worst_picture(const SceneTrials& scene, const Trial& trial) {
+  Figure figure{.title = trial.method + " on " + scene.scene, .rows = {{}, {}, {}}, .text = {}};
+  const Rgba8Image errors = painted(trial.error_map);
+  for (const Place& p : trial.worst) {
+    figure.rows[0].push_back({crop(scene.reference_picture, p), fmt::format("reference, at {}, {}", p.x, p.y)});
+    figure.rows[1].push_back({crop(trial.picture, p), trial.method});
+    figure.rows[2].push_back({crop(errors, p), fmt::format("FLIP, mean {:.3f}", p.error)});
+  }
+  figure.text = figures_of(trial) + ".";
+  return compose(figure);
+}
+
+Rgba8Image crops_picture(const SceneTrials& scene) {
+  constexpr std::size_t columns = 6;
+  Figure figure{.title = scene.failure.empty() ? scene.scene : scene.scene + ": " + scene.failure};
+  figure.rows.push_back({{with_mark(scene.reference_picture, scene.common_worst),
+                          fmt::format("The reference, {}, and where the methods are worst", scene.reference)},
+                         {crop(scene.reference_picture, scene.common_worst), "the reference there"}});
+  std::vector<const Trial*> order;
+  for (const Trial& t : scene.trials) order.push_back(&t);
+  std::ranges::stable_sort(order, {}, [](const Trial* t) { return t->value("flip").value_or(0); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i % columns == 0) figure.rows.emplace_back();
+    figure.rows.back().push_back(
+        {crop(order[i]->picture, scene.common_worst), heading_of(order[i]->method) + "\n" + figures_of(*order[i])});
+  }
+  figure.text = "FLIP × 1000 over the whole picture; crops of " + std::to_string(Place::side) +
+                " pixels, 8 times enlarged, the nearest to the reference first.";
+  if (!scene.complaint.empty()) figure.text += "\n" + scene.complaint;
+  return compose(figure);
+}
+
+Plot cost_plot(const SceneTrials& scene) {
+  std::vector<Dot> dots;
+  for (const Trial& t : scene.trials)
+    dots.push_back({t.method, t.least_processor_ms(), t.value("flip").value_or(0), t.is_on_front});
+  return plot_of(scene.scene + ": error and cost", std::move(dots));
+}
+
+Plot cost_plot(const std::vector<MethodMeans>& means) {
+  std::vector<Dot> dots;
+  for (const MethodMeans& m : means) {
+    const bool is_on_front = std::ranges::none_of(means, [&](const MethodMeans& o) {
+      return o.error <= m.error && o.processor_ms <= m.processor_ms &&
+             (o.error < m.error || o.processor_ms < m.processor_ms);
+    });
+    dots.push_back({m.method, m.processor_ms, m.error, is_on_front});
+  }
+  return plot_of("All scenes: mean error and cost", std::move(dots));
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,177 @@
+#include "zoneplate/cli/compare/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/usage.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/shade/surface/material_plan.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr double budget_ms = 1500;  // of one method's turns: no new one after that
+constexpr int worst_count = 3;
+
+Rgba8Image opaque(Rgba8Image image) {
+  for (Rgba8& c : image.values()) c.a = 255;
+  return image;
+}
+
+metrics::Picture picture_of(const Rgba8Image& codes) {
+  DisplayImage display(codes.width(), codes.height());
+  std::ranges::transform(codes.values(), display.values().begin(), [](Rgba8 c) {
+    const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255; };
+    return Display{share(c.r), share(c.g), share(c.b), share(c.a)};
+  });
+  return metrics::make_picture(std::move(display));
+}
+
+/// One method's pictures, each turn as a program would that draws one frame after the other.
+Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
+  Trial trial{.method = method};
+  RasterMemory memory;
+  RenderOptions options = stage.options;
+  options.memory = &memory;
+  double sum_ms = 0;
+  for (int turn = 0; turn < turns && (turn == 0 || sum_ms < budget_ms); ++turn) {
+    const MemoryWatch memory_watch;
+    const double used_before = processor_ms();
+    const Stopwatch watch;
+    RenderCounts counts;
+    const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), method);
+    Rgba8Image picture = render_picture(stage.scene, stage.camera, *resolver, options, stage.display, &counts);
+    trial.frame_ms.push_back(watch.ms());
+    trial.processor_ms.push_back(processor_ms() - used_before);
+    sum_ms += trial.frame_ms.back();
+    if (turn > 0) continue;
+    trial.memory = memory_watch.rise();
+    trial.counts = counts;
+    trial.picture = opaque(std::move(picture));
+    trial.pixels = trial.picture.values().size();
+  }
+  return trial;
+}
+
+void judge(Trial& trial, const metrics::Picture& reference, const TrialOptions& options) {
+  const metrics::Picture test = picture_of(trial.picture);
+  const metrics::Comparands pictures{
+      .count = 1, .reference = [&](std::size_t) { return reference; }, .test = [&](std::size_t) { return test; }};
+  metrics::Comparison comparison = metrics::compare(pictures, options.metrics, metrics::Unfit::Leave);
+  trial.results = std::move(comparison.results);
+  for (metrics::Result& result : trial.results)
+    if (result.metric->name == "flip" && trial.error_map.empty()) trial.error_map = std::move(result.score.map);
+  trial.worst = worst_places(trial.error_map, worst_count);
+}
+
+void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTrials& out) {
+  out.reference = options.reference;
+  if (!options.is_reference_file) {
+    Trial trial = rendered(stage, options.reference, 1);
+    out.reference_ms = trial.frame_ms[0];
+    out.reference_shaded = trial.counts.shaded;
+    out.reference_picture = std::move(trial.picture);
+    return;
+  }
+  out.reference_picture = opaque(quantize8(metrics::load_picture(options.reference).display));
+  const auto size = [](int w, int h) { return fmt::format("{}x{}", w, h); };
+  const std::string found = size(out.reference_picture.width(), out.reference_picture.height());
+  const std::string wanted = size(stage.options.width, stage.options.height);
+  if (found != wanted)
+    throw Error(Trouble::Input, fmt::format("{}: has {} pixels, the pictures have {}; give --size {}",
+                                            options.reference, found, wanted, found));
+}
+
+}  // namespace
+
+double Trial::least_ms() const { return *std::ranges::min_element(frame_ms); }
+
+double Trial::least_processor_ms() const { return *std::ranges::min_element(processor_ms); }
+
+double Trial::shaded_per_pixel() const { return static_cast<double>(counts.shaded) / static_cast<double>(pixels); }
+
+std::optional<double> Trial::value(std::string_view name) const {
+  const std::size_t dot = name.find('.');
+  for (const metrics::Result& result : results) {
+    if (result.metric->name != name.substr(0, dot)) continue;
+    if (dot == std::string_view::npos) return result.value;
+    for (const metrics::Figure& figure : result.score.more)
+      if (figure.name == name.substr(dot + 1)) return figure.value;
+  }
+  return std::nullopt;
+}
+
+std::vector<Place> worst_places(const Plane<float>& error, int count) {
+  constexpr int side = Place::side;
+  std::vector<Place> found;
+  if (error.width() < side || error.height() < side) return found;
+  // Sums over the rectangle from the corner, so that a square's is four of them.
+  Plane<double> sums(error.width() + 1, error.height() + 1);
+  for (int y = 0; y < error.height(); ++y) {
+    double row = 0;
+    for (int x = 0; x < error.width(); ++x) {
+      row += static_cast<double>(error(x, y));
+      sums(x + 1, y + 1) = sums(x + 1, y) + row;
+    }
+  }
+  while (static_cast<int>(found.size()) < count) {
+    Place best{.error = -1};
+    for (int y = 0; y + side <= error.height(); ++y)
+      for (int x = 0; x + side <= error.width(); ++x) {
+        const double sum = sums(x + side, y + side) - sums(x, y + side) - sums(x + side, y) + sums(x, y);
+        if (sum <= best.error) continue;
+        const bool is_free = std::ranges::none_of(
+            found, [&](const Place& p) { return std::abs(p.x - x) < side && std::abs(p.y - y) < side; });
+        if (is_free) best = {x, y, sum};
+      }
+    if (best.error < 0) break;
+    found.push_back(best);
+  }
+  for (Place& p : found) p.error /= side * side;
+  return found;
+}
+
+void find_front(std::vector<Trial>& trials) {
+  for (Trial& t : trials) {
+    const auto error = t.value("flip");
+    t.is_on_front = error && std::ranges::none_of(trials, [&](const Trial& other) {
+                      const auto others = other.value("flip");
+                      return others && *others <= *error && other.least_processor_ms() <= t.least_processor_ms() &&
+                             (*others < *error || other.least_processor_ms() < t.least_processor_ms());
+                    });
+  }
+}
+
+SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
+                       const std::function<void(const std::string&)>& tell) {
+  const TextureSet textures(stage.scene, stage.options.raw_colors);
+  TrialSetup ready = stage;
+  ready.options.textures = &textures;
+
+  SceneTrials out;
+  tell(options.reference);
+  set_reference(ready, options, out);
+  const metrics::Picture reference = picture_of(out.reference_picture);
+  Plane<float> sum(out.reference_picture.width(), out.reference_picture.height());
+  for (const std::string& method : options.methods) {
+    tell(method);
+    Trial trial = rendered(ready, method, options.turns);
+    judge(trial, reference, options);
+    for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += trial.error_map.values()[i];
+    out.trials.push_back(std::move(trial));
+  }
+  if (const std::vector<Place> worst = worst_places(sum, 1); !worst.empty()) {
+    out.common_worst = worst[0];
+    out.common_worst.error /= static_cast<double>(options.methods.size());
+  }
+  find_front(out.trials);
+  return out;
+}
+
+}  // namespace zoneplate::cli

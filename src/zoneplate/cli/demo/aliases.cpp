@@ -1,0 +1,134 @@
+// Aliases: different waves with the same samples, and how far each filter keeps them down.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "zoneplate/cli/demo/demo.h"
+#include "zoneplate/cli/demo/picture.h"
+#include "zoneplate/signal/filter/aliasing.h"
+#include "zoneplate/signal/filter/resample.h"
+#include "zoneplate/signal/fourier/series.h"
+#include "zoneplate/signal/functions.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr double frequency = 0.9;  // cycles a sample
+constexpr int shown_samples = 10;
+constexpr const char* shown_kernel = "lanczos3";
+
+/// A zone plate made smaller.
+struct Reduction {
+  int from, to;
+  double factor() const { return static_cast<double>(from) / to; }
+};
+/// What is measured; a small lesson measures less.
+std::array<Reduction, 2> reductions(const DemoSize& size) {
+  const int share = size.panel < 200 ? 1 : 2;
+  return {{{128 * share, 64 * share}, {185 * share, 50 * share}}};
+}
+
+Plot waves_plot() {
+  const double seen = apparent_frequency(frequency, 1);
+  Plot plot{.x = {"place (samples)", 0, shown_samples}, .y = {"value", -1.25, 1.25}};
+  Curve fast{.name = fmt::format("{} cycles a sample", number(frequency, 1)), .color = Curve::grey};
+  Curve slow{.name = number(std::abs(seen), 1) + " cycles a sample", .color = 0};
+  Curve samples{.name = "samples of both", .mark = Curve::Mark::Points, .color = 1};
+  constexpr int fine = 60;
+  for (int i = 0; i <= shown_samples * fine; ++i) {
+    const double x = static_cast<double>(i) / fine;
+    fast.points.emplace_back(x, cos_pi(2 * frequency * x));
+    slow.points.emplace_back(x, cos_pi(2 * seen * x));
+    if (i % fine == 0) samples.points.emplace_back(x, cos_pi(2 * frequency * x));
+  }
+  plot.curves = {fast, slow, samples};
+  return plot;
+}
+
+Plot folding_plot() {
+  Plot plot{.x = {"true frequency (cycles a sample)", 0, 2.5}, .y = {"seen frequency", 0, 0.6}};
+  Curve folded{.name = "seen", .color = 0}, same{.name = "true", .mark = Curve::Mark::Dashed, .color = Curve::grey};
+  for (int i = 0; i <= 25; ++i) folded.points.emplace_back(i / 10.0, folded_frequency(i / 10.0, 1));
+  same.points = {{0, 0}, {0.6, 0.6}};
+  Curve family{.name = fmt::format("all seen as {}", number(folded_frequency(frequency, 1), 1)),
+               .mark = Curve::Mark::Points,
+               .color = 1};
+  const double seen = folded_frequency(frequency, 1);
+  family.points.emplace_back(seen, seen);
+  for (const double f : aliases_of(seen, 1, 2.5)) family.points.emplace_back(f, folded_frequency(f, 1));
+  plot.curves = {same, folded, family};
+  return plot;
+}
+
+std::string decibels(double db) { return db <= -399 ? "−∞" : number(db, 1); }
+
+Table kernel_table(const std::array<Reduction, 2>& measured) {
+  Table table;
+  table.head = {"kernel"};
+  for (const Reduction& r : measured) {
+    const std::string by = "÷" + number(r.factor(), r.factor() > 3 ? 1 : 0);
+    for (const char* what : {": all", "theory", "far", "theory"})
+      table.head.push_back((what[0] == ':' ? by : std::string()) + what);
+  }
+  std::vector<Plane<float>> plates;
+  for (const Reduction& r : measured) plates.push_back(zone_plate(r.from));
+  for (const KernelEntry& entry : kernels()) {
+    const Kernel kernel = make_kernel(entry.name);
+    std::vector<std::string>& row = table.rows.emplace_back(1, std::string(entry.name));
+    for (std::size_t i = 0; i < plates.size(); ++i) {
+      const AliasFigures found = measure_aliases(plates[i], measured[i].to, measured[i].to, kernel);
+      const AliasFigures expected = predict_aliases(kernel, measured[i].factor());
+      for (const double db : {found.all_db, expected.all_db, found.far_db, expected.far_db})
+        row.push_back(decibels(db));
+    }
+  }
+  return table;
+}
+
+Lesson make(const DemoSize& size) {
+  const int side = size.panel, gap = size.style().gap_px, tenths = (side + 2 * seam) / 10;
+  const int width = 2 * side + gap, height = side * 9 / 10;
+  Figure figure{.title = "Aliases: different waves, the same samples"};
+  const double seen = std::abs(apparent_frequency(frequency, 1));
+  figure.rows.push_back(
+      {{plot_at(waves_plot(), width, height),
+        fmt::format("Nobody can tell them apart\nWaves of {} and of {} cycles a sample agree at every sample; the "
+                    "slower one is what is seen.",
+                    number(frequency, 1), number(seen, 1))},
+       {plot_at(folding_plot(), width, height),
+        "Frequencies fold at ½\nHalf a cycle a sample is the Nyquist frequency: beyond it everything is seen as a "
+        "slower wave, its alias."}});
+
+  const Kernel kernel = make_kernel(shown_kernel);
+  std::vector<Panel>& row = figure.rows.emplace_back();
+  for (const Reduction& r : {Reduction{20 * tenths, 10 * tenths}, Reduction{37 * tenths, 10 * tenths}}) {
+    const Plane<float> plate = zone_plate(r.from);
+    const std::string factor = number(r.factor(), r.factor() > 3 ? 1 : 0);
+    row.push_back(
+        {shown(inside(resample_nearest(plate, r.to, r.to))),
+         fmt::format("{} times smaller, unfiltered\nOnly the rings around the centre belong there.", factor)});
+    row.push_back(
+        {shown(inside(resample(plate, r.to, r.to, kernel, {.border = Border::Wrap}))),
+         fmt::format("{} times smaller, {}\nWhat the pixels cannot hold has become grey.", factor, shown_kernel)});
+  }
+
+  const auto measured = reductions(size);
+  const Table table = kernel_table(measured);
+  figure.rows.push_back({{table_picture(table, size.style(), 4 * side + 3 * gap), ""}});
+  figure.text = fmt::format(
+      "What each kernel leaves of the aliases when zone plates of {} and {} pixels are made smaller, in dB of their "
+      "energy without a filter: measured in the picture, and from the kernel’s frequency response. Far: those from 1.5 "
+      "times the new Nyquist frequency and beyond, which come out coarse. Less is better, but a wide kernel also takes "
+      "more of what could have stayed.",
+      measured[0].from, measured[1].from);
+  return {.frames = {figure}, .tables = {table}};
+}
+
+}  // namespace
+
+Demo demo_aliases() {
+  return {"aliases", "waves with the same samples, and every kernel's suppression of aliases", make};
+}
+
+}  // namespace zoneplate::cli

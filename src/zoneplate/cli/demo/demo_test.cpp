@@ -1,0 +1,171 @@
+#include "zoneplate/cli/demo/demo.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/demo/picture.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/signal/filter/kernel.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr DemoSize small{64};
+
+Rgba8Image drawn(const Demo& demo) { return compose(demo.make(small).frames.at(0), small.style()); }
+
+std::string message_of(const std::vector<std::string>& arguments) {
+  try {
+    run_demo(arguments);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.trouble(), Trouble::Usage);
+    return error.what();
+  }
+  return "no error";
+}
+
+class DemoFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "zoneplate_demo_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(place); }
+  std::filesystem::path place;
+};
+
+TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
+  const std::string folder = (place / "lessons").string();
+  testing::internal::CaptureStdout();
+  run_demo(std::vector<std::string>{"all", "-o", folder, "--panel", "64"});
+  const std::string said = testing::internal::GetCapturedStdout();
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png", "black-edge.png", "jaggies.png", "moire.png",
+                                          "prefilter.png", "convolution-theorem.png", "sampling.png", "aliases.png",
+                                          "exact-coverage.png", "wagon-wheel.png", "wagon-wheel.webp"}));
+  for (const std::string& name : names) {
+    const FileBytes file(folder + "/" + name);
+    if (name.ends_with(".png")) {
+      EXPECT_GT(decode_png(file.bytes(), name).pixels.width(), 190) << name;
+    }
+  }
+  // The text holds what the picture says: titles, captions, and tables.
+  for (const char* words : {"Jaggies: a pixel", "One place under every method", "The black edge: four",
+                            "have the light that is theirs", "--aa msaa:n=8: ", "Moiré: ", "Filter before you sample",
+                            "border", "Sampling copies", "blackman-harris", "+0.90", "shutter always open: "})
+    EXPECT_NE(said.find(words), std::string::npos) << words;
+}
+
+TEST(Demo, DrawsTheSameForAnyNumberOfThreads) {
+  for (const auto& demo_of :
+       {demo_jaggies, demo_antialiasing, demo_black_edge, demo_moire, demo_prefilter, demo_convolution_theorem}) {
+    const Demo demo = demo_of();
+    Rgba8Image one, three;
+    with_threads(1, [&] { one = drawn(demo); });
+    with_threads(3, [&] { three = drawn(demo); });
+    EXPECT_EQ(one, three) << demo.name;
+  }
+}
+
+TEST(Demo, SaysWhatIsMissingOrUnknown) {
+  EXPECT_EQ(message_of({}), "demo: give one lesson; `zoneplate demo -h` lists them");
+  EXPECT_EQ(message_of({"jaggies", "moire"}), "demo: give one lesson; `zoneplate demo -h` lists them");
+  EXPECT_EQ(message_of({"jagies", "-o", "x.png"}), "demo: no lesson jagies; did you mean jaggies?");
+  EXPECT_EQ(message_of({"jaggies"}), "no output: give -o OUT.png");
+  EXPECT_EQ(message_of({"all"}), "no output: give -o FOLDER");
+  EXPECT_EQ(message_of({"jaggies", "-o", "x.jpg"}),
+            "--output: x.jpg is not a format that a lesson is written in (.png)");
+}
+
+TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
+  const std::string root = place.string() + "/";
+  std::filesystem::create_directories(place / "lesson.png");
+  std::filesystem::create_directories(place / "wheel.webp");
+  std::filesystem::create_directories(place / "lessons/wagon-wheel.webp");
+  save_bytes(root + "file", {});
+  const auto refusal = [&](const std::string& lesson, const std::string& output) {
+    try {
+      // The last lesson is the slowest: at this size it takes minutes.
+      run_demo(std::vector<std::string>{lesson, "-o", root + output, "--panel", "1024"});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.trouble(), Trouble::Output);
+      return std::string(error.what()).substr(root.size());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(refusal("jaggies", "none/x.png"), "none/x.png: cannot be written: no directory " + root + "none");
+  EXPECT_EQ(refusal("jaggies", "lesson.png"), "lesson.png: cannot be written: it is a directory");
+  EXPECT_EQ(refusal("wagon-wheel", "wheel.png"), "wheel.webp: cannot be written: it is a directory");
+  EXPECT_EQ(refusal("all", "file"), "file: the folder cannot be made: File exists");
+  EXPECT_EQ(refusal("all", "lessons"), "lessons/wagon-wheel.webp: cannot be written: it is a directory");
+  const std::string longest(256, 'n');
+  EXPECT_EQ(refusal("all", longest), longest + ": the folder cannot be made: File name too long");
+  EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
+}
+
+// The table holds each kernel's figures near their theory, and lanczos3 keeps what is promised of it.
+TEST(Demo, AliasesHaveEveryKernelBesideItsTheory) {
+  const Lesson lesson = demo_aliases().make(small);
+  const Table& table = lesson.tables.at(0);
+  EXPECT_EQ(table.head.size(), 9u);
+  ASSERT_EQ(table.rows.size(), kernels().size());
+  const auto value = [](std::string cell) {
+    const std::string minus = "−";
+    EXPECT_TRUE(cell.starts_with(minus)) << cell;
+    return -std::stod(cell.substr(minus.size()));
+  };
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 1; i < row.size(); i += 2) EXPECT_NEAR(value(row[i]), value(row[i + 1]), 2) << row[0];
+    if (row[0] != "lanczos3") continue;
+    for (const std::size_t all : {1u, 5u}) EXPECT_LE(value(row[all]), -15);
+    for (const std::size_t far : {3u, 7u}) EXPECT_LE(value(row[far]), -40);
+  }
+}
+
+TEST(DemoPicture, CropsStayInsideAndAreMarked) {
+  Rgba8Image picture(40, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) picture(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 0, 255};
+  const Rgba8Image crop = crop_of(picture, 39, 0, 8, 80);  // 10 pixels of the upper right corner
+  ASSERT_EQ(crop.width(), 80);
+  EXPECT_EQ(crop(0, 0), (Rgba8{30, 0, 0, 255}));
+  EXPECT_EQ(crop(79, 79), (Rgba8{39, 9, 0, 255}));
+  const Rgba8Image with_mark = marked(picture, 20, 15, 8, 80);
+  EXPECT_EQ(with_mark(15, 10), picture(15, 10));
+  EXPECT_NE(with_mark(14, 10), picture(14, 10));
+  EXPECT_NE(with_mark(25, 20), picture(25, 20));
+}
+
+TEST(DemoPicture, WritesNumbers) {
+  EXPECT_EQ(number(-12.34, 1), "−12.3");
+  EXPECT_EQ(number(-0.001, 2), "0.00");
+  EXPECT_EQ(number(3, 0), "3");
+  EXPECT_EQ(counted(0), "0");
+  EXPECT_EQ(counted(999), "999");
+  EXPECT_EQ(counted(1234567), "1,234,567");
+}
+
+TEST(DemoText, IsTheFigureWrapped) {
+  Lesson lesson;
+  lesson.frames.push_back({.title = "Title", .rows = {{{{}, "Heading\nwords"}, {{}, ""}}}, .text = "last"});
+  lesson.tables.push_back({{"a", "b"}, {{"x", "1"}}});
+  EXPECT_EQ(text_of(lesson), "Title\n\n  Heading: words\n\na  b\nx  1\n\nlast\n");
+  std::string words;
+  for (int i = 0; i < 50; ++i) words += "word ";
+  lesson.frames[0].text = words + "end";
+  std::string text = text_of(lesson);
+  for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
+    EXPECT_LE(end - at, 100u);
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

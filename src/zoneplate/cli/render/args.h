@@ -1,0 +1,91 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zoneplate/cli/aov.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/look.h"
+#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/render/shard.h"
+#include "zoneplate/cli/view.h"
+#include "zoneplate/formats/load.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/render/render.h"
+
+namespace zoneplate::cli {
+
+/// Which frames are made.
+struct SequenceArgs {
+  std::optional<int> turntable, count, first, last;
+  int jump = 1;
+  double rate = 24;  ///< frames a second
+  bool is_film = false;
+  std::optional<double> shutter;  ///< degrees of a frame's time that it is open
+  int shutter_samples = 16;
+
+  bool is_wanted() const { return turntable || count || first || last || is_film; }
+};
+
+/// Everything that `zoneplate render` can be told.
+struct RenderArgs {
+  std::string input, output;
+  std::vector<std::string> inputs;  ///< all of them; `input` is the first
+  std::string manifest;
+  Shard shard;
+  bool skip_existing = false;
+  SequenceArgs sequence;
+  bool has_animation_time = false;
+  int bit_depth = 8;
+  bool dithers = false;
+  std::string stdout_format = "png";
+  std::string method = "msaa:n=8";
+  RenderOptions options;
+  DisplayOptions display;
+  std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one
+  View view;
+  Look look;
+  std::vector<const Aov*> aovs;
+  LoadOptions load;
+  std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
+  int threads = 0;           ///< 0: as many as there are cores
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
+  bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
+  bool wants_json = false;
+  Verbosity verbosity = Verbosity::Normal;
+  std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
+
+  bool is_batch() const { return inputs.size() > 1 || !manifest.empty(); }
+  /// The output's name with an ending that tells its format, for stdout too.
+  std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
+};
+
+/// The longest side of a picture, in pixels: the reach of the rasterizer's fixed-point coordinates.
+inline constexpr int max_side = 16384;
+
+/// The options of the verb, which set `args`. It keeps a reference to it.
+Syntax render_syntax(RenderArgs& args);
+
+/// Checks what options have made of one picture's or sequence's arguments, and completes them.
+///
+/// Errors    Trouble::Usage.
+void check_args(RenderArgs& args);
+
+/// Errors    Trouble::Usage for a name whose ending is not that of a picture that can be written.
+void check_picture_ending(const std::string& output);
+
+/// The ending of a name in lower case, with its dot.
+std::string extension_of(const std::string& name);
+
+/// True where there is a file of that name.
+bool exists(const std::string& path);
+
+/// Parses and checks the whole command line of the verb; nothing where help was asked for.
+///
+/// Errors    Trouble::Usage.
+std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments);
+
+}  // namespace zoneplate::cli

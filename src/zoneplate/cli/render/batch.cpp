@@ -1,0 +1,215 @@
+#include "zoneplate/cli/render/batch.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// A line of the manifest that is not empty, and what messages call it.
+struct Line {
+  std::string text, place;
+};
+
+std::vector<Line> lines_of(const std::string& path) {
+  const FileBytes file(path, std::uint64_t{1} << 30);
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  std::vector<Line> lines;
+  std::size_t number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    ++number;
+    if (line.find_first_not_of(" \t\r") != line.npos)
+      lines.push_back({std::string(line), fmt::format("{}: line {}", path == "-" ? "standard input" : path, number)});
+    at = end + 1;
+  }
+  return lines;
+}
+
+// The jobs of a manifest: each is what the command line says, with options of its own over that.
+class Jobs {
+ public:
+  explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
+  Jobs(const Jobs&) = delete;
+  Jobs& operator=(const Jobs&) = delete;
+
+  // Errors    Trouble::Input or Usage, naming the line.
+  RenderArgs read(const Line& line) {
+    ImportBudget budget(line.place, common_.load.limits);
+    const JsonValue job =
+        parse_json({reinterpret_cast<const std::uint8_t*>(line.text.data()), line.text.size()}, budget);
+    try {
+      return read(job, JsonView(job, line.place));
+    } catch (const Error& error) {
+      if (error.trouble() != Trouble::Usage) throw;
+      throw Error(Trouble::Usage, line.place + ": " + error.what());
+    }
+  }
+
+ private:
+  RenderArgs read(const JsonValue& job, const JsonView& view) {
+    args_ = common_;
+    args_.input.clear();
+    for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
+    if (args_.input.empty()) view.fail("has no input");
+    args_.inputs = {args_.input};
+    check_args(args_);
+    return args_;
+  }
+
+  void set(const std::string& key, const JsonValue& value, const JsonView& view) {
+    using Kind = JsonValue::Kind;
+    if (value.kind != Kind::Boolean && value.kind != Kind::Text && value.kind != Kind::Number)
+      view.fail(key + " is neither a text, nor a number, nor true or false");
+    const std::string text = value.kind == Kind::Number ? fmt::format("{}", value.number) : value.text;
+    if (text.find('\0') != text.npos) view.fail(key + " has a character of code 0");
+    if (key == "manifest" || key == "shard") view.fail(key + " is for all jobs together, not for one");
+    if (key == "input" && value.kind != Kind::Boolean)
+      args_.input = text;
+    else if (value.kind != Kind::Boolean)
+      set_option(syntax_, key, text);
+    else if (value.boolean)
+      set_option(syntax_, key, std::nullopt);
+  }
+
+  const RenderArgs& common_;
+  RenderArgs args_;
+  Syntax syntax_;  ///< whose options set args_
+};
+
+// Does items in their order. Those that follow each other with one model are done together, in one process.
+class Batch {
+ public:
+  explicit Batch(const RenderArgs& common) : common_(common) {}
+
+  // Adds the item that `make` returns; where it throws, the item has failed.
+  template <class Make>
+  void add(const std::string& name, const Make& make) {
+    try {
+      RenderArgs args = make();
+      args.progress = ProgressKind::None;
+      const bool is_alike = !items_.empty() && args.input != "-" && model_key(args) == model_key(items_.front().args) &&
+                            args.max_seconds == items_.front().args.max_seconds &&
+                            args.is_sandboxed == items_.front().args.is_sandboxed;
+      if (!is_alike || items_.size() >= most_together) flush();
+      items_.push_back({name, std::move(args)});
+    } catch (const std::exception& error) {
+      flush();
+      report(failure(name, error), Stopwatch());
+    }
+  }
+
+  void finish() {
+    flush();
+    if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
+  }
+
+ private:
+  struct Item {
+    std::string name;
+    RenderArgs args;
+  };
+  static constexpr std::size_t most_together = 64;  // results appear while a long batch runs
+
+  void flush() {
+    std::vector<Item> items = std::exchange(items_, {});
+    std::vector<RenderArgs> to_render;
+    std::vector<bool> is_rendered;
+    for (const Item& item : items) {
+      is_rendered.push_back(!is_skipped(item.args));
+      if (is_rendered.back()) to_render.push_back(item.args);
+    }
+    std::optional<RenderItems> process;
+    if (!to_render.empty()) process.emplace(std::move(to_render));
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const Stopwatch watch;
+      report(is_rendered[i] ? render(items[i], *process) : skipped(items[i]), watch);
+    }
+  }
+
+  Json::Object render(const Item& item, RenderItems& process) {
+    try {
+      const Summary summary = process.next();
+      Json::Object line = summary_json(item.args, summary);
+      line.emplace(line.begin() + 2, "status", "done");
+      return line;
+    } catch (const std::exception& error) {
+      return failure(item.name, error);
+    }
+  }
+
+  static bool is_skipped(const RenderArgs& args) {
+    return args.skip_existing && !has_frame_number(args.output) && exists(args.output);
+  }
+  static Json::Object skipped(const Item& item) {
+    return {{"input", item.args.input}, {"output", item.args.output}, {"status", "skipped"}};
+  }
+
+  Json::Object failure(const std::string& name, const std::exception& error) {
+    ++failed_;
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    const std::string cause = is_memory ? name + ": out of memory" : error.what();
+    say_error(cause);
+    return {{"input", name}, {"output", Json()}, {"status", "failed"}, {"error", cause}};
+  }
+
+  void report(Json::Object line, const Stopwatch& watch) {
+    line.emplace_back("seconds", watch.ms() / 1000);
+    if (common_.verbosity != Verbosity::Quiet) print(Json(std::move(line)).text() + '\n');
+    ++count_;
+  }
+
+  const RenderArgs& common_;
+  std::vector<Item> items_;  ///< with one model, not done yet
+  std::uint64_t count_ = 0, failed_ = 0;
+};
+
+std::string model_of(const std::string& input) {
+  std::string stem = std::filesystem::path(input).stem().string();
+  for (char& c : stem)
+    if (c == ':' || c == '/') c = '_';
+  return stem;
+}
+
+}  // namespace
+
+void render_batch(const RenderArgs& common) {
+  Batch batch(common);
+  std::uint64_t number = 0;
+  for (const std::string& input : common.inputs) {
+    if (!common.shard.has(number++)) continue;
+    batch.add(input, [&] {
+      RenderArgs args = common;
+      args.input = input;
+      if (!args.sequence.is_wanted()) args.output = frame_name(args.output, 0, model_of(input));
+      check_outputs(args);
+      return args;
+    });
+  }
+  if (common.manifest.empty()) return batch.finish();
+  Jobs jobs(common);
+  for (const Line& line : lines_of(common.manifest)) {
+    if (!common.shard.has(number++)) continue;
+    batch.add(line.place, [&] {
+      RenderArgs args = jobs.read(line);
+      check_outputs(args);
+      return args;
+    });
+  }
+  batch.finish();
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/render/picture.h"
+#include "zoneplate/cli/stage.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/formats/load.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/report/figure.h"
+
+namespace zoneplate::cli {
+namespace {
+
+struct SheetArgs {
+  RenderArgs render;  ///< of one cell
+  std::string output, title;
+  int columns = 0;  ///< 0: as many as make the sheet nearest to 4:3
+};
+
+// Files are named without their folders, where that tells them apart.
+std::vector<std::string> short_names(const std::vector<std::string>& inputs) {
+  std::map<std::string, int> count;
+  const auto last = [](const std::string& name) { return name.substr(name.find_last_of('/') + 1); };
+  for (const std::string& name : inputs) ++count[last(name)];
+  std::vector<std::string> out;
+  for (const std::string& name : inputs) out.push_back(count[last(name)] == 1 ? last(name) : name);
+  return out;
+}
+
+Rgba8Image blank(const SheetArgs& args) {
+  return Rgba8Image(args.render.options.width, args.render.options.height, {255, 255, 255, 255});
+}
+
+// In the item's process: the model's picture, as RGBA codes.
+std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
+  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), render.method);
+  std::optional<Stage> stage;
+  within_import_time(render.input, render.load.limits, [&] { stage.emplace(load_scene(render.input, render.load)); });
+  sender.has_read();
+  render.view.up = render.up.value_or(stage->scene().up);
+  if (is_builtin_scene(render.input) && !stage->scene().cameras.empty()) render.view.index = 0;
+  const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
+  const Camera camera = choose_camera(stage->scene(), render.view, aspect);
+  render.options.environment = stage->light(camera, render.look);
+  Summary summary;
+  const Rendered picture = render_picture(render, stage->scene(), camera, *resolver, "", summary);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(picture.image.values().data());
+  return {first, first + picture.image.values().size_bytes()};
+}
+
+// A model's picture; where it has none, what stands in the way of it.
+Panel panel_of(const SheetArgs& args, const std::string& input, const std::string& name) {
+  try {
+    RenderArgs render = args.render;
+    render.input = input;
+    ItemProcess process({.name = input,
+                         .load = render.load.limits,
+                         .seconds = render.max_seconds,
+                         .is_sandboxed = wants_sandbox(render.is_sandboxed),
+                         .readable = readable_paths(input, render.load)},
+                        1, [&](std::size_t, ItemSender& sender) { return render_cell(render, sender); });
+    const std::vector<std::uint8_t> codes = process.next({});
+    Rgba8Image image = blank(args);
+    if (codes.size() != image.values().size_bytes())
+      throw Error(Trouble::Failed, input + ": a picture of a wrong size");
+    std::memcpy(image.values().data(), codes.data(), codes.size());
+    return {std::move(image), name};
+  } catch (const std::exception& error) {
+    std::string cause = error.what();
+    if (cause.starts_with(input + ": ")) cause = cause.substr(input.size() + 2);
+    return {blank(args), name + "\n" + cause};
+  }
+}
+
+int columns_for(const SheetArgs& args, std::size_t count) {
+  if (args.columns > 0) return args.columns;
+  const double shape = static_cast<double>(args.render.options.height + 40) / (args.render.options.width + 16);
+  int columns = 1;
+  while (static_cast<double>(columns) / (static_cast<double>(count) / columns * shape) < 4.0 / 3) ++columns;
+  return std::min<int>(columns, static_cast<int>(count));
+}
+
+Figure lay_out(const SheetArgs& args, std::vector<Panel> panels) {
+  Figure figure{.title = args.title};
+  const auto columns = static_cast<std::size_t>(columns_for(args, panels.size()));
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (i % columns == 0) figure.rows.emplace_back();
+    figure.rows.back().push_back(std::move(panels[i]));
+  }
+  return figure;
+}
+
+Syntax make_syntax(SheetArgs& args) {
+  Syntax syntax{.verb = "contact-sheet",
+                .summary = "Every model in one picture with its name",
+                .operands = "FILES... -o OUT",
+                .examples =
+                    "  zoneplate contact-sheet models/*.glb -o sheet.png\n"
+                    "  zoneplate contact-sheet a.stl b.ply teapot -o sheet.png --size 320x240 --columns 3\n",
+                .notes =
+                    "A file that cannot be read has its reason in place of its picture; the sheet is made all the "
+                    "same.\n"};
+  syntax.options = {{"--output,-o", "OUT", "The picture to write: .png, .jpg or .webp, or - for stdout", "Options",
+                     true, [&](auto& text) { args.output = text; }},
+                    {"--resolution,--size", "W,H", "Of one model's picture; default 200,150", "Options", true,
+                     [&](auto& text) {
+                       const int2 size = parse_size(text, 4096);
+                       args.render.options.width = size.x, args.render.options.height = size.y;
+                     }},
+                    {"--columns", "N", "Pictures side by side; default as many as make a sheet of 4:3", "Options", true,
+                     [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
+                    {"--title", "TEXT", "Above all", "Options", false, [&](auto& text) { args.title = text; }},
+                    {"--anti-aliasing,--aa", "METHOD", "As for render; default msaa:n=8", "Options", false,
+                     [&](auto& text) { args.render.method = text; }},
+                    {"--background-color,--background", "COLOR", "Behind the models; default #444444", "Options", false,
+                     [&](auto& text) { args.render.background = parse_color(text); }},
+                    {"--max-memory", "BYTES", "Memory for one model and its picture, as 512M; default 4G", "Options",
+                     false, [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
+                    {"--max-import-seconds", "S", "Give up reading a model after this time; default 60", "Options",
+                     false, [&](auto& text) { args.render.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
+                    {"--max-seconds", "S", "Give up a model after this time; default no limit", "Options", false,
+                     [&](auto& text) { args.render.max_seconds = parse_number(text, 0.001, 1e9); }},
+                    {"--sandbox", "", "Read and render in processes that may do nothing else: the default", "Options",
+                     false, [&](auto&) { args.render.is_sandboxed = true; }},
+                    {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust",
+                     "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
+                    {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Options", false,
+                     [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
+  return syntax;
+}
+
+}  // namespace
+
+void run_contact_sheet(std::span<const std::string> arguments) {
+  SheetArgs args;
+  args.render.options.width = 200, args.render.options.height = 150;
+  args.render.background = float4{0.267f, 0.267f, 0.267f, 1};
+  args.render.options.point_size = 3, args.render.options.line_width = 1.5f;  // single pixels would not be seen
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  if (syntax.found_operands.empty()) throw Error(Trouble::Usage, "no input: give models or built-in scenes");
+  if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png");
+  static_cast<void>(make_resolver(antialias::methods(), args.render.method));
+  check_picture_ending(args.output);
+  if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
+    throw Error(Trouble::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
+  args.render.output = args.output;
+  check_outputs(args.render);
+
+  const std::vector<std::string> names = short_names(syntax.found_operands);
+  std::vector<Panel> panels;
+  Rendered sheet;
+  with_threads(args.render.threads, [&] {
+    for (std::size_t i = 0; i < names.size(); ++i) panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
+    sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
+  });
+  save_bytes(args.output, encode_picture(sheet, args.output));
+}
+
+}  // namespace zoneplate::cli

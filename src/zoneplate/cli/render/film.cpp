@@ -1,0 +1,91 @@
+#include "zoneplate/cli/render/film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/apng.h"
+#include "zoneplate/codec/webp.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// One thread and no stamps: the same version of ffmpeg writes the same bytes. MP4 goes through a pipe in fragments.
+const std::vector<std::string>& codec_of(const std::string& extension) {
+  static const std::vector<std::string> mp4 = {
+      "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16", "-pix_fmt", "yuv420p",
+      "-movflags", "+frag_keyframe+empty_moov",     "-f",   "mp4"};
+  static const std::vector<std::string> webm = {"-c:v", "libvpx-vp9", "-b:v",     "0",  "-crf",
+                                                "20",   "-pix_fmt",   "yuva420p", "-f", "webm"};
+  static const std::vector<std::string> gif = {
+      "-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0", "-f", "gif"};
+  return extension == ".mp4" ? mp4 : extension == ".webm" ? webm : gif;
+}
+
+}  // namespace
+
+Animation film_of(double rate) {
+  // A frame's length as a fraction of whole numbers.
+  Animation film;
+  const bool is_whole = rate == std::floor(rate);
+  film.seconds = is_whole ? 1 : 1000;
+  film.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
+  if (film.per < 1 || film.per > 65535)
+    throw Error(Trouble::Usage, "--frame-rate: wants a whole number, or one up to 65");
+  return film;
+}
+
+bool is_encoded_by_ffmpeg(const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  return extension == ".gif" || extension == ".mp4" || extension == ".webm";
+}
+
+std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output) {
+  return std::filesystem::path(output).extension() == ".webp" ? encode_webp(film) : encode_apng(film);
+}
+
+FfmpegFilm::FfmpegFilm(std::string output, int width, int height, const Animation& timing)
+    : output_(std::move(output)),
+      width_(width),
+      height_(height),
+      per_(timing.per),
+      seconds_(timing.seconds),
+      frames_("ffmpeg") {}
+
+std::vector<std::uint8_t> FfmpegFilm::encode() const {
+  std::vector<std::string> arguments = {"-v",
+                                        "error",
+                                        "-f",
+                                        "rawvideo",
+                                        "-pix_fmt",
+                                        "rgba",
+                                        "-s",
+                                        fmt::format("{}x{}", width_, height_),
+                                        "-r",
+                                        fmt::format("{}/{}", per_, seconds_),
+                                        "-i",
+                                        "-",
+                                        "-map_metadata",
+                                        "-1",
+                                        "-fflags",
+                                        "+bitexact",
+                                        "-flags:v",
+                                        "+bitexact",
+                                        "-threads",
+                                        "1"};
+  for (const std::string& word : codec_of(std::filesystem::path(output_).extension().string()))
+    arguments.push_back(word);
+  arguments.push_back("-");
+  const int milliseconds = 60'000 + static_cast<int>(std::min<std::uint64_t>(frames_.size() / 1000, 1'000'000'000));
+  ProgramResult answer = run_child("ffmpeg", arguments, frames_, {.milliseconds = milliseconds});
+  if (answer.code != 0 || answer.out.empty())
+    throw Error(Trouble::Failed,
+                fmt::format("ffmpeg: {}", answer.complaint.empty() ? "wrote nothing" : answer.complaint));
+  return std::move(answer.out);
+}
+
+}  // namespace zoneplate::cli

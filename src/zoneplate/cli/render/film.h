@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zoneplate/codec/animation.h"
+#include "zoneplate/os/run_program.h"
+
+namespace zoneplate::cli {
+
+/// A film without frames, whose frames last 1 / rate seconds.
+///
+/// Errors    Trouble::Usage for a rate that is no fraction of small whole numbers.
+Animation film_of(double rate);
+
+/// True for the name of a GIF, MP4 or WebM film, which the program ffmpeg encodes.
+bool is_encoded_by_ffmpeg(const std::string& output);
+
+/// The bytes of an APNG or WebP film.
+std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output);
+
+/// A film that ffmpeg encodes. Its frames wait in a temporary file without a name, not in memory.
+class FfmpegFilm {
+ public:
+  /// `timing`: of the frames, which it does not hold.
+  FfmpegFilm(std::string output, int width, int height, const Animation& timing);
+
+  /// Adds pixels in the order of the frames, RGBA, 8 bits a channel, rows from the top; in parts of any size.
+  ///
+  /// Errors    Trouble::Failed where the folder for temporary files is full.
+  void add(std::span<const std::uint8_t> pixels) { frames_.append(pixels); }
+
+  /// The bytes of the film.
+  ///
+  /// Errors    Trouble::Failed with ffmpeg's first line of complaint, or where it is not installed.
+  std::vector<std::uint8_t> encode() const;
+
+ private:
+  std::string output_;
+  int width_, height_, per_, seconds_;
+  ScratchFile frames_;
+};
+
+}  // namespace zoneplate::cli

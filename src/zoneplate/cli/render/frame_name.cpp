@@ -1,0 +1,59 @@
+#include "zoneplate/cli/render/frame_name.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace zoneplate::cli {
+namespace {
+
+// Where a name has its number, and how many digits that has at least.
+struct Place {
+  std::size_t begin = 0, size = 0;
+  int digits = 1;
+};
+
+std::optional<int> digits_of(const std::string& text) {
+  if (text.size() > 2 || text.find_first_not_of("0123456789") != text.npos) return std::nullopt;
+  return text.empty() ? 1 : std::stoi(text);
+}
+
+std::optional<Place> find_place(const std::string& name) {
+  if (const std::size_t hash = name.find('#'); hash != name.npos) {
+    const std::size_t end = std::min(name.find_first_not_of('#', hash), name.size());
+    return Place{hash, end - hash, static_cast<int>(end - hash)};
+  }
+  if (const std::size_t percent = name.find('%'); percent != name.npos) {
+    const std::size_t end = name.find('d', percent);
+    if (end != name.npos)
+      if (const auto digits = digits_of(name.substr(percent + 1, end - percent - 1)))
+        return Place{percent, end + 1 - percent, *digits};
+  }
+  if (const std::size_t brace = name.find("{frame"); brace != name.npos) {
+    const std::size_t end = name.find('}', brace);
+    if (end == name.npos) return std::nullopt;
+    const std::string inside = name.substr(brace + 6, end - brace - 6);
+    if (inside.empty()) return Place{brace, end + 1 - brace, 1};
+    if (inside[0] == ':')
+      if (const auto digits = digits_of(inside.substr(1))) return Place{brace, end + 1 - brace, *digits};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool has_frame_number(const std::string& name) { return find_place(name).has_value(); }
+
+std::string frame_name(const std::string& name, int frame, const std::string& model) {
+  std::string out = name;
+  if (const auto place = find_place(out)) {
+    const std::string sign = frame < 0 ? "-" : "";
+    out.replace(place->begin, place->size, sign + fmt::format("{:0{}}", std::abs(frame), std::min(place->digits, 20)));
+  }
+  for (std::size_t at = out.find("{model}"); at != out.npos; at = out.find("{model}", at + model.size()))
+    out.replace(at, 7, model);
+  return out;
+}
+
+}  // namespace zoneplate::cli

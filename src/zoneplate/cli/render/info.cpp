@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/packed.h"
+#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/formats/load.h"
+#include "zoneplate/report/json.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// Drawn counts every placement of a mesh, stored counts it once.
+struct Counts {
+  std::uint64_t triangles = 0, lines = 0, points = 0, vertices = 0, stored_triangles = 0;
+};
+
+Counts count(const Scene& scene) {
+  Counts counts;
+  for (const Mesh& mesh : scene.meshes) {
+    counts.vertices += mesh.position.size();
+    if (mesh.topology == Topology::Triangles) counts.stored_triangles += mesh.primitives();
+  }
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    std::uint64_t& kind = mesh.topology == Topology::Triangles ? counts.triangles
+                          : mesh.topology == Topology::Lines   ? counts.lines
+                                                               : counts.points;
+    kind += mesh.primitives();
+  }
+  return counts;
+}
+
+constexpr std::string_view topology_name(Topology topology) {
+  return topology == Topology::Triangles ? "triangles" : topology == Topology::Lines ? "lines" : "points";
+}
+
+constexpr std::string_view model_name(ShadingModel model) {
+  switch (model) {
+    case ShadingModel::BlinnPhong:
+      return "blinn-phong";
+    case ShadingModel::Phong:
+      return "phong";
+    case ShadingModel::Unlit:
+      return "unlit";
+    case ShadingModel::MetallicRoughness:
+      break;
+  }
+  return "pbr";
+}
+
+constexpr std::string_view alpha_name(AlphaMode mode) {
+  return mode == AlphaMode::Opaque ? "opaque" : mode == AlphaMode::Mask ? "mask" : "blend";
+}
+
+constexpr std::string_view light_name(LightKind kind) {
+  return kind == LightKind::Directional ? "directional" : kind == LightKind::Point ? "point" : "spot";
+}
+
+Json triple(float3 v) { return Json::Array{v.x, v.y, v.z}; }
+
+template <class Row, class Write>
+Json rows(const std::vector<Row>& values, Write write) {
+  Json::Array out;
+  for (const Row& value : values) out.emplace_back(write(value));
+  return out;
+}
+
+Json info_json(const std::string& input, const Scene& scene) {
+  const Counts counts = count(scene);
+  const Box box = scene.bounds();
+  const Json bounds = box.empty() ? Json() : Json(Json::Object{{"low", triple(box.low)}, {"high", triple(box.high)}});
+  return Json::Object{
+      {"input", input},
+      {"triangles", counts.triangles},
+      {"lines", counts.lines},
+      {"points", counts.points},
+      {"vertices", counts.vertices},
+      {"instances", static_cast<std::uint64_t>(scene.instances.size())},
+      {"bounds", bounds},
+      {"meshes", rows(scene.meshes,
+                      [](const Mesh& m) {
+                        return Json::Object{{"name", m.name},
+                                            {"kind", topology_name(m.topology)},
+                                            {"primitives", static_cast<std::uint64_t>(m.primitives())},
+                                            {"vertices", static_cast<std::uint64_t>(m.position.size())},
+                                            {"material", m.material}};
+                      })},
+      {"objects", Json::Array(scene.objects.begin(), scene.objects.end())},
+      {"materials", rows(scene.materials,
+                         [](const Material& m) {
+                           return Json::Object{{"name", m.name},
+                                               {"model", model_name(m.model)},
+                                               {"alpha", alpha_name(m.alpha_mode)},
+                                               {"double_sided", m.double_sided}};
+                         })},
+      {"textures",
+       rows(scene.images,
+            [](const TextureImage& i) {
+              return Json::Object{{"name", i.name}, {"width", i.pixels.width()}, {"height", i.pixels.height()}};
+            })},
+      {"lights", rows(scene.lights,
+                      [](const Light& l) {
+                        return Json::Object{{"name", l.name}, {"kind", light_name(l.kind)}, {"intensity", l.intensity}};
+                      })},
+      {"cameras", rows(scene.cameras,
+                       [](const Camera& c) {
+                         return Json::Object{{"name", c.name},
+                                             {"kind", c.is_orthographic ? "orthographic" : "perspective"},
+                                             {"position", triple(xyz(c.world_from_camera.column[3]))}};
+                       })},
+      {"animations", rows(scene.animations,
+                          [](const AnimationSpan& a) {
+                            return Json::Object{{"name", a.name}, {"begin", a.begin}, {"end", a.end}};
+                          })},
+      {"variants", Json::Array(scene.variants.begin(), scene.variants.end())},
+      {"warnings", Json::Array(scene.warnings.begin(), scene.warnings.end())}};
+}
+
+std::string info_text(const std::string& input, const Scene& scene) {
+  const Counts counts = count(scene);
+  const Box box = scene.bounds();
+  std::string text = input + '\n';
+  text += fmt::format("  triangles   {} drawn, {} stored in {} meshes, {} placed\n", counts.triangles,
+                      counts.stored_triangles, scene.meshes.size(), scene.instances.size());
+  if (counts.lines + counts.points > 0)
+    text += fmt::format("  others      {} lines, {} points\n", counts.lines, counts.points);
+  text += fmt::format("  vertices    {}\n", counts.vertices);
+  if (!box.empty())
+    text += fmt::format("  bounds      {:.6g}, {:.6g}, {:.6g}  to  {:.6g}, {:.6g}, {:.6g}\n", box.low.x, box.low.y,
+                        box.low.z, box.high.x, box.high.y, box.high.z);
+
+  text += fmt::format("  materials   {}\n", scene.materials.size());
+  for (const Material& m : scene.materials)
+    text += fmt::format("    {} ({}, {}{})\n", m.name.empty() ? "unnamed" : m.name, model_name(m.model),
+                        alpha_name(m.alpha_mode), m.double_sided ? ", double-sided" : "");
+  text += fmt::format("  textures    {}\n", scene.images.size());
+  for (const TextureImage& image : scene.images)
+    text += fmt::format("    {} {}x{}\n", image.name, image.pixels.width(), image.pixels.height());
+  text += fmt::format("  lights      {}\n", scene.lights.size());
+  for (const Light& light : scene.lights)
+    text += fmt::format("    {} ({}, {:.6g})\n", light.name.empty() ? "unnamed" : light.name, light_name(light.kind),
+                        light.intensity);
+  text += fmt::format("  cameras     {}\n", scene.cameras.size());
+  for (const Camera& camera : scene.cameras)
+    text += fmt::format("    {} ({})\n", camera.name.empty() ? "unnamed" : camera.name,
+                        camera.is_orthographic ? "orthographic" : "perspective");
+  if (!scene.animations.empty()) text += fmt::format("  animations  {}\n", scene.animations.size());
+  for (const AnimationSpan& a : scene.animations)
+    text += fmt::format("    {} ({:.6g} to {:.6g} s)\n", a.name.empty() ? "unnamed" : a.name, a.begin, a.end);
+  if (!scene.variants.empty()) text += fmt::format("  variants    {}\n", fmt::join(scene.variants, ", "));
+  return text;
+}
+
+// What is printed, and the warnings.
+std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& scene, bool wants_json) {
+  Packer out;
+  out.text(wants_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
+  out.value(std::uint64_t{scene.warnings.size()});
+  for (const std::string& warning : scene.warnings) out.text(warning);
+  return std::move(out).bytes();
+}
+
+}  // namespace
+
+void run_info(std::span<const std::string> arguments) {
+  bool wants_json = false;
+  LoadOptions options;
+  double max_seconds = std::numeric_limits<double>::infinity();
+  bool is_sandboxed = true;
+  Syntax syntax{.verb = "info",
+                .summary = "Tell what is in a model: meshes, materials, textures, lights, cameras, bounds",
+                .operands = "IN",
+                .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
+  syntax.options = {
+      {"--json", "", "As one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
+      {"--max-memory", "BYTES", "Memory for reading, as 512M; default 4G", "Options", false,
+       [&](auto& text) { options.limits.memory = parse_bytes(text); }},
+      {"--max-import-seconds", "S", "Give up reading after this time; default 60", "Options", false,
+       [&](auto& text) { options.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--max-seconds", "S", "Give up after this time; default no limit", "Options", false,
+       [&](auto& text) { max_seconds = parse_number(text, 0.001, 1e9); }},
+      {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
+       [&](auto& text) { options.format = text; }},
+      {"--sandbox", "", "Read in a process that may do nothing else: the default", "Options", false,
+       [&](auto&) { is_sandboxed = true; }},
+      {"--no-sandbox", "", "Read with all rights of the user: for models that you trust", "Options", false,
+       [&](auto&) { is_sandboxed = false; }},
+      {"--allow-path", "PATH", "Let a model use this file or folder, outside its own; may be given several times",
+       "Options", false, [&](auto& text) { options.limits.allowed_paths.push_back(text); }}};
+  if (!parse(syntax, arguments)) return;
+  if (syntax.found_operands.size() != 1)
+    throw Error(Trouble::Usage, "info takes one input: a model or a built-in scene");
+
+  const std::string& input = syntax.found_operands.front();
+  ItemProcess process({.name = input == "-" ? "standard input" : input,
+                       .load = options.limits,
+                       .seconds = max_seconds,
+                       .is_sandboxed = wants_sandbox(is_sandboxed),
+                       .readable = readable_paths(input, options)},
+                      1, [&](std::size_t, ItemSender& sender) {
+                        Scene scene;
+                        within_import_time(input, options.limits, [&] { scene = load_scene(input, options); });
+                        sender.has_read();
+                        return packed_info(input, scene, wants_json);
+                      });
+  const std::vector<std::uint8_t> answer = process.next({});
+  Unpacker told(answer);
+  print(told.text());
+  if (!wants_json)
+    for (auto n = told.value<std::uint64_t>(); n > 0; --n) say_warning(told.text());
+}
+
+}  // namespace zoneplate::cli

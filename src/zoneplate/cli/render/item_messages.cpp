@@ -1,0 +1,127 @@
+#include "zoneplate/cli/render/item_messages.h"
+
+#include <algorithm>
+
+namespace zoneplate::cli {
+
+enum class ItemSender::Kind : std::uint8_t { Progress, HasRead, File, FilmFrame, Result, Failure, NeedsLibrary };
+
+struct ItemSender::Header {
+  Kind kind;
+  std::uint8_t padding[3] = {};
+  std::int32_t first, second;
+  std::int32_t more_padding = 0;
+  std::uint64_t size;
+};
+
+namespace {
+
+constexpr double progress_steps = 1000;
+
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// The bytes of one message, which cannot be read past their end.
+class Body {
+ public:
+  Body(const std::string& place, std::uint64_t size, const ItemEvents::Read& source)
+      : place_(place), left_(size), source_(source) {}
+
+  void read(std::span<std::uint8_t> out) {
+    if (out.size() > left_) fail("shorter than its parts");
+    source_(out);
+    left_ -= out.size();
+  }
+  /// All that is left, in memory that grows with what has arrived.
+  std::vector<std::uint8_t> rest() {
+    constexpr std::uint64_t most = std::uint64_t{1} << 30, part = 1 << 20;
+    if (left_ > most) fail("too long");
+    std::vector<std::uint8_t> bytes;
+    while (left_ > 0) {
+      const auto before = static_cast<std::ptrdiff_t>(bytes.size());
+      bytes.resize(bytes.size() + static_cast<std::size_t>(std::min(left_, part)));
+      read({bytes.begin() + before, bytes.end()});
+    }
+    return bytes;
+  }
+  std::string text() {
+    const std::vector<std::uint8_t> bytes = rest();
+    return {bytes.begin(), bytes.end()};
+  }
+  void check_end() const {
+    if (left_ > 0) fail("longer than its parts");
+  }
+  [[noreturn]] void fail(const std::string& cause) const {
+    throw Error(Trouble::Failed, place_ + ": its process sent a message that is " + cause);
+  }
+
+ private:
+  const std::string& place_;
+  std::uint64_t left_;
+  const ItemEvents::Read& source_;
+};
+
+}  // namespace
+
+void ItemSender::send(Kind kind, int first, int second, std::span<const std::uint8_t> bytes) {
+  const Header header{.kind = kind, .first = first, .second = second, .size = bytes.size()};
+  const std::lock_guard lock(mutex_);
+  write_({reinterpret_cast<const std::uint8_t*>(&header), sizeof header});
+  if (!bytes.empty()) write_(bytes);
+}
+
+void ItemSender::progress(std::string_view stage, double done) {
+  send(Kind::Progress, static_cast<int>(std::clamp(done, 0.0, 1.0) * progress_steps), 0, bytes_of(stage));
+}
+void ItemSender::has_read() {
+  is_past_reading_ = true;
+  send(Kind::HasRead, 0, 0, {});
+}
+void ItemSender::file(int frame, int layer, std::span<const std::uint8_t> bytes) {
+  send(Kind::File, frame, layer, bytes);
+}
+void ItemSender::film_frame(const Rgba8Image& image) {
+  const auto* first = reinterpret_cast<const std::uint8_t*>(image.values().data());
+  send(Kind::FilmFrame, 0, 0, {first, image.values().size_bytes()});
+}
+void ItemSender::result(std::span<const std::uint8_t> bytes) { send(Kind::Result, 0, 0, bytes); }
+void ItemSender::failure(Trouble trouble, const std::string& message) {
+  send(Kind::Failure, static_cast<int>(trouble), 0, bytes_of(message));
+}
+void ItemSender::needs_library(Library library, const std::string& message) {
+  send(Kind::NeedsLibrary, static_cast<int>(library), 0, bytes_of(message));
+}
+
+std::optional<std::vector<std::uint8_t>> receive_message(const std::string& place, const ItemEvents& events,
+                                                         const ItemEvents::Read& source) {
+  using Kind = ItemSender::Kind;
+  ItemSender::Header header;
+  source({reinterpret_cast<std::uint8_t*>(&header), sizeof header});
+  Body body(place, header.size, source);
+  const ItemEvents::Read read = [&](std::span<std::uint8_t> out) { body.read(out); };
+  if (header.kind == Kind::Result) return body.rest();
+  if (header.kind == Kind::Failure) {
+    const bool is_known = header.first >= 0 && header.first <= static_cast<int>(Trouble::Output);
+    throw Error(is_known ? static_cast<Trouble>(header.first) : Trouble::Failed, body.text());
+  }
+  if (header.kind == Kind::Progress) {
+    const std::string stage = body.text();
+    if (events.progress) events.progress(stage, std::clamp(header.first / progress_steps, 0.0, 1.0));
+  } else if (header.kind == Kind::HasRead && events.has_read) {
+    events.has_read();
+  } else if (header.kind == Kind::File && events.file && header.first >= -1 && header.second >= -1) {
+    events.file(header.first, header.second, header.size, read);
+  } else if (header.kind == Kind::FilmFrame && events.film_frame) {
+    events.film_frame(header.size, read);
+  } else if (header.kind == Kind::NeedsLibrary && events.needs_library && header.first >= 0 &&
+             header.first <= static_cast<int>(Library::OpenExr)) {
+    events.needs_library(static_cast<Library>(header.first), body.text());
+  } else {
+    body.fail("not expected here");
+  }
+  body.check_end();
+  return std::nullopt;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,144 @@
+#include "zoneplate/cli/render/item_process.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/os/library.h"
+#include "zoneplate/os/sandbox.h"
+
+namespace zoneplate::cli {
+
+namespace {
+
+/// A process that does not end by itself when its time is up has so much longer, in seconds.
+constexpr double grace = 0.5;
+
+std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.6g} MB", static_cast<double>(bytes) / (1 << 20)); }
+
+std::string late_reading(const std::string& name, const LoadLimits& limits) {
+  return fmt::format("{}: takes longer to load than the limit of {:.6g} s (--max-import-seconds)", name,
+                     limits.seconds);
+}
+std::string late_item(const ItemLimits& limits) {
+  return fmt::format("{}: takes longer than the limit of {:.6g} s (--max-seconds)", limits.name, limits.seconds);
+}
+std::string out_of_memory(const ItemLimits& limits, const std::bad_alloc& error, bool has_read) {
+  const auto* named = dynamic_cast<const OutOfMemory*>(&error);
+  return fmt::format(
+      "{}: {} more memory than the limit of {} (--max-memory)", limits.name,
+      named ? std::string(named->what()) + " need" : std::string(has_read ? "drawing it" : "reading it") + " needs",
+      megabytes(limits.load.memory));
+}
+
+}  // namespace
+
+ItemProcess::ItemProcess(ItemLimits limits, std::size_t jobs, Work work)
+    : limits_(std::move(limits)), jobs_(jobs), work_(std::move(work)) {}
+
+ItemProcess::~ItemProcess() = default;
+
+void ItemProcess::check_time() const {
+  const double seconds = watch_.ms() / 1000;
+  if (!has_read_ && seconds > limits_.load.seconds + grace)
+    throw Error(Trouble::Input, late_reading(limits_.name, limits_.load));
+  if (seconds > limits_.seconds + grace) throw Error(Trouble::Failed, late_item(limits_));
+}
+
+void ItemProcess::start(std::size_t first) {
+  LimitedChild::Limits limits;
+  limits.memory = limits_.load.memory;
+  limits.seconds = std::numeric_limits<double>::infinity();  // the wall clock is watched here
+  limits.options = "--max-memory, --max-seconds";
+  limits.check_time = [this] { check_time(); };
+  limits.is_sandboxed = limits_.is_sandboxed;
+  limits.readable = limits_.readable;
+  limits.worker = "its process";
+  child_ = std::make_unique<LimitedChild>(limits_.name, limits,
+                                          [this, first](ChildAnswer& answer) { work_on(first, answer); });
+}
+
+/// In the child. The first job that fails ends the process, so that every job begins in a sound one.
+void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
+  ItemSender sender([&](std::span<const std::uint8_t> bytes) { answer.write(bytes.data(), bytes.size()); });
+  for (std::size_t job = first; job < jobs_; ++job) {
+    sender.begin_job();
+    try {
+      std::vector<std::uint8_t> result;
+      with_deadline(limits_.seconds, Trouble::Failed, late_item(limits_), [&] { result = work_(job, sender); });
+      sender.result(result);
+      continue;
+    } catch (const LibraryNeeded& needed) {
+      sender.needs_library(needed.library(), needed.what());
+    } catch (const Error& error) {
+      // What fails after reading, or while rendering, does not know the model's name.
+      const std::string message = error.what();
+      const bool wants_name = sender.is_past_reading() || error.trouble() == Trouble::Failed;
+      const bool is_named = !wants_name || message.find(limits_.name) != message.npos;
+      sender.failure(error.trouble(), is_named ? message : limits_.name + ": " + message);
+    } catch (const std::bad_alloc& error) {
+      sender.failure(sender.is_past_reading() ? Trouble::Failed : Trouble::Input,
+                     out_of_memory(limits_, error, sender.is_past_reading()));
+    } catch (const std::exception& error) {
+      sender.failure(Trouble::Failed, limits_.name + ": " + error.what());
+    }
+    return;
+  }
+}
+
+/// What goes wrong while the model is read is a trouble of the input; later, of rendering.
+void ItemProcess::read(std::span<std::uint8_t> out) {
+  try {
+    child_->read(out.data(), out.size());
+  } catch (const Error& error) {
+    if (has_read_ && error.trouble() == Trouble::Input) throw Error(Trouble::Failed, error.what());
+    throw;
+  }
+}
+
+void ItemProcess::begin_again_with(Library library, const std::string& message) {
+  if (!open_library(library)) throw Error(Trouble::Input, message);
+  child_.reset();
+  start(next_ - 1);
+}
+
+std::vector<std::uint8_t> ItemProcess::next(ItemEvents events) {
+  const std::size_t job = next_++;
+  watch_ = Stopwatch();
+  has_read_ = false;
+  std::optional<std::pair<Library, std::string>> needed;
+  events.has_read = [&] { has_read_ = true; };
+  events.needs_library = [&](Library library, const std::string& message) { needed.emplace(library, message); };
+  try {
+    if (!child_) start(job);
+    for (;;) {
+      std::optional<std::vector<std::uint8_t>> result =
+          receive_message(limits_.name, events, [&](std::span<std::uint8_t> out) { read(out); });
+      if (result) return std::move(*result);
+      if (needed) begin_again_with(needed->first, needed->second), needed.reset();
+    }
+  } catch (...) {
+    child_.reset();
+    throw;
+  }
+}
+
+void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read) {
+  with_deadline(limits.seconds, Trouble::Input, late_reading(name, limits), read);
+}
+
+bool wants_sandbox(bool is_asked_for) {
+  if (!is_asked_for) return false;
+  static const bool is_there = [] {
+    const bool filters = sandbox_support().filters_calls;
+    if (!filters) say_warning("this system has no seccomp filters: models are read with all rights of the user");
+    return filters;
+  }();
+  return is_there;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,85 @@
+#include "zoneplate/cli/render/items.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/cli/render/film.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+ItemLimits limits_of(const RenderArgs& args) {
+  return {.name = args.input == "-" ? "standard input" : args.input,
+          .load = args.load.limits,
+          .seconds = args.max_seconds,
+          .is_sandboxed = wants_sandbox(args.is_sandboxed),
+          .readable = readable_paths(args.input, args.load)};
+}
+
+// Passes `size` bytes on in parts, so that a large file is never whole in memory here.
+template <class Take>
+void for_parts(std::uint64_t size, const ItemEvents::Read& read, Take take) {
+  std::vector<std::uint8_t> part(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1 << 20)));
+  for (std::uint64_t left = size; left > 0;) {
+    const std::span<std::uint8_t> some(part.data(),
+                                       static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size())));
+    read(some);
+    take(some);
+    left -= some.size();
+  }
+}
+
+}  // namespace
+
+RenderItems::RenderItems(std::vector<RenderArgs> items)
+    : items_(std::move(items)),
+      process_(limits_of(items_.front()), items_.size(),
+               [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
+                 return pack_summary(jobs->run(items_[i], sender));
+               }) {}
+
+Summary RenderItems::next() {
+  const RenderArgs& args = items_[next_++];
+  const Stopwatch total;
+  double write_ms = 0;
+  Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+  std::optional<FfmpegFilm> film;
+  ItemEvents events;
+  events.progress = [&](std::string_view stage, double done) { progress.begin(stage, done); };
+  events.file = [&](int frame, int layer, std::uint64_t size, const ItemEvents::Read& read) {
+    const Stopwatch watch;
+    if (layer >= static_cast<int>(args.aovs.size()))
+      throw Error(Trouble::Failed, args.input + ": an unknown data pass");
+    FileWriter file(output_path(args, frame, layer));
+    for_parts(size, read, [&](std::span<const std::uint8_t> part) { file.write(part); });
+    file.commit();
+    write_ms += watch.ms();
+  };
+  events.film_frame = [&](std::uint64_t size, const ItemEvents::Read& read) {
+    const std::optional<Crop>& crop = args.options.crop;
+    const int width = crop ? crop->width : args.options.width, height = crop ? crop->height : args.options.height;
+    if (size != std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height))
+      throw Error(Trouble::Failed, args.input + ": a frame of another size than the film's");
+    if (!film) film.emplace(args.output, width, height, film_of(args.sequence.rate));
+    for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
+  };
+
+  Summary summary = unpack_summary(process_.next(std::move(events)));
+  if (film) {
+    const Stopwatch watch;
+    progress.begin("encode", 1);
+    save_bytes(args.output, film->encode());
+    write_ms += watch.ms();
+  }
+  for (auto& [name, ms] : summary.times) {
+    if (name == "write") ms = write_ms;
+    if (name == "total") ms = total.ms();
+  }
+  return summary;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,102 @@
+#include "zoneplate/cli/render/job.h"
+
+#include <fmt/format.h>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/render/sequence.h"
+#include "zoneplate/cli/usage.h"
+#include "zoneplate/formats/load.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+
+std::string model_key(const RenderArgs& args) {
+  const SceneChoice& c = args.load.choice;
+  const LoadLimits& l = args.load.limits;
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
+                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds,
+                     fmt::join(l.allowed_paths, "\n"), args.options.raw_colors,
+                     args.look.shading_model ? static_cast<int>(*args.look.shading_model) : -1);
+}
+
+Stage& RenderJobs::stage_of(const RenderArgs& args) {
+  const std::string key = model_key(args);
+  if (stage_ && key == key_ && args.input != "-") return *stage_;
+  stage_.reset();
+  within_import_time(args.input, args.load.limits,
+                     [&] { stage_ = std::make_unique<Stage>(load_scene(args.input, args.load)); });
+  key_ = key;
+  return *stage_;
+}
+
+Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
+  const Stopwatch total_watch;
+  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
+  check_request(args, resolver->ask(0));
+  Summary summary;
+  summary.threads = thread_limit();
+  out.progress("read", 0);
+  if (args.sequence.is_wanted()) {
+    render_sequence(args, *resolver, out, summary);
+    summary.times = {{"total", total_watch.ms()}};
+    summary.peak_memory = peak_memory();
+    return summary;
+  }
+
+  const Stopwatch read_watch;
+  Stage& stage = stage_of(args);
+  summary.times.emplace_back("read", read_watch.ms());
+  out.has_read();
+  const Scene& scene = stage.scene();
+  args.view.up = args.up.value_or(scene.up);
+  const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
+  if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
+  const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+  const Camera camera = choose_camera(scene, args.view, aspect);
+  args.options.environment = stage.light(camera, args.look);
+  summary.warnings = scene.warnings;
+  const Stopwatch texture_watch;
+  args.options.textures = &stage.take_textures(args.options.raw_colors);
+  summary.times.emplace_back("textures", texture_watch.ms());
+  out.progress("render", 0.2);
+  const Rendered picture = render_picture(args, scene, camera, *resolver, args.named_output(), summary);
+  if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
+
+  out.progress("encode", 0.8);
+  const Stopwatch encode_watch;
+  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.named_output());
+  summary.times.emplace_back("encode", encode_watch.ms());
+  out.progress("write", 0.95);
+  const Stopwatch write_watch;
+  out.file(-1, -1, bytes);
+  for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
+  summary.times.emplace_back("write", write_watch.ms());
+  summary.times.emplace_back("total", total_watch.ms());
+  summary.peak_memory = peak_memory();
+  return summary;
+}
+
+Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
+  Json::Object times, layers;
+  for (const auto& [name, ms] : summary.times) times.emplace_back(name, ms);
+  for (const Aov* aov : args.aovs) layers.emplace_back(aov->name, aov_path(args.output, aov->name));
+  return Json::Object{{"input", args.input},
+                      {"output", args.output},
+                      {"layers", std::move(layers)},
+                      {"width", summary.width},
+                      {"height", summary.height},
+                      {"method", args.method},
+                      {"frames", summary.frames},
+                      {"triangles", summary.counts.triangles},
+                      {"triangles_set_up", summary.counts.triangles_set_up},
+                      {"shaded", summary.counts.shaded},
+                      {"threads", summary.threads},
+                      {"isa", name_of(args.options.isa)},
+                      {"ms", std::move(times)},
+                      {"peak_memory_bytes", summary.peak_memory},
+                      {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/render/picture.h"
+#include "zoneplate/cli/stage.h"
+#include "zoneplate/report/json.h"
+
+namespace zoneplate::cli {
+
+/// Reads, renders and encodes what the arguments of one picture, or one sequence, describe, in the process of the
+/// item; keeps the last model between jobs.
+class RenderJobs {
+ public:
+  /// Sends the files to `out`. The threads are those of the caller.
+  Summary run(RenderArgs args, ItemSender& out);
+
+ private:
+  Stage& stage_of(const RenderArgs& args);
+
+  std::string key_;  ///< of the model that is loaded
+  std::unique_ptr<Stage> stage_;
+};
+
+/// What decides how a model is loaded: jobs of the same key share one.
+std::string model_key(const RenderArgs& args);
+
+/// The result as JSON.
+Json::Object summary_json(const RenderArgs& args, const Summary& summary);
+
+}  // namespace zoneplate::cli

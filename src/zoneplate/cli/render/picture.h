@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/cli/render/args.h"
+#include "zoneplate/cli/render/summary.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::cli {
+
+/// A data pass as a file beside the picture's: its place among RenderArgs::aovs, and its bytes.
+struct LayerFile {
+  int aov = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// A picture, with the data passes that were asked for.
+struct Rendered {
+  Rgba8Image image;
+  Rgba16Image image16;  ///< in place of it, where 16 bits are asked for
+  LinearImage linear;   ///< where the output is a PFM or EXR: linear light over the background, before tone mapping
+  std::vector<std::uint8_t> exr;  ///< the whole file, where the output is an EXR with data passes in it
+  bool has_alpha = false;
+  std::vector<LayerFile> layers;
+};
+
+/// Where a data pass goes: "chair.png" and "depth" give "chair.depth.png", as do pictures of other formats; beside a
+/// PFM it is one too, and in an EXR it is in the picture's own file.
+std::string aov_path(const std::string& output, std::string_view name);
+
+/// Fails at once, not after a long render, where one of the item's files can never be written.
+///
+/// Errors    Trouble::Output; Trouble::Usage for a terminal.
+void check_outputs(const RenderArgs& args);
+
+/// The name of a file of the item. `frame`: its number in a sequence, or -1; `layer`: the place of a data pass among
+/// `args.aovs`, or -1 for the picture.
+std::string output_path(const RenderArgs& args, int frame, int layer);
+
+/// Errors    Trouble::Failed where frame and picture need more than the limit on memory; Trouble::Usage where the
+///           method would leave no trace in a file of linear values.
+void check_request(const RenderArgs& args, const Request& request);
+
+/// Renders a scene that is loaded and lit. The ending of `output` decides the formats of the picture and the passes.
+Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
+                        const std::string& output, Summary& summary);
+
+/// The mean in linear light of the pictures of `count` scenes at one camera, as an open shutter sees what moves.
+///
+/// Exact     the sum is made in order and divided once.
+Rendered render_mean(const RenderArgs& args, int count, const std::function<const Scene&(int)>& scene_at,
+                     const Camera& camera, Resolver& resolver, Summary& summary);
+
+/// The picture's bytes in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
+std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output);
+
+/// A picture of nothing is never given without a word.
+std::string emptiness(const RenderArgs& args, const RenderCounts& counts);
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/render/batch.h"
+#include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/usage.h"
+#include "zoneplate/cli/verbs.h"
+
+namespace zoneplate::cli {
+namespace {
+
+void tell(const RenderArgs& args, const Summary& summary) {
+  if (args.verbosity == Verbosity::Verbose) {
+    std::string times;
+    for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
+    say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", args.output, summary.width, summary.height,
+                         args.method, summary.counts.triangles, summary.threads, name_of(args.options.isa)));
+    say_note(fmt::format("{}{} MB at most", times, summary.peak_memory >> 20));
+  }
+  if (!args.wants_json) return;
+  const std::string line = Json(summary_json(args, summary)).text() + '\n';
+  if (args.output == "-")
+    std::fwrite(line.data(), 1, line.size(), stderr);
+  else
+    print(line);
+}
+
+}  // namespace
+
+void run_render(std::span<const std::string> arguments) {
+  std::optional<RenderArgs> parsed = parse_render_args(arguments);
+  if (!parsed) return;
+  RenderArgs& args = *parsed;
+  if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
+  if (args.is_batch()) {
+    with_threads(args.threads, [&] { render_batch(args); });
+    return;
+  }
+  static_cast<void>(make_resolver(antialias::methods(), args.method));
+  check_outputs(args);
+  if (args.skip_existing && exists(args.output)) return;
+  Summary summary;
+  with_threads(args.threads, [&] { summary = RenderItems({args}).next(); });
+  if (args.verbosity != Verbosity::Quiet)
+    for (const std::string& warning : summary.warnings) say_warning(warning);
+  tell(args, summary);
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,105 @@
+#include "zoneplate/cli/signal/args.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/signal/pattern/pattern.h"
+
+namespace zoneplate::cli {
+namespace {
+
+const std::string group = "Options";
+
+void check_name(const std::string& path, std::initializer_list<std::string_view> endings) {
+  if (path.empty() || path == "-" || path.starts_with("/dev/")) return;
+  for (const std::string_view ending : endings)
+    if (path.ends_with(ending)) return;
+  throw Error(Trouble::Usage,
+              fmt::format("--output: {}: wants a name that ends in {}, or -", path, fmt::join(endings, " or ")));
+}
+
+}  // namespace
+
+std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
+  return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
+          {"--json", "", "The numbers as one line of JSON", group, true, [&](auto&) { args.wants_json = true; }},
+          {"--threads,-t", "N", "Threads at most; 0 as many as there are cores", group, false,
+           [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+}
+
+Option codes_option(SignalArgs& args) {
+  return {"--codes", "",    "Work on sRGB codes as they are stored, as many programs do, instead of linear light",
+          group,     false, [&](auto&) { args.uses_codes = true; }};
+}
+
+Option border_option(Border& border, const std::string& rules) {
+  return {"--border",
+          "RULE",
+          "What lies beyond the image: " + rules + "; the first is the default",
+          group,
+          true,
+          [&border, rules](auto& text) {
+            border = parse_border(text);
+            if (rules.find(text) == std::string::npos)
+              throw Error(Trouble::Usage, fmt::format("'{}' cannot be used here; wants {}", text, rules));
+          }};
+}
+
+const std::string& only_operand(const Syntax& syntax, const std::string& what) {
+  if (syntax.found_operands.size() == 1) return syntax.found_operands[0];
+  throw Error(Trouble::Usage,
+              fmt::format("zoneplate {} wants {}; found {} operands", syntax.verb, what, syntax.found_operands.size()));
+}
+
+std::string image_notes() {
+  std::string text =
+      "IMAGE is a PNG, JPEG, WebP, HDR or EXR file, - for stdin, or a pattern made in code, NAME or "
+      "NAME:PARAMETER=VALUE,...\n"
+      "(a file with such a name is given as ./NAME):\n";
+  for (const PatternEntry& entry : patterns()) {
+    std::string params;
+    for (const SpecParam& p : entry.params)
+      params += fmt::format("{}{}={:g}", params.empty() ? "" : ",", p.name, p.value);
+    text += fmt::format("  {:<14}{} [{}]\n", entry.name, entry.summary, params);
+  }
+  return text;
+}
+
+void check_picture_name(const std::string& path) { check_name(path, {".png"}); }
+void check_plot_name(const std::string& path) { check_name(path, {".svg", ".png"}); }
+
+void save_picture(const std::string& path, const Rgba8Image& picture) {
+  const bool is_opaque =
+      std::all_of(picture.values().begin(), picture.values().end(), [](Rgba8 c) { return c.a == 255; });
+  save_bytes(path, encode_png(picture, {.has_alpha = !is_opaque}));
+}
+
+void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size) {
+  if (!path.ends_with(".svg")) return save_picture(path, plots_picture(plots, columns, size));
+  const std::string svg = plots_svg(plots, columns, size);
+  save_bytes(path, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
+}
+
+void tell(const SignalArgs& args, const std::string& text, const Json::Object& json) {
+  const std::string line = args.wants_json ? Json(json).text() + '\n' : text;
+  if (args.output != "-") return print(line);
+  if (args.wants_json) std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+std::vector<int> parse_whole_list(const std::string& text, int low, int high) {
+  std::vector<int> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    numbers.push_back(parse_whole(text.substr(at, comma - at), low, high));
+    at = comma + 1;
+  }
+  return numbers;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,257 @@
+// zoneplate signal convolve: an image or a list of numbers with a kernel, in space, by its spectrum, or both.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/signal/convolve.h"
+#include "zoneplate/cli/signal/load.h"
+#include "zoneplate/cli/signal/show.h"
+#include "zoneplate/cli/signal/signal.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/signal/filter/convolve.h"
+
+namespace zoneplate::cli {
+namespace {
+
+/// How far two ways to the same result are apart.
+struct Difference {
+  double greatest = 0;
+  int x = 0, y = 0;
+};
+
+Difference difference(const LinearImage& a, const LinearImage& b) {
+  Difference out;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x) {
+      const Linear &p = a(x, y), &q = b(x, y);
+      for (const float d : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a})
+        if (std::abs(static_cast<double>(d)) > out.greatest) out = {std::abs(static_cast<double>(d)), x, y};
+    }
+  return out;
+}
+
+double range_of(const LinearImage& image) {
+  float low = image.values()[0].r, high = low;
+  for (const Linear& c : image.values()) low = std::min({low, c.r, c.g, c.b}), high = std::max({high, c.r, c.g, c.b});
+  return static_cast<double>(high) - static_cast<double>(low);
+}
+
+LinearImage in_space(const LinearImage& image, const KernelChoice& kernel, Border border) {
+  return kernel.is_separable() ? convolve_separable(image, kernel.taps, kernel.taps, {.border = border})
+                               : convolve(image, kernel.weights, {.border = border});
+}
+
+struct Results {
+  LinearImage image;  ///< the one that is written
+  double space_ms = 0, frequency_ms = 0;
+  std::optional<Difference> apart;  ///< of the two ways
+  std::optional<Difference> bare;   ///< of the product of the bare spectra, which is the rule wrap, from this rule
+};
+
+Results convolved(const ConvolveArgs& args, const LinearImage& image, const KernelChoice& kernel) {
+  Results out;
+  LinearImage by_product;
+  const Stopwatch watch;
+  if (args.via != Via::Frequency) out.image = in_space(image, kernel, args.border);
+  out.space_ms = watch.ms();
+  if (args.via == Via::Space) return out;
+  by_product = convolve_by_fourier(image, kernel.weights, args.border);
+  out.frequency_ms = watch.ms() - out.space_ms;
+  if (args.via == Via::Frequency) {
+    out.image = std::move(by_product);
+    return out;
+  }
+  out.apart = difference(out.image, by_product);
+  if (args.border != Border::Wrap)
+    out.bare = difference(out.image, convolve_by_fourier(image, kernel.weights, Border::Wrap));
+  return out;
+}
+
+std::string text_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
+                    const KernelChoice& kernel, const Results& results) {
+  std::string text = fmt::format("{}, {} × {} with {} ({} × {} weights, sum {:.6g}), border {}\n", input, image.width(),
+                                 image.height(), kernel.name, kernel.weights.width(), kernel.weights.height(),
+                                 kernel.sum(), name_of(args.border));
+  if (!results.apart) return text;
+  const double range = range_of(image), relative = range > 0 ? results.apart->greatest / range : 0;
+  text += fmt::format(
+      "  in space {:.1f} ms, by the spectra {:.1f} ms\n"
+      "  greatest difference {:.3g} ({:.3g} of the range) at pixel {},{}\n",
+      results.space_ms, results.frequency_ms, results.apart->greatest, relative, results.apart->x, results.apart->y);
+  if (results.bare)
+    text += fmt::format(
+        "  the bare product of the spectra, without the border written out, would be {:.3g} off at pixel {},{}\n",
+        results.bare->greatest, results.bare->x, results.bare->y);
+  return text;
+}
+
+Json::Object json_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
+                     const KernelChoice& kernel, const Results& results) {
+  Json::Object json{{"input", input},
+                    {"output", args.output},
+                    {"width", image.width()},
+                    {"height", image.height()},
+                    {"kernel", kernel.name},
+                    {"kernel_width", kernel.weights.width()},
+                    {"kernel_height", kernel.weights.height()},
+                    {"kernel_sum", kernel.sum()},
+                    {"border", name_of(args.border)}};
+  const auto add = [&](const char* name, const std::optional<Difference>& d) {
+    if (d) json.emplace_back(name, Json::Object{{"greatest", d->greatest}, {"x", d->x}, {"y", d->y}});
+  };
+  if (results.apart) json.emplace_back("range", range_of(image));
+  add("difference", results.apart);
+  add("difference_of_bare_product", results.bare);
+  if (results.apart)
+    json.emplace_back("ms", Json::Object{{"space", results.space_ms}, {"frequency", results.frequency_ms}});
+  return json;
+}
+
+Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
+  // Weights that sum to nothing take the mean away: what is left are differences.
+  return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
+}
+
+/// The weights as grey levels among weights of 0, the greatest white; where some are negative mid-grey is 0.
+Rgba8Image kernel_picture(const Plane<float>& weights, int2 size) {
+  float low = 0, greatest = 0;
+  for (const float w : weights.values()) low = std::min(low, w), greatest = std::max(greatest, std::abs(w));
+  const auto level = [&](float w) { return low < 0 ? 0.5f + 0.5f * w / greatest : greatest > 0 ? w / greatest : 0.0f; };
+
+  // Squares in the middle, as large as leaves a margin; where there are more weights than pixels, the nearest.
+  const double cell =
+      0.75 * std::min(static_cast<double>(size.x) / weights.width(), static_cast<double>(size.y) / weights.height());
+  const auto place = [&](int x, int pixels, int count) {
+    return static_cast<int>(std::floor((x + 0.5 - pixels / 2.0) / cell + count / 2.0));
+  };
+  LinearImage image(size.x, size.y);
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const int i = place(x, size.x, weights.width()), j = place(y, size.y, weights.height());
+      const bool is_inside = i >= 0 && j >= 0 && i < weights.width() && j < weights.height();
+      const float v = level(is_inside ? weights(i, j) : 0);
+      image(x, y) = {v, v, v, 1};
+    }
+  return shown(image, true);
+}
+
+/// The spectrum of the kernel on a plane of the image's size.
+Spectrum spectrum_of(const Plane<float>& weights, int width, int height) {
+  Plane<double> plane(width, height);
+  for (int y = 0; y < weights.height(); ++y)
+    for (int x = 0; x < weights.width(); ++x)
+      plane(border_index(x, width, Border::Wrap), border_index(y, height, Border::Wrap)) +=
+          static_cast<double>(weights(x, y));
+  return fourier(plane);
+}
+
+Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
+                     const KernelChoice& kernel, const LinearImage& result) {
+  const Spectrum of_image = fourier(luminance(image)), of_result = fourier(luminance(result));
+  const Spectrum of_kernel = spectrum_of(kernel.weights, image.width(), image.height());
+  // On this scale the third picture is the sum of the other two, in decibels below their palest.
+  const double image_peak = strongest_magnitude(of_image), kernel_peak = strongest_magnitude(of_kernel);
+  return compose(
+      {.title = fmt::format("{} with {}", title_of(input), kernel.name),
+       .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nAs it came."},
+                 {kernel_picture(kernel.weights, panel_size(image.width(), image.height())),
+                  fmt::format("Kernel\n{} × {} weights, enlarged, and the zeros around them.", kernel.weights.width(),
+                              kernel.weights.height())},
+                 {fitted(picture_of(args, kernel, result)), "Convolution\nEvery pixel spread by the kernel."}},
+                {{magnitude_panel(of_image, {.peak = image_peak}),
+                  "Spectrum of the image\nFrequency 0 in the middle, ½ cycle per pixel at the edges; 80 dB from black "
+                  "to the palest."},
+                 {magnitude_panel(of_kernel, {.peak = kernel_peak}),
+                  "Spectrum of the kernel\nOn the same scale of frequency."},
+                 {magnitude_panel(of_result, {.peak = image_peak * kernel_peak}),
+                  "Spectrum of the convolution\nThe product of the two beside it."}}},
+       .text = {}});
+}
+
+void run_image(const ConvolveArgs& args, const std::string& input) {
+  const LinearImage image = load_signal(input, args.uses_codes);
+  const KernelChoice& kernel = args.kernel;
+  const Results results = convolved(args, image, kernel);
+  if (!args.output.empty())
+    save_picture(args.output, args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
+                                                   : picture_of(args, kernel, results.image));
+  tell(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results));
+}
+
+Plane<double> parse_values(const std::string& text) {
+  Plane<double> values = parse_number_rows(text);
+  if (values.height() != 1) throw Error(Trouble::Usage, "one row of numbers is wanted");
+  return values;
+}
+
+Syntax make_syntax(ConvolveArgs& args) {
+  std::string notes =
+      "Kernels: a name, as gaussian:sigma=2 (along rows and columns, its weights scaled to sum 1); numbers,\n"
+      "as \"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row.\n"
+      "Numbers are taken as they are, not scaled. A kernel of sum 0 leaves differences, shown around\n"
+      "mid-grey: code 1/2 + value / 2.\n"
+      "Names: box:width= tent:radius= gaussian:sigma= mitchell b-spline catmull-rom lanczos2 lanczos3\n"
+      "lanczos:lobes= blackman-harris:radius= kaiser:radius=,beta=\n\n"
+      "The convolution theorem: the spectrum of a convolution is the product of the spectra. It is about\n"
+      "signals that repeat without end, and so it holds as it stands for\n"
+      "  wrap    the image is one tile of an endless wall: the signal that a discrete transform describes\n"
+      "  zero    once the image has as many zeros around it as the kernel reaches; else its left border\n"
+      "          would bleed into the right one\n"
+      "and does not hold as it stands for\n"
+      "  clamp, reflect   what lies beyond the border depends on where the border is; a convolution only\n"
+      "                   knows distances. They come out right if the border is written out around the\n"
+      "                   image first, as wide as the kernel reaches, and cut off after: as is done here\n"
+      "--via both takes both ways, prints their greatest difference, and how far off the bare product of\n"
+      "the spectra would be.\n\n";
+  Syntax syntax{.verb = "signal convolve",
+                .summary = "Convolve an image, or a row of numbers, with a kernel",
+                .operands = "IMAGE | --values NUMBERS",
+                .examples =
+                    "  zoneplate signal convolve photo.jpg --kernel gaussian:sigma=2 -o soft.png\n"
+                    "  zoneplate signal convolve bricks --kernel \"-1 0 1; -2 0 2; -1 0 1\" -o edges.png\n"
+                    "  zoneplate signal convolve zone-plate --kernel box:width=9 --via both --border wrap\n"
+                    "  zoneplate signal convolve --values \"1 3 5 3 7 1 3 8 6 4\" --kernel \"1/4 1/2 1/4\"\n",
+                .notes = notes + image_notes()};
+  const std::string group = "Options";
+  syntax.options = {
+      {"--kernel", "KERNEL", "A name, numbers or a file of numbers; default gaussian:sigma=2", group, true,
+       [&](auto& text) { args.kernel = parse_kernel_choice(text); }},
+      {"--values", "NUMBERS", "A row of numbers to convolve instead of an image; -o then writes a plot", group, true,
+       [&](auto& text) { args.values = parse_values(text); }},
+      {"--via", "WAY", "space (by the definition), frequency (product of the spectra) or both; default space", group,
+       true,
+       [&](auto& text) {
+         constexpr Via ways[] = {Via::Space, Via::Frequency, Via::Both};
+         args.via = ways[parse_choice(text, {"space", "frequency", "both"})];
+       }},
+      border_option(args.border, "clamp, reflect, wrap, zero"),
+      {"--side-by-side", "", "The picture shows image, kernel and result above their spectra, with captions", group,
+       true, [&](auto&) { args.is_side_by_side = true; }},
+      codes_option(args)};
+  for (Option& option : signal_options(args, "The picture to write: a .png file, or - for stdout"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+}  // namespace
+
+void run_signal_convolve(std::span<const std::string> arguments) {
+  ConvolveArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  if (args.values && !syntax.found_operands.empty())
+    throw Error(Trouble::Usage, "either an IMAGE or --values is convolved, not both");
+  if (args.values) {
+    check_plot_name(args.output);
+    return with_threads(args.threads, [&] { convolve_row(args); });
+  }
+  const std::string& input = only_operand(syntax, "one IMAGE, or --values");
+  check_picture_name(args.output);
+  with_threads(args.threads, [&] { run_image(args, input); });
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/kernel.h"
+
+namespace zoneplate::cli {
+
+enum class Via { Space, Frequency, Both };
+
+struct ConvolveArgs : SignalArgs {
+  KernelChoice kernel = parse_kernel_choice("gaussian:sigma=2");
+  std::optional<Plane<double>> values;  ///< one row, in place of an image
+  Via via = Via::Space;
+  Border border = Border::Clamp;
+  bool is_side_by_side = false;
+};
+
+/// The convolution of `values`: printed, and drawn where there is an output.
+///
+/// Errors    Trouble::Usage for a kernel of more than one row.
+void convolve_row(const ConvolveArgs& args);
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,186 @@
+// zoneplate signal decimate: every n-th pixel beside filtering first.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/load.h"
+#include "zoneplate/cli/signal/reduce.h"
+#include "zoneplate/cli/signal/show.h"
+#include "zoneplate/cli/signal/signal.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/signal/filter/aliasing.h"
+#include "zoneplate/signal/filter/kernel.h"
+
+namespace zoneplate::cli {
+namespace {
+
+struct DecimateArgs : SignalArgs {
+  double by = 2;
+  std::string kernel = "lanczos3", naive_path, filtered_path;
+  bool compares_all = false;
+};
+
+/// Both ways of making an image smaller.
+struct Pair {
+  LinearImage image, naive, filtered;
+};
+
+/// What a kernel lets alias, measured in this image and as its response foretells for a flat spectrum.
+struct Figures {
+  std::string kernel;
+  AliasFigures measured, expected;
+};
+
+std::vector<Figures> measure(const DecimateArgs& args, const Pair& pair) {
+  std::vector<std::string> names{args.kernel};
+  if (args.compares_all) {
+    names.clear();
+    for (const KernelEntry& entry : kernels()) names.emplace_back(entry.name);
+  }
+  const Plane<float> plane = luminance(pair.image);
+  std::vector<Figures> rows;
+  for (const std::string& name : names) {
+    const Kernel kernel = make_kernel(name);
+    rows.push_back({name, measure_aliases(plane, pair.naive.width(), pair.naive.height(), kernel),
+                    predict_aliases(kernel, args.by)});
+  }
+  return rows;
+}
+
+// Nothing at all is -400 dB: shown as "none".
+std::string shown_db(double db) { return db <= -399 || !std::isfinite(db) ? "none" : fmt::format("{:.1f}", db); }
+
+std::string text_of(const std::string& input, const Pair& pair, const std::vector<Figures>& rows) {
+  std::string text = fmt::format(
+      "{}, {} × {} to {} × {}\n"
+      "What aliases, in dB against taking pixels without a filter: all of it, and from 1.5 times the new Nyquist on;\n"
+      "error of what the new grid can hold, against the ideal result: all of it, and its coarser half.\n"
+      "  {:<16}{:>9}{:>9}{:>9}{:>9}   {:>9}{:>9}{:>9}{:>9}\n",
+      input, pair.image.width(), pair.image.height(), pair.naive.width(), pair.naive.height(), "measured (theory)",
+      "all", "far", "error", "coarse", "(all", "far", "error", "coarse)");
+  for (const Figures& row : rows) {
+    const AliasFigures &m = row.measured, &e = row.expected;
+    text += fmt::format("  {:<17}{:>9}{:>9}{:>9}{:>9}   {:>9}{:>9}{:>9}{:>9}\n", row.kernel, shown_db(m.all_db),
+                        shown_db(m.far_db), shown_db(m.pass_db), shown_db(m.pass_half_db), shown_db(e.all_db),
+                        shown_db(e.far_db), shown_db(e.pass_db), shown_db(e.pass_half_db));
+  }
+  return text;
+}
+
+Json json_of(const AliasFigures& f) {
+  const auto db = [](double v) { return v <= -399 ? Json("-inf") : Json(v); };
+  return Json::Object{{"all_db", db(f.all_db)},
+                      {"far_db", db(f.far_db)},
+                      {"error_db", db(f.pass_db)},
+                      {"coarse_error_db", db(f.pass_half_db)}};
+}
+
+Json::Object json_of(const std::string& input, const DecimateArgs& args, const Pair& pair,
+                     const std::vector<Figures>& rows) {
+  Json::Object figures;
+  for (const Figures& row : rows)
+    figures.emplace_back(row.kernel,
+                         Json::Object{{"measured", json_of(row.measured)}, {"expected", json_of(row.expected)}});
+  return {
+      {"input", input}, {"output", args.output},        {"width", pair.naive.width()}, {"height", pair.naive.height()},
+      {"by", args.by},  {"kernels", std::move(figures)}};
+}
+
+Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const Pair& pair) {
+  const auto image = [&](const LinearImage& of, const std::string& caption) {
+    return Panel{fitted(shown(of, args.uses_codes)), caption};
+  };
+  // One scale for all: the amplitude of a wave is its magnitude over the number of pixels.
+  constexpr double range_db = 50;
+  const auto pixels = [](const Spectrum& of) { return static_cast<double>(of.width) * of.height(); };
+  const Spectrum whole = fourier(luminance(pair.image));
+  const double amplitude = strongest_magnitude(whole) / pixels(whole);
+  const auto spectrum = [&](const Spectrum& of, const std::string& caption) {
+    return Panel{magnitude_panel(of, {range_db, amplitude * pixels(of)}), caption};
+  };
+  return compose(
+      {.title = fmt::format("{}, made smaller by {:g}", title_of(input), args.by),
+       .rows =
+           {{image(pair.image, fmt::format("Image\n{} × {} pixels.", pair.image.width(), pair.image.height())),
+             image(pair.naive,
+                   fmt::format(
+                       "Sampled\nOne pixel of every {0:g} × {0:g}, as it is. Waves too fine for the new grid come back "
+                       "as coarse ones: moire.",
+                       args.by)),
+             image(pair.filtered,
+                   fmt::format("Filtered, then sampled\nBy {}. What the new grid cannot hold is taken away first.",
+                               args.kernel))},
+            {spectrum(whole,
+                      fmt::format(
+                          "Its spectrum\nThe new grid holds the middle, up to {:.3g} cycle per pixel. Black is {:g} dB "
+                          "below the palest, in all three.",
+                          0.5 / args.by, range_db)),
+             spectrum(fourier(luminance(pair.naive)), "Spectrum\nThe middle, and all that lay outside folded into it."),
+             spectrum(fourier(luminance(pair.filtered)), "Spectrum\nThe middle alone.")}},
+       .text = {}});
+}
+
+Pair make_pair(const DecimateArgs& args, LinearImage image) {
+  const auto smaller = [&](int n) { return std::max(1, static_cast<int>(std::floor(n / args.by + 0.5))); };
+  const int width = smaller(image.width()), height = smaller(image.height());
+  Pair pair{std::move(image), {}, {}};
+  pair.naive = resampled(pair.image, width, height, "nearest", Border::Clamp);
+  pair.filtered = resampled(pair.image, width, height, args.kernel, Border::Clamp);
+  return pair;
+}
+
+Syntax make_syntax(DecimateArgs& args) {
+  Syntax syntax{
+      .verb = "signal decimate",
+      .summary = "Make an image smaller twice: by dropping pixels, and by filtering first",
+      .operands = "IMAGE",
+      .examples =
+          "  zoneplate signal decimate zone-plate --by 2 -o moire.png\n"
+          "  zoneplate signal decimate photo.jpg --by 4 --kernel mitchell -o compare.png --filtered small.png\n"
+          "  zoneplate signal decimate zone-plate:size=370 --by 3.7 --all-kernels\n",
+      .notes =
+          "A grid of every n-th pixel holds frequencies up to 1/(2n) cycle per pixel. What the image has above\n"
+          "that does not vanish when pixels are dropped: it is folded to a coarser frequency, where nothing\n"
+          "was, and no filter can tell it from the image afterwards. It has to be taken away before. How well a\n"
+          "kernel does that is printed in decibels: -20 dB is a tenth of the amplitude. Theory stands for an\n"
+          "image with a flat spectrum.\n\n" +
+          image_notes()};
+  const std::string group = "Options";
+  syntax.options = {
+      {"--by", "N", "How many times smaller, from 1 to 64, whole or not; default 2", group, true,
+       [&](auto& text) { args.by = parse_number(text, 1, 64); }},
+      {"--kernel", "NAME", "Kernel of the filter; default lanczos3", group, true,
+       [&](auto& text) { args.kernel = make_kernel(text).name; }},
+      {"--all-kernels", "", "Print the figures of every kernel", group, true, [&](auto&) { args.compares_all = true; }},
+      {"--naive", "FILE", "Write the picture of dropped pixels alone, a .png file", group, false,
+       [&](auto& text) { args.naive_path = text; }},
+      {"--filtered", "FILE", "Write the filtered picture alone, a .png file", group, false,
+       [&](auto& text) { args.filtered_path = text; }},
+      codes_option(args)};
+  for (Option& option : signal_options(args, "The picture of both, with their spectra and captions: a .png file, or -"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+}  // namespace
+
+void run_signal_decimate(std::span<const std::string> arguments) {
+  DecimateArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  const std::string& input = only_operand(syntax, "one IMAGE");
+  for (const std::string& path : {args.output, args.naive_path, args.filtered_path}) check_picture_name(path);
+  with_threads(args.threads, [&] {
+    const Pair pair = make_pair(args, load_signal(input, args.uses_codes));
+    if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair));
+    if (!args.naive_path.empty()) save_picture(args.naive_path, shown(pair.naive, args.uses_codes));
+    if (!args.filtered_path.empty()) save_picture(args.filtered_path, shown(pair.filtered, args.uses_codes));
+    const std::vector<Figures> rows = measure(args, pair);
+    tell(args, text_of(input, pair, rows), json_of(input, args, pair, rows));
+  });
+}
+
+}  // namespace zoneplate::cli

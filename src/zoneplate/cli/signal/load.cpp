@@ -1,0 +1,78 @@
+#include "zoneplate/cli/signal/load.h"
+
+#include <algorithm>
+#include <array>
+
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/formats/import/image_file.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/rows.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/signal/pattern/pattern.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+
+/// Every pixel through value_of(code), a function of a straight code, and times its alpha.
+template <class Code, class ValueOf>
+LinearImage premultiplied(const Plane<Code>& codes, float greatest, const ValueOf& value_of) {
+  LinearImage out(codes.width(), codes.height());
+  metrics::for_rows(codes.height(), [&](int y) {
+    std::ranges::transform(codes.row(y), out.row(y).begin(), [&](const Code& c) {
+      const float alpha = static_cast<float>(c.a) / greatest;
+      return Linear{value_of(c.r) * alpha, value_of(c.g) * alpha, value_of(c.b) * alpha, alpha};
+    });
+  });
+  return out;
+}
+
+LinearImage image_of(const Rgba8Image& codes, bool uses_codes) {
+  std::array<float, 256> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto code = static_cast<std::uint8_t>(i);
+    values[i] = uses_codes ? static_cast<float>(code) / 255 : decode_srgb8(code);
+  }
+  return premultiplied(codes, 255, [&](std::uint8_t code) { return values[code]; });
+}
+
+LinearImage image_of(const Rgba16Image& codes, bool uses_codes) {
+  return premultiplied(codes, 65535, [&](std::uint16_t code) {
+    const float value = static_cast<float>(code) / 65535;
+    return uses_codes ? value : decode_srgb(value);
+  });
+}
+
+LinearImage as_codes(LinearImage image) {
+  for (Linear& c : image.values()) c = {encode_srgb(c.r), encode_srgb(c.g), encode_srgb(c.b), c.a};
+  return image;
+}
+
+LinearImage load_file(const std::string& operand, bool uses_codes) {
+  const FileBytes file(operand);
+  if (is_hdr(file.bytes()) || is_exr(file.bytes())) {
+    LinearImage light = is_hdr(file.bytes()) ? decode_hdr(file.bytes(), operand, most_pixels)
+                                             : decode_exr(file.bytes(), operand, most_pixels);
+    return uses_codes ? as_codes(std::move(light)) : light;
+  }
+  const bool is_png = !file.bytes().empty() && file.bytes()[0] == 0x89;
+  if (!is_png) return image_of(decode_image(file.bytes(), operand, most_pixels).as<Rgba8>(), uses_codes);
+  const PngImage png = decode_png(file.bytes(), operand, most_pixels);
+  return png.pixels16.empty() ? image_of(png.pixels, uses_codes) : image_of(png.pixels16, uses_codes);
+}
+
+}  // namespace
+
+LinearImage load_signal(const std::string& operand, bool uses_codes) {
+  if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
+  const LostBytesWatch watch;
+  LinearImage image = load_file(operand, uses_codes);
+  watch.check(operand);
+  return image;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,117 @@
+#include <cstdlib>
+
+#include "zoneplate/cli/signal/signal.h"
+#include "zoneplate/cli/signal/signal_for_test.h"
+
+namespace zoneplate::cli {
+namespace {
+
+using SignalResample = SignalVerb;
+
+TEST_F(SignalResample, TakesSizesAndFactors) {
+  for (const auto& [size, width, height] : {std::tuple{"20x10", 20, 10},
+                                            {"20,10", 20, 10},
+                                            {"0.5", 16, 16},
+                                            {"50%", 16, 16},
+                                            {"2", 64, 64},
+                                            {"0.01", 1, 1}}) {
+    out(run_signal_resample, {"bricks:size=32", "--size", size, "-o", at("r.png")});
+    EXPECT_EQ(picture("r.png").width(), width) << size;
+    EXPECT_EQ(picture("r.png").height(), height) << size;
+  }
+}
+
+TEST_F(SignalResample, MixesLightUnlessTold) {
+  // Half of 0.05 and half of 0.8 of light is 0.425: code 174. Codes 63 and 231 mix to 147.
+  const Words words{"checkerboard:size=32,cell=1", "--size", "0.5", "--kernel", "box", "-o", at("r.png")};
+  out(run_signal_resample, words);
+  const Rgba8Image light = picture("r.png");
+  for (const Rgba8& c : light.values()) EXPECT_EQ(c, (Rgba8{174, 174, 174, 255}));
+  Words codes = words;
+  codes.emplace_back("--codes");
+  out(run_signal_resample, codes);
+  const Rgba8Image mixed = picture("r.png");
+  for (const Rgba8& c : mixed.values()) EXPECT_EQ(c.r, 147);
+}
+
+TEST_F(SignalResample, NearestPicksAndIdealKeepsWaves) {
+  out(run_signal_resample, {"checkerboard:size=32,cell=4", "--size", "2", "--kernel", "nearest", "-o", at("n.png")});
+  out(run_signal_resample, {"checkerboard:size=64,cell=8", "--size", "1", "--kernel", "nearest", "-o", at("m.png")});
+  EXPECT_EQ(picture("n.png"), picture("m.png"));
+  // A wave of 8 pixels, twice as large, is the wave of 16 pixels, half a pixel of the old grid being a quarter off.
+  out(run_signal_resample, {"sine:size=32,frequency=0.125", "--size", "2", "--kernel", "ideal", "-o", at("i.png")});
+  const Rgba8Image wave = picture("i.png");
+  const auto light = [](int x) { return 0.5 + 0.5 * std::cos(2 * M_PI * ((x + 0.5) / 2 - 0.5) / 8); };
+  const auto code = [](double v) { return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055); };
+  for (int x = 0; x < 64; ++x) EXPECT_NEAR(wave(x, 7).r, code(light(x)), 0.51 + 1e-3) << x;
+}
+
+TEST_F(SignalResample, KeepsTransparencyPremultiplied) {
+  // Transparent red beside opaque green: half of each is green, half covered.
+  Rgba8Image image(2, 2, {0, 255, 0, 255});
+  image(0, 0) = image(0, 1) = {255, 0, 0, 0};
+  save_bytes(at("a.png"), encode_png(image));
+  out(run_signal_resample, {at("a.png"), "--size", "1x1", "--kernel", "box", "-o", at("b.png")});
+  EXPECT_EQ(picture("b.png")(0, 0), (Rgba8{0, 255, 0, 128}));
+}
+
+TEST_F(SignalResample, ShowsBothAndRefuses) {
+  out(run_signal_resample, {"bricks:size=64", "--size", "0.4", "--side-by-side", "-o", at("f.png")});
+  EXPECT_GT(picture("f.png").width(), 1000);
+  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "-o", at("r.png")}), "--size is missing"));
+  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "2"}), "--output is missing"));
+  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "0", "-o", at("r.png")}), "wants 1 to"));
+  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "1000000", "-o", at("r.png")}), "wants 1 to"));
+  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "half", "-o", at("r.png")}), "not a number"));
+  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--kernel", "blob"}), "--kernel: "));
+}
+
+TEST_F(SignalResample, ReadsAndWritesPipes) {
+  out(run_signal_resample, {"bricks:size=32", "--size", "1", "--kernel", "nearest", "-o", at("in.png")});
+  const std::string command = "'" ZONEPLATE_PROGRAM "' signal resample - --size 0.5 --json -o - < '" + at("in.png") +
+                              "' > '" + at("piped.png") + "' 2> '" + at("numbers.json") + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  out(run_signal_resample, {at("in.png"), "--size", "0.5", "-o", at("plain.png")});
+  EXPECT_EQ(text("piped.png"), text("plain.png"));
+  EXPECT_EQ(parsed_json(text("numbers.json"))["width"], 16);
+}
+
+using SignalDecimate = SignalVerb;
+
+TEST_F(SignalDecimate, MeasuresTheAcceptedFigures) {
+  for (const auto& [image, by] : {std::pair{"zone-plate:size=256", "2"}, {"zone-plate:size=370", "3.7"}}) {
+    const auto found = json(run_signal_decimate, {image, "--by", by});
+    const auto& lanczos = found["kernels"]["lanczos3"];
+    EXPECT_LE(lanczos["measured"]["all_db"].get<double>(), -15);
+    EXPECT_LE(lanczos["measured"]["far_db"].get<double>(), -40);
+    EXPECT_NEAR(lanczos["measured"]["all_db"].get<double>(), lanczos["expected"]["all_db"].get<double>(), 1);
+  }
+  const auto all = json(run_signal_decimate, {"zone-plate:size=64", "--all-kernels"});
+  EXPECT_EQ(all["kernels"].size(), 11u);
+}
+
+TEST_F(SignalDecimate, DroppingPixelsTurnsAFineWaveIntoACoarseOne) {
+  // 0.4375 cycles per pixel, every second pixel: 0.875 becomes 0.125 a pixel, 8 pixels long, at full contrast; filtered
+  // it is grey.
+  out(run_signal_decimate,
+      {"sine:size=64,frequency=0.4375", "--naive", at("n.png"), "--filtered", at("f.png"), "-o", at("both.png")});
+  const Rgba8Image naive = picture("n.png"), filtered = picture("f.png");
+  ASSERT_EQ(naive.width(), 32);
+  int low = 255, high = 0;
+  for (int x = 0; x + 8 < 32; ++x) {
+    EXPECT_NEAR(naive(x, 3).r, naive(x + 8, 3).r, 2);
+    low = std::min<int>(low, naive(x, 3).r), high = std::max<int>(high, naive(x, 3).r);
+  }
+  EXPECT_GT(high - low, 190);
+  for (int x = 4; x < 28; ++x) EXPECT_NEAR(filtered(x, 3).r, 188, 6);
+  EXPECT_GT(picture("both.png").width(), 1000);
+}
+
+TEST_F(SignalDecimate, Refuses) {
+  EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--by", "0.5"}), "--by: "));
+  EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--kernel", "nearest"}), "no kernel 'nearest'"));
+  EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--naive", "x.gif"}), "ends in .png"));
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

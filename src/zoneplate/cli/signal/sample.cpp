@@ -1,0 +1,176 @@
+// zoneplate signal sample: two waves with the same samples, and the copies of a sampled spectrum.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/signal.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/signal/fourier/series.h"
+#include "zoneplate/signal/functions.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr double least = 1e-9, greatest = 1e9;
+constexpr int steps = 1500;  // of a curve
+constexpr int aliases_shown = 6;
+
+struct SampleArgs : SignalArgs {
+  double frequency = 0, rate = 0;
+
+  bool is_aliased() const { return frequency > rate / 2; }
+  double apparent() const { return apparent_frequency(frequency, rate); }
+};
+
+// Two periods of the slower wave, but some samples and no thicket of the faster one.
+double duration_of(const SampleArgs& args) {
+  const double slow = std::abs(args.apparent());
+  const double wanted = slow > 0 ? 2 / slow : 8 / args.rate;
+  return std::max(std::min(wanted, 14 / args.frequency), 6 / args.rate);
+}
+
+Curve wave_curve(const std::string& name, double frequency, double duration, int color) {
+  Curve curve{name, {}, Curve::Mark::Line, color};
+  for (int i = 0; i <= steps; ++i) {
+    const double t = duration * i / steps;
+    curve.points.emplace_back(t, sin_pi(2 * frequency * t));
+  }
+  return curve;
+}
+
+Plot waves_plot(const SampleArgs& args) {
+  const double duration = duration_of(args);
+  Curve samples{args.is_aliased() ? "samples of both" : "its samples", {}, Curve::Mark::Points, 6};
+  for (int i = 0; i / args.rate <= duration; ++i)
+    samples.points.emplace_back(i / args.rate, sin_pi(2 * args.frequency * i / args.rate));
+  Plot plot{.title = fmt::format("{:g} Hz, sampled at {:g} Hz", args.frequency, args.rate),
+            .x = {"time (seconds)", 0, duration},
+            .y = {"value", -1.2, 1.2},
+            .curves = {wave_curve(fmt::format("{:g} Hz", args.frequency), args.frequency, duration, 0)}};
+  if (args.is_aliased())
+    plot.curves.push_back(
+        wave_curve(fmt::format("{}{:g} Hz", args.apparent() < 0 ? "−" : "", std::abs(args.apparent())), args.apparent(),
+                   duration, 1));
+  plot.curves.push_back(samples);
+  return plot;
+}
+
+// The spectrum of the example: a triangle that ends at the frequency.
+double spectrum_at(const SampleArgs& args, double f) { return std::max(0.0, 1 - std::abs(f) / args.frequency); }
+
+Plot copies_plot(const SampleArgs& args) {
+  const double edge = 1.5 * args.rate;
+  Curve base{fmt::format("spectrum up to {:g} Hz", args.frequency), {}, Curve::Mark::Area, 0};
+  Curve copies{"its copies", {}, Curve::Mark::Area, 5}, overlap{"where they overlap", {}, Curve::Mark::Area, 1, 0.6};
+  const int reach = 2 + static_cast<int>(std::min(100.0, args.frequency / args.rate));
+  double most = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const double f = -edge + 2 * edge * i / steps, own = spectrum_at(args, f);
+    double others = 0;
+    for (int k = -reach; k <= reach; ++k)
+      if (k != 0) others = std::max(others, spectrum_at(args, f - k * args.rate));
+    base.points.emplace_back(f, own), copies.points.emplace_back(f, others),
+        overlap.points.emplace_back(f, std::min(own, others));
+    most = std::max(most, std::min(own, others));
+  }
+  Plot plot{.title = most > 0 ? "Samples repeat a spectrum at every multiple of the rate: here the copies overlap"
+                              : "Samples repeat a spectrum at every multiple of the rate: here there is room",
+            .x = {"frequency (Hz)", -edge, edge},
+            .y = {"magnitude", 0, 1.1},
+            .curves = {copies, base}};
+  if (most > 0) plot.curves.push_back(overlap);
+  const double half = args.rate / 2;
+  plot.curves.push_back({"half the rate",
+                         {{-half, 0}, {-half, 1.1}, {-half, NAN}, {half, 0}, {half, 1.1}},
+                         Curve::Mark::Dashed,
+                         Curve::grey});
+  return plot;
+}
+
+std::vector<double> others_of(const SampleArgs& args) {
+  std::vector<double> list = aliases_of(args.frequency, args.rate, args.frequency + 3 * args.rate);
+  std::erase_if(list, [&](double f) { return std::abs(f - args.frequency) < 1e-9 * args.rate; });
+  if (list.size() > aliases_shown) list.resize(aliases_shown);
+  return list;
+}
+
+std::string text_of(const SampleArgs& args) {
+  std::string others;
+  for (const double f : others_of(args)) others += fmt::format("{}{:g}", others.empty() ? "" : ", ", f);
+  const double seen = args.apparent();
+  std::string text =
+      fmt::format("{:g} Hz sampled at {:g} Hz: half the rate is {:g} Hz\n", args.frequency, args.rate, args.rate / 2);
+  if (args.is_aliased())
+    text += fmt::format("  aliased: its samples are those of {:g} Hz{}\n", std::abs(seen),
+                        seen < 0 ? ", running backwards" : "");
+  else if (args.frequency == args.rate / 2)
+    text += "  just half the rate: what the samples are depends on where they fall; they may all be 0\n";
+  else
+    text += "  not aliased: below half the rate no other wave has these samples\n";
+  text += fmt::format("  the same samples: {}, ... Hz\n", others);
+  const Band band = overlap_of_copies(args.frequency, args.rate);
+  return text + (band.low < band.high
+                     ? fmt::format("  copies of a spectrum that reaches to {:g} Hz overlap from {:g} to {:g} Hz\n",
+                                   args.frequency, std::max(0.0, band.low), band.high)
+                     : fmt::format("  copies of a spectrum that reaches to {:g} Hz keep {:g} Hz apart\n",
+                                   args.frequency, band.low - band.high));
+}
+
+Json::Object json_of(const SampleArgs& args) {
+  Json::Array others;
+  for (const double f : others_of(args)) others.emplace_back(f);
+  const Band band = overlap_of_copies(args.frequency, args.rate);
+  Json::Object json{{"frequency", args.frequency}, {"rate", args.rate},
+                    {"output", args.output},       {"is_aliased", args.is_aliased()},
+                    {"apparent", args.apparent()}, {"same_samples", std::move(others)}};
+  json.emplace_back("overlap", band.low < band.high
+                                   ? Json(Json::Object{{"low", std::max(0.0, band.low)}, {"high", band.high}})
+                                   : Json());
+  return json;
+}
+
+Syntax make_syntax(SampleArgs& args) {
+  Syntax syntax{
+      .verb = "signal sample",
+      .summary = "Sample a wave, and show what else has the same samples",
+      .operands = "--frequency F --rate R",
+      .examples =
+          "  zoneplate signal sample --frequency 7 --rate 10 -o alias.svg\n"
+          "  zoneplate signal sample --frequency 3 --rate 10 -o enough.png\n"
+          "  zoneplate signal sample --frequency 0.9 --rate 1     # a wheel of 0.9 spokes a frame\n",
+      .notes =
+          "Samples at a rate r cannot tell f from f + r, f + 2r, ... nor from r - f, 2r - f, ... Of all these\n"
+          "the one below r/2 is seen. The same in frequency: sampling copies the spectrum to every multiple of\n"
+          "the rate. While the signal ends below r/2 the copies stay apart, and the signal can be had back\n"
+          "exactly; beyond that they overlap, and what overlaps is lost. That is why images are filtered\n"
+          "before they are sampled.\n"};
+  const std::string group = "Options";
+  syntax.options = {{"--frequency", "F", "Of the wave, in Hz", group, true,
+                     [&](auto& text) { args.frequency = parse_number(text, least, greatest); }},
+                    {"--rate", "R", "Samples per second", group, true,
+                     [&](auto& text) { args.rate = parse_number(text, least, greatest); }}};
+  for (Option& option : signal_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+}  // namespace
+
+void run_signal_sample(std::span<const std::string> arguments) {
+  SampleArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  if (!syntax.found_operands.empty())
+    throw Error(Trouble::Usage, "signal sample takes no operands: --frequency F --rate R");
+  if (args.frequency == 0 || args.rate == 0) throw Error(Trouble::Usage, "--frequency and --rate are wanted");
+  if (args.frequency > 1000 * args.rate) throw Error(Trouble::Usage, "--frequency is more than 1000 times the rate");
+  check_plot_name(args.output);
+  if (!args.output.empty())
+    save_plots(args.output, {waves_plot(args), copies_plot(args)}, 1, {.width = 1000, .height = 380});
+  tell(args, text_of(args), json_of(args));
+}
+
+}  // namespace zoneplate::cli

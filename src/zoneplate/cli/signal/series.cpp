@@ -1,0 +1,155 @@
+// zoneplate signal series: a wave built up from its harmonics.
+#include "zoneplate/signal/fourier/series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/signal.h"
+#include "zoneplate/cli/values.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr int greatest_term = 9999;
+constexpr int steps = 2000;  // of a curve over one period
+
+struct SeriesArgs : SignalArgs {
+  std::vector<int> terms = {1, 3, 5, 15};
+};
+
+/// How well the harmonics 1 to `highest` make the wave.
+struct Sum {
+  int highest = 0;
+  double greatest = 0;  ///< of the sum; the waves reach 1
+  double rms = 0;       ///< of what is missing, by Parseval: the harmonics left out
+};
+
+double jump_of(Wave wave) { return wave == Wave::Triangle ? 0 : 2; }
+
+// The mean square of the waves: 1 for the square, 1/3 for the others.
+double mean_square(Wave wave) { return wave == Wave::Square ? 1 : 1.0 / 3; }
+
+// Where the sum is greatest. The derivative of the sums is a Dirichlet kernel, whose zero next to the jump is half a
+// period of the next harmonic away from it; the triangle's harmonics are all at their peak at its tip.
+double summit(Wave wave, int highest) {
+  if (wave == Wave::Triangle) return 0.25;
+  const int last = wave == Wave::Square && highest % 2 == 0 ? highest - 1 : highest;
+  const double away = 0.5 / (last + 1);
+  return wave == Wave::Square ? away : 1 - away;
+}
+
+Sum summarize(Wave wave, int highest) {
+  Sum sum{highest, partial_sum(wave, highest, summit(wave, highest)), mean_square(wave)};
+  for (int n = 1; n <= highest; ++n) sum.rms -= harmonic(wave, n) * harmonic(wave, n) / 2;
+  sum.rms = std::sqrt(std::max(0.0, sum.rms));
+  return sum;
+}
+
+Plot sums_plot(Wave wave, const SeriesArgs& args) {
+  Plot plot{.title = fmt::format("A {} wave from its harmonics", name_of(wave)),
+            .x = {"place (periods)", 0, 1},
+            .y = {"value", -1.3, 1.3},
+            .curves = {}};
+  Curve whole{"the wave", {}, Curve::Mark::Line, Curve::grey};
+  for (int i = 0; i <= steps; ++i)
+    whole.points.emplace_back(static_cast<double>(i) / steps, wave_value(wave, static_cast<double>(i) / steps));
+  plot.curves.push_back(whole);
+  for (std::size_t k = 0; k < args.terms.size(); ++k) {
+    Curve curve{fmt::format("harmonics to {}", args.terms[k]), {}, Curve::Mark::Line, static_cast<int>(k)};
+    for (int i = 0; i <= steps; ++i) {
+      const double x = static_cast<double>(i) / steps;
+      curve.points.emplace_back(x, partial_sum(wave, args.terms[k], x));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+// Shown to a number of harmonics that can still be told apart.
+Plot harmonics_plot(Wave wave, const SeriesArgs& args) {
+  const int last = std::clamp(*std::max_element(args.terms.begin(), args.terms.end()), 5, 40);
+  Curve bars{"amplitude of the harmonic", {}, Curve::Mark::Stems, 0}, fall{"", {}, Curve::Mark::Dashed, Curve::grey};
+  for (int n = 1; n <= last; ++n)
+    if (harmonic(wave, n) != 0) bars.points.emplace_back(n, std::abs(harmonic(wave, n)));
+  const int power = wave == Wave::Triangle ? 2 : 1;
+  const double first = std::abs(harmonic(wave, 1));
+  fall.name = power == 1 ? "falls as 1/n" : "falls as 1/n²";
+  for (int i = 10; i <= 10 * (last + 1); ++i) {
+    const double n = i / 10.0;
+    fall.points.emplace_back(n, first / (power == 1 ? n : n * n));
+  }
+  return {.title = "Its spectrum",
+          .x = {"frequency (cycles per period)", 0, last + 1.0},
+          .y = {"amplitude", 0, std::ceil(first * 5 + 0.5) / 5},
+          .curves = {fall, bars}};
+}
+
+std::string text_of(Wave wave, const std::vector<Sum>& sums) {
+  std::string text = fmt::format(
+      "{} wave between -1 and 1\n  harmonics to   greatest   overshoot   rms of what is missing\n", name_of(wave));
+  for (const Sum& sum : sums) {
+    const std::string overshoot =
+        jump_of(wave) > 0 ? fmt::format("{:.3f} %", 100 * (sum.greatest - 1) / jump_of(wave)) : "none";
+    text += fmt::format("  {:<15}{:<11.6f}{:<12}{:.6f}\n", sum.highest, sum.greatest, overshoot, sum.rms);
+  }
+  if (jump_of(wave) > 0)
+    text +=
+        "The overshoot, in per cent of the jump, tends to 8.949 % and stays: only its place moves to the jump "
+        "(Gibbs).\n";
+  return text;
+}
+
+Json::Object json_of(Wave wave, const SeriesArgs& args, const std::vector<Sum>& sums) {
+  Json::Array rows, harmonics;
+  for (const Sum& sum : sums)
+    rows.emplace_back(
+        Json::Object{{"highest", sum.highest},
+                     {"greatest", sum.greatest},
+                     {"overshoot_of_jump", jump_of(wave) > 0 ? Json((sum.greatest - 1) / jump_of(wave)) : Json()},
+                     {"missing_rms", sum.rms}});
+  const int last = *std::max_element(args.terms.begin(), args.terms.end());
+  for (int n = 1; n <= last; ++n) harmonics.emplace_back(harmonic(wave, n));
+  return {
+      {"wave", name_of(wave)}, {"output", args.output}, {"sums", std::move(rows)}, {"harmonics", std::move(harmonics)}};
+}
+
+Syntax make_syntax(SeriesArgs& args) {
+  Syntax syntax{
+      .verb = "signal series",
+      .summary = "Build a wave from its harmonics (Fourier series)",
+      .operands = "square|triangle|sawtooth",
+      .examples =
+          "  zoneplate signal series square --terms 1,3,5,15 -o series.svg\n"
+          "  zoneplate signal series triangle --terms 1,3,9 -o triangle.png\n"
+          "  zoneplate signal series sawtooth --terms 100,1000 --json\n",
+      .notes =
+          "Each of the waves is a sum of sines of 1, 2, 3, ... cycles per period; square and triangle have odd\n"
+          "ones only. A jump needs all of them: amplitudes fall as slowly as 1/n, and any sum that ends\n"
+          "overshoots the jump by 8.949 % of it, however long (Gibbs). The triangle only bends: it falls as\n"
+          "1/n², and does not. An edge in an image is such a jump: its frequencies are above those of any grid.\n"};
+  syntax.options = {{"--terms", "N,...", "Highest harmonic of each sum; default 1,3,5,15", "Options", true,
+                     [&](auto& text) { args.terms = parse_whole_list(text, 1, greatest_term); }}};
+  for (Option& option : signal_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+}  // namespace
+
+void run_signal_series(std::span<const std::string> arguments) {
+  SeriesArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  const Wave wave = parse_wave(only_operand(syntax, "a wave: square, triangle or sawtooth"));
+  check_plot_name(args.output);
+  std::vector<Sum> sums;
+  for (const int n : args.terms) sums.push_back(summarize(wave, n));
+  if (!args.output.empty()) save_plots(args.output, {sums_plot(wave, args), harmonics_plot(wave, args)}, 2, {});
+  tell(args, text_of(wave, sums), json_of(wave, args, sums));
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,153 @@
+#include "zoneplate/codec/apng.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/codec/png.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t signature_size = 8;
+constexpr std::size_t chunk_frame = 12;  // length, name and checksum around a chunk's data
+
+void put32(Bytes& out, std::uint32_t value) {
+  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+void put16(Bytes& out, int value) {
+  for (const int shift : {8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+std::uint32_t word_at(std::span<const std::uint8_t> bytes) {
+  std::uint32_t word = 0;
+  for (const std::uint8_t b : bytes.first(4)) word = word << 8 | b;
+  return word;
+}
+
+void put_chunk(Bytes& out, std::string_view name, const Bytes& data) {
+  put32(out, static_cast<std::uint32_t>(data.size()));
+  const std::size_t first = out.size();
+  out.insert(out.end(), name.begin(), name.end());
+  out.insert(out.end(), data.begin(), data.end());
+  put32(out, static_cast<std::uint32_t>(crc32(0, out.data() + first, static_cast<uInt>(out.size() - first))));
+}
+
+/// Calls use(name, data, whole chunk) for every chunk of a PNG file that we wrote ourselves.
+template <class Use>
+void for_chunks(std::span<const std::uint8_t> png, Use use) {
+  for (std::size_t at = signature_size; at < png.size();) {
+    const std::size_t size = word_at(png.subspan(at));
+    const auto chunk = png.subspan(at, chunk_frame + size);
+    use(std::string_view(reinterpret_cast<const char*>(chunk.data()) + 4, 4), chunk.subspan(8, size), chunk);
+    at += chunk.size();
+  }
+}
+
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Where two frames differ; one pixel where they do not, because a frame cannot be empty.
+Rectangle difference(const Rgba8Image& before, const Rgba8Image& now) {
+  int left = now.width(), top = now.height(), right = -1, bottom = -1;
+  for (int y = 0; y < now.height(); ++y)
+    for (int x = 0; x < now.width(); ++x)
+      if (before(x, y) != now(x, y)) {
+        left = std::min(left, x), right = std::max(right, x);
+        top = std::min(top, y), bottom = y;
+      }
+  if (right < 0) return {0, 0, 1, 1};
+  return {left, top, right - left + 1, bottom - top + 1};
+}
+
+Bytes encoded(const Rgba8Image& frame, const Rectangle& r, bool has_alpha) {
+  Rgba8Image part(r.width, r.height);
+  for (int y = 0; y < r.height; ++y) {
+    const auto row = frame.row(r.y + y).subspan(static_cast<std::size_t>(r.x), static_cast<std::size_t>(r.width));
+    std::copy(row.begin(), row.end(), part.row(y).begin());
+  }
+  return encode_png(part, {.has_alpha = has_alpha, .is_small = true});
+}
+
+/// The file as it grows; fcTL and fdAT chunks are numbered in one sequence.
+class Writer {
+ public:
+  explicit Writer(const Animation& animation) : animation_(animation) {}
+
+  Bytes write() {
+    const std::vector<Rgba8Image>& frames = animation_.frames;
+    std::vector<Rectangle> rectangles(frames.size());
+    std::vector<Bytes> files(frames.size());
+    parallel_for(frames.size(), [&](std::size_t i) {
+      rectangles[i] =
+          i == 0 ? Rectangle{0, 0, frames[0].width(), frames[0].height()} : difference(frames[i - 1], frames[i]);
+      files[i] = encoded(frames[i], rectangles[i], animation_.has_alpha);
+    });
+    write_first(files[0]);
+    for (std::size_t i = 1; i < frames.size(); ++i) write_next(files[i], rectangles[i]);
+    put_chunk(out_, "IEND", {});
+    return std::move(out_);
+  }
+
+ private:
+  // The first frame's file, with what says that more follows before its data.
+  void write_first(const Bytes& png) {
+    out_.assign(png.begin(), png.begin() + signature_size);
+    bool is_before_data = true;
+    for_chunks(png, [&](std::string_view name, auto, std::span<const std::uint8_t> chunk) {
+      if (name == "IEND") return;
+      if (name == "IDAT" && is_before_data) {
+        Bytes counts;
+        put32(counts, static_cast<std::uint32_t>(animation_.frames.size()));
+        put32(counts, static_cast<std::uint32_t>(animation_.loops));
+        put_chunk(out_, "acTL", counts);
+        write_control({0, 0, animation_.frames[0].width(), animation_.frames[0].height()});
+        is_before_data = false;
+      }
+      out_.insert(out_.end(), chunk.begin(), chunk.end());
+    });
+  }
+
+  void write_next(const Bytes& png, const Rectangle& r) {
+    write_control(r);
+    for_chunks(png, [&](std::string_view name, auto data, auto) {
+      if (name != "IDAT") return;
+      Bytes numbered;
+      put32(numbered, sequence_++);
+      numbered.insert(numbered.end(), data.begin(), data.end());
+      put_chunk(out_, "fdAT", numbered);
+    });
+  }
+
+  void write_control(const Rectangle& r) {
+    Bytes control;
+    put32(control, sequence_++);
+    for (const int value : {r.width, r.height, r.x, r.y}) put32(control, static_cast<std::uint32_t>(value));
+    put16(control, animation_.seconds);
+    put16(control, animation_.per);
+    control.push_back(0);  // dispose: leave it for the next frame
+    control.push_back(0);  // blend: replace what was there
+    put_chunk(out_, "fcTL", control);
+  }
+
+  const Animation& animation_;
+  Bytes out_;
+  std::uint32_t sequence_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_apng(const Animation& animation) {
+  assert(!animation.frames.empty());
+  return Writer(animation).write();
+}
+
+}  // namespace zoneplate

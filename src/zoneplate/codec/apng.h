@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/codec/animation.h"
+
+namespace zoneplate {
+
+/// An animated PNG: a PNG file of the first frame, for programs that know nothing of animation, with the others after
+/// it. Of each frame the rectangle is stored in which it differs from the one before.
+///
+/// Exact     lossless; no time stamp, the same animation gives the same bytes.
+/// Source    PNG Specification, third edition (W3C 2023): chunks acTL, fcTL, fdAT.
+std::vector<std::uint8_t> encode_apng(const Animation& animation);
+
+}  // namespace zoneplate

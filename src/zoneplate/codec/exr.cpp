@@ -1,0 +1,377 @@
+#include "zoneplate/codec/exr.h"
+
+#include <dlfcn.h>
+#include <openexr.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/os/library.h"
+#include "zoneplate/os/limited_child.h"
+
+namespace zoneplate {
+namespace {
+
+/// Why a picture is not decoded.
+struct Refusal {
+  std::string cause;
+};
+
+/// A rectangle of pixels, both corners in it.
+struct Window {
+  std::int32_t left = 0, top = 0, right = -1, bottom = -1;
+
+  std::int64_t width() const { return std::int64_t{right} - left + 1; }
+  std::int64_t height() const { return std::int64_t{bottom} - top + 1; }
+  bool is_sound() const {
+    constexpr std::int64_t most_side = 1 << 24;
+    return width() > 0 && height() > 0 && width() <= most_side && height() <= most_side;
+  }
+  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()); }
+};
+
+struct Windows {
+  Window data, display;
+};
+
+/// The text up to the next zero, of 255 bytes at most.
+std::optional<std::string_view> take_text(std::span<const std::uint8_t>& bytes) {
+  const std::size_t most = std::min<std::size_t>(bytes.size(), 256);
+  const auto end = std::find(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(most), 0);
+  if (end == bytes.begin() + static_cast<std::ptrdiff_t>(most)) return std::nullopt;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              static_cast<std::size_t>(end - bytes.begin()));
+  bytes = bytes.subspan(text.size() + 1);
+  return text;
+}
+
+/// Walks over the attributes of the first header: name, type, size, value.
+std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
+  if (!is_exr(bytes)) return std::nullopt;
+  Windows out;
+  for (bytes = bytes.subspan(8);;) {
+    const auto name = take_text(bytes);
+    if (!name) return std::nullopt;
+    if (name->empty()) break;
+    const auto type = take_text(bytes);
+    std::uint32_t size = 0;
+    if (!type || bytes.size() < sizeof size) return std::nullopt;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    bytes = bytes.subspan(sizeof size);
+    if (size > bytes.size()) return std::nullopt;
+    if (*type == "box2i" && size == sizeof(Window)) {
+      if (*name == "dataWindow") std::memcpy(&out.data, bytes.data(), sizeof(Window));
+      if (*name == "displayWindow") std::memcpy(&out.display, bytes.data(), sizeof(Window));
+    }
+    bytes = bytes.subspan(size);
+  }
+  if (!out.data.is_sound() || !out.display.is_sound()) return std::nullopt;
+  return out;
+}
+
+/// The library's functions that are used here; it is opened by them, not with the program.
+struct ExrLibrary {
+  decltype(&exr_start_read) start_read = nullptr;
+  decltype(&exr_finish) finish = nullptr;
+  decltype(&exr_get_default_error_message) error_text = nullptr;
+  decltype(&exr_get_storage) storage = nullptr;
+  decltype(&exr_get_channels) channels = nullptr;
+  decltype(&exr_get_scanlines_per_chunk) scanlines_per_chunk = nullptr;
+  decltype(&exr_get_tile_sizes) tile_sizes = nullptr;
+  decltype(&exr_read_scanline_chunk_info) scanline_chunk = nullptr;
+  decltype(&exr_read_tile_chunk_info) tile_chunk = nullptr;
+  decltype(&exr_decoding_initialize) begin_decoding = nullptr;
+  decltype(&exr_decoding_choose_default_routines) choose_routines = nullptr;
+  decltype(&exr_decoding_run) decode = nullptr;
+  decltype(&exr_decoding_destroy) end_decoding = nullptr;
+
+  explicit ExrLibrary(const std::string& file) {
+    const SharedLibrary library(Library::OpenExr, file + ": an EXR picture");
+    library.find(start_read, "exr_start_read");
+    library.find(finish, "exr_finish");
+    library.find(error_text, "exr_get_default_error_message");
+    library.find(storage, "exr_get_storage");
+    library.find(channels, "exr_get_channels");
+    library.find(scanlines_per_chunk, "exr_get_scanlines_per_chunk");
+    library.find(tile_sizes, "exr_get_tile_sizes");
+    library.find(scanline_chunk, "exr_read_scanline_chunk_info");
+    library.find(tile_chunk, "exr_read_tile_chunk_info");
+    library.find(begin_decoding, "exr_decoding_initialize");
+    library.find(choose_routines, "exr_decoding_choose_default_routines");
+    library.find(decode, "exr_decoding_run");
+    library.find(end_decoding, "exr_decoding_destroy");
+  }
+
+  void check(exr_result_t result) const {
+    if (result == EXR_ERR_FEATURE_NOT_IMPLEMENTED) throw Refusal{"is packed in a way that is not read (DWA)"};
+    if (result != EXR_ERR_SUCCESS) throw Refusal{std::string("is corrupt or cut off: ") + error_text(result)};
+  }
+};
+
+std::int64_t read_bytes(exr_const_context_t, void* user, void* out, std::uint64_t size, std::uint64_t offset,
+                        exr_stream_error_func_ptr_t) {
+  const auto& bytes = *static_cast<const std::span<const std::uint8_t>*>(user);
+  if (offset >= bytes.size()) return 0;
+  const std::uint64_t n = std::min<std::uint64_t>(size, bytes.size() - offset);
+  std::memcpy(out, bytes.data() + offset, static_cast<std::size_t>(n));
+  return static_cast<std::int64_t>(n);
+}
+std::int64_t size_of_bytes(exr_const_context_t, void* user) {
+  return static_cast<std::int64_t>(static_cast<const std::span<const std::uint8_t>*>(user)->size());
+}
+void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
+
+/// Numbers by rows, zero at first. They take memory where they are written, so that a picture of which nothing is there
+/// takes none.
+class Channel {
+ public:
+  Channel() = default;
+  explicit Channel(const Window& window)
+      : width_(static_cast<std::size_t>(window.width())),
+        values_(static_cast<float*>(std::calloc(static_cast<std::size_t>(window.pixels()), sizeof(float)))) {
+    if (!values_) throw std::bad_alloc();
+  }
+  explicit operator bool() const { return values_ != nullptr; }
+  float& operator()(std::size_t x, std::size_t y) { return values_.get()[y * width_ + x]; }
+  float operator()(std::size_t x, std::size_t y) const { return values_.get()[y * width_ + x]; }
+
+ private:
+  struct Free {
+    void operator()(float* values) const { std::free(values); }
+  };
+  std::size_t width_ = 0;
+  std::unique_ptr<float, Free> values_;
+};
+
+/// An open file, decoded into the channels of its data window. It lives in the child.
+class ExrReader {
+ public:
+  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window)
+      : library_(library), bytes_(bytes), window_(window) {
+    exr_context_initializer_t set_up{};
+    set_up.size = sizeof set_up;
+    set_up.error_handler_fn = say_nothing;
+    set_up.user_data = &bytes_;
+    set_up.read_fn = read_bytes;
+    set_up.size_fn = size_of_bytes;
+    set_up.zip_level = -1;
+    set_up.dwa_quality = -1;
+    library_.check(library_.start_read(&context_, "memory", &set_up));
+    find_channels();
+  }
+  ~ExrReader() { library_.finish(&context_); }
+  ExrReader(const ExrReader&) = delete;
+  ExrReader& operator=(const ExrReader&) = delete;
+
+  void read() {
+    exr_storage_t storage{};
+    library_.check(library_.storage(context_, 0, &storage));
+    if (storage == EXR_STORAGE_SCANLINE)
+      read_scanlines();
+    else if (storage == EXR_STORAGE_TILED)
+      read_tiles();
+    else
+      throw Refusal{"is deep, which is not read"};
+  }
+
+  /// A row of the data window, from one column on.
+  void copy_row(int y, int first, std::span<Linear> out) const {
+    const auto value = [&](std::size_t slot, std::size_t x) {
+      if (!channels_[slot]) return slot == 3 ? 1.0f : 0.0f;
+      const float v = channels_[slot](x, static_cast<std::size_t>(y));
+      return std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
+    };
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::size_t x = static_cast<std::size_t>(first) + i;
+      out[i].r = value(0, x);
+      out[i].g = is_grey_ ? out[i].r : value(1, x);
+      out[i].b = is_grey_ ? out[i].r : value(2, x);
+      out[i].a = value(3, x);
+    }
+  }
+
+ private:
+  /// Which part of a pixel a channel fills; nothing for others.
+  std::optional<std::size_t> slot_of(std::string_view channel) const {
+    if (is_grey_)
+      return channel == "Y"   ? std::optional<std::size_t>{0}
+             : channel == "A" ? std::optional<std::size_t>{3}
+                              : std::nullopt;
+    const std::size_t at = std::string_view("RGBA").find(channel);
+    return channel.size() == 1 && at < 4 ? std::optional<std::size_t>{at} : std::nullopt;
+  }
+
+  void find_channels() {
+    const exr_attr_chlist_t* list = nullptr;
+    library_.check(library_.channels(context_, 0, &list));
+    const auto find = [&](std::string_view name) -> const exr_attr_chlist_entry_t* {
+      for (int i = 0; i < list->num_channels; ++i)
+        if (list->entries[i].name.str == name) return &list->entries[i];
+      return nullptr;
+    };
+    is_grey_ = !find("R") && !find("G") && !find("B");
+    if (is_grey_ && !find("Y")) throw Refusal{"has no channel R, G, B or Y"};
+    for (const std::string_view name : {"R", "G", "B", "A", "Y"})
+      if (const auto* c = find(name); c && slot_of(name)) {
+        if (c->x_sampling != 1 || c->y_sampling != 1)
+          throw Refusal{"has fewer samples in channel " + std::string(name) + " than pixels, which is not read"};
+        channels_[*slot_of(name)] = Channel(window_);
+      }
+  }
+
+  /// Decodes a part whose first pixel is (x, y) of the data window.
+  void read_chunk(const exr_chunk_info_t& chunk, std::int64_t x, std::int64_t y) {
+    if (x < 0 || y < 0 || chunk.width < 1 || chunk.height < 1 || x + chunk.width > window_.width() ||
+        y + chunk.height > window_.height())
+      throw Refusal{"is corrupt: a part lies outside the picture"};
+    check_deadline();
+    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
+    library_.check(library_.begin_decoding(context_, 0, &chunk, &pipeline));
+    const std::unique_ptr<exr_decode_pipeline_t, std::function<void(exr_decode_pipeline_t*)>> end(
+        &pipeline, [this](exr_decode_pipeline_t* p) { library_.end_decoding(context_, p); });
+    // Channel by channel: the library's quick ways for mixed pixels have their order wrong in some versions.
+    for (int i = 0; i < pipeline.channel_count; ++i) {
+      exr_coding_channel_info_t& channel = pipeline.channels[i];
+      const std::optional<std::size_t> slot = slot_of(channel.channel_name);
+      channel.decode_to_ptr = slot && channels_[*slot] ? reinterpret_cast<std::uint8_t*>(&channels_[*slot](
+                                                             static_cast<std::size_t>(x), static_cast<std::size_t>(y)))
+                                                       : nullptr;
+      channel.user_pixel_stride = sizeof(float);
+      channel.user_line_stride = static_cast<std::int32_t>(window_.width()) * std::int32_t{sizeof(float)};
+      channel.user_data_type = EXR_PIXEL_FLOAT;
+      channel.user_bytes_per_element = sizeof(float);
+    }
+    library_.check(library_.choose_routines(context_, 0, &pipeline));
+    library_.check(library_.decode(context_, 0, &pipeline));
+  }
+
+  void read_scanlines() {
+    std::int32_t lines = 0;
+    library_.check(library_.scanlines_per_chunk(context_, 0, &lines));
+    if (lines < 1) throw Refusal{"is corrupt"};
+    for (std::int64_t y = window_.top; y <= window_.bottom; y += lines) {
+      exr_chunk_info_t chunk{};
+      library_.check(library_.scanline_chunk(context_, 0, static_cast<int>(y), &chunk));
+      read_chunk(chunk, 0, y - window_.top);
+    }
+  }
+
+  void read_tiles() {
+    std::int32_t width = 0, height = 0;
+    library_.check(library_.tile_sizes(context_, 0, 0, 0, &width, &height));
+    if (width < 1 || height < 1) throw Refusal{"is corrupt"};
+    for (std::int64_t j = 0; j * height < window_.height(); ++j)
+      for (std::int64_t i = 0; i * width < window_.width(); ++i) {
+        exr_chunk_info_t chunk{};
+        library_.check(library_.tile_chunk(context_, 0, static_cast<int>(i), static_cast<int>(j), 0, 0, &chunk));
+        read_chunk(chunk, i * width, j * height);
+      }
+  }
+
+  const ExrLibrary& library_;
+  std::span<const std::uint8_t> bytes_;
+  Window window_;
+  exr_context_t context_ = nullptr;
+  bool is_grey_ = false;
+  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha, of those that there are
+};
+
+/// Gives the rows of the display window, with what the data window has of them, to `send(row)`.
+template <class Send>
+void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
+  const Window &data = windows.data, &display = windows.display;
+  std::vector<Linear> row(static_cast<std::size_t>(display.width()));
+  const std::int64_t left = std::max(data.left, display.left), right = std::min(data.right, display.right);
+  for (std::int64_t y = display.top; y <= display.bottom; ++y) {
+    check_deadline();
+    std::fill(row.begin(), row.end(), Linear{0, 0, 0, 0});
+    if (y >= data.top && y <= data.bottom && left <= right)
+      reader.copy_row(static_cast<int>(y - data.top), static_cast<int>(left - data.left),
+                      std::span(row).subspan(static_cast<std::size_t>(left - display.left),
+                                             static_cast<std::size_t>(right - left + 1)));
+    send(std::span<const Linear>(row));
+  }
+}
+
+}  // namespace
+
+bool is_exr(std::span<const std::uint8_t> bytes) {
+  constexpr std::array<std::uint8_t, 4> magic = {0x76, 0x2f, 0x31, 0x01};
+  return bytes.size() >= 8 && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes) {
+  const std::optional<Windows> windows = find_windows(bytes);
+  if (!windows) return std::nullopt;
+  return int2{static_cast<int>(windows->display.width()), static_cast<int>(windows->display.height())};
+}
+
+std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<Windows> windows = find_windows(bytes);
+  return windows ? sizeof(Linear) * windows->data.pixels() : 0;
+}
+
+void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                     const std::function<void(std::span<const Linear>)>& take_row) {
+  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": EXR: " + cause}; };
+  const std::optional<Windows> windows = find_windows(bytes);
+  if (!windows) throw fail("the header is wrong");
+  for (const Window& window : {windows->display, windows->data})
+    if (window.pixels() > max_pixels)
+      throw fail(std::to_string(window.width()) + " x " + std::to_string(window.height()) + " pixels, at most " +
+                 std::to_string(max_pixels) + " are allowed");
+
+  const auto decode = [&](const ExrLibrary& library, auto send) {
+    try {
+      ExrReader reader(library, bytes, windows->data);
+      reader.read();
+      send_rows(reader, *windows, send);
+    } catch (const Refusal& refused) {
+      throw fail(refused.cause);
+    }
+  };
+  if (is_limited_child()) return decode(ExrLibrary(name), take_row);
+
+  // The picture, and as much again for what is being unpacked of it.
+  constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
+  const Stopwatch clock;
+  LimitedChild::Limits limits;
+  limits.memory = 2 * sizeof(Linear) * windows->data.pixels() + 2 * bytes.size() + of_the_library;
+  limits.check_time = [&] {
+    check_deadline();
+    if (clock.ms() > limits.seconds * 1000) throw fail("takes longer than the limit");
+  };
+  std::optional<ExrLibrary> library;
+  LimitedChild child(
+      name + ": EXR", limits,
+      [&](ChildAnswer& answer) {
+        decode(*library, [&](std::span<const Linear> row) { answer.write(row.data(), row.size_bytes()); });
+      },
+      [&] { library.emplace(name); });
+  std::vector<Linear> row(static_cast<std::size_t>(windows->display.width()));
+  for (std::int64_t y = 0; y < windows->display.height(); ++y) {
+    child.read(row.data(), row.size() * sizeof(Linear));
+    take_row(row);
+  }
+}
+
+LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  LinearImage image;  // made when the first row is there: a broken file takes no memory
+  int y = 0;
+  decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
+    if (y == 0) image = LinearImage(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+    std::copy(row.begin(), row.end(), image.row(y++).begin());
+  });
+  return image;
+}
+}  // namespace zoneplate

@@ -1,0 +1,154 @@
+#include "zoneplate/codec/exr_encode.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <string_view>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/codec/deflate.h"
+#include "zoneplate/codec/png_rows.h"
+#include "zoneplate/image/half.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+static_assert(std::endian::native == std::endian::little, "words are written as they are");
+
+constexpr std::size_t zip_lines = 16;
+constexpr std::uint8_t zip_compression = 3, increasing_y = 0;
+
+template <class T>
+void put(Bytes& out, T value) {
+  std::uint8_t bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  out.insert(out.end(), bytes, bytes + sizeof value);
+}
+void put_text(Bytes& out, std::string_view text) {
+  out.insert(out.end(), text.begin(), text.end());
+  out.push_back(0);
+}
+void put_attribute(Bytes& out, std::string_view name, std::string_view type, const Bytes& value) {
+  put_text(out, name);
+  put_text(out, type);
+  put(out, static_cast<std::uint32_t>(value.size()));
+  out.insert(out.end(), value.begin(), value.end());
+}
+template <class... T>
+Bytes values_of(T... values) {
+  Bytes out;
+  (put(out, values), ...);
+  return out;
+}
+
+std::size_t size_of(ExrType type) { return type == ExrType::Half ? 2 : 4; }
+
+Bytes list_of(std::span<const ExrChannel> channels) {
+  Bytes out;
+  for (const ExrChannel& channel : channels) {
+    put_text(out, channel.name);
+    put(out, static_cast<std::int32_t>(channel.type));
+    put(out, std::uint32_t{0});  // not perceptually linear
+    put(out, std::int32_t{1});   // a sample for every pixel
+    put(out, std::int32_t{1});
+  }
+  out.push_back(0);
+  return out;
+}
+
+Bytes header_of(int width, int height, std::span<const ExrChannel> channels, const ExrAttributes& attributes) {
+  Bytes out = {0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0};
+  const Bytes window = values_of(0, 0, width - 1, height - 1);
+  put_attribute(out, "channels", "chlist", list_of(channels));
+  put_attribute(out, "compression", "compression", {zip_compression});
+  put_attribute(out, "dataWindow", "box2i", window);
+  put_attribute(out, "displayWindow", "box2i", window);
+  put_attribute(out, "lineOrder", "lineOrder", {increasing_y});
+  put_attribute(out, "pixelAspectRatio", "float", values_of(1.0f));
+  put_attribute(out, "screenWindowCenter", "v2f", values_of(0.0f, 0.0f));
+  put_attribute(out, "screenWindowWidth", "float", values_of(1.0f));
+  for (const auto& [name, text] : attributes) put_attribute(out, name, "string", Bytes(text.begin(), text.end()));
+  out.push_back(0);
+  return out;
+}
+
+/// Some rows, channel by channel in each, as they are stored.
+Bytes rows_of(std::span<const ExrChannel> channels, std::size_t width, std::size_t first, std::size_t end) {
+  Bytes out;
+  for (std::size_t y = first; y < end; ++y)
+    for (const ExrChannel& channel : channels) {
+      const std::size_t start = y * width * channel.step, at = out.size();
+      out.resize(at + width * size_of(channel.type));
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::size_t from = start + x * channel.step;
+        if (channel.type == ExrType::Half) {
+          const std::uint16_t half = half_bits(channel.value[from]);
+          std::memcpy(&out[at + 2 * x], &half, sizeof half);
+        } else if (channel.type == ExrType::Float) {
+          std::memcpy(&out[at + 4 * x], channel.value + from, sizeof(float));
+        } else {
+          std::memcpy(&out[at + 4 * x], channel.number + from, sizeof(std::uint32_t));
+        }
+      }
+    }
+  return out;
+}
+
+/// What ZIP compression does before it deflates: bytes of even place before those of odd place, each as its difference
+/// from the one before, plus 128.
+Bytes prepared(const Bytes& raw) {
+  Bytes out(raw.size());
+  const std::size_t middle = (raw.size() + 1) / 2;
+  for (std::size_t i = 0; i < raw.size(); ++i) out[i / 2 + (i % 2 ? middle : 0)] = raw[i];
+  for (std::size_t i = out.size(); i-- > 1;) out[i] = static_cast<std::uint8_t>(out[i] - out[i - 1] + 128);
+  return out;
+}
+
+/// A block as it is stored: deflated, or as it was where that is not longer.
+Bytes packed(Bytes raw) {
+  constexpr std::size_t most_part = std::size_t{1} << 24;
+  const Bytes wanted = prepared(raw);
+  Bytes out = {0x78, 0x01};
+  for (std::size_t at = 0; at < wanted.size(); at += most_part) {
+    const std::size_t n = std::min(most_part, wanted.size() - at);
+    deflate_part(std::span(wanted).subspan(at, n), at + n == wanted.size(), out);
+  }
+  const std::uint32_t sum = png_row_kernels(best_isa()).adler(wanted.data(), wanted.size());
+  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(sum >> shift));
+  return out.size() < raw.size() ? out : raw;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChannel> channels,
+                                     const ExrAttributes& attributes) {
+  assert(width > 0 && height > 0 && !channels.empty());
+  std::ranges::sort(channels, {}, &ExrChannel::name);
+  const auto lines = static_cast<std::size_t>(height);
+  std::vector<Bytes> blocks((lines + zip_lines - 1) / zip_lines);
+  parallel_for(blocks.size(), [&](std::size_t i) {
+    const std::size_t first = i * zip_lines, end = std::min(lines, first + zip_lines);
+    blocks[i] = packed(rows_of(channels, static_cast<std::size_t>(width), first, end));
+  });
+
+  Bytes out = header_of(width, height, channels, attributes);
+  // Where each block begins, then the blocks: first row, size, bytes.
+  std::uint64_t at = out.size() + 8 * blocks.size();
+  for (const Bytes& block : blocks) {
+    put(out, at);
+    at += 8 + block.size();
+  }
+  out.reserve(static_cast<std::size_t>(at));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    put(out, static_cast<std::int32_t>(i * zip_lines));
+    put(out, static_cast<std::uint32_t>(blocks[i].size()));
+    out.insert(out.end(), blocks[i].begin(), blocks[i].end());
+  }
+  return out;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,223 @@
+#include "zoneplate/codec/hdr.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr int most_side = 1 << 24;
+
+/// The order in which pixels are stored: scanlines go along one axis, one after the other along the other.
+struct Scan {
+  int width = 0, height = 0;
+  bool is_by_columns = false;  ///< a scanline is a column
+  bool is_x_down = false;      ///< from right to left
+  bool is_y_up = false;        ///< from the bottom up
+
+  int lines() const { return is_by_columns ? width : height; }
+  int length() const { return is_by_columns ? height : width; }
+};
+
+/// A number without sign at the front of `text`, which is taken off it; 0 where there is none.
+int take_number(std::string_view& text) {
+  long value = 0;
+  while (!text.empty() && text.front() >= '0' && text.front() <= '9') {
+    value = std::min<long>(value * 10 + (text.front() - '0'), most_side);
+    text.remove_prefix(1);
+  }
+  return static_cast<int>(value);
+}
+
+/// The line that ends the header: "-Y 512 +X 1024", the outer axis first.
+std::optional<Scan> parse_scan(std::string_view line) {
+  Scan scan;
+  bool has[2] = {};  // x, y
+  for (int i = 0; i < 2; ++i) {
+    if (line.size() < 4 || (line[0] != '-' && line[0] != '+') || line[2] != ' ') return std::nullopt;
+    const char axis = line[1];
+    if (axis != 'X' && axis != 'Y') return std::nullopt;
+    const bool is_minus = line[0] == '-';
+    line.remove_prefix(3);
+    const int size = take_number(line);
+    if (size < 1 || has[axis == 'Y']) return std::nullopt;
+    has[axis == 'Y'] = true;
+    if (i == 0) scan.is_by_columns = axis == 'X';
+    if (axis == 'X')
+      scan.width = size, scan.is_x_down = is_minus;
+    else
+      scan.height = size, scan.is_y_up = !is_minus;
+    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+  }
+  if (!line.empty() && line != "\r") return std::nullopt;
+  return scan;
+}
+
+struct Header {
+  Scan scan;
+  bool is_rgbe = true;
+  std::size_t end = 0;  ///< where the pixels begin
+};
+
+std::optional<Header> parse_header(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t most_header = std::size_t{1} << 16;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), most_header));
+  Header header;
+  bool is_over = false;  // the empty line was seen
+  for (std::size_t at = 0;;) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    if (is_over) {
+      const std::optional<Scan> scan = parse_scan(line);
+      if (!scan) return std::nullopt;
+      header.scan = *scan, header.end = at;
+      return header;
+    }
+    if (line.starts_with("FORMAT=")) header.is_rgbe = line.starts_with("FORMAT=32-bit_rle_rgbe");
+    is_over = line.empty() || line == "\r";
+  }
+}
+
+using Rgbe = std::array<std::uint8_t, 4>;
+
+/// Mantissas and exponent as light.
+Linear light_of(Rgbe p) {
+  if (p[3] == 0) return {0, 0, 0, 1};
+  const auto unit = std::bit_cast<double>((std::uint64_t{p[3]} + 1023 - 136) << 52);  // 2^(exponent - 136)
+  return {static_cast<float>(p[0] * unit), static_cast<float>(p[1] * unit), static_cast<float>(p[2] * unit), 1};
+}
+
+/// Unpacks scanlines one after the other; what is wrong ends in false.
+class LineReader {
+ public:
+  explicit LineReader(std::span<const std::uint8_t> packed) : packed_(packed) {}
+
+  bool read(std::span<Rgbe> line) {
+    const std::size_t n = line.size();
+    const bool may_be_new = n >= 8 && n < 32768 && left() >= 4;
+    if (may_be_new && packed_[at_] == 2 && packed_[at_ + 1] == 2 && packed_[at_ + 2] < 128) {
+      const std::size_t stated = packed_[at_ + 2] * std::size_t{256} + packed_[at_ + 3];
+      at_ += 4;
+      return stated == n && read_channels(line);
+    }
+    return read_pixels(line);
+  }
+
+ private:
+  std::size_t left() const { return packed_.size() - at_; }
+
+  /// Channel by channel; a count above 128 repeats the byte behind it, another one copies as many.
+  bool read_channels(std::span<Rgbe> line) {
+    for (std::size_t channel = 0; channel < 4; ++channel)
+      for (std::size_t x = 0; x < line.size();) {
+        if (left() < 2) return false;
+        const std::size_t code = packed_[at_++];
+        const bool is_run = code > 128;
+        const std::size_t count = is_run ? code - 128 : code;
+        if (count == 0 || count > line.size() - x || (!is_run && count > left())) return false;
+        for (std::size_t i = 0; i < count; ++i) line[x++][channel] = packed_[is_run ? at_ : at_ + i];
+        at_ += is_run ? 1 : count;
+      }
+    return true;
+  }
+
+  /// Pixel by pixel; 1 1 1 n repeats the last one n times, and right after such a one 256 n times, and so on.
+  bool read_pixels(std::span<Rgbe> line) {
+    int shift = 0;
+    for (std::size_t x = 0; x < line.size();) {
+      if (left() < 4) return false;
+      const Rgbe pixel{packed_[at_], packed_[at_ + 1], packed_[at_ + 2], packed_[at_ + 3]};
+      at_ += 4;
+      if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
+        line[x++] = last_ = pixel;
+        shift = 0;
+        continue;
+      }
+      if (shift > 16) return false;
+      const std::size_t count = std::size_t{pixel[3]} << shift;
+      if (count > line.size() - x) return false;
+      std::fill_n(line.begin() + static_cast<std::ptrdiff_t>(x), count, last_);
+      x += count;
+      shift += 8;
+    }
+    return true;
+  }
+
+  std::span<const std::uint8_t> packed_;
+  std::size_t at_ = 0;
+  Rgbe last_{};
+};
+
+/// Calls `put(x, y, pixel)` for every pixel, in the order in which they are stored.
+template <class Put>
+void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const std::string& name, const Put& put) {
+  LineReader reader(packed);
+  std::vector<Rgbe> line(static_cast<std::size_t>(scan.length()));
+  for (int j = 0; j < scan.lines(); ++j) {
+    constexpr int lines_per_check = 16;
+    if (j % lines_per_check == 0) check_deadline();
+    if (!reader.read(line))
+      throw Error(Trouble::Input, name + ": HDR: scanline " + std::to_string(j) + " is corrupt or cut off");
+    for (int i = 0; i < scan.length(); ++i) {
+      const int x = scan.is_by_columns ? j : i, y = scan.is_by_columns ? i : j;
+      put(scan.is_x_down ? scan.width - 1 - x : x, scan.is_y_up ? scan.height - 1 - y : y,
+          line[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+/// The picture, each pixel as `to_pixel(light)`.
+template <class Image, class ToPixel>
+Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+             const ToPixel& to_pixel) {
+  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": HDR: " + cause}; };
+  const auto header = is_hdr(bytes) ? parse_header(bytes) : std::nullopt;
+  if (!header) throw fail("the header is wrong");
+  if (!header->is_rgbe) throw fail("its pixels are not RGBE");
+  const Scan& scan = header->scan;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(scan.width) * static_cast<std::uint64_t>(scan.height);
+  if (pixels > max_pixels)
+    throw fail(std::to_string(scan.width) + " x " + std::to_string(scan.height) + " pixels, at most " +
+               std::to_string(max_pixels) + " are allowed");
+
+  // What a small file claims is found out before memory is taken: a scanline takes four bytes at least, and where all
+  // together take less than runs do in pictures, a first look is cheap.
+  constexpr std::uint64_t usual_ratio = 64;
+  const std::span<const std::uint8_t> packed = bytes.subspan(header->end);
+  if (packed.size() < static_cast<std::uint64_t>(scan.lines()) * 4) throw fail("the file ends early");
+  if (pixels / usual_ratio > packed.size()) for_pixels(scan, packed, name, [](int, int, Rgbe) {});
+
+  Image image(scan.width, scan.height);
+  for_pixels(scan, packed, name, [&](int x, int y, Rgbe pixel) { image(x, y) = to_pixel(light_of(pixel)); });
+  return image;
+}
+
+}  // namespace
+
+bool is_hdr(std::span<const std::uint8_t> bytes) { return bytes.size() > 2 && bytes[0] == '#' && bytes[1] == '?'; }
+
+std::optional<int2> find_hdr_size(std::span<const std::uint8_t> bytes) {
+  const auto header = is_hdr(bytes) ? parse_header(bytes) : std::nullopt;
+  if (!header) return std::nullopt;
+  return int2{header->scan.width, header->scan.height};
+}
+
+LinearImage decode_hdr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  return decode<LinearImage>(bytes, name, max_pixels, [](Linear light) { return light; });
+}
+
+Plane<float4> decode_hdr_rgba(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  return decode<Plane<float4>>(bytes, name, max_pixels, [](Linear light) {
+    return float4{light.r, light.g, light.b, light.a};
+  });
+}
+
+}  // namespace zoneplate

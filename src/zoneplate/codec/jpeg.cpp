@@ -1,0 +1,169 @@
+#include "zoneplate/codec/jpeg.h"
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+namespace {
+
+static_assert(sizeof(Rgba8) == 4, "rows are handed to libjpeg as they lie");
+
+/// libjpeg's error manager, with the place to which it jumps back and what it reported.
+struct Report {
+  jpeg_error_mgr manager{};
+  std::jmp_buf place;
+  std::array<char, JMSG_LENGTH_MAX> message{};
+};
+
+[[noreturn]] void jump_back(j_common_ptr jpeg) {
+  auto* report = reinterpret_cast<Report*>(jpeg->err);
+  jpeg->err->format_message(jpeg, report->message.data());
+  std::longjmp(report->place, 1);
+}
+
+/// libjpeg paints over damage and warns; only warnings of what leaves the picture whole are let through.
+void refuse_warning(j_common_ptr jpeg, int level) {
+  const int code = jpeg->err->msg_code;
+  if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_BOGUS_ICC) jump_back(jpeg);
+}
+
+/// A small file can hold very many passes over a large picture: encoders write some ten of them, and few more tens are
+/// taken of a picture so large that 200 would be 2^31 pixels.
+int most_scans(const jpeg_decompress_struct& jpeg) {
+  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31, least = 32, most = 200;
+  const std::uint64_t pixels = std::max<std::uint64_t>(std::uint64_t{jpeg.image_width} * jpeg.image_height, 1);
+  return static_cast<int>(std::clamp(most_pixels / pixels, least, most));
+}
+
+/// Called by libjpeg between rows of blocks, while scans are read and while pixels are made.
+///
+/// An exception cannot pass through its frames: after the jump whoever decodes asks for the time again.
+void check_progress(j_common_ptr jpeg) {
+  const auto* const decoder = reinterpret_cast<j_decompress_ptr>(jpeg);
+  const bool has_time = [] {
+    try {
+      check_deadline();
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }();
+  if (has_time && decoder->input_scan_number <= most_scans(*decoder)) return;
+  auto* report = reinterpret_cast<Report*>(jpeg->err);
+  std::snprintf(report->message.data(), report->message.size(), "more than %d scans of %u x %u pixels",
+                most_scans(*decoder), decoder->image_width, decoder->image_height);
+  std::longjmp(report->place, 1);
+}
+
+class Reader {
+ public:
+  Reader(std::span<const std::uint8_t> bytes, const std::string& name) : bytes_(bytes), name_(name) {
+    jpeg_.err = jpeg_std_error(&report_.manager);
+    report_.manager.error_exit = jump_back;
+    report_.manager.emit_message = refuse_warning;
+    check(guarded([this] { jpeg_create_decompress(&jpeg_); }));
+    progress_.progress_monitor = check_progress;
+    jpeg_.progress = &progress_;
+  }
+  ~Reader() { jpeg_destroy_decompress(&jpeg_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  Rgba8Image decode(std::uint64_t max_pixels) {
+    check(guarded([this] {
+      jpeg_mem_src(&jpeg_, bytes_.data(), bytes_.size());
+      jpeg_read_header(&jpeg_, TRUE);
+    }));
+    check_size(max_pixels);
+    const bool is_cmyk = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
+    jpeg_.out_color_space = is_cmyk ? JCS_CMYK : JCS_EXT_RGBA;
+    // The exact integer transform: the same codes on every machine.
+    jpeg_.dct_method = JDCT_ISLOW;
+    jpeg_.do_block_smoothing = FALSE;
+
+    Rgba8Image image(static_cast<int>(jpeg_.image_width), static_cast<int>(jpeg_.image_height));
+    read_rows(image);
+    if (is_cmyk) mix_inks(image);
+    return image;
+  }
+
+ private:
+  /// Runs `body`, in which nothing needs a destructor; false where libjpeg gave up.
+  template <class Body>
+  bool guarded(Body body) {
+    if (setjmp(report_.place) != 0) return false;
+    body();
+    return true;
+  }
+
+  void check(bool is_well) const {
+    if (is_well) return;
+    check_deadline();
+    throw Error(Trouble::Input, name_ + ": JPEG: " + report_.message.data());
+  }
+
+  void check_size(std::uint64_t max_pixels) const {
+    const std::uint64_t pixels = std::uint64_t{jpeg_.image_width} * jpeg_.image_height;
+    if (pixels > max_pixels) {
+      throw Error(Trouble::Input, name_ + ": JPEG: " + std::to_string(jpeg_.image_width) + " x " +
+                                      std::to_string(jpeg_.image_height) + " pixels, at most " +
+                                      std::to_string(max_pixels) + " are allowed");
+    }
+    // A Huffman code takes at least one bit for each 8 x 8 block: a small file that claims more is not whole.
+    if (!jpeg_.arith_code && pixels / 1024 > bytes_.size()) throw Error(Trouble::Input, name_ + ": JPEG: truncated");
+  }
+
+  void read_rows(Rgba8Image& image) {
+    auto* pixels = reinterpret_cast<JSAMPROW>(image.values().data());
+    const std::size_t stride = image.row(0).size_bytes();
+    check(guarded([this, pixels, stride] {
+      jpeg_start_decompress(&jpeg_);
+      while (jpeg_.output_scanline < jpeg_.output_height) {
+        JSAMPROW row = pixels + jpeg_.output_scanline * stride;
+        jpeg_read_scanlines(&jpeg_, &row, 1);
+      }
+      jpeg_finish_decompress(&jpeg_);
+    }));
+  }
+
+  /// Inks as light that passes through all of them; files with Adobe's marker store light, others ink.
+  void mix_inks(Rgba8Image& image) const {
+    const bool is_light = jpeg_.saw_Adobe_marker;
+    const auto light = [&](int code) { return is_light ? code : 255 - code; };
+    for (Rgba8& c : image.values()) {
+      const int k = light(c.a);
+      const auto mixed = [&](int code) { return static_cast<std::uint8_t>((light(code) * k + 127) / 255); };
+      c = {mixed(c.r), mixed(c.g), mixed(c.b), 255};
+    }
+  }
+
+  Report report_;
+  jpeg_progress_mgr progress_{};
+  jpeg_decompress_struct jpeg_{};
+  std::span<const std::uint8_t> bytes_;
+  const std::string& name_;
+};
+
+}  // namespace
+
+Rgba8Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff) {
+    throw Error(Trouble::Input, name + ": not a JPEG file");
+  }
+  return Reader(bytes, name).decode(max_pixels);
+}
+
+}  // namespace zoneplate

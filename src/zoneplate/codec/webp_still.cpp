@@ -1,0 +1,74 @@
+#include "zoneplate/codec/webp_still.h"
+
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+#include <memory>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+
+std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes) {
+  int2 size;
+  if (WebPGetInfo(bytes.data(), bytes.size(), &size.x, &size.y) == 0) return std::nullopt;
+  return size;
+}
+
+Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, name + ": " + cause); };
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) fail("not a sound WebP file");
+  if (features.has_animation != 0) fail("is an animated WebP, wants a still one");
+  const auto pixels = static_cast<std::uint64_t>(features.width) * static_cast<std::uint64_t>(features.height);
+  if (pixels > max_pixels)
+    fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");
+  // Few bytes may well be a picture of one colour, but what is not one must not take its memory: libwebp's own is
+  // taken as it is written.
+  constexpr std::uint64_t most_per_byte = 256;
+  check_deadline();
+  if (pixels / most_per_byte > bytes.size()) {
+    int2 size;
+    const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> decoded(
+        WebPDecodeRGBA(bytes.data(), bytes.size(), &size.x, &size.y), &WebPFree);
+    if (!decoded) fail("the WebP file is corrupt or cut off");
+  }
+  check_deadline();
+  Rgba8Image image(features.width, features.height);
+  static_assert(sizeof(Rgba8) == 4, "libwebp writes rows as they lie");
+  auto* const out = reinterpret_cast<std::uint8_t*>(image.values().data());
+  if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), out, image.values().size() * 4, 4 * image.width()) == nullptr)
+    fail("the WebP file is corrupt or cut off");
+  return image;
+}
+
+std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
+  WebPConfig config;
+  WebPPicture picture;
+  if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
+    throw Error(Trouble::Failed, "libwebp has another version than its headers");
+  config.lossless = 1;
+  config.exact = 1;     // colours that alpha hides are kept: filters mix them in
+  config.quality = 70;  // the effort; as libwebp's own short functions have it
+
+  WebPMemoryWriter writer;
+  WebPMemoryWriterInit(&writer);
+  picture.use_argb = 1;
+  picture.width = image.width(), picture.height = image.height();
+  picture.writer = WebPMemoryWrite;
+  picture.custom_ptr = &writer;
+  const auto* const pixels = reinterpret_cast<const std::uint8_t*>(image.values().data());
+  const auto import = has_alpha ? WebPPictureImportRGBA : WebPPictureImportRGBX;
+  const bool is_done = import(&picture, pixels, 4 * image.width()) != 0 && WebPEncode(&config, &picture) != 0;
+  std::vector<std::uint8_t> out;
+  if (is_done) out.assign(writer.mem, writer.mem + writer.size);
+  WebPMemoryWriterClear(&writer);
+  WebPPictureFree(&picture);
+  if (!is_done)
+    throw Error(Trouble::Failed, "a picture of " + std::to_string(image.width()) + " x " +
+                                     std::to_string(image.height()) + " pixels cannot be encoded as WebP");
+  return out;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,120 @@
+#include "zoneplate/formats/assimp/assimp.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <optional>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/formats/assimp/files.h"
+#include "zoneplate/formats/assimp/scene.h"
+#include "zoneplate/formats/import/import_child.h"
+#include "zoneplate/formats/import/scene_bytes.h"
+#include "zoneplate/os/library.h"
+#include "zoneplate/os/limited_child.h"
+#include "zoneplate/scene/validate.h"
+
+#if __has_include(<assimp/cimport.h>)
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#endif
+
+namespace zoneplate {
+namespace {
+
+constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
+                                   {".dae", "COLLADA"},
+                                   {".3ds", "3D Studio"},
+                                   {".x", "DirectX X"},
+                                   {".off", "Object File Format"},
+                                   {".3mf", "3D Manufacturing Format"},
+                                   {".amf", "Additive Manufacturing File"},
+                                   {".lwo", "LightWave object"},
+                                   {".ase", "3D Studio ASE"},
+                                   {".ac", "AC3D"},
+                                   {".blend", "Blender, to 2.7"},
+                                   {".dxf", "Drawing Interchange"},
+                                   {".ms3d", "MilkShape 3D"},
+                                   {".md2", "Quake II"},
+                                   {".md3", "Quake III"},
+                                   {".md5mesh", "Doom 3"},
+                                   {".b3d", "BlitzBasic 3D"},
+                                   {".iqm", "Inter-Quake Model"},
+                                   {".smd", "Valve SMD"},
+                                   {".x3d", "X3D"},
+                                   {".cob", "TrueSpace"},
+                                   {".nff", "Neutral File Format"}};
+
+#if __has_include(<assimp/cimport.h>)
+
+/// The functions of the library that are used here.
+struct AssimpLibrary {
+  decltype(&aiImportFileEx) import = nullptr;
+  decltype(&aiReleaseImport) release = nullptr;
+  decltype(&aiGetErrorString) error = nullptr;
+
+  explicit AssimpLibrary(const std::string& file) {
+    const SharedLibrary library(Library::Assimp, file);
+    library.find(import, "aiImportFileEx");
+    library.find(release, "aiReleaseImport");
+    library.find(error, "aiGetErrorString");
+  }
+};
+
+/// The library's own words, which may be several lines.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text.substr(0, 400);
+}
+
+Scene import(const AssimpLibrary& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
+  const std::string folder = path == "-" ? "." : std::filesystem::path(path).parent_path().string();
+  AssimpFiles files(path, folder, extension, budget);
+  constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
+  const std::unique_ptr<const aiScene, decltype(library.release)> read(
+      library.import(files.model_name().c_str(), steps, files.io()), library.release);
+  if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
+  if (!read) throw Error(Trouble::Input, budget.file() + ": " + one_line(library.error()));
+  Scene scene;
+  ModelFolder textures(folder, budget, scene);
+  convert_assimp_scene(*read, textures);
+  if (scene.instances.empty()) throw Error(Trouble::Input, budget.file() + ": holds nothing to draw");
+  if (const auto flaw = find_flaw(scene)) throw Error(Trouble::Input, budget.file() + ": " + *flaw);
+  return scene;
+}
+
+#else
+
+struct AssimpLibrary {
+  explicit AssimpLibrary(const std::string& file) {
+    throw Error(Trouble::Input, file + ": needs the library assimp, which this program was built without");
+  }
+};
+Scene import(const AssimpLibrary&, const std::string&, std::string_view, ImportBudget&) { return {}; }
+
+#endif
+
+}  // namespace
+
+std::span<const SceneFormat> assimp_formats() { return formats; }
+
+Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits) {
+  ImportBudget budget(path == "-" ? "standard input" : path, limits);
+  if (is_limited_child()) return import(AssimpLibrary(budget.file()), path, extension, budget);
+  std::optional<AssimpLibrary> library;
+  LimitedChild child(
+      budget.file(), child_limits(budget),
+      [&](ChildAnswer& answer) {
+        const Scene scene = import(*library, path, extension, budget);
+        write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
+      },
+      [&] {
+        library.emplace(budget.file());
+        open_library(Library::OpenExr);
+      });
+  return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,217 @@
+#include "zoneplate/formats/assimp/assimp.h"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/import/damage_for_test.h"
+#include "zoneplate/formats/import/mesh_samples_for_test.h"
+#include "zoneplate/formats/load.h"
+
+namespace zoneplate {
+namespace {
+
+using mesh_samples::Bytes;
+using mesh_samples::bytes_of;
+
+// Looked for by its file, as the library itself is to be opened by children only.
+bool has_library() { return std::filesystem::exists("/usr/lib/x86_64-linux-gnu/libassimp.so.5"); }
+
+Scene load(const Bytes& bytes, const char* format) {
+  const MemoryFile file;
+  return load_scene(file.write(bytes), {.limits = {}, .format = format, .choice = {}});
+}
+
+/// An L, concave: three unit squares, in one face of six corners.
+const char* const off = "OFF\n6 1 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n";
+
+/// A red square of 2 that lies on the ground of a world whose z points up, moved to x = 5.
+const char* const dae =
+    R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Z_UP</up_axis></asset>
+<library_images><image id="i"><init_from>skin.png</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
+<technique sid="c"><lambert>
+<diffuse><texture texture="t" texcoord="UV"/></diffuse></lambert></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="skin"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="pa" count="12">-1 -1 0 1 -1 0 1 1 0 -1 1 0</float_array><technique_common>
+<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<source id="u"><float_array id="ua" count="8">0 0 1 0 1 1 0 1</float_array><technique_common>
+<accessor source="#ua" count="4" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="1" material="M"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="TEXCOORD" source="#u" offset="1" set="0"/>
+<vcount>4</vcount><p>0 0 1 1 2 2 3 3</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="w"><node id="n" name="tile"><translate>5 0 0</translate>
+<instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="M" target="#m"/></technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#w"/></scene></COLLADA>
+)";
+
+/// A chunk of a 3DS file: its number, its length with these six bytes, its content.
+Bytes chunk(std::uint16_t number, const Bytes& content) {
+  Bytes out;
+  mesh_samples::add<std::uint16_t>(out, number);
+  mesh_samples::add<std::uint32_t>(out, static_cast<std::uint32_t>(content.size() + 6));
+  out.insert(out.end(), content.begin(), content.end());
+  return out;
+}
+Bytes joined(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Bytes triangle_3ds() {
+  Bytes vertices, faces;
+  mesh_samples::add<std::uint16_t>(vertices, 3);
+  for (const float f : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) mesh_samples::add<float>(vertices, f);
+  mesh_samples::add<std::uint16_t>(faces, 1);
+  for (const unsigned i : {0u, 1u, 2u, 0u}) mesh_samples::add(faces, static_cast<std::uint16_t>(i));
+  const Bytes mesh = chunk(0x4100, joined(chunk(0x4110, vertices), chunk(0x4120, faces)));
+  return chunk(0x4d4d, chunk(0x3d3d, chunk(0x4000, joined(Bytes{'a', 0}, mesh))));
+}
+
+double area_of(const Scene& s) {
+  double area = 0;
+  for (const Mesh& m : s.meshes)
+    for (std::size_t k = 0; k + 3 <= m.index.size(); k += 3) {
+      const float3 a = m.position[m.index[k]];
+      area += length(cross(m.position[m.index[k + 1]] - a, m.position[m.index[k + 2]] - a)) / 2;
+    }
+  return area;
+}
+
+TEST(Assimp, CutsPolygonsRightly) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const Scene s = load(bytes_of(off), "off");
+  expect_sound(s);
+  ASSERT_EQ(s.meshes.size(), 1u);
+  EXPECT_EQ(s.meshes[0].primitives(), 4u);
+  EXPECT_EQ(area_of(s), 3);
+  EXPECT_EQ(s.meshes[0].normal[0], (float3{0, 0, 1}));
+  EXPECT_EQ(s.bounds().high, (float3{2, 2, 0}));
+}
+
+TEST(Assimp, ReadsNodesMaterialsAndTheTexturesBesideTheModel) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const TestFolder folder;
+  folder.write("sub/skin.png", encode_png(Rgba8Image(2, 1, {200, 0, 0, 255})));
+  const Scene s = load_scene(folder.write("sub/tile.dae", std::string(dae)));
+  expect_sound(s);
+  ASSERT_EQ(s.meshes.size(), 1u);
+  EXPECT_EQ(area_of(s), 4);
+  const Box box = s.bounds();
+  EXPECT_NEAR(box.low.x, 4, 1e-6f);
+  EXPECT_NEAR(box.high.x, 6, 1e-6f);
+  EXPECT_NEAR(box.low.y, 0, 1e-6f);
+  EXPECT_NEAR(box.high.y, 0, 1e-6f);
+  EXPECT_NEAR(box.high.z, 1, 1e-6f);
+  ASSERT_EQ(s.images.size(), 1u);
+  EXPECT_EQ(s.images[0].pixels.as<Rgba8>()(1, 0), (Rgba8{200, 0, 0, 255}));
+  EXPECT_EQ(s.materials[static_cast<std::size_t>(s.meshes[0].material)].base_color_texture.image, 0);
+  EXPECT_TRUE(s.warnings.empty()) << s.warnings[0];
+}
+
+TEST(Assimp, ReadsNothingOutsideTheModelsFolder) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const TestFolder folder;
+  folder.write("skin.png", encode_png(Rgba8Image(2, 1, {200, 0, 0, 255})));
+  std::string text = dae;
+  text.replace(text.find("skin.png"), 8, "../skin.png");
+  const std::string path = folder.write("sub/tile.dae", text);
+  const Scene s = load_scene(path);
+  EXPECT_TRUE(s.images.empty());
+  ASSERT_EQ(s.warnings.size(), 1u);
+  EXPECT_NE(s.warnings[0].find("not found in the model's folder"), std::string::npos);
+  EXPECT_EQ(load_scene(path, {.limits = {.allowed_paths = {"/"}}, .format = "", .choice = {}}).images.size(), 1u);
+}
+
+TEST(Assimp, SaysWhyNot) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const MemoryFile file;
+  const auto complaint = [&](const Bytes& bytes, const char* format, const LoadLimits& limits = {}) {
+    const std::string path = file.write(bytes);
+    try {
+      load_scene(path, {.limits = limits, .format = format, .choice = {}});
+      return std::string();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.trouble(), Trouble::Input);
+      EXPECT_TRUE(std::string(error.what()).starts_with(path + ": ")) << error.what();
+      return std::string(error.what());
+    }
+  };
+  EXPECT_NE(complaint(bytes_of("nonsense"), "fbx"), "");
+  EXPECT_NE(complaint(bytes_of(off), "3ds"), "");
+  EXPECT_NE(complaint(triangle_3ds(), "3ds", {.memory = 20}).find("the limit of 20 bytes"), std::string::npos);
+  EXPECT_THROW(load_scene("missing.fbx"), Error);
+}
+
+/// "" if the file is drawn, and its scene sound; else the error, one line that begins with the file's name.
+std::string verdict(const Bytes& bytes, const std::string& format) {
+  const MemoryFile file;
+  const std::string path = file.write(bytes);
+  const auto load_as = [&](const std::string& p, const LoadLimits& limits) {
+    return load_scene(p, {.limits = limits, .format = format, .choice = {}});
+  };
+  const std::string error = load_soundly(load_as, path);
+  EXPECT_TRUE(error.empty() || error.starts_with(path + ": ")) << error;
+  return error;
+}
+
+TEST(Assimp, FilesOfBrokenFormAreRefused) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const auto with = [](std::string text, std::string_view what, std::string_view by) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return bytes_of(at == std::string::npos ? text : text.replace(at, what.size(), by));
+  };
+  const auto half = [](const Bytes& b) {
+    return Bytes(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(b.size() / 2));
+  };
+  for (const auto& [format, good] :
+       {std::pair{"off", bytes_of(off)}, {"dae", bytes_of(dae)}, {"3ds", triangle_3ds()}}) {
+    EXPECT_EQ(verdict(good, format), "") << format;
+    EXPECT_NE(verdict(half(good), format), "") << format;
+    EXPECT_NE(verdict({}, format), "") << format;
+  }
+  for (const auto& [what, by] : {std::pair{"OFF", "OFX"},
+                                 {"6 1 0", "0 1 0"},
+                                 {"6 1 0", "6 0 0"},
+                                 {"6 1 0", "6000000 1 0"},
+                                 {"2 0 0", "x 0 0"},
+                                 {"2 0 0", "nan 0 0"}})
+    EXPECT_NE(verdict(with(off, what, by), "off"), "") << what << " -> " << by;
+  for (const auto& [what, by] : {std::pair{"</COLLADA>", ""},
+                                 {"<vcount>4", "<vcount>400"},
+                                 {"<p>0 0 1 1 2 2 3 3", "<p>0 0 1 1 2 2 9 3"},
+                                 {"<p>0 0 1 1 2 2 3 3", "<p>0 0 1 1"},
+                                 {"#p\"", "#q\""},
+                                 {"-1 -1 0", "a -1 0"}})
+    EXPECT_NE(verdict(with(dae, what, by), "dae"), "") << what << " -> " << by;
+}
+
+TEST(Assimp, DamagedFilesAreSoundOrRefusedInOneLine) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  std::mt19937 random(2);
+  for (const auto& [format, good] :
+       {std::pair{"off", bytes_of(off)}, {"dae", bytes_of(dae)}, {"3ds", triangle_3ds()}}) {
+    int refused = 0;
+    for (int i = 0; i < 12; ++i) {
+      Bytes bytes = good;
+      for (int n = 0; n < 3; ++n) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+      refused += !verdict(bytes, format).empty();
+    }
+    EXPECT_GE(refused, 6) << format;  // of three random bytes one is mostly where it matters
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

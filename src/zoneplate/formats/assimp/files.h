@@ -1,0 +1,39 @@
+#pragma once
+
+#if __has_include(<assimp/cfileio.h>)
+#include <assimp/cfileio.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/formats/import/import_budget.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate {
+
+/// The files that assimp may open, to read: the model, and what lies in its folder or among LoadLimits::allowed_paths.
+class AssimpFiles {
+ public:
+  AssimpFiles(const std::string& path, const std::string& folder, std::string_view extension, ImportBudget& budget);
+
+  /// What the model is called to assimp, which goes by the ending.
+  const std::string& model_name() const { return model_name_; }
+  aiFileIO* io() { return &io_; }
+
+ private:
+  static aiFile* open(aiFileIO* io, const char* name, const char* mode);
+  static void close(aiFileIO* io, aiFile* file);
+  aiFile* open(const std::string& name);
+
+  struct Open;
+  std::string folder_, model_name_;
+  ImportBudget& budget_;
+  FileBytes model_;
+  std::vector<FileBytes> others_;
+  aiFileIO io_{};
+};
+
+}  // namespace zoneplate
+#endif

@@ -1,0 +1,257 @@
+#if __has_include(<assimp/scene.h>)
+#include "zoneplate/formats/assimp/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/formats/import/image_file.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/scene/geometry/smooth_normals.h"
+#include "zoneplate/scene/geometry/triangulate.h"
+#include "zoneplate/scene/sanitize.h"
+#include "zoneplate/scene/serial_ranges.h"
+
+namespace zoneplate {
+namespace {
+
+std::string text_of(const aiString& text) {
+  return {text.data, std::min<std::size_t>(text.length, sizeof text.data - 1)};
+}
+
+const aiMaterialProperty* find_property(const aiMaterial& m, std::string_view key, unsigned semantic = 0) {
+  for (unsigned i = 0; i < m.mNumProperties; ++i) {
+    const aiMaterialProperty& p = *m.mProperties[i];
+    if (text_of(p.mKey) == key && p.mSemantic == semantic && p.mIndex == 0) return &p;
+  }
+  return nullptr;
+}
+
+/// The floats of a property, as many as it has up to three; the rest is zero.
+std::optional<float3> find_floats(const aiMaterial& m, std::string_view key, std::size_t least) {
+  const aiMaterialProperty* p = find_property(m, key);
+  if (p == nullptr || p->mType != aiPTI_Float || p->mDataLength < least * sizeof(float)) return std::nullopt;
+  float values[3] = {0, 0, 0};
+  std::memcpy(values, p->mData, std::min<std::size_t>(sizeof values, p->mDataLength));
+  const float3 out{values[0], values[1], values[2]};
+  return is_finite(out) ? std::optional(out) : std::nullopt;
+}
+std::optional<float3> find_color(const aiMaterial& m, std::string_view key) { return find_floats(m, key, 3); }
+std::optional<float> find_float(const aiMaterial& m, std::string_view key) {
+  const auto floats = find_floats(m, key, 1);
+  return floats ? std::optional(floats->x) : std::nullopt;
+}
+
+/// A text is stored as its length in 32 bits and its characters.
+std::string find_text(const aiMaterial& m, std::string_view key, unsigned semantic = 0) {
+  const aiMaterialProperty* p = find_property(m, key, semantic);
+  if (p == nullptr || p->mType != aiPTI_String || p->mDataLength < 5) return "";
+  std::uint32_t length = 0;
+  std::memcpy(&length, p->mData, sizeof length);
+  return {p->mData + 4, std::min<std::size_t>(length, p->mDataLength - 5)};
+}
+
+std::string find_image(const aiMaterial& m, std::initializer_list<aiTextureType> kinds) {
+  for (const aiTextureType kind : kinds)
+    if (std::string name = find_text(m, "$tex.file", kind); !name.empty()) return name;
+  return "";
+}
+
+/// What MTL says of a material is what is taken over from others, too.
+MtlMaterial mtl_of(const aiMaterial& m) {
+  MtlMaterial out;
+  out.name = find_text(m, "?mat.name");
+  out.diffuse = find_color(m, "$clr.diffuse");
+  if (!out.diffuse) out.diffuse = find_color(m, "$clr.base");
+  out.ambient = out.diffuse;
+  out.specular = find_color(m, "$clr.specular");
+  out.emissive = find_color(m, "$clr.emissive");
+  out.exponent = find_float(m, "$mat.shininess");
+  out.opacity = find_float(m, "$mat.opacity");
+  if (out.opacity == 0.0f) out.opacity.reset();  // what would not be seen at all, its writer meant otherwise
+  out.metallic = find_float(m, "$mat.metallicFactor");
+  out.roughness = find_float(m, "$mat.roughnessFactor");
+  if (out.exponent == 0.0f) out.specular.reset();  // as formats without highlights write it
+  out.diffuse_map.file = find_image(m, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
+  out.emissive_map.file = find_image(m, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
+  out.opacity_map.file = find_image(m, {aiTextureType_OPACITY});
+  out.normal_map.file = find_image(m, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
+  return out;
+}
+
+/// Turns the triangles of a mesh round where most of them face against its normals.
+void turn_to_normals(Mesh& mesh) {
+  std::int64_t against = 0;
+  for (std::size_t k = 0; k + 3 <= mesh.index.size(); k += 3) {
+    const std::uint32_t* i = &mesh.index[k];
+    const float3 a = mesh.position[i[0]];
+    const float3 facing = cross(mesh.position[i[1]] - a, mesh.position[i[2]] - a);
+    const float along = dot(facing, mesh.normal[i[0]] + mesh.normal[i[1]] + mesh.normal[i[2]]);
+    against += along < 0 ? 1 : along > 0 ? -1 : 0;
+  }
+  if (against <= 0) return;
+  for (std::size_t k = 0; k + 3 <= mesh.index.size(); k += 3) std::swap(mesh.index[k + 1], mesh.index[k + 2]);
+}
+
+/// The conversion at work. Meshes of assimp mix primitives: each becomes up to three of ours.
+class Conversion {
+ public:
+  Conversion(const aiScene& from, ModelFolder& folder)
+      : from_(from), folder_(folder), scene_(folder.scene()), budget_(folder.budget()) {}
+
+  void run() {
+    for (unsigned i = 0; i < from_.mNumTextures; ++i) embed(*from_.mTextures[i], i);
+    for (unsigned i = 0; i < from_.mNumMaterials; ++i)
+      scene_.materials.push_back(make_material(mtl_of(*from_.mMaterials[i]), "", folder_));
+    if (scene_.materials.empty()) scene_.materials.push_back(plain_material("default"));
+    for (unsigned i = 0; i < from_.mNumMeshes; ++i) parts_.push_back(add_mesh(*from_.mMeshes[i]));
+    if (from_.mRootNode != nullptr) add_node(*from_.mRootNode, {}, 0);
+    if (dropped_ > 0)
+      scene_.warnings.push_back(
+          fmt::format("{}: {} primitives or meshes that are not finite are dropped", budget_.file(), dropped_));
+    if (from_.mNumAnimations > 0)
+      scene_.warnings.push_back(fmt::format("{}: animations of this format are passed over", budget_.file()));
+  }
+
+ private:
+  /// An image in the model's file, known to materials by its number or its name.
+  void embed(const aiTexture& t, unsigned number) {
+    std::string names[] = {"*" + std::to_string(number), text_of(t.mFilename)};
+    if (t.mHeight == 0) {
+      folder_.embed(names, {reinterpret_cast<const std::uint8_t*>(t.pcData), t.mWidth});
+      return;
+    }
+    const std::uint64_t count = std::uint64_t{t.mWidth} * t.mHeight;
+    if (count > budget_.limits().pixels) return;
+    budget_.take(count * sizeof(Rgba8));
+    Rgba8Image image(static_cast<int>(t.mWidth), static_cast<int>(t.mHeight));
+    std::transform(t.pcData, t.pcData + count, image.values().begin(), [](const aiTexel& p) {
+      return Rgba8{p.r, p.g, p.b, p.a};
+    });
+    folder_.embed(names, std::move(image));
+  }
+
+  Mesh vertices_of(const aiMesh& m) {
+    Mesh out;
+    const std::size_t n = m.mNumVertices;
+    const bool has_uv = m.mTextureCoords[0] != nullptr, has_color = m.mColors[0] != nullptr;
+    budget_.take(n * (sizeof(float3) + (m.mNormals ? sizeof(float3) : 0) + (has_uv ? sizeof(float2) : 0) +
+                      (has_color ? sizeof(float4) : 0)));
+    const auto to_float3 = [](const aiVector3D& v) { return float3{v.x, v.y, v.z}; };
+    out.position.resize(n), std::transform(m.mVertices, m.mVertices + n, out.position.begin(), to_float3);
+    if (m.mNormals != nullptr) {
+      out.normal.resize(n);
+      std::transform(m.mNormals, m.mNormals + n, out.normal.begin(), [&](const aiVector3D& v) {
+        return is_finite(to_float3(v)) ? normalize(to_float3(v), {0, 1, 0}) : float3{0, 1, 0};
+      });
+    }
+    if (has_uv) {
+      out.uv0.resize(n);
+      std::transform(m.mTextureCoords[0], m.mTextureCoords[0] + n, out.uv0.begin(), [](const aiVector3D& v) {
+        return float2{v.x, 1 - v.y};
+      });
+    }
+    if (has_color) {
+      out.color.resize(n);
+      std::transform(m.mColors[0], m.mColors[0] + n, out.color.begin(), [](const aiColor4D& c) {
+        return float4{linear(c.r), linear(c.g), linear(c.b), c.a};
+      });
+    }
+    return out;
+  }
+  static float linear(float code) { return decode_srgb(std::clamp(code, 0.0f, 1.0f)); }
+
+  void add_face(const aiFace& face, const aiMesh& m, std::array<std::vector<std::uint32_t>, 3>& index) {
+    const std::span<const unsigned> corners(face.mIndices, face.mNumIndices);
+    if (std::any_of(corners.begin(), corners.end(), [&](unsigned i) { return i >= m.mNumVertices; }))
+      throw Error(Trouble::Input, budget_.file() + ": a face names a vertex that is not there");
+    if (corners.empty()) return;
+    constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
+    if (corners.size() > many_corners) budget_.check_time();
+    std::vector<std::uint32_t>& out = index[std::min<std::size_t>(corners.size(), 3) - 1];
+    budget_.take(3 * corners.size() * sizeof(std::uint32_t));
+    if (corners.size() <= 3) return void(out.insert(out.end(), corners.begin(), corners.end()));
+    polygon_.clear(), triangles_.clear();
+    for (const unsigned i : corners) polygon_.push_back({m.mVertices[i].x, m.mVertices[i].y, m.mVertices[i].z});
+    if (!std::all_of(polygon_.begin(), polygon_.end(), is_finite)) return void(++dropped_);
+    triangulate(polygon_, triangles_);
+    for (const auto& triangle : triangles_)
+      for (const std::uint32_t corner : triangle) out.push_back(corners[corner]);
+  }
+
+  /// The numbers of the new meshes.
+  std::vector<int> add_mesh(const aiMesh& m) {
+    budget_.check_time();
+    std::array<std::vector<std::uint32_t>, 3> index;
+    serial_ranges(m.mNumFaces, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) add_face(m.mFaces[f], m, index);
+    });
+    std::vector<int> numbers;
+    for (std::size_t corners = 1; corners <= 3; ++corners) {
+      if (index[corners - 1].empty()) continue;
+      Mesh mesh = vertices_of(m);
+      mesh.name = text_of(m.mName);
+      budget_.take(2 * sizeof(Mesh) + mesh.name.size());
+      mesh.topology = corners == 1 ? Topology::Points : corners == 2 ? Topology::Lines : Topology::Triangles;
+      mesh.index = std::move(index[corners - 1]);
+      mesh.material = static_cast<int>(std::min<std::size_t>(m.mMaterialIndex, scene_.materials.size() - 1));
+      dropped_ += drop_not_finite(mesh);
+      if (mesh.index.empty()) continue;
+      if (corners == 3 && mesh.normal.empty()) {
+        budget_.take(mesh.position.size() * sizeof(float3) * 2);
+        make_smooth_normals(mesh);
+      } else if (corners == 3) {
+        turn_to_normals(mesh);
+      }
+      numbers.push_back(static_cast<int>(scene_.meshes.size()));
+      scene_.meshes.push_back(std::move(mesh));
+    }
+    return numbers;
+  }
+
+  void add_node(const aiNode& node, const float4x4& world_from_parent, int depth) {
+    if (depth > budget_.limits().node_depth)
+      throw Error(Trouble::Input, fmt::format("{}: nodes deeper than {}", budget_.file(), budget_.limits().node_depth));
+    budget_.check_time();
+    budget_.take(2 * sizeof(std::string) + node.mName.length);
+    const aiMatrix4x4& t = node.mTransformation;
+    const float4x4 parent_from_node{{float4{t.a1, t.b1, t.c1, t.d1}, float4{t.a2, t.b2, t.c2, t.d2},
+                                     float4{t.a3, t.b3, t.c3, t.d3}, float4{t.a4, t.b4, t.c4, t.d4}}};
+    const float4x4 world = world_from_parent * parent_from_node;
+    const int object = static_cast<int>(scene_.objects.size());
+    if (node.mNumMeshes > 0) scene_.objects.push_back(text_of(node.mName));
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= parts_.size())
+        throw Error(Trouble::Input, budget_.file() + ": a node names a mesh that is not there");
+      for (const int part : parts_[node.mMeshes[i]]) add_instance({part, object, world});
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], world, depth + 1);
+  }
+
+  void add_instance(const Instance& instance) {
+    for (const float4& c : instance.world_from_object.column)
+      if (!is_finite(xyz(c)) || !std::isfinite(c.w)) return void(++dropped_);
+    budget_.take(2 * sizeof(Instance));
+    scene_.instances.push_back(instance);
+  }
+
+  const aiScene& from_;
+  ModelFolder& folder_;
+  Scene& scene_;
+  ImportBudget& budget_;
+  std::vector<std::vector<int>> parts_;  ///< our meshes of each of assimp's
+  std::vector<float3> polygon_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace
+
+void convert_assimp_scene(const aiScene& from, ModelFolder& folder) { Conversion(from, folder).run(); }
+
+}  // namespace zoneplate
+#endif

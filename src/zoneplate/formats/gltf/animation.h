@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "zoneplate/formats/gltf/file.h"
+#include "zoneplate/math/transform.h"
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+/// What an animation says of one node at one moment; empty what it leaves alone.
+struct GltfNodePose {
+  std::optional<float3> translation, scale;
+  std::optional<Quaternion> rotation;
+  std::vector<float> weights;  ///< of the morph targets
+};
+
+/// The poses of the nodes that an animation moves, by their numbers in the file.
+using GltfPoses = std::map<std::size_t, GltfNodePose>;
+
+/// Names and extents in time of the file's animations.
+std::vector<AnimationSpan> list_animations(GltfFile& file);
+
+/// Evaluates an animation, over what `poses` has already: STEP, LINEAR (rotations along the shorter great circle) and
+/// CUBICSPLINE.
+///
+/// Units     seconds; before the first key of a channel and after its last one the value of that key holds.
+/// Exact     + - × / √ and math/elementary.h only, in float.
+/// Errors    Trouble::Input naming animation and sampler: times that do not grow, too few values, unknown words.
+void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses);
+
+}  // namespace zoneplate

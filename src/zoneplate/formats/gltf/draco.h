@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zoneplate/formats/import/import_budget.h"
+
+namespace zoneplate {
+
+/// Values that are wanted of a Draco mesh, as glTF counts component types: 5120 to 5126.
+struct DracoWish {
+  std::uint32_t attribute = 0;  ///< its unique id
+  int component_type = 5126;
+  std::uint32_t components = 3;
+  std::uint64_t count = 0;
+};
+
+struct DracoMesh {
+  std::vector<std::uint8_t> indices;                  ///< 32-bit, three to a face
+  std::vector<std::vector<std::uint8_t>> attributes;  ///< one for each wish, tightly packed
+};
+
+/// Decodes a triangle mesh that Draco has packed.
+///
+/// The library works in a child process (import_child.h), so that a hostile file ends the child alone.
+/// Errors    Trouble::Input with `place` in front: corrupt data, other counts than wished, the limits.
+DracoMesh decode_draco(std::span<const std::uint8_t> packed, std::uint64_t index_count,
+                       std::span<const DracoWish> wishes, const std::string& place, ImportBudget& budget);
+
+}  // namespace zoneplate

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate {
+
+/// Bytes of a resource: a part of the model file, a file of its own, or decoded from a data: URI.
+struct GltfBytes {
+  std::span<const std::uint8_t> bytes;
+  std::optional<FileBytes> file;
+  std::vector<std::uint8_t> decoded;
+};
+
+/// A glTF file that is open: its JSON, the binary part of a .glb, and its buffers as they are asked for.
+///
+/// Every range of bytes that it hands out lies within what the file says and within what is really there.
+class GltfFile {
+ public:
+  /// Errors    Trouble::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2.
+  GltfFile(const std::string& path, const LoadLimits& limits);
+
+  const JsonView& root() const { return *root_; }
+  ImportBudget& budget() { return budget_; }
+
+  std::size_t count(const char* list) const { return root_->count(list); }
+
+  /// The bytes of a buffer view; unpacked, where EXT_meshopt_compression packs them.
+  std::span<const std::uint8_t> view(std::size_t i);
+  /// The byte stride that a buffer view states, 0 where it states none.
+  std::uint64_t view_stride(std::size_t i) const;
+
+  /// The bytes that a URI names: of a data: URI or of a file relative to the model's folder.
+  ///
+  /// Errors    Trouble::Input naming `owner`: another scheme, a path outside the folder (unless allowed), bad base64,
+  ///           unreadable.
+  GltfBytes load_uri(const JsonView& owner, const std::string& uri);
+
+  /// Values of an accessor that stand nowhere in the file as they are, tightly packed, and of its shape.
+  void set_decoded(std::size_t accessor, std::vector<std::uint8_t> bytes) { decoded_[accessor] = std::move(bytes); }
+  bool has_decoded(std::size_t accessor) const { return decoded_.contains(accessor); }
+  std::span<const std::uint8_t> decoded(std::size_t accessor) const { return decoded_.at(accessor); }
+
+  /// Counts elements that the scene gets of accessors for which there are no bytes.
+  ///
+  /// Errors    Trouble::Input when they are more in all than any file means: a small file must not ask for all memory.
+  void take_zeros(const JsonView& accessor, std::uint64_t count);
+  /// Begins anew, for another scene of the file.
+  void forget_zeros() { zeros_ = 0; }
+
+  /// Notes what was passed over, each text once, and of very many the first.
+  void warn(const std::string& text);
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  void read_chunks(std::span<const std::uint8_t> bytes);
+  void check_asset() const;
+  std::span<const std::uint8_t> buffer(std::size_t i);
+  std::span<const std::uint8_t> part_of_buffer(const JsonView& json);
+
+  std::string path_;
+  ImportBudget budget_;
+  FileBytes file_;
+  std::span<const std::uint8_t> json_bytes_, binary_;
+  bool has_binary_ = false;
+  JsonValue json_;
+  std::optional<JsonView> root_;
+  std::map<std::size_t, GltfBytes> buffers_;
+  std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< of compressed buffer views
+  std::map<std::size_t, std::vector<std::uint8_t>> decoded_;   ///< of accessors
+  std::uint64_t zeros_ = 0;
+  std::vector<std::string> warnings_;
+  std::set<std::string> warned_;
+};
+
+}  // namespace zoneplate

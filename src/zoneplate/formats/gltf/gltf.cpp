@@ -1,0 +1,382 @@
+#include "zoneplate/formats/gltf/gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/gltf/accessor.h"
+#include "zoneplate/formats/gltf/animation.h"
+#include "zoneplate/formats/gltf/file.h"
+#include "zoneplate/formats/gltf/material.h"
+#include "zoneplate/formats/gltf/mesh.h"
+#include "zoneplate/formats/gltf/nodes.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr const char* supported_extensions[] = {
+    "KHR_texture_transform",           "KHR_materials_unlit",       "KHR_lights_punctual",    "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",   "KHR_materials_variants", "EXT_texture_webp",
+    "EXT_meshopt_compression",         "KHR_draco_mesh_compression"};
+
+/// Extensions that only refine a look which the core material has too: a file that requires one is drawn without it.
+constexpr const char* refining_extensions[] = {
+    "KHR_materials_clearcoat",   "KHR_materials_sheen",      "KHR_materials_transmission",
+    "KHR_materials_volume",      "KHR_materials_ior",        "KHR_materials_specular",
+    "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion"};
+
+void check_extensions(GltfFile& file) {
+  const auto is_supported = [](const std::string& name) {
+    return std::any_of(std::begin(supported_extensions), std::end(supported_extensions),
+                       [&](const char* s) { return name == s; });
+  };
+  const auto is_refining = [](const std::string& name) {
+    return std::any_of(std::begin(refining_extensions), std::end(refining_extensions),
+                       [&](const char* r) { return name == r; });
+  };
+  for (const std::string& name : file.root().texts("extensionsRequired"))
+    if (!is_supported(name) && !is_refining(name))
+      file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
+  for (const std::string& name : file.root().texts("extensionsUsed"))
+    if (!is_supported(name))
+      file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, passed over");
+}
+
+/// The rotation and translation of a transform; scale and mirroring are taken out, the axis -Z keeps its direction.
+float4x4 rigid(const float4x4& m) {
+  const float3 back = normalize(xyz(m.column[2]), {0, 0, 1});
+  float3 right = cross(normalize(xyz(m.column[1]), {0, 1, 0}), back);
+  if (!(dot(right, right) > 1e-12f)) right = cross(std::abs(back.y) < 0.9f ? float3{0, 1, 0} : float3{0, 0, 1}, back);
+  right = normalize(right);
+  const float3 up = cross(back, right);
+  return {{float4{right.x, right.y, right.z, 0}, float4{up.x, up.y, up.z, 0}, float4{back.x, back.y, back.z, 0},
+           m.column[3]}};
+}
+
+Camera read_camera(const JsonView& json, const float4x4& world_from_node) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Camera c;
+  c.name = json.text("name");
+  c.world_from_camera = rigid(world_from_node);
+  const std::string type = json.text("type");
+  if (type != "perspective" && type != "orthographic")
+    json.fail("type is " + quoted(type) + ", wants perspective or orthographic");
+  c.is_orthographic = type == "orthographic";
+  const JsonView lens = json.object(type.c_str());
+  c.near = lens.number("znear");
+  if (c.is_orthographic) {
+    const float half_width = std::abs(lens.number("xmag"));
+    c.half_height = std::abs(lens.number("ymag"));
+    c.far = lens.number("zfar");
+    if (!(half_width > 0 && c.half_height > 0)) lens.fail("xmag and ymag must not be 0");
+    c.aspect = half_width / c.half_height;
+  } else {
+    c.vertical_fov = lens.number("yfov");
+    c.aspect = lens.number("aspectRatio", 0.0f);
+    c.far = lens.number("zfar", infinity);
+    if (!(c.vertical_fov > 0 && c.vertical_fov < 3.1415925f)) lens.fail("yfov must lie between 0 and pi");
+    if (!(c.near > 0)) lens.fail("znear must be greater than 0");
+    if (!(c.aspect >= 0)) lens.fail("aspectRatio must be greater than 0");
+  }
+  if (!(c.near >= 0 && c.far > c.near)) lens.fail("zfar must be greater than znear, and znear not less than 0");
+  return c;
+}
+
+Light read_light(const JsonView& json, const float4x4& world_from_node) {
+  Light light;
+  light.name = json.text("name");
+  const std::string type = json.text("type");
+  if (type != "directional" && type != "point" && type != "spot")
+    json.fail("type is " + quoted(type) + ", wants directional, point or spot");
+  light.kind = type == "directional" ? LightKind::Directional : type == "point" ? LightKind::Point : LightKind::Spot;
+  if (const std::vector<float> c = json.numbers("color", 3); !c.empty())
+    light.color = {std::max(c[0], 0.0f), std::max(c[1], 0.0f), std::max(c[2], 0.0f)};
+  light.intensity = std::max(json.number("intensity", 1.0f), 0.0f);
+  light.range = json.number("range", std::numeric_limits<float>::infinity());
+  if (!(light.range > 0)) json.fail("range must be greater than 0");
+  light.position = xyz(world_from_node.column[3]);
+  light.direction = normalize(-xyz(world_from_node.column[2]), {0, 0, -1});
+  if (!(dot(light.direction, light.direction) > 0.5f)) light.direction = {0, 0, -1};  // an axis too long for its square
+  const JsonView spot = json.object("spot");
+  light.inner_cone = spot.number("innerConeAngle", 0.0f);
+  light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
+  if (!(light.inner_cone >= 0 && light.outer_cone > 0 && light.outer_cone <= 1.5707964f))
+    spot.fail("wants 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+  light.inner_cone = std::min(light.inner_cone, 0.999f * light.outer_cone);  // common exporters write equal angles
+  return light;
+}
+
+bool is_finite(const float4x4& m) {
+  return std::all_of(std::begin(m.column), std::end(m.column),
+                     [](float4 c) { return zoneplate::is_finite(xyz(c)) && std::isfinite(c.w); });
+}
+
+/// What a text takes that is copied out of the file.
+std::uint64_t bytes_of(const std::string& text) { return text.size() + 2 * sizeof(std::string); }
+
+std::vector<std::string> list_variants(GltfFile& file) {
+  std::vector<std::string> names;
+  const auto all = file.root().extension("KHR_materials_variants");
+  const std::size_t count = all ? all->count("variants") : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    file.budget().check_time();
+    names.push_back(all->element("variants", i, "variant").text("name"));
+    file.budget().take(bytes_of(names.back()));
+  }
+  return names;
+}
+
+std::optional<std::size_t> find_variant(GltfFile& file, const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  constexpr std::size_t most_shown = 20;
+  std::string known;
+  const std::vector<std::string> names = list_variants(file);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return i;
+    if (i < most_shown) known += (known.empty() ? "" : ", ") + names[i].substr(0, 120);
+    if (i == most_shown) known += ", ...";
+  }
+  throw Error(Trouble::Usage, "--variant: the file has no variant " + quoted(name) +
+                                  (known.empty() ? ", nor any other" : ", but " + known));
+}
+
+class SceneReader {
+ public:
+  SceneReader(GltfFile& file, const SceneChoice& choice)
+      : file_(file), nodes_(file, choice), variant_(find_variant(file, choice.variant)) {}
+  Scene read(const GltfMaterials& look, GltfModel::Images images);
+
+ private:
+  void add_node(const GltfNode& node);
+  void add_mesh(const GltfNode& node, std::size_t mesh);
+  void add_name(const GltfNode& node, std::size_t mesh);
+  std::pair<std::size_t, std::size_t> find_meshes(const GltfNode& node, std::size_t mesh);
+  void add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object);
+  bool is_near(std::size_t mesh, const float4x4& world_from_object);
+
+  GltfFile& file_;
+  GltfNodes nodes_;
+  std::optional<std::size_t> variant_;
+  Scene scene_;
+
+  /// Vertices as read, and those that a primitive uses, once they had to be told apart.
+  struct Bounds {
+    Box all;
+    std::optional<Box> used = std::nullopt;
+  };
+  using MeshRange = std::pair<std::size_t, std::size_t>;  ///< [first, end) of the scene's meshes
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, MeshRange> ready_;  ///< by the file's mesh and skin
+  std::map<std::size_t, std::size_t> named_;  ///< by the file's mesh: an object that has its name
+  std::vector<Bounds> bounds_;                ///< of each mesh in the scene
+};
+
+/// EXT_mesh_gpu_instancing: transforms of copies, relative to the node; one identity without the extension.
+class Placements {
+ public:
+  Placements(GltfFile& file, const GltfNode& node) : budget_(file.budget()) {
+    const auto extension = node.json.extension("EXT_mesh_gpu_instancing");
+    if (!extension) return;
+    const JsonView list = extension->object("attributes");
+    if (list.has("TRANSLATION")) moves_ = read_float3(file, list, "TRANSLATION");
+    if (list.has("SCALE")) scales_ = read_float3(file, list, "SCALE");
+    if (list.has("ROTATION")) turns_ = read_float4(file, list, "ROTATION");
+    count_ = std::max({moves_.size(), scales_.size(), turns_.size()});
+    for (const std::size_t n : {moves_.size(), scales_.size(), turns_.size()})
+      if (n != 0 && n != count_) list.fail("TRANSLATION, ROTATION and SCALE differ in their number of elements");
+  }
+  ~Placements() {
+    budget_.give_back((moves_.size() + scales_.size()) * sizeof(float3) + turns_.size() * sizeof(float4));
+  }
+  Placements(const Placements&) = delete;
+  Placements& operator=(const Placements&) = delete;
+
+  std::size_t size() const { return count_; }
+  float4x4 operator[](std::size_t i) const {
+    if (moves_.empty() && scales_.empty() && turns_.empty()) return {};
+    const float4 q = turns_.empty() ? float4{0, 0, 0, 1} : turns_[i];
+    return translation(moves_.empty() ? float3{} : moves_[i]) * rotation(Quaternion{q.x, q.y, q.z, q.w}) *
+           scaling(scales_.empty() ? float3{1, 1, 1} : scales_[i]);
+  }
+
+ private:
+  ImportBudget& budget_;
+  std::size_t count_ = 1;
+  std::vector<float3> moves_, scales_;
+  std::vector<float4> turns_;
+};
+
+Box bounds_of(const std::vector<float3>& positions) {
+  constexpr std::size_t block = 1 << 15;
+  std::vector<Box> parts((positions.size() + block - 1) / block);
+  parallel_ranges(positions.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) parts[begin / block].add(positions[i]);
+  });
+  Box all;
+  for (const Box& part : parts) all.add(part);
+  return all;
+}
+
+/// Whether all of a box is so near to the origin that squares of distances fit into a float.
+bool is_near(const Box& box, const float4x4& world_from_object) {
+  constexpr float farthest = 1e18f;
+  for (int i = 0; i < 8; ++i) {
+    const float3 p = transform_point(world_from_object, box.corner(i));
+    if (!(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(p.z) <= farthest)) return false;
+  }
+  return true;
+}
+
+/// The scene's meshes for a mesh of the file, [first, end); read at their first use, or for a pose of their own.
+std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh) {
+  GltfPose pose{.weights = nodes_.weights(node), .joints = {}, .variant = variant_};
+  // Nodes with one mesh and one skin show the same, unless their morph targets have weights of their own.
+  const std::pair key(mesh, node.json.find_index("skin", file_.count("skins")));
+  const bool is_shared = pose.weights.empty();
+  if (const auto found = ready_.find(key); is_shared && found != ready_.end()) return found->second;
+
+  if (key.second) pose.joints = nodes_.joints(node);
+  const std::size_t first = scene_.meshes.size();
+  for (Mesh& m : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
+    bounds_.push_back({bounds_of(m.position)});
+    scene_.meshes.push_back(std::move(m));
+  }
+  const std::pair range(first, scene_.meshes.size());
+  if (is_shared) ready_[key] = range;
+  return range;
+}
+
+/// What no primitive uses may lie where it wants: that is looked at only where it matters, and once a mesh.
+bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
+  Bounds& bounds = bounds_[mesh];
+  if (zoneplate::is_near(bounds.all, world_from_object)) return true;
+  if (!bounds.used) {
+    const Mesh& m = scene_.meshes[mesh];
+    bounds.used.emplace();
+    for (const std::uint32_t i : m.index) bounds.used->add(m.position[i]);
+  }
+  return zoneplate::is_near(*bounds.used, world_from_object);
+}
+
+void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
+  if (!is_near(mesh, world_from_object)) {
+    file_.warn(node.json.place() + ": lies farther than 1e18 from the origin or nowhere, dropped");
+    return;
+  }
+  scene_.instances.push_back({static_cast<int>(mesh), object, world_from_object});
+}
+
+/// Adds an object named as the node, or else as its mesh, whose name all its objects share.
+void SceneReader::add_name(const GltfNode& node, std::size_t mesh) {
+  std::string name = node.json.text("name");
+  if (!node.json.has("name")) {
+    if (const auto found = named_.find(mesh); found != named_.end()) return scene_.objects.share(found->second);
+    name = file_.root().element("meshes", mesh, "mesh").text("name");
+    if (name.empty())
+      name = "node " + std::to_string(node.number);
+    else
+      named_[mesh] = scene_.objects.size();
+  }
+  file_.budget().take(bytes_of(name));
+  scene_.objects.push_back(std::move(name));
+}
+
+void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
+  const bool is_skinned = node.json.has("skin");
+  const auto range = find_meshes(node, mesh);
+  const Placements placements(file_, node);
+  const std::size_t parts = range.second - range.first, first_object = scene_.objects.size();
+  const std::uint64_t all = std::uint64_t{placements.size()} * parts;
+  file_.budget().take(all * sizeof(Instance) + placements.size() * sizeof(std::uint32_t));
+  // Many copies need no room to grow; few share what the vector adds by itself.
+  if (scene_.instances.size() + all > 2 * scene_.instances.capacity())
+    scene_.instances.reserve(scene_.instances.size() + all);
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    constexpr std::size_t copies_per_check = 1024;
+    if (i % copies_per_check == 0) file_.budget().check_time();
+    const int object = static_cast<int>(scene_.objects.size());
+    if (i == 0)
+      add_name(node, mesh);
+    else
+      scene_.objects.share(first_object);
+    // A skinned mesh is in the world already: its node's own transform does not count.
+    const float4x4 world_from_object = is_skinned ? float4x4{} : node.world_from_node * placements[i];
+    for (std::size_t m = range.first; m < range.second; ++m) add_instance(node, m, object, world_from_object);
+  }
+}
+
+void SceneReader::add_node(const GltfNode& node) {
+  file_.budget().check_time();
+  if (const auto camera = node.json.find_index("camera", file_.count("cameras"))) {
+    scene_.cameras.push_back(read_camera(file_.root().element("cameras", *camera, "camera"), node.world_from_node));
+    float4x4& place = scene_.cameras.back().world_from_camera;
+    if (!is_finite(place)) {
+      file_.warn(node.json.place() + ": its camera's place is not finite, taken at the origin");
+      place = {};
+    }
+    file_.budget().take(2 * sizeof(Camera) + scene_.cameras.back().name.size());
+  }
+  if (const auto use = node.json.extension("KHR_lights_punctual")) {
+    const auto all = file_.root().extension("KHR_lights_punctual");
+    const std::size_t count = all ? all->count("lights") : 0;
+    const std::size_t light = use->index("light", count);
+    scene_.lights.push_back(read_light(all->element("lights", light, "light"), node.world_from_node));
+    if (!is_finite(scene_.lights.back().position)) {
+      file_.warn(node.json.place() + ": its light's place is not finite, dropped");
+      scene_.lights.pop_back();
+    } else {
+      file_.budget().take(2 * sizeof(Light) + scene_.lights.back().name.size());
+    }
+  }
+  if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
+}
+
+Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
+  scene_.materials = look.materials;
+  if (images == GltfModel::Images::With) scene_.images = look.images;
+  for (const GltfNode& node : nodes_.in_scene()) add_node(node);
+
+  // The default material comes last, where something needs it.
+  const auto last = static_cast<int>(scene_.materials.size());
+  const bool needs_default =
+      std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [&](const Mesh& m) { return m.material == last; });
+  if (needs_default) scene_.materials.emplace_back().name = "default";
+  if (scene_.instances.empty()) file_.warn(file_.root().place() + " nothing in the scene can be drawn");
+  scene_.animations = list_animations(file_);
+  scene_.variants = list_variants(file_);
+  scene_.warnings = file_.warnings();
+  return std::move(scene_);
+}
+
+}  // namespace
+
+/// What is open, and what was left of the budget when it had been opened.
+struct GltfModel::Open {
+  Open(const std::string& path, const LoadLimits& limits) : file(path, limits) {
+    check_extensions(file);
+    look = load_materials(file);
+    left = file.budget().memory_left();
+  }
+  GltfFile file;
+  GltfMaterials look;
+  std::uint64_t left = 0;
+};
+
+GltfModel::GltfModel(const std::string& path, const LoadLimits& limits) : open_(std::make_unique<Open>(path, limits)) {}
+GltfModel::~GltfModel() = default;
+
+Scene GltfModel::scene(const SceneChoice& choice, Images images) {
+  open_->file.budget().restart(open_->left);
+  open_->file.forget_zeros();
+  return SceneReader(open_->file, choice).read(open_->look, images);
+}
+
+Scene load_gltf(const std::string& path, const LoadLimits& limits, const SceneChoice& choice) {
+  return GltfModel(path, limits).scene(choice);
+}
+
+}  // namespace zoneplate

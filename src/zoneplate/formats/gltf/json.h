@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/formats/import/import_budget.h"
+
+namespace zoneplate {
+
+/// A JSON value. Our own small tree: the JSON library is seen by one source file, and every value is counted.
+struct JsonValue {
+  enum class Kind : std::uint8_t { Null, Boolean, Number, Text, List, Object };
+  Kind kind = Kind::Null;
+  bool boolean = false;
+  double number = 0;  ///< whole numbers are exact to 2^53
+  std::string text{};
+  std::vector<JsonValue> items{};   ///< elements of a list, or values of an object
+  std::vector<std::string> keys{};  ///< of an object, one for each item; in the file's order, or sorted where many
+
+  /// An object of more keys than this has them sorted, equal ones in the file's order, to be searched by halves.
+  static constexpr std::size_t most_unsorted_keys = 64;
+};
+
+/// Reads a JSON text; trailing white space and zero bytes are passed over.
+///
+/// Errors    Trouble::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, larger in
+///           memory than the budget, or not read within its time.
+JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget);
+
+/// A text of a file as it stands in a message: in quotes, on one line, not too long.
+std::string quoted(const std::string& text);
+
+/// An object of the file, with the words that name it in messages: "chair.gltf: mesh 3 primitive 0".
+///
+/// A key that is missing gives the default, or where there is none an error; so does a value of the wrong kind.
+class JsonView {
+ public:
+  /// Errors    Trouble::Input when `value` is not an object.
+  JsonView(const JsonValue& value, std::string place);
+
+  const std::string& place() const { return place_; }
+  /// The same object with another name in messages.
+  JsonView renamed(std::string place) const { return {*value_, std::move(place)}; }
+  [[noreturn]] void fail(const std::string& cause) const;
+
+  bool has(const char* key) const { return find(key) != nullptr; }
+  std::span<const std::string> keys() const { return value_->keys; }
+
+  /// The object under `key`; an empty one where it is missing. Its place is this one's and `name`.
+  JsonView object(const char* key, const std::string& name) const;
+  JsonView object(const char* key) const { return object(key, key); }
+  /// extensions.`name`, if it is there.
+  std::optional<JsonView> extension(const char* name) const;
+
+  std::size_t count(const char* list) const;
+  /// Element i of a list of objects, named "`name` i".
+  JsonView element(const char* list, std::size_t i, const std::string& name) const;
+
+  bool flag(const char* key, bool otherwise) const;
+  std::string text(const char* key, const std::string& otherwise = {}) const;
+  /// A finite float.
+  float number(const char* key, std::optional<float> otherwise = std::nullopt) const;
+  /// A whole number in [0, limit].
+  std::uint64_t whole(const char* key, std::optional<std::uint64_t> otherwise = std::nullopt,
+                      std::uint64_t limit = std::uint64_t{1} << 53) const;
+  /// An index into a list of `count` entries; nothing where the key is missing.
+  std::optional<std::size_t> find_index(const char* key, std::size_t count) const;
+  /// The same where the key is required.
+  std::size_t index(const char* key, std::size_t count) const;
+  /// A list of finite floats; empty where it is missing, else of `wanted` elements (0: any number).
+  std::vector<float> numbers(const char* key, std::size_t wanted) const;
+  /// A list of indices into a list of `count` entries; empty where it is missing.
+  std::vector<std::size_t> indices(const char* key, std::size_t count) const;
+  std::vector<std::string> texts(const char* key) const;
+
+ private:
+  const JsonValue* find(const char* key) const;
+  const JsonValue* find(const char* key, JsonValue::Kind kind) const;
+  std::span<const JsonValue> list(const char* key) const;
+
+  const JsonValue* value_;
+  std::string place_;
+};
+
+}  // namespace zoneplate

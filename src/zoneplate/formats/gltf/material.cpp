@@ -1,0 +1,231 @@
+#include "zoneplate/formats/gltf/material.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/import/image_file.h"
+
+namespace zoneplate {
+namespace {
+
+/// The images that are used, numbered in the order of their first use.
+struct UsedImages {
+  std::vector<std::size_t> source;  ///< index into the file's images
+  std::vector<int> number;          ///< of each of the file's images, -1: not used
+
+  int use(std::size_t image) {
+    if (number[image] < 0) {
+      number[image] = static_cast<int>(source.size());
+      source.push_back(image);
+    }
+    return number[image];
+  }
+};
+
+Wrap read_wrap(const JsonView& json, const char* key) {
+  const std::uint64_t v = json.whole(key, 10497);
+  if (v != 10497 && v != 33071 && v != 33648)
+    json.fail(std::string(key) + " is " + std::to_string(v) + ", wants 10497, 33071 or 33648");
+  return v == 33071 ? Wrap::Clamp : v == 33648 ? Wrap::Mirror : Wrap::Repeat;
+}
+
+Sampler read_sampler(const JsonView& json) {
+  Sampler s{.wrap_u = read_wrap(json, "wrapS"), .wrap_v = read_wrap(json, "wrapT")};
+  const std::uint64_t magnify = json.whole("magFilter", 9729), minify = json.whole("minFilter", 9987);
+  if (magnify != 9728 && magnify != 9729) json.fail("magFilter is " + std::to_string(magnify) + ", wants 9728 or 9729");
+  if (minify != 9728 && minify != 9729 && (minify < 9984 || minify > 9987))
+    json.fail("minFilter is " + std::to_string(minify) + ", wants 9728, 9729 or 9984 to 9987");
+  // The numbers are OpenGL's: odd ones are linear within a level, 9986 and 9987 between levels.
+  s.magnify = magnify == 9728 ? TexelFilter::Nearest : TexelFilter::Linear;
+  s.minify = minify % 2 == 0 ? TexelFilter::Nearest : TexelFilter::Linear;
+  s.level = minify < 9984 ? LevelFilter::None : minify < 9986 ? LevelFilter::Nearest : LevelFilter::Linear;
+  return s;
+}
+
+float2 read_float2(const JsonView& json, const char* key, float2 otherwise) {
+  const std::vector<float> v = json.numbers(key, 2);
+  return v.empty() ? otherwise : float2{v[0], v[1]};
+}
+
+/// KHR_texture_transform of a texture's use; returns the uv set, which it may override.
+std::uint64_t read_transform(const JsonView& json, std::uint64_t uv_set, TextureUse& use) {
+  const auto transform = json.extension("KHR_texture_transform");
+  if (!transform) return uv_set;
+  use.offset = read_float2(*transform, "offset", {0, 0});
+  use.scale = read_float2(*transform, "scale", {1, 1});
+  use.rotation = transform->number("rotation", 0.0f);
+  return transform->whole("texCoord", uv_set);
+}
+
+class MaterialReader {
+ public:
+  explicit MaterialReader(GltfFile& file) : file_(file) { images_.number.assign(file.count("images"), -1); }
+
+  Material read(std::size_t i);
+  const std::vector<std::size_t>& used_images() const { return images_.source; }
+
+ private:
+  TextureUse texture(const JsonView& owner, const char* key);
+  float factor(const JsonView& json, const char* key, float otherwise, float high);
+  float clamp(const JsonView& json, const char* key, float value, float high);
+  float3 color(const JsonView& json, const char* key, float3 otherwise);
+  void read_metallic_roughness(const JsonView& json, Material& m);
+  void read_alpha(const JsonView& json, Material& m);
+
+  GltfFile& file_;
+  UsedImages images_;
+};
+
+TextureUse MaterialReader::texture(const JsonView& owner, const char* key) {
+  TextureUse use;
+  if (!owner.has(key)) return use;
+  const JsonView info = owner.object(key);
+  const std::size_t number = info.index("index", file_.count("textures"));
+  const std::uint64_t uv_set = read_transform(info, info.whole("texCoord", 0), use);
+  if (uv_set > 1) {
+    file_.warn(info.place() + ": uses TEXCOORD_" + std::to_string(uv_set) + ", left out (0 and 1 are supported)");
+    return use;
+  }
+  use.uv_set = static_cast<int>(uv_set);
+
+  const JsonView texture = file_.root().element("textures", number, "texture");
+  if (const auto s = texture.find_index("sampler", file_.count("samplers")))
+    use.sampler = read_sampler(file_.root().element("samplers", *s, "sampler"));
+  const auto webp = texture.extension("EXT_texture_webp");
+  if (const auto source = (webp ? *webp : texture).find_index("source", file_.count("images")))
+    use.image = images_.use(*source);
+  else
+    file_.warn(texture.place() + ": has no image that is supported, left out");
+  return use;
+}
+
+float MaterialReader::clamp(const JsonView& json, const char* key, float value, float high) {
+  const float inside = std::clamp(value, 0.0f, high);
+  if (inside != value) file_.warn(json.place() + ": " + key + " is out of range, clamped");
+  return inside;
+}
+
+float MaterialReader::factor(const JsonView& json, const char* key, float otherwise, float high) {
+  return clamp(json, key, json.number(key, otherwise), high);
+}
+
+float3 MaterialReader::color(const JsonView& json, const char* key, float3 otherwise) {
+  const std::vector<float> v = json.numbers(key, 3);
+  if (v.empty()) return otherwise;
+  return {clamp(json, key, v[0], 1), clamp(json, key, v[1], 1), clamp(json, key, v[2], 1)};
+}
+
+void MaterialReader::read_metallic_roughness(const JsonView& json, Material& m) {
+  if (const std::vector<float> v = json.numbers("baseColorFactor", 4); !v.empty())
+    m.base_color = {clamp(json, "baseColorFactor", v[0], 1), clamp(json, "baseColorFactor", v[1], 1),
+                    clamp(json, "baseColorFactor", v[2], 1), clamp(json, "baseColorFactor", v[3], 1)};
+  m.metallic = factor(json, "metallicFactor", 1, 1);
+  m.roughness = factor(json, "roughnessFactor", 1, 1);
+  m.base_color_texture = texture(json, "baseColorTexture");
+  m.metallic_roughness_texture = texture(json, "metallicRoughnessTexture");
+}
+
+void MaterialReader::read_alpha(const JsonView& json, Material& m) {
+  const std::string mode = json.text("alphaMode", "OPAQUE");
+  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+    json.fail("alphaMode is " + quoted(mode) + ", wants OPAQUE, MASK or BLEND");
+  m.alpha_mode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+  m.alpha_cutoff = factor(json, "alphaCutoff", 0.5f, std::numeric_limits<float>::max());
+}
+
+Material MaterialReader::read(std::size_t i) {
+  const JsonView json = file_.root().element("materials", i, "material");
+  Material m;
+  m.name = json.text("name");
+  m.double_sided = json.flag("doubleSided", false);
+  read_alpha(json, m);
+  read_metallic_roughness(json.object("pbrMetallicRoughness"), m);
+
+  m.emissive = color(json, "emissiveFactor", {0, 0, 0});
+  if (const auto strength = json.extension("KHR_materials_emissive_strength"))
+    m.emissive = m.emissive * factor(*strength, "emissiveStrength", 1, 1e9f);
+  m.emissive_texture = texture(json, "emissiveTexture");
+  m.normal_texture = texture(json, "normalTexture");
+  m.normal_scale = json.object("normalTexture").number("scale", 1.0f);
+  m.occlusion_texture = texture(json, "occlusionTexture");
+  m.occlusion_strength = factor(json.object("occlusionTexture"), "strength", 1, 1);
+  if (json.extension("KHR_materials_unlit")) m.model = ShadingModel::Unlit;
+  return m;
+}
+
+/// An image's bytes and what it is called in messages.
+struct EncodedImage {
+  GltfBytes data;
+  std::string place, name;
+};
+
+EncodedImage read_image(GltfFile& file, std::size_t i) {
+  file.budget().check_time();
+  const JsonView json = file.root().element("images", i, "image");
+  EncodedImage out;
+  std::string name = json.text("name");
+  if (const auto view = json.find_index("bufferView", file.count("bufferViews"))) {
+    out.data.bytes = file.view(*view);
+  } else {
+    const std::string uri = json.text("uri");
+    if (uri.empty()) json.fail("has neither uri nor bufferView");
+    out.data = file.load_uri(json, uri);
+    if (name.empty() && !uri.starts_with("data:")) name = uri;
+  }
+  out.place = json.place() + (name.empty() ? "" : " " + quoted(name));
+  out.name = name.empty() ? "image " + std::to_string(i) : name;
+
+  // The pixels are counted here, one image after the other, so that the answer does not depend on the threads.
+  const auto size = find_image_size(out.data.bytes);
+  if (size) {
+    const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
+    if (pixels > file.budget().limits().pixels)
+      json.fail("has " + std::to_string(size->x) + " x " + std::to_string(size->y) + " pixels, the limit is " +
+                std::to_string(file.budget().limits().pixels) + " (--max-pixels)");
+    file.budget().take(decoded_image_memory(out.data.bytes));
+  }
+  return out;
+}
+
+}  // namespace
+
+GltfMaterials load_materials(GltfFile& file) {
+  GltfMaterials out;
+  MaterialReader reader(file);
+  for (std::size_t i = 0; i < file.count("materials"); ++i) {
+    file.budget().take(sizeof(Material));
+    out.materials.push_back(reader.read(i));
+  }
+  std::vector<EncodedImage> encoded;
+  for (const std::size_t i : reader.used_images()) encoded.push_back(read_image(file, i));
+  out.images.resize(encoded.size());
+  std::vector<std::string> trouble(encoded.size());
+  // So many at a time: what they take on the way is counted without regard to the number of threads.
+  constexpr std::size_t wave = 16;
+  for (std::size_t first = 0; first < encoded.size(); first += wave) {
+    const std::size_t count = std::min(wave, encoded.size() - first);
+    std::uint64_t working = 0;
+    for (std::size_t i = first; i < first + count; ++i) working += image_working_memory(encoded[i].data.bytes);
+    file.budget().take(working);
+    parallel_for(count, [&](std::size_t i) {
+      const EncodedImage& e = encoded[first + i];
+      try {
+        out.images[first + i] = {e.name, decode_image(e.data.bytes, e.place, file.budget().limits().pixels)};
+      } catch (const Error& error) {
+        trouble[first + i] = error.what();
+      }
+    });
+    file.budget().give_back(working);
+    file.budget().check_time();
+  }
+  // Of several broken images the first in the file is named, whichever thread met its own first.
+  for (const std::string& t : trouble)
+    if (!t.empty()) throw Error(Trouble::Input, t);
+  for (const TextureImage& image : out.images)
+    if (const auto warning = size_warning(image)) file.warn(file.budget().file() + ": " + *warning);
+  return out;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,73 @@
+#include "zoneplate/formats/gltf/meshopt.h"
+
+#include <meshoptimizer.h>
+
+#include <string>
+
+#include "zoneplate/os/library.h"
+
+namespace zoneplate {
+namespace {
+
+/// The library's functions. It is opened by the first file that wants it: to open it with the program would take as
+/// long as a small picture.
+struct MeshoptLibrary {
+  decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;
+  decltype(&meshopt_decodeFilterOct) octahedral = nullptr;
+  decltype(&meshopt_decodeFilterQuat) quaternion = nullptr;
+  decltype(&meshopt_decodeFilterExp) exponential = nullptr;
+
+  explicit MeshoptLibrary(const std::string& place) {
+    const SharedLibrary library(Library::Meshoptimizer, place);
+    library.find(attributes, "meshopt_decodeVertexBuffer");
+    library.find(triangles, "meshopt_decodeIndexBuffer");
+    library.find(indices, "meshopt_decodeIndexSequence");
+    library.find(octahedral, "meshopt_decodeFilterOct");
+    library.find(quaternion, "meshopt_decodeFilterQuat");
+    library.find(exponential, "meshopt_decodeFilterExp");
+  }
+};
+
+void check_stride(const JsonView& json, const std::string& mode, const std::string& filter, std::uint64_t stride) {
+  const bool fits_mode =
+      mode == "ATTRIBUTES" ? stride % 4 == 0 && stride >= 4 && stride <= 256 : stride == 2 || stride == 4;
+  const bool fits_filter =
+      filter == "NONE" || (mode == "ATTRIBUTES" && (filter == "OCTAHEDRAL"   ? stride == 4 || stride == 8
+                                                    : filter == "QUATERNION" ? stride == 8
+                                                                             : true));
+  if (!fits_mode || !fits_filter)
+    json.fail("byteStride is " + std::to_string(stride) + ", which does not go with " + mode + " and " + filter);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const std::uint8_t> packed,
+                                         ImportBudget& budget) {
+  const std::string mode = json.text("mode"), filter = json.text("filter", "NONE");
+  if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
+    json.fail("mode is " + quoted(mode) + ", wants ATTRIBUTES, TRIANGLES or INDICES");
+  if (filter != "NONE" && filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
+    json.fail("filter is " + quoted(filter) + ", wants NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
+  const std::uint64_t count = json.whole("count", std::nullopt, std::uint64_t{1} << 32);
+  const std::uint64_t stride = json.whole("byteStride", std::nullopt, 256);
+  check_stride(json, mode, filter, stride);
+  if (mode == "TRIANGLES" && count % 3 != 0) json.fail("count is " + std::to_string(count) + ", not in threes");
+
+  // No codec of the library makes more of a byte: what claims more is not worth the memory.
+  constexpr std::uint64_t most_per_byte = 1024;
+  if (count * stride / most_per_byte > packed.size()) json.fail("its data are corrupt");
+  budget.check_time();
+  budget.take(count * stride);
+  std::vector<std::uint8_t> out(static_cast<std::size_t>(count * stride));
+  const auto n = static_cast<std::size_t>(count), size = static_cast<std::size_t>(stride);
+  const MeshoptLibrary library(json.place());
+  const auto decode = mode == "ATTRIBUTES"  ? library.attributes
+                      : mode == "TRIANGLES" ? library.triangles
+                                            : library.indices;
+  if (n > 0 && decode(out.data(), n, size, packed.data(), packed.size()) != 0) json.fail("its data are corrupt");
+  if (filter == "OCTAHEDRAL") library.octahedral(out.data(), n, size);
+  if (filter == "QUATERNION") library.quaternion(out.data(), n, size);
+  if (filter == "EXPONENTIAL") library.exponential(out.data(), n, size);
+  return out;
+}
+}  // namespace zoneplate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zoneplate/formats/gltf/animation.h"
+#include "zoneplate/formats/gltf/file.h"
+#include "zoneplate/math/transform.h"
+
+namespace zoneplate {
+
+/// A node of the scene, placed in the world.
+struct GltfNode {
+  std::size_t number;  ///< in the file
+  JsonView json;
+  float4x4 world_from_node;
+};
+
+/// The nodes of one of a file's scenes, each after its parent, in the order of a walk depth first.
+///
+/// The scene is the one that is asked for, else the one that the file names, else its first, else all nodes that are
+/// nobody's child.
+class GltfNodes {
+ public:
+  /// Errors    Trouble::Input: a node that is reached twice (cycles included), deeper than the limit, a bad index;
+  ///           Trouble::Usage: a scene or animation that the file does not have.
+  explicit GltfNodes(GltfFile& file, const SceneChoice& choice = {});
+
+  const std::vector<GltfNode>& in_scene() const { return nodes_; }
+
+  /// The weights of the morph targets of the node's mesh, as its animation or the node has them; empty: the mesh's own.
+  std::vector<float> weights(const GltfNode& node) const;
+
+  /// World from mesh for each joint of the node's skin.
+  std::vector<float4x4> joints(const GltfNode& node) const;
+
+ private:
+  std::vector<std::size_t> roots(const std::optional<int>& chosen) const;
+
+  GltfFile& file_;
+  GltfPoses poses_;
+  std::vector<GltfNode> nodes_;
+  std::vector<std::size_t> place_;  ///< of each of the file's nodes in nodes_; none: not in the scene
+};
+
+}  // namespace zoneplate

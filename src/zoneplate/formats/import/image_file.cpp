@@ -1,0 +1,155 @@
+#include "zoneplate/formats/import/image_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/jpeg.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/codec/webp_still.h"
+
+namespace zoneplate {
+namespace {
+
+bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_view text) {
+  return bytes.size() >= at + text.size() &&
+         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
+}
+
+bool is_jpeg(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "\xff\xd8\xff"); }
+
+bool is_webp(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP"); }
+
+/// The name of a format that is not read.
+std::string_view known_format(std::span<const std::uint8_t> bytes) {
+  if (has_text(bytes, 1, "KTX ")) return "a KTX";
+  if (has_text(bytes, 0, "DDS ")) return "a DDS";
+  if (has_text(bytes, 0, "GIF8")) return "a GIF";
+  if (has_text(bytes, 4, "ftypavif")) return "an AVIF";
+  if (has_text(bytes, 0, "BM")) return "a BMP";
+  return "no known";
+}
+
+int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
+  std::uint32_t v = 0;
+  for (int i = 0; i < size; ++i) v = v << 8 | bytes[at + static_cast<std::size_t>(i)];
+  return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
+}
+
+/// A JPEG's frame header (ITU-T T.81, B.2.2).
+struct JpegFrame {
+  int2 size;
+  std::uint64_t samples = 0;  ///< of all components in one unit of `pixels`: 3 of 2 where colour is stored by halves
+  std::uint64_t pixels = 1;
+};
+
+/// Walks over a JPEG's segments to the frame header; what stands between segments is passed over, as libjpeg does.
+std::optional<JpegFrame> find_jpeg_frame(std::span<const std::uint8_t> bytes) {
+  for (std::size_t at = 2; at + 9 <= bytes.size();) {
+    const std::uint8_t marker = bytes[at + 1];
+    const bool is_marker = bytes[at] == 0xff && marker != 0xff && marker != 0;
+    const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (is_marker && is_frame) {
+      JpegFrame frame{{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)}};
+      const std::size_t components = at + 9 < bytes.size() ? bytes[at + 9] : 0;
+      std::uint64_t wide = 1, high = 1;
+      for (std::size_t i = at + 11; i < at + 10 + 3 * components && i < bytes.size(); i += 3) {
+        const std::uint64_t x = bytes[i] >> 4, y = bytes[i] & 15;
+        frame.samples += x * y, wide = std::max(wide, x), high = std::max(high, y);
+      }
+      frame.pixels = wide * high;
+      return frame;
+    }
+    const bool is_bare = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd9);
+    at += !is_marker ? 1 : is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
+  }
+  return std::nullopt;
+}
+
+/// Light without the alpha that it was multiplied by.
+float4 straight(Linear c) {
+  const float alpha = c.a > 0 ? c.a : 1.0f;
+  return {c.r / alpha, c.g / alpha, c.b / alpha, c.a};
+}
+
+Plane<float4> decode_exr_light(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  Plane<float4> image;
+  int y = 0;
+  decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
+    check_deadline();
+    if (y == 0) image = Plane<float4>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+    std::transform(row.begin(), row.end(), image.row(y++).begin(), straight);
+  });
+  return image;
+}
+
+TexelImage decode_png_texels(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  PngImage image = decode_png_as_stored(bytes, name, max_pixels);
+  if (image.pixels16.empty()) return std::move(image.pixels);
+  return std::move(image.pixels16);
+}
+
+}  // namespace
+
+std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
+  if (is_jpeg(bytes)) {
+    const std::optional<JpegFrame> frame = find_jpeg_frame(bytes);
+    return frame ? std::optional(frame->size) : std::nullopt;
+  }
+  if (is_webp(bytes)) return find_webp_size(bytes);
+  if (is_hdr(bytes)) return find_hdr_size(bytes);
+  if (is_exr(bytes)) return find_exr_size(bytes);
+  if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
+  return std::nullopt;
+}
+
+std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<int2> size = find_image_size(bytes);
+  if (!size) return 0;
+  const std::uint64_t texel = is_hdr(bytes) || is_exr(bytes)        ? sizeof(float4)
+                              : is_png(bytes) && has_16_bits(bytes) ? sizeof(Rgba16)
+                                                                    : sizeof(Rgba8);
+  return static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * texel;
+}
+
+std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<int2> size = find_image_size(bytes);
+  if (!size) return 0;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
+  if (is_exr(bytes)) return exr_working_memory(bytes);
+  // Every pixel once more, and its alpha.
+  if (is_webp(bytes)) return 5 * pixels;
+  if (!is_jpeg(bytes)) return 0;
+  // In several passes all coefficients are kept, two bytes each.
+  const std::optional<JpegFrame> frame = find_jpeg_frame(bytes);
+  return 2 * pixels * frame->samples / frame->pixels;
+}
+
+TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, name, max_pixels);
+  if (is_webp(bytes)) return decode_webp(bytes, name, max_pixels);
+  if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
+  if (is_exr(bytes)) return decode_exr_light(bytes, name, max_pixels / 4);
+  if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
+  throw Error(Trouble::Input,
+              name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG, WebP, HDR or EXR");
+}
+
+std::optional<std::string> size_warning(const TextureImage& image) {
+  const int width = image.pixels.width(), height = image.pixels.height();
+  int drawn_width = width, drawn_height = height;
+  while (drawn_width > TextureImage::most_side) drawn_width /= 2;
+  while (drawn_height > TextureImage::most_side) drawn_height /= 2;
+  if (drawn_width == width && drawn_height == height) return std::nullopt;
+  return fmt::format("texture {}: {} x {} texels are drawn as {} x {}, at most {} a side", image.name, width, height,
+                     drawn_width, drawn_height, TextureImage::most_side);
+}
+
+}  // namespace zoneplate

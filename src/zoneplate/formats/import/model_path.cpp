@@ -1,0 +1,148 @@
+#include "zoneplate/formats/import/model_path.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+/// The value of each base64 character (RFC 4648, and its URL-safe twins), 64 for white space, 255 for others.
+constexpr std::array<std::uint8_t, 256> base64_values() {
+  std::array<std::uint8_t, 256> value{};
+  for (auto& v : value) v = 255;
+  for (std::uint8_t i = 0; i < 26; ++i) {
+    value[static_cast<std::size_t>('A' + i)] = i;
+    value[static_cast<std::size_t>('a' + i)] = static_cast<std::uint8_t>(26 + i);
+  }
+  for (std::uint8_t i = 0; i < 10; ++i) value[static_cast<std::size_t>('0' + i)] = static_cast<std::uint8_t>(52 + i);
+  value['+'] = value['-'] = 62;
+  value['/'] = value['_'] = 63;
+  value[' '] = value['\n'] = value['\r'] = value['\t'] = 64;
+  return value;
+}
+
+bool is_within(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return end == folder.end() && rest != file.end();
+}
+
+/// Whether a path, whose links were followed, is one of `allowed` or below one of them.
+bool is_allowed(std::span<const std::string> allowed, const std::filesystem::path& file) {
+  return std::any_of(allowed.begin(), allowed.end(), [&](const std::string& path) {
+    std::error_code trouble;
+    const std::filesystem::path known = std::filesystem::weakly_canonical(path, trouble);
+    return !trouble && (known == file || is_within(known, file));
+  });
+}
+
+}  // namespace
+
+std::string decode_percent(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+    out += low >= 0 ? static_cast<char>(high * 16 + low) : text[i];
+    if (low >= 0) i += 2;
+  }
+  return out;
+}
+
+std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text) {
+  static constexpr std::array<std::uint8_t, 256> value = base64_values();
+  while (!text.empty() && (text.back() == '=' || value[static_cast<std::uint8_t>(text.back())] == 64))
+    text.remove_suffix(1);
+  std::vector<std::uint8_t> out;
+  out.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    const std::uint8_t v = value[static_cast<std::uint8_t>(c)];
+    if (v == 255) return std::nullopt;
+    if (v == 64) continue;
+    bits = bits << 6 | v;
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    out.push_back(static_cast<std::uint8_t>(bits >> held));
+  }
+  return held == 6 ? std::nullopt : std::optional(std::move(out));  // a single character is not a byte
+}
+
+bool has_scheme(std::string_view uri) {
+  const std::size_t colon = uri.find(':');
+  if (colon == std::string_view::npos || colon == 0) return false;
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return is_letter(uri[0]) && std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [&](char c) {
+           return is_letter(c) || (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.';
+         });
+}
+
+std::optional<std::string> find_path(const std::string& folder, std::string_view uri,
+                                     std::span<const std::string> allowed) {
+  namespace fs = std::filesystem;
+  const std::string name = decode_percent(uri);
+  constexpr std::size_t most_bytes = 4096;  // of a path that Linux opens (PATH_MAX)
+  if (name.empty() || name.size() > most_bytes || name.find('\0') != std::string::npos) return std::nullopt;
+  const fs::path file = fs::path(folder) / name;
+
+  // Links and ".." are followed first, so that what counts is the place of the file that would be opened.
+  std::error_code trouble;
+  const fs::path inside = fs::weakly_canonical(folder.empty() ? "." : folder, trouble);
+  if (trouble) return std::nullopt;
+  const fs::path found = fs::weakly_canonical(inside / name, trouble);
+  if (trouble || !(is_within(inside, found) || is_allowed(allowed, found))) return std::nullopt;
+  return file.string();
+}
+
+FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
+                     std::uint64_t limit) {
+  namespace fs = std::filesystem;
+  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, path + ": " + cause}; };
+  // What is held open has a name that stays its own; to be held is not yet to be read, and waits for nobody.
+  struct Held {
+    int number;
+    ~Held() {
+      if (number >= 0) ::close(number);
+    }
+  } const held{::open(path.c_str(), O_PATH | O_CLOEXEC)};
+  if (held.number < 0) throw fail(std::string("cannot be read: ") + std::strerror(errno));
+  const std::string name = "/proc/self/fd/" + std::to_string(held.number);
+  if (is_stream(name)) throw fail("is not a regular file");
+  std::error_code trouble;
+  const fs::path inside = fs::canonical(folder.empty() ? "." : folder, trouble);
+  const fs::path opened = trouble ? fs::path() : fs::read_symlink(name, trouble);
+  if (trouble || !(is_within(inside, opened) || is_allowed(allowed, opened)))
+    throw fail("leads out of the model's folder");
+  try {
+    return FileBytes(name, limit);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    throw Error(error.trouble(), text.starts_with(name) ? path + text.substr(name.size()) : text);
+  }
+}
+
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+}  // namespace zoneplate

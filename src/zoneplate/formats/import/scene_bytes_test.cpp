@@ -1,0 +1,122 @@
+#include "zoneplate/formats/import/scene_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/gltf/sample_for_test.h"
+#include "zoneplate/formats/import/damage_for_test.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes written(const Scene& scene) {
+  Bytes out;
+  write_scene(scene, [&](const void* data, std::size_t size) {
+    const auto* at = static_cast<const std::uint8_t*>(data);
+    out.insert(out.end(), at, at + size);
+  });
+  return out;
+}
+
+Scene read(const Bytes& bytes, const LoadLimits& limits = {}) {
+  std::size_t at = 0;
+  ImportBudget budget("file", limits);
+  const ByteSource source = [&](void* out, std::size_t size) {
+    if (size > bytes.size() - at) throw Error(Trouble::Input, "file: ends early");
+    std::copy_n(bytes.data() + at, size, static_cast<std::uint8_t*>(out));
+    at += size;
+  };
+  return read_scene(source, budget);
+}
+
+/// A scene whose every field differs from its default.
+Scene full_scene() {
+  const MemoryFile file;
+  Scene s = load_gltf(file.write(everything().glb()));
+  s.ambient_light = {1, 2, 3};
+  s.up = {0, 0, 1};
+  s.variants = {"red", "blue"};
+  s.warnings = {"one", ""};
+  s.cameras.push_back({.name = "eye", .is_orthographic = true, .half_height = 3, .aspect = 2});
+  s.materials[0].double_sided = !s.materials[0].double_sided;
+  s.materials[0].exponent = 77;
+  s.images.push_back({"deep", Rgba16Image(2, 3, {1, 2, 3, 4})});
+  s.images.push_back({"bright", Plane<float4>(1, 2, float4{1e5f, 0.25f, 0, 1})});
+  return s;
+}
+
+TEST(SceneBytes, BringWholeScenesOver) {
+  const Scene scene = full_scene();
+  const Bytes bytes = written(scene);
+  const Scene other = read(bytes);
+  EXPECT_EQ(written(other), bytes);
+  ASSERT_EQ(other.meshes.size(), scene.meshes.size());
+  EXPECT_EQ(other.meshes[0].position, scene.meshes[0].position);
+  EXPECT_EQ(other.meshes[0].index, scene.meshes[0].index);
+  EXPECT_EQ(other.meshes.back().topology, scene.meshes.back().topology);
+  EXPECT_EQ(other.instances.back().world_from_object, scene.instances.back().world_from_object);
+  ASSERT_EQ(other.images.size(), scene.images.size());
+  for (std::size_t i = 0; i < scene.images.size(); ++i) EXPECT_EQ(other.images[i].pixels, scene.images[i].pixels);
+  EXPECT_EQ(other.materials[0].double_sided, scene.materials[0].double_sided);
+  EXPECT_EQ(other.materials[0].base_color_texture.sampler, scene.materials[0].base_color_texture.sampler);
+  EXPECT_EQ(other.lights[0].kind, LightKind::Spot);
+  EXPECT_EQ(other.cameras.back().name, "eye");
+  EXPECT_EQ(other.animations.size(), scene.animations.size());
+  EXPECT_EQ(other.variants, scene.variants);
+  EXPECT_EQ(other.warnings, scene.warnings);
+}
+
+TEST(SceneBytes, AreNotTrusted) {
+  const Bytes good = written(full_scene());
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Bytes bytes = good;
+    for (auto n = 1 + random() % 3; n > 0; --n) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    try {
+      expect_sound(read(bytes, {.memory = 1 << 24, .pixels = 1 << 20}));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.trouble(), Trouble::Input);
+      ++refused;
+    }
+    if (HasFatalFailure()) FAIL() << "case " << i;
+  }
+  EXPECT_GT(refused, 400);
+  for (std::size_t n = 0; n < good.size(); n += 5)
+    EXPECT_THROW(read({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(n)}), Error) << n;
+}
+
+TEST(SceneBytes, KeepToTheBudget) {
+  const Bytes good = written(full_scene());
+  EXPECT_THROW(read(good, {.memory = good.size() / 2}), Error);
+  EXPECT_THROW(read(good, {.pixels = 3}), Error);
+}
+
+TEST(SceneBytes, SharedNamesStayShared) {
+  Scene scene = full_scene();
+  const std::size_t before = written(scene).size();
+  for (int i = 0; i < 1000; ++i) scene.objects.share(0);
+  EXPECT_EQ(written(scene).size(), before + 4000);
+  const Scene other = read(written(scene));
+  EXPECT_EQ(other.objects, scene.objects);
+  EXPECT_EQ(other.objects.texts(), scene.objects.texts());
+}
+
+TEST(SceneBytes, ANameThatIsNotThereIsRefused) {
+  Scene scene = full_scene();
+  scene.objects = NameList({"only"}, std::vector<std::uint32_t>(scene.objects.size(), 0));
+  Bytes bytes = written(scene);
+  const Bytes name = {'o', 'n', 'l', 'y'};
+  const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
+  ASSERT_NE(at, bytes.end());
+  *(at + 12) = 1;  // behind the text and the number of things: the first thing's
+  EXPECT_THROW(read(bytes), Error);
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,156 @@
+#include "zoneplate/formats/load.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/formats/assimp/assimp.h"
+#include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/import/import_child.h"
+#include "zoneplate/formats/import/scene_bytes.h"
+#include "zoneplate/formats/obj/obj.h"
+#include "zoneplate/formats/ply/ply.h"
+#include "zoneplate/formats/stl/stl.h"
+#include "zoneplate/os/library.h"
+#include "zoneplate/scene/builtin/builtin.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr SceneFormat formats[] = {{".gltf", "glTF 2.0, with its buffers and images"},
+                                   {".glb", "glTF 2.0 in one binary file"},
+                                   {".obj", "Wavefront OBJ, with its MTL materials"},
+                                   {".ply", "PLY, ASCII or binary, meshes and points"},
+                                   {".stl", "STL, ASCII or binary"}};
+
+Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
+
+/// Refuses a choice where there is none.
+const LoadLimits& limits_of(const LoadOptions& o) {
+  const SceneChoice& c = o.choice;
+  if (c.scene || c.animation || !c.variant.empty())
+    throw Error(Trouble::Usage, "only glTF files have scenes, variants and animations to choose from");
+  return o.limits;
+}
+Scene read_obj(const std::string& path, const LoadOptions& o) { return load_obj(path, limits_of(o)); }
+Scene read_ply(const std::string& path, const LoadOptions& o) { return load_ply(path, limits_of(o)); }
+Scene read_stl(const std::string& path, const LoadOptions& o) { return load_stl(path, limits_of(o)); }
+using Loader = Scene (*)(const std::string&, const LoadOptions&);
+constexpr Loader loaders[] = {read_gltf, read_gltf, read_obj, read_ply, read_stl};
+static_assert(std::size(loaders) == std::size(formats));
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// The extension that says how the file is read.
+std::string extension_of(const std::string& name, const std::string& format) {
+  if (format.empty()) return lower_case(std::filesystem::path(name).extension().string());
+  return lower_case((format.starts_with('.') ? "" : ".") + format);
+}
+
+}  // namespace
+
+std::span<const SceneFormat> scene_formats() { return formats; }
+
+bool is_builtin_scene(std::string_view name) {
+  const std::string_view stem = name.substr(0, name.find(':'));
+  const auto scenes = builtin_scenes();
+  return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) { return scene.name == stem; });
+}
+
+namespace {
+
+/// Reads a file of a format that is known, or finds out why it is not.
+Scene read_file(const std::string& name, const LoadOptions& options) {
+  std::string wanted;
+  for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
+  if (name == "-" && options.format.empty())
+    throw Error(Trouble::Usage, "standard input wants --format (" + wanted + ")");
+  const std::string extension = extension_of(name, options.format);
+  for (std::size_t i = 0; i < std::size(formats); ++i)
+    if (extension == formats[i].extension) return loaders[i](name, options);
+  for (const SceneFormat& format : assimp_formats())
+    if (extension == format.extension) return load_by_assimp(name, extension, limits_of(options));
+
+  wanted += " and others, see zoneplate list formats";
+  if (!options.format.empty())
+    throw Error(Trouble::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(name, ignored);
+  throw Error(Trouble::Input, exists ? name + ": not a format that can be read (" + wanted + ")"
+                                     : name + ": no such file, and no built-in scene of that name");
+}
+
+Scene read_watched(const std::string& name, const LoadOptions& options) {
+  const LostBytesWatch watch;
+  Scene scene = read_file(name, options);
+  watch.check(name);
+  return scene;
+}
+
+/// The same in a child process, as the libraries are that open one for themselves.
+Scene read_in_child(const std::string& name, const LoadOptions& options) {
+  ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
+  LimitedChild child(
+      budget.file(), child_limits(budget),
+      [&](ChildAnswer& answer) {
+        const Scene scene = read_watched(name, options);
+        write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
+      },
+      [] {
+        open_library(Library::OpenExr);
+        open_library(Library::Meshoptimizer);
+      });
+  return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
+}
+
+bool is_for_assimp(const std::string& extension) {
+  const auto others = assimp_formats();
+  return std::any_of(others.begin(), others.end(), [&](const SceneFormat& f) { return f.extension == extension; });
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& name, const LoadOptions& options) {
+  if (options.format.empty() && name != "-")
+    if (std::optional<Scene> scene = make_builtin_scene(name)) {
+      static_cast<void>(limits_of(options));
+      return std::move(*scene);
+    }
+  const bool has_child = options.is_sandboxed && !is_for_assimp(extension_of(name, options.format));
+  return has_child ? read_in_child(name, options) : read_watched(name, options);
+}
+
+std::vector<std::string> readable_paths(const std::string& name, const LoadOptions& options) {
+  if (options.format.empty() && is_builtin_scene(name)) return {};
+  return model_paths(name, options.limits);
+}
+
+SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
+  const std::string extension = extension_of(name_, options_.format);
+  const bool is_gltf = extension == ".gltf" || extension == ".glb";
+  if (is_gltf && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
+    gltf_ = std::make_unique<GltfModel>(name_, options_.limits);
+  watch_.check(name_);
+}
+SceneSource::~SceneSource() = default;
+
+Scene SceneSource::load(const SceneChoice& choice) {
+  options_.choice = choice;
+  Scene scene = gltf_ ? gltf_->scene(choice) : load_scene(name_, options_);
+  watch_.check(name_);
+  return scene;
+}
+
+Scene SceneSource::load_shape(const SceneChoice& choice) {
+  if (!gltf_) return load(choice);
+  Scene scene = gltf_->scene(choice, GltfModel::Images::Without);
+  watch_.check(name_);
+  return scene;
+}
+
+}  // namespace zoneplate

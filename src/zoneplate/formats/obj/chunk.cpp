@@ -1,0 +1,374 @@
+#include "zoneplate/formats/obj/chunk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/formats/import/text_scan.h"
+
+namespace zoneplate {
+namespace {
+
+/// Where more has to be known than the part itself says.
+struct NeedsMore {};
+
+/// What lies around a part.
+struct Surroundings {
+  ObjCounts before, all;
+};
+
+class PartReader {
+ public:
+  /// `known` is null where nothing is known yet.
+  PartReader(std::string_view text, char separator, const Surroundings* known, ObjPart& part)
+      : at_(text.data()),
+        end_(text.data() + text.size()),
+        separator_(separator),
+        known_(known),
+        part_(part),
+        chunk_(part.chunk),
+        vertices_(part.vertices),
+        next_line_(known ? known->before.lines + 1 : 1) {}
+
+  void read() {
+    const std::string_view text(at_, static_cast<std::size_t>(end_ - at_));
+    const std::size_t last = separator_ == '\n' ? text.rfind('\n') : text.npos;
+    const char* const last_end = last == text.npos ? at_ : at_ + last;  // of all lines but perhaps one
+    while (at_ != end_)
+      if (at_ >= last_end || !read_plain()) read_any();
+  }
+
+  ObjCounts counts() const {
+    return {next_line_ - 1 - (known_ ? known_->before.lines : 0), vertices_.positions.size(), vertices_.uvs.size(),
+            vertices_.normals.size()};
+  }
+
+ private:
+  /// A line of any kind, with those that continue it.
+  void read_any() {
+    constexpr std::uint64_t lines_per_check = 4096;
+    if (next_line_ % lines_per_check == 0) check_deadline();
+    TextLines lines({at_, static_cast<std::size_t>(end_ - at_)}, next_line_, separator_);
+    lines.next();
+    line_ = lines.number();
+    LineWords words(lines.line());
+    read_statement(words.next(), words);
+    at_ = lines.rest();
+    next_line_ = lines.next_number();
+  }
+
+  /// Nearly all lines, at full speed: vertices and faces without surprises. Moves behind the line, or answers false
+  /// where read_statement has to look. A line's end is ahead, so that nothing else has to be looked out for.
+  bool read_plain() {
+    const char* at = at_;
+    if (at[0] == 'f' && at[1] == ' ') return read_plain_face(at + 1);
+    if (at[0] != 'v') return false;
+    const char kind = at[1];
+    if (kind != ' ' && ((kind != 't' && kind != 'n') || at[2] != ' ')) return false;
+    std::array<float, 3> v{};
+    at = scan_numbers(at + (kind == ' ' ? 1 : 2), kind == 't' ? 2 : 3, v);
+    if (at == nullptr || !ends_line(at)) return false;
+    if (kind == 't')
+      vertices_.uvs.push_back({v[0], v[1]});
+    else if (kind == 'n')
+      add_normal(v);
+    else
+      vertices_.positions.push_back({v[0], v[1], v[2]});
+    return true;
+  }
+
+  /// So many numbers, one behind the other; null where something else stands there.
+  const char* scan_numbers(const char* at, std::size_t n, std::array<float, 3>& out) const {
+    for (std::size_t i = 0; i < n && at != nullptr; ++i) {
+      while (*at == ' ') ++at;
+      at = scan_number(at, end_, out[i]);
+    }
+    return at;
+  }
+
+  /// Whether nothing else stands on the line; if so, moves to the next one.
+  bool ends_line(const char* at) {
+    while (*at == ' ' || *at == '\r') ++at;
+    if (*at != '\n') return false;
+    at_ = at + 1;
+    ++next_line_;
+    return true;
+  }
+
+  /// A whole number without a sign that is the index of something that may be there, from 0; `at` moves behind it. -1
+  /// for anything else.
+  std::int32_t scan_index(const char*& at, std::uint64_t ObjCounts::*kind) {
+    std::uint64_t value = 0;
+    const char* const first = at;
+    for (; *at >= '0' && *at <= '9'; ++at) value = value * 10 + static_cast<std::uint64_t>(*at - '0');
+    const std::uint64_t most = known_ ? known_->all.*kind : most_obj_items;
+    if (at - first > 10 || value == 0 || value > most) return -1;
+    part_.named.*kind = std::max(part_.named.*kind, value);
+    return static_cast<std::int32_t>(value - 1);
+  }
+
+  /// Whether the same digits, and no more, stand at `at`.
+  bool is_repeated(std::string_view digits, const char* at) const {
+    const std::size_t n = digits.size();
+    if (n >= 8 || end_ - at < 8) return false;
+    std::uint64_t a, b;
+    std::memcpy(&a, digits.data(), sizeof a);
+    std::memcpy(&b, at, sizeof b);
+    return (a ^ b) << (64 - 8 * n) == 0 && !(at[n] >= '0' && at[n] <= '9');
+  }
+
+  /// Scans an index that may be the position's once more.
+  std::int32_t scan_other_index(const char*& at, std::uint64_t ObjCounts::*kind, std::string_view position,
+                                std::int32_t index) {
+    if (!is_repeated(position, at)) return scan_index(at, kind);
+    const auto value = static_cast<std::uint64_t>(index) + 1;
+    if (known_ && value > known_->all.*kind) return -1;
+    part_.named.*kind = std::max(part_.named.*kind, value);
+    at += position.size();
+    return index;
+  }
+
+  bool read_plain_face(const char* at) {
+    const std::size_t first = chunk_.corners.size();
+    const auto give_up = [&] {
+      chunk_.corners.shorten(first);
+      return false;
+    };
+    while (true) {
+      while (*at == ' ') ++at;
+      if (*at == '\n' || *at == '\r') break;
+      ObjCorner corner;
+      const char* const digits = at;
+      if ((corner.position = scan_index(at, &ObjCounts::positions)) < 0) return give_up();
+      const std::string_view text(digits, static_cast<std::size_t>(at - digits));
+      if (*at == '/') {
+        ++at;
+        if (*at != '/' && (corner.uv = scan_other_index(at, &ObjCounts::uvs, text, corner.position)) < 0)
+          return give_up();
+        if (*at == '/' && (corner.normal = scan_other_index(++at, &ObjCounts::normals, text, corner.position)) < 0)
+          return give_up();
+      }
+      if (*at != ' ' && *at != '\r' && *at != '\n') return give_up();
+      chunk_.corners.push_back(corner);
+    }
+    const std::size_t n = chunk_.corners.size() - first;
+    if (n < 3 || chunk_.corners.size() >= most_obj_items || !ends_line(at)) return give_up();
+    chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), ObjKind::Face});
+    return true;
+  }
+
+  void read_statement(std::string_view word, LineWords& words) {
+    if (word.empty()) return;
+    if (word == "v") return read_position(words);
+    if (word == "vt") return read_uv(words);
+    if (word == "vn") return read_normal(words);
+    if (word == "f" || word == "fo") return read_element(ObjKind::Face, 3, words);
+    if (word == "l") return read_element(ObjKind::Line, 2, words);
+    if (word == "p") return read_element(ObjKind::Point, 1, words);
+    if (word == "o") return add_state(ObjStateKind::Object, words);
+    if (word == "g") return add_state(ObjStateKind::Group, words);
+    if (word == "usemtl") return add_state(ObjStateKind::Material, words);
+    if (word == "s") return add_state(ObjStateKind::Smoothing, words);
+    if (word == "mtllib") return add_state(ObjStateKind::Library, words);
+    constexpr std::string_view silent[] = {"lod",    "bevel",      "c_interp",  "d_interp", "mg", "maplib",
+                                           "usemap", "shadow_obj", "trace_obj", "call",     "csh"};
+    if (std::find(std::begin(silent), std::end(silent), word) != std::end(silent)) return;
+    constexpr std::string_view free_form[] = {"vp",    "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",
+                                              "parm",  "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech",
+                                              "stech", "bzp",    "bsp",  "res",  "cdc",  "cdp"};
+    const bool is_free_form = std::find(std::begin(free_form), std::end(free_form), word) != std::end(free_form);
+    note(is_free_form ? ObjNote::FreeForm : ObjNote::Unknown, word);
+  }
+
+  void note(ObjNote kind, std::string_view word) {
+    ObjTally& tally = chunk_.notes[static_cast<std::size_t>(kind)];
+    if (tally.count++ == 0) tally.line = line_, tally.word = word.substr(0, 40);
+  }
+
+  /// Nothing is refused by a part that does not know its lines' numbers.
+  [[noreturn]] void fail(std::string cause) const {
+    if (!known_) throw NeedsMore{};
+    throw ObjLineError{line_, std::move(cause)};
+  }
+
+  /// The numbers of the line, at most as many as `out` holds.
+  template <std::size_t n>
+  std::size_t read_numbers(const char* what, std::size_t least, LineWords& words, std::array<float, n>& out) {
+    std::size_t i = 0;
+    for (; i < n; ++i) {
+      const std::string_view word = words.next();
+      if (word.empty()) break;
+      const std::optional<float> number = find_number(word);
+      if (!number) fail(fmt::format("{}: '{}' is not a number", what, word.substr(0, 40)));
+      out[i] = *number;
+    }
+    if (i < least) fail(fmt::format("{} has {} numbers, wants {}", what, i, least));
+    return i;
+  }
+
+  void read_position(LineWords& words) {
+    // x y z, with a weight (which only free-form geometry uses), or with a colour and perhaps its alpha.
+    std::array<float, 7> v{0, 0, 0, 1, 1, 1, 1};
+    const std::size_t n = read_numbers("vertex", 3, words, v);
+    if (n >= 6) vertices_.colors.push_back({vertices_.positions.size(), {v[3], v[4], v[5], n == 7 ? v[6] : 1}});
+    vertices_.positions.push_back({v[0], v[1], v[2]});
+    vertices_.has_odd_position = vertices_.has_odd_position || !is_finite(vertices_.positions.back());
+  }
+
+  void read_uv(LineWords& words) {
+    std::array<float, 2> v{};
+    read_numbers("texture coordinate", 1, words, v);
+    const bool is_fine = std::isfinite(v[0]) && std::isfinite(v[1]);
+    if (!is_fine) note(ObjNote::UvNotFinite, "vt");
+    vertices_.uvs.push_back(is_fine ? float2{v[0], v[1]} : float2{0, 0});
+  }
+
+  void read_normal(LineWords& words) {
+    std::array<float, 3> v{};
+    read_numbers("normal", 3, words, v);
+    add_normal(v);
+  }
+
+  void add_normal(const std::array<float, 3>& v) {
+    // In double, so that neither long nor short normals are lost.
+    const double x = v[0], y = v[1], z = v[2], length = std::sqrt(x * x + y * y + z * z);
+    const bool is_fine = std::isfinite(length) && length > 0;
+    vertices_.normals.push_back(
+        is_fine ? float3{static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)}
+                : float3{0, 0, 0});
+    vertices_.has_odd_normal = vertices_.has_odd_normal || !is_fine;
+  }
+
+  struct Index {
+    std::int64_t given = 0;
+    std::int32_t found = -1;  ///< -1 where there is none
+  };
+
+  /// The next index of a corner's text: absolute from 1, or negative from the last one so far.
+  Index read_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind, const char* what) {
+    std::int64_t value = 0;
+    const char* const begin = at != end && *at == '+' ? at + 1 : at;
+    const auto [stop, trouble] = std::from_chars(begin, end, value);
+    if (trouble == std::errc::invalid_argument)
+      fail(fmt::format("{}: '{}' is not an index", what, std::string_view(at, static_cast<std::size_t>(end - at))));
+    at = stop;
+    if (trouble != std::errc{}) value = std::numeric_limits<std::int64_t>::max();
+    if (!known_ && (value <= 0 || value > static_cast<std::int64_t>(most_obj_items))) throw NeedsMore{};
+    const std::uint64_t so_far = known_ ? known_->before.*kind + counts().*kind : 0;
+    const std::uint64_t all = known_ ? known_->all.*kind : most_obj_items;
+    const std::int64_t index = value < 0 ? static_cast<std::int64_t>(so_far) + value : value - 1;
+    const bool is_there = index >= 0 && index < static_cast<std::int64_t>(all);
+    if (is_there) part_.named.*kind = std::max(part_.named.*kind, static_cast<std::uint64_t>(index) + 1);
+    return {value, is_there ? static_cast<std::int32_t>(index) : -1};
+  }
+
+  std::int32_t read_optional_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind, const char* what,
+                                   ObjNote missing) {
+    const std::int32_t found = read_index(at, end, kind, what).found;
+    if (found < 0) note(missing, what);
+    return found;
+  }
+
+  ObjCorner read_corner(std::string_view word, const char* what) {
+    const char* at = word.data();
+    const char* const end = at + word.size();
+    ObjCorner corner;
+    const Index position = read_index(at, end, &ObjCounts::positions, what);
+    if (position.found < 0)
+      fail(fmt::format("{} index {} out of range ({} vertices)", what, position.given,
+                       known_ ? known_->all.positions : 0));
+    corner.position = position.found;
+    if (at != end && *at == '/') {
+      ++at;
+      if (at != end && *at != '/')
+        corner.uv = read_optional_index(at, end, &ObjCounts::uvs, "texture coordinate", ObjNote::NoSuchUv);
+      if (at != end && *at == '/' && ++at != end)
+        corner.normal = read_optional_index(at, end, &ObjCounts::normals, "normal", ObjNote::NoSuchNormal);
+    }
+    if (at != end) fail(fmt::format("{}: '{}' is not v, v/vt, v//vn or v/vt/vn", what, word.substr(0, 40)));
+    return corner;
+  }
+
+  void read_element(ObjKind kind, std::size_t least, LineWords& words) {
+    const char* what = kind == ObjKind::Face ? "face" : kind == ObjKind::Line ? "line" : "point";
+    const std::size_t first = chunk_.corners.size();
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      chunk_.corners.push_back(read_corner(word, what));
+    const std::size_t n = chunk_.corners.size() - first;
+    if (n < least) {
+      chunk_.corners.shorten(first);
+      return note(ObjNote::FewCorners, what);
+    }
+    if (chunk_.corners.size() >= most_obj_items) fail("too many corners in one statement");
+    chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), kind});
+  }
+
+  /// Of several that stand between the same elements the last of a kind holds.
+  void add_state(ObjStateKind kind, LineWords& words) {
+    ObjState state{kind, static_cast<std::uint32_t>(chunk_.elements.size()), words.rest()};
+    constexpr std::ptrdiff_t kinds = 5;
+    auto& all = chunk_.states;
+    for (auto at = all.rbegin(); kind != ObjStateKind::Library && at != all.rend() && at - all.rbegin() < kinds; ++at) {
+      if (at->before != state.before) break;
+      if (at->kind != kind) continue;
+      at->text = std::move(state.text);
+      return;
+    }
+    all.push_back(std::move(state));
+  }
+
+  const char *at_, *end_;
+  char separator_;
+  const Surroundings* known_;
+  ObjPart& part_;
+  ObjChunk& chunk_;
+  ObjVertices& vertices_;
+  std::uint64_t line_ = 0, next_line_;
+};
+
+ObjCounts count(std::string_view text, char separator) {
+  ObjCounts counts;
+  TextLines lines(text, 0, separator);
+  while (lines.next()) {
+    const std::string_view line = lines.line();
+    if (line.empty() || (line[0] > ' ' && line[0] != 'v')) continue;
+    const std::string_view word = LineWords(line).next();
+    counts.positions += word == "v";
+    counts.uvs += word == "vt";
+    counts.normals += word == "vn";
+  }
+  counts.lines = lines.next_number();
+  return counts;
+}
+
+}  // namespace
+
+bool read_obj_part(std::string_view text, char separator, ObjPart& part) {
+  try {
+    PartReader reader(text, separator, nullptr, part);
+    reader.read();
+    part.counts = reader.counts();
+    return true;
+  } catch (const NeedsMore&) {
+    part = {};
+    part.counts = count(text, separator);
+    return false;
+  }
+}
+
+void read_obj_part(std::string_view text, char separator, const ObjCounts& before, const ObjCounts& all,
+                   ObjPart& part) {
+  part = {};
+  const Surroundings known{before, all};
+  PartReader reader(text, separator, &known, part);
+  reader.read();
+  part.counts = reader.counts();
+}
+
+}  // namespace zoneplate

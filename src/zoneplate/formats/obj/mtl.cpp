@@ -1,0 +1,200 @@
+#include "zoneplate/formats/obj/mtl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/formats/import/text_scan.h"
+
+namespace zoneplate {
+namespace {
+
+/// A finite number; "1.#IND" and the like are none here.
+std::optional<float> find_value(std::string_view word) {
+  const std::optional<float> number = find_number(word);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+/// Keys are compared without case, as files disagree on it (map_Kd, map_kd, map_bump, map_Bump).
+std::string lower(std::string_view word) {
+  std::string out(word);
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+/// Takes up to `most` numbers from the line's front, leaving what does not read as a number.
+std::vector<float> take_numbers(LineWords& words, std::size_t most) {
+  std::vector<float> numbers;
+  while (numbers.size() < most) {
+    LineWords ahead = words;
+    const std::optional<float> number = find_value(ahead.next());
+    if (!number || ahead.is_over()) break;  // the last word is the file's name, even if it is a number
+    numbers.push_back(*number);
+    words = ahead;
+  }
+  return numbers;
+}
+
+MtlTexture read_texture(LineWords words) {
+  MtlTexture texture;
+  for (;;) {
+    LineWords ahead = words;
+    const std::string option = lower(ahead.next());
+    const bool takes_numbers = option == "-o" || option == "-s" || option == "-t" || option == "-mm";
+    const bool takes_word = option == "-blendu" || option == "-blendv" || option == "-boost" || option == "-cc" ||
+                            option == "-clamp" || option == "-texres" || option == "-bm" || option == "-imfchan" ||
+                            option == "-type" || option == "-colorspace";
+    if (!takes_numbers && !takes_word) break;
+    if (takes_numbers) {
+      const std::vector<float> v = take_numbers(ahead, option == "-mm" ? 2 : 3);
+      const float first = option == "-s" ? 1 : 0;
+      const float2 pair{v.size() > 0 ? v[0] : first, v.size() > 1 ? v[1] : first};
+      if (option == "-o") texture.offset = pair;
+      if (option == "-s") texture.scale = pair;
+    } else {
+      const std::string_view word = ahead.next();
+      if (option == "-clamp") texture.clamp = word == "on";
+      if (option == "-bm") texture.strength = find_value(word).value_or(1);
+    }
+    words = ahead;
+  }
+  texture.file = words.rest();
+  return texture;
+}
+
+class MtlReader {
+ public:
+  MtlReader(const std::string& file, std::vector<std::string>& warnings,
+            const std::function<bool(const std::string&)>& is_wanted)
+      : file_(file), warnings_(warnings), is_wanted_(is_wanted) {}
+
+  std::vector<MtlMaterial> take() {
+    close();
+    return std::move(materials_);
+  }
+
+  void read_line(std::uint64_t line, LineWords words) {
+    line_ = line;
+    const std::string key = lower(words.next());
+    if (key.empty()) return;
+    if (key == "newmtl") {
+      close();
+      open_.emplace().name = words.rest();
+      return;
+    }
+    if (!open_) return warn(fmt::format("{} before newmtl passed over", key));
+    if (!read_color(key, words) && !read_value(key, words)) read_map(key, words);
+  }
+
+ private:
+  /// Keeps the material that was read last, if it is wanted.
+  void close() {
+    if (open_ && is_wanted_(open_->name)) materials_.push_back(std::move(*open_));
+    open_.reset();
+  }
+
+  void warn(const std::string& text) {
+    constexpr int most = 20;
+    if (++warned_ > most) return;
+    warnings_.push_back(warned_ < most ? fmt::format("{}: line {}: {}", file_, line_, text)
+                                       : fmt::format("{}: line {}: and more that is passed over", file_, line_));
+  }
+
+  bool read_color(const std::string& key, LineWords words) {
+    MtlMaterial& m = *open_;
+    std::optional<float3>* target = key == "kd"   ? &m.diffuse
+                                    : key == "ka" ? &m.ambient
+                                    : key == "ks" ? &m.specular
+                                    : key == "ke" ? &m.emissive
+                                                  : nullptr;
+    if (target == nullptr) return false;
+    std::array<float, 3> v{};
+    std::size_t n = 0;
+    for (; n < 3; ++n) {
+      const std::string_view word = words.next();
+      if (word.empty()) break;
+      const std::optional<float> value = find_value(word);
+      if (!value) return warn(fmt::format("{}: '{}' is not a number", key, word.substr(0, 40))), true;
+      v[n] = std::max(0.0f, *value);
+    }
+    if (n == 0) return warn(key + " has no numbers"), true;
+    *target = n == 3 ? float3{v[0], v[1], v[2]} : float3{v[0], v[0], v[0]};
+    return true;
+  }
+
+  bool read_value(const std::string& key, LineWords words) {
+    MtlMaterial& m = *open_;
+    std::optional<float>* target = key == "ns"   ? &m.exponent
+                                   : key == "d"  ? &m.opacity
+                                   : key == "tr" ? &m.transparency
+                                   : key == "pr" ? &m.roughness
+                                   : key == "pm" ? &m.metallic
+                                                 : nullptr;
+    if (target == nullptr && key != "illum") return false;
+    std::string_view word = words.next();
+    if (word == "-halo") word = words.next();
+    const std::optional<float> value = find_value(word);
+    if (!value) return warn(fmt::format("{}: '{}' is not a number", key, word.substr(0, 40))), true;
+    if (target != nullptr)
+      *target = *value;
+    else
+      m.illumination = static_cast<int>(std::clamp(*value, 0.0f, 100.0f));
+    return true;
+  }
+
+  void read_map(const std::string& key, LineWords words) {
+    MtlMaterial& m = *open_;
+    MtlTexture* target = key == "map_kd"   ? &m.diffuse_map
+                         : key == "map_ke" ? &m.emissive_map
+                         : key == "map_d"  ? &m.opacity_map
+                         : key == "norm"   ? &m.normal_map
+                                           : nullptr;
+    if (target != nullptr) {
+      *target = read_texture(words);
+      if (target->file.empty()) warn(key + " names no file");
+      return;
+    }
+    const bool is_map = key.substr(0, 4) == "map_" || key == "bump" || key == "disp" || key == "decal" || key == "refl";
+    // Ka's map is nearly always Kd's, and only ambient light would show it.
+    if (is_map && key != "map_ka" && key != "map_aat") {
+      constexpr std::size_t most_keys = 16;  // more than there are
+      const bool is_new = std::find(m.unsupported.begin(), m.unsupported.end(), key) == m.unsupported.end();
+      if (is_new && m.unsupported.size() < most_keys) m.unsupported.push_back(key);
+      return;
+    }
+    constexpr std::array known = {"ni",    "tf",     "sharpness", "km",      "ps",     "pc",      "pcr",
+                                  "aniso", "anisor", "map_ka",    "map_aat", "xalpha", "spectral"};
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      warn(fmt::format("'{}' is not known and passed over", key.substr(0, 40)));
+  }
+
+  const std::string& file_;
+  std::vector<std::string>& warnings_;
+  const std::function<bool(const std::string&)>& is_wanted_;
+  std::optional<MtlMaterial> open_;  ///< the one that is being read
+  std::vector<MtlMaterial> materials_;
+  std::uint64_t line_ = 0;
+  int warned_ = 0;
+};
+
+}  // namespace
+
+std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings,
+                                   const std::function<bool(const std::string&)>& is_wanted) {
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
+  const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
+  MtlReader reader(file, warnings, is_wanted);
+  // A backslash at a line's end may end a folder's name, but no file's: it continues the line, as in OBJ.
+  TextLines lines(text, 1, separator);
+  constexpr std::uint64_t lines_per_check = 1024;
+  for (std::uint64_t line = 0; lines.next(); ++line) {
+    if (line % lines_per_check == 0) check_deadline();
+    reader.read_line(lines.number(), LineWords(lines.line()));
+  }
+  return reader.take();
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,104 @@
+#include "zoneplate/formats/obj/mtl_material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/formats/import/image_file.h"
+#include "zoneplate/formats/import/model_path.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/scene/opacity_map.h"
+
+namespace zoneplate {
+namespace {
+
+float linear(float code) { return code <= 1 ? decode_srgb(std::max(0.0f, code)) : code; }
+float3 linear(float3 code) { return {linear(code.x), linear(code.y), linear(code.z)}; }
+
+TextureUse use_of(const MtlTexture& texture, int image) {
+  TextureUse use;
+  use.image = image;
+  if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = Wrap::Clamp;
+  // v_file = offset + scale × (1 - v), and ours is one less that.
+  use.scale = texture.scale;
+  use.offset = {texture.offset.x, 1 - texture.scale.y - texture.offset.y};
+  return use;
+}
+
+TextureUse load_texture(const MtlTexture& texture, const std::string& within, ModelFolder& folder) {
+  return texture.file.empty() ? TextureUse{} : use_of(texture, folder.image(within, texture.file));
+}
+
+/// A factor over an image: one that is missing, or black (as some programs write it), is white.
+float3 factor(const std::optional<float3>& color, bool has_image, float3 otherwise, const MtlMaterial& mtl,
+              const char* key, ModelFolder& folder) {
+  if (!has_image) return color ? linear(*color) : otherwise;
+  if (!color) return {1, 1, 1};
+  if (*color != float3{0, 0, 0}) return linear(*color);
+  folder.warn(
+      fmt::format("{}: material {}: {} is black over an image, taken as white", folder.budget().file(), mtl.name, key));
+  return {1, 1, 1};
+}
+
+/// Puts the opacity map into the base colour image, a new one.
+void add_opacity(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder, Material& material) {
+  if (mtl.opacity_map.file.empty()) return;
+  const int map = folder.image(within, mtl.opacity_map.file);
+  if (map < 0) return;
+  std::vector<TextureImage>& images = folder.scene().images;
+  TextureUse& base = material.base_color_texture;
+  const TexelImage* color = base.image >= 0 ? &images[static_cast<std::size_t>(base.image)].pixels : nullptr;
+  const TextureImage& mask = images[static_cast<std::size_t>(map)];
+  folder.budget().take(with_opacity_memory(color, mask.pixels));
+  TextureImage both{mask.name, with_opacity(color, mask.pixels)};
+  if (is_opaque(both.pixels)) return;
+  if (color == nullptr) base = use_of(mtl.opacity_map, 0);
+  base.image = static_cast<int>(images.size());
+  images.push_back(std::move(both));
+  material.alpha_mode = AlphaMode::Blend;
+}
+
+void warn_of_maps(const MtlMaterial& mtl, ModelFolder& folder) {
+  if (mtl.unsupported.empty()) return;
+  std::string keys;
+  for (const std::string& key : mtl.unsupported) keys += (keys.empty() ? "" : ", ") + key;
+  folder.warn(fmt::format("{}: material {}: not drawn: {}", folder.budget().file(), mtl.name, keys));
+}
+
+}  // namespace
+
+Material make_material(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder) {
+  Material m = plain_material(mtl.name);
+  m.base_color_texture = load_texture(mtl.diffuse_map, within, folder);
+  m.emissive_texture = load_texture(mtl.emissive_map, within, folder);
+  m.normal_texture = load_texture(mtl.normal_map, within, folder);
+  m.normal_scale = mtl.normal_map.strength;
+
+  const float3 base = factor(mtl.diffuse, m.base_color_texture.image >= 0, {0.8f, 0.8f, 0.8f}, mtl, "Kd", folder);
+  const float opacity = mtl.opacity.value_or(1 - mtl.transparency.value_or(0));
+  m.base_color = {base.x, base.y, base.z, std::clamp(opacity, 0.0f, 1.0f)};
+  if (m.base_color.w < 1) m.alpha_mode = AlphaMode::Blend;
+  m.emissive = factor(mtl.emissive, m.emissive_texture.image >= 0, {0, 0, 0}, mtl, "Ke", folder);
+  m.ambient = mtl.ambient ? linear(*mtl.ambient) : base;
+
+  const int illumination = mtl.illumination.value_or(2);
+  if (illumination > 1) m.specular = linear(mtl.specular.value_or(float3{0, 0, 0}));
+  m.exponent = std::clamp(mtl.exponent.value_or(32), 1.0f, 1e5f);
+  if (illumination == 0) m.model = ShadingModel::Unlit;
+  if (mtl.roughness || mtl.metallic) {
+    m.model = ShadingModel::MetallicRoughness;
+    m.roughness = std::clamp(mtl.roughness.value_or(1), 0.0f, 1.0f);
+    m.metallic = std::clamp(mtl.metallic.value_or(0), 0.0f, 1.0f);
+  }
+  add_opacity(mtl, within, folder, m);
+  warn_of_maps(mtl, folder);
+  return m;
+}
+
+}  // namespace zoneplate

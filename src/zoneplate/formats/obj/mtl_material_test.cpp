@@ -1,0 +1,185 @@
+#include "zoneplate/formats/obj/mtl_material.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "zoneplate/codec/png.h"
+#include "zoneplate/formats/obj/obj.h"
+#include "zoneplate/image/transfer.h"
+
+namespace zoneplate {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MtlScene : public testing::Test {
+ protected:
+  MtlScene() : folder_(fs::temp_directory_path() / ("zoneplate_mtl_" + std::to_string(::getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "model" / "sub dir");
+  }
+  ~MtlScene() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  /// A 2 × 1 image of the given texels.
+  void write_png(const std::string& name, Rgba8 left, Rgba8 right) const {
+    Rgba8Image image(2, 1);
+    image(0, 0) = left, image(1, 0) = right;
+    const std::vector<std::uint8_t> bytes = encode_png(image);
+    write(name, std::string(bytes.begin(), bytes.end()));
+  }
+  /// The scene of one triangle with the material `m` of the given library.
+  Scene load(const std::string& mtl, const LoadLimits& limits = {}) const {
+    write("model/m.mtl", mtl);
+    write("model/m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    return load_obj((folder_ / "model/m.obj").string(), limits);
+  }
+  std::string warnings_of(const Scene& scene) const {
+    std::string all;
+    for (std::string text : scene.warnings) {
+      const std::string prefix = folder_.string() + "/model/";
+      for (std::size_t at = text.find(prefix); at != text.npos; at = text.find(prefix)) text.erase(at, prefix.size());
+      all += text + "\n";
+    }
+    return all;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(MtlScene, ColoursAreCodes) {
+  const Material m = load("newmtl m\nKd 0.5 1 0\nKa 0.5 0.25 1\nKs 0.2 0.2 0.2\nKe 20 0 0.5\nNs 50\n").materials.at(0);
+  EXPECT_EQ(m.model, ShadingModel::BlinnPhong);
+  EXPECT_EQ(m.base_color, (float4{decode_srgb(0.5f), 1, 0, 1}));
+  EXPECT_EQ(m.ambient, (float3{decode_srgb(0.5f), decode_srgb(0.25f), 1}));
+  EXPECT_EQ(m.specular.x, decode_srgb(0.2f));
+  EXPECT_EQ(m.emissive, (float3{20, 0, decode_srgb(0.5f)}));
+  EXPECT_EQ(m.exponent, 50);
+  EXPECT_EQ(m.alpha_mode, AlphaMode::Opaque);
+  EXPECT_TRUE(m.double_sided);
+}
+
+TEST_F(MtlScene, ModelsFollowTheKeys) {
+  EXPECT_EQ(load("newmtl m\nillum 0\n").materials[0].model, ShadingModel::Unlit);
+  EXPECT_EQ(load("newmtl m\nillum 1\nKs 1 1 1\n").materials[0].specular, (float3{0, 0, 0}));
+  EXPECT_EQ(load("newmtl m\nNs 0\n").materials[0].exponent, 1);
+  const Material pbr = load("newmtl m\nPr 0.25\nPm 1\n").materials[0];
+  EXPECT_EQ(pbr.model, ShadingModel::MetallicRoughness);
+  EXPECT_EQ(pbr.roughness, 0.25f);
+  EXPECT_EQ(pbr.metallic, 1);
+  for (const char* text : {"newmtl m\nd 0.25\n", "newmtl m\nTr 0.75\n", "newmtl m\nTr 0\nd 0.25\n"}) {
+    const Material m = load(text).materials[0];
+    EXPECT_EQ(m.base_color.w, 0.25f);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Blend);
+  }
+}
+
+TEST_F(MtlScene, FindsImagesWithinTheFolder) {
+  write_png("model/sub dir/a b.png", {1, 2, 3, 255}, {4, 5, 6, 255});
+  write_png("model/100%25.png", {7, 8, 9, 255}, {4, 5, 6, 255});
+  write_png("outside.png", {7, 7, 7, 255}, {7, 7, 7, 255});
+  const auto first = [&](const std::string& file, const LoadLimits& limits = {}) {
+    const Scene scene = load("newmtl m\nmap_Kd " + file + "\n", limits);
+    return scene.images.empty() ? -1 : int{scene.images[0].pixels.as<Rgba8>()(0, 0).r};
+  };
+  EXPECT_EQ(first("sub dir\\a b.png"), 1);
+  EXPECT_EQ(first("./sub dir/a b.png"), 1);
+  EXPECT_EQ(first("100%25.png"), 7);                // a name is not an address
+  EXPECT_EQ(first("C:\\textures\\100%25.png"), 7);  // the last part, in the model's folder
+  EXPECT_EQ(first("../outside.png"), -1);
+  EXPECT_EQ(first((folder_ / "outside.png").string()), -1);
+  EXPECT_EQ(first("../outside.png", {.allowed_paths = {"/"}}), 7);
+  EXPECT_EQ(first((folder_ / "outside.png").string(), {.allowed_paths = {"/"}}), 7);
+  fs::create_symlink(folder_ / "outside.png", folder_ / "model/link.png");
+  EXPECT_EQ(first("link.png"), -1);
+  EXPECT_EQ(first("."), -1);
+}
+
+TEST_F(MtlScene, WarnsOfWhatIsMissing) {
+  write("model/bad.png", "no image");
+  const Scene scene =
+      load("newmtl m\nmap_Kd gone.png\nmap_Ke bad.png\nmap_bump b.png\nnewmtl unused\nmap_Kd never-looked-for.png\n");
+  EXPECT_EQ(scene.materials.at(0).base_color_texture.image, -1);
+  EXPECT_EQ(scene.materials[0].base_color.x, 0.8f);
+  EXPECT_EQ(warnings_of(scene),
+            "m.obj: texture gone.png: not found in the model's folder\n"
+            "m.obj: texture bad.png: is no known image, wants PNG, JPEG, WebP, HDR or EXR\n"
+            "m.obj: material m: not drawn: map_bump\n");
+  write("model/m.obj", "mtllib a.mtl b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("model/b c.mtl", "");
+  EXPECT_EQ(warnings_of(load_obj((folder_ / "model/m.obj").string())),
+            "m.obj: material library a.mtl not found in the model's folder\n"
+            "m.obj: material library b not found in the model's folder\n"
+            "m.obj: material library c.mtl not found in the model's folder\n");
+  write("model/m.obj", "mtllib b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(warnings_of(load_obj((folder_ / "model/m.obj").string())), "");
+}
+
+TEST_F(MtlScene, ImagesAreSharedScaledAndClamped) {
+  write_png("model/a.png", {1, 2, 3, 255}, {4, 5, 6, 255});
+  const Scene scene = load("newmtl m\nmap_Kd -s 2 3 -o 0.25 0.5 -clamp on a.png\nKd 0 0 0\nmap_Ke a.png\n");
+  EXPECT_EQ(scene.images.size(), 1u);
+  const Material& m = scene.materials[0];
+  EXPECT_EQ(m.base_color, (float4{1, 1, 1, 1}));
+  EXPECT_EQ(m.emissive, (float3{1, 1, 1}));
+  EXPECT_EQ(warnings_of(scene), "m.obj: material m: Kd is black over an image, taken as white\n");
+  const TextureUse& use = m.base_color_texture;
+  EXPECT_EQ(use.sampler.wrap_u, Wrap::Clamp);
+  // Where the file's (0.5, 1) goes: to (0.25 + 2 × 0.5, 0.5 + 3 × 1), whose v from the top is 1 - 3.5.
+  EXPECT_EQ(use.offset.x + use.scale.x * 0.5f, 1.25f);
+  EXPECT_EQ(use.offset.y + use.scale.y * (1 - 1), 1 - 3.5f);
+}
+
+TEST_F(MtlScene, AmbientIsKdWhereThereIsNoKa) {
+  const Material m = load("newmtl m\nKd 0.5 0 1\n").materials.at(0);
+  EXPECT_EQ(m.ambient, (float3{decode_srgb(0.5f), 0, 1}));
+  EXPECT_EQ(plain_material("").ambient, (float3{0.8f, 0.8f, 0.8f}));
+  EXPECT_EQ(load("newmtl m\nKd 0 0 0\nKa 0.5 1 0\n").materials.at(0).ambient, (float3{decode_srgb(0.5f), 1, 0}));
+}
+
+TEST_F(MtlScene, ImagesKeepTheirBitsAndTheirLight) {
+  Rgba16Image deep(2, 1);
+  deep(0, 0) = {1, 2, 3, 65535}, deep(1, 0) = {65535, 258, 0, 65535};
+  const auto text = [](const std::vector<std::uint8_t>& bytes) { return std::string(bytes.begin(), bytes.end()); };
+  write("model/deep.png", text(encode_png(deep)));
+  write("model/bright.hdr", std::string("#?RADIANCE\n\n-Y 1 +X 1\n\x80\x08") + '\0' + '\x96');
+  const Scene scene = load("newmtl m\nmap_Kd deep.png\nmap_Ke bright.hdr\n");
+  EXPECT_EQ(warnings_of(scene), "");
+  ASSERT_EQ(scene.images.size(), 2u);
+  EXPECT_EQ(scene.images[0].pixels, deep);
+  EXPECT_EQ(scene.images[1].pixels, Plane<float4>(1, 1, float4{0x1p21f, 0x1p17f, 0, 1}));
+  EXPECT_THROW(load("newmtl m\nmap_Ke bright.hdr\n", {.memory = 600}), Error);
+}
+
+TEST_F(MtlScene, ImagesThatAreTooWideAreNamed) {
+  const std::vector<std::uint8_t> bytes = encode_png(Rgba8Image(100000, 1, {1, 2, 3, 255}));
+  write("model/wide.png", std::string(bytes.begin(), bytes.end()));
+  EXPECT_EQ(warnings_of(load("newmtl m\nmap_Kd wide.png\n")),
+            "m.obj: texture wide.png: 100000 x 1 texels are drawn as 25000 x 1, at most 32768 a side\n");
+}
+
+TEST_F(MtlScene, OpacityMapsBecomeAlpha) {
+  write_png("model/color.png", {1, 2, 3, 255}, {4, 5, 6, 255});
+  write_png("model/mask.png", {255, 255, 255, 255}, {0, 0, 0, 255});
+  write_png("model/alpha.png", {9, 9, 9, 200}, {9, 9, 9, 100});
+  const auto texels = [](const Scene& scene) {
+    const Material& m = scene.materials[0];
+    const Rgba8Image& image = scene.images.at(static_cast<std::size_t>(m.base_color_texture.image)).pixels.as<Rgba8>();
+    return std::vector<Rgba8>(image.values().begin(), image.values().end());
+  };
+  const Scene masked = load("newmtl m\nmap_Kd color.png\nmap_d mask.png\n");
+  EXPECT_EQ(texels(masked), (std::vector<Rgba8>{{1, 2, 3, 255}, {4, 5, 6, 0}}));
+  EXPECT_EQ(masked.materials[0].alpha_mode, AlphaMode::Blend);
+  EXPECT_EQ(texels(load("newmtl m\nmap_d alpha.png\n")),
+            (std::vector<Rgba8>{{255, 255, 255, 200}, {255, 255, 255, 100}}));
+  // An image with alpha that no map_d names stays opaque.
+  EXPECT_EQ(load("newmtl m\nmap_Kd alpha.png\n").materials[0].alpha_mode, AlphaMode::Opaque);
+}
+
+}  // namespace
+}  // namespace zoneplate

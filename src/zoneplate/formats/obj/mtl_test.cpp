@@ -1,0 +1,101 @@
+#include "zoneplate/formats/obj/mtl.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace zoneplate {
+namespace {
+
+struct Parsed {
+  std::vector<MtlMaterial> materials;
+  std::vector<std::string> warnings;
+};
+Parsed parse(const std::string& text) {
+  Parsed p;
+  p.materials = parse_mtl(text, "a.mtl", p.warnings);
+  return p;
+}
+
+TEST(ParseMtl, ReadsColoursAndValues) {
+  const Parsed p = parse(
+      "# all keys\n\nnewmtl dark red #2\r\n\tKd 0.5 0 1\nka .25\nKs 1 1 1\nKe 20 0 0\nNs 96.5\nd 0.5\nTr 0.25\nillum "
+      "1\n"
+      "Pr 0.2\nPm 0.3\nNi 1.5\nTf 1 1 1\nnewmtl plain");
+  ASSERT_EQ(p.materials.size(), 2u);
+  const MtlMaterial& m = p.materials[0];
+  EXPECT_EQ(m.name, "dark red #2");
+  EXPECT_EQ(m.diffuse, (float3{0.5f, 0, 1}));
+  EXPECT_EQ(m.ambient, (float3{0.25f, 0.25f, 0.25f}));
+  EXPECT_EQ(m.emissive, (float3{20, 0, 0}));
+  EXPECT_EQ(m.exponent, 96.5f);
+  EXPECT_EQ(m.opacity, 0.5f);
+  EXPECT_EQ(m.transparency, 0.25f);
+  EXPECT_EQ(m.illumination, 1);
+  EXPECT_EQ(m.roughness, 0.2f);
+  EXPECT_EQ(m.metallic, 0.3f);
+  EXPECT_FALSE(p.materials[1].diffuse.has_value());
+  EXPECT_TRUE(p.warnings.empty());
+}
+
+TEST(ParseMtl, ReadsTheOptionsOfMaps) {
+  const Parsed p = parse(
+      "newmtl a\nmap_Kd -s 2 3 1 -o 0.5 -clamp on -blendu off -mm 0 1 textures\\my brick 2.png\n"
+      "map_d -imfchan m -bm 2 mask.png\nnorm -bm 0.5 n.png\nmap_Ke 7\nmap_Bump -bm 1 b.png\nmap_Pr r.png\nmap_Ka "
+      "a.png\n");
+  const MtlMaterial& m = p.materials.at(0);
+  EXPECT_EQ(m.diffuse_map.file, "textures\\my brick 2.png");
+  EXPECT_EQ(m.diffuse_map.scale, (float2{2, 3}));
+  EXPECT_EQ(m.diffuse_map.offset, (float2{0.5f, 0}));
+  EXPECT_TRUE(m.diffuse_map.clamp);
+  EXPECT_EQ(m.opacity_map.file, "mask.png");
+  EXPECT_EQ(m.normal_map.strength, 0.5f);
+  EXPECT_EQ(m.emissive_map.file, "7");
+  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"map_bump", "map_pr"}));
+  EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
+}
+
+TEST(ParseMtl, TakesTimeInProportionToALinesLength) {
+  std::string text = "newmtl a\nmap_Kd";
+  for (int i = 0; i < 100000; ++i) text += " -o 1 2 3";
+  std::vector<std::string> warnings;
+  const std::vector<MtlMaterial> found = parse_mtl(text + " x.png", "a.mtl", warnings);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].diffuse_map.file, "x.png");
+}
+
+TEST(ParseMtl, PassesOverWhatIsWrong) {
+  const Parsed p = parse("Kd 1 1 1\nnewmtl a\nKd red\nKs\nNs nan\nwhatever 3\nmap_Kd\nKd spectral x.rfl\n");
+  EXPECT_EQ(p.materials.size(), 1u);
+  EXPECT_EQ(p.warnings, (std::vector<std::string>{
+                            "a.mtl: line 1: kd before newmtl passed over", "a.mtl: line 3: kd: 'red' is not a number",
+                            "a.mtl: line 4: ks has no numbers", "a.mtl: line 5: ns: 'nan' is not a number",
+                            "a.mtl: line 6: 'whatever' is not known and passed over",
+                            "a.mtl: line 7: map_kd names no file", "a.mtl: line 8: kd: 'spectral' is not a number"}));
+  std::string many = "newmtl a\n";
+  for (int i = 0; i < 1000; ++i) many += "bad\n";
+  EXPECT_EQ(parse(many).warnings.size(), 20u);
+}
+
+TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {
+  std::vector<std::string> warnings, asked;
+  const auto wants_b = [&](const std::string& name) { return asked.push_back(name), name == "b"; };
+  const auto found = parse_mtl("newmtl a\nKd 1 0 0\nKs x\nnewmtl b\nKd 0 1 0\nnewmtl c\n", "f.mtl", warnings, wants_b);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "b");
+  EXPECT_EQ(found[0].diffuse, (float3{0, 1, 0}));
+  EXPECT_EQ(asked, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(warnings.size(), 1u);  // what is wrong in the others is told all the same
+}
+
+TEST(ParseMtl, NamesEachMapThatIsNotDrawnOnce) {
+  std::string text = "newmtl a\n";
+  for (int i = 0; i < 1000; ++i) text += "bump x\nmap_" + std::to_string(i) + " x\n";
+  std::vector<std::string> warnings;
+  const auto found = parse_mtl(text, "f.mtl", warnings);
+  EXPECT_LE(found.at(0).unsupported.size(), 16u);
+  EXPECT_EQ(std::count(found[0].unsupported.begin(), found[0].unsupported.end(), "bump"), 1);
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+/// Loads a Wavefront OBJ file with its MTL libraries (Blinn-Phong materials; PBR keys where the file has them).
+///
+/// One mesh for each material of each object: of each `o`, or of each `g` in a file without any `o`. Polygons become
+/// triangles, polylines lines; a file of nothing but vertices is a cloud of points. Missing normals are smooth within
+/// a smoothing group and flat where smoothing is off; a file that never says `s` is smooth across edges that bend by
+/// less than 50°. Vertex colours after the coordinates are sRGB codes. Materials: formats/obj/mtl_material.h.
+///
+/// Edges     a vertex that is not finite drops what uses it; what is passed over (unknown statements, free-form
+///           geometry, missing libraries, materials and images) gives a warning that names it.
+/// Exact     the same scene, to the bit, for any number of threads.
+/// Errors    Trouble::Input, one line naming file, line and cause.
+Scene load_obj(const std::string& path, const LoadLimits& limits = {});
+
+}  // namespace zoneplate

@@ -1,0 +1,148 @@
+#include "zoneplate/formats/obj/parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/large_array.h"
+#include "zoneplate/base/parallel.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+
+/// Cuts the text after line ends that no backslash continues, each part a little more than `chunk_bytes`.
+std::vector<std::string_view> cut(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    std::size_t end = std::min(chunk_bytes, text.size());
+    while (end < text.size()) {
+      end = text.find(separator, end);
+      if (end == text.npos) {
+        end = text.size();
+        break;
+      }
+      const std::size_t last = separator == '\n' ? text.find_last_not_of('\r', end - 1) : end - 1;
+      ++end;
+      if (last == text.npos || text[last] != '\\') break;
+    }
+    parts.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return parts;
+}
+
+/// What comes before each part, and the sum of all behind them.
+std::vector<ObjCounts> accumulate(const std::vector<ObjPart>& parts) {
+  std::vector<ObjCounts> before(1);
+  for (const ObjPart& part : parts) {
+    const ObjCounts &own = part.counts, sum = before.back();
+    before.push_back(
+        {sum.lines + own.lines, sum.positions + own.positions, sum.uvs + own.uvs, sum.normals + own.normals});
+  }
+  return before;
+}
+
+/// Appends a kind of what the parts say to each other, and frees it there.
+template <class V, class Member>
+void join(std::vector<ObjPart>& parts, Member member, std::uint64_t count, std::vector<V>& out) {
+  if (parts.size() == 1) return std::swap(out, parts.front().vertices.*member);
+  reserve_large(out, count);
+  for (ObjPart& part : parts) {
+    std::vector<V> own = std::move(part.vertices.*member);
+    out.insert(out.end(), own.begin(), own.end());
+  }
+}
+
+void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>& before, ImportBudget& budget,
+                 ObjFile& file) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].vertices.colors.empty()) continue;
+    if (file.colors.empty()) {
+      budget.take(file.positions.size() * sizeof(float4));
+      file.colors.assign(file.positions.size(), {1, 1, 1, 1});
+    }
+    for (const auto& [index, color] : parts[i].vertices.colors) file.colors[before[i].positions + index] = color;
+  }
+}
+
+std::uint64_t size_of(const ObjPart& part) { return part.vertices.bytes() + part.chunk.bytes(); }
+
+/// Reads the parts by themselves, and then anew those that need to know the others; gives what comes before each.
+std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, char separator, ImportBudget& budget,
+                                  const std::function<void(std::string_view)>& done, std::vector<ObjPart>& parts) {
+  std::vector<char> is_read(parts.size());
+  std::atomic<std::uint64_t> bytes = 0;
+  parallel_for(parts.size(), [&](std::size_t i) {
+    if (!budget.has_time() || bytes > budget.limits().memory) return;
+    is_read[i] = read_obj_part(texts[i], separator, parts[i]);
+    bytes += size_of(parts[i]);
+    done(texts[i]);
+  });
+  budget.check_time();
+  const std::vector<ObjCounts> before = accumulate(parts);
+  const ObjCounts& all = before.back();
+  if (std::max({all.positions, all.uvs, all.normals}) >= most_obj_items)
+    throw Error(Trouble::Input, budget.file() + ": more than 2^30 vertices");
+
+  // Whichever thread meets an error, the first line that has one is reported.
+  std::vector<std::optional<ObjLineError>> errors(parts.size());
+  parallel_for(parts.size(), [&](std::size_t i) {
+    const ObjCounts& named = parts[i].named;
+    const bool are_there = named.positions <= all.positions && named.uvs <= all.uvs && named.normals <= all.normals;
+    for (ObjTally& tally : parts[i].chunk.notes) tally.line += before[i].lines;
+    if ((is_read[i] && are_there) || !budget.has_time() || bytes > budget.limits().memory) return;
+    bytes -= size_of(parts[i]);
+    try {
+      read_obj_part(texts[i], separator, before[i], all, parts[i]);
+    } catch (ObjLineError& error) {
+      errors[i] = std::move(error);
+    }
+    bytes += size_of(parts[i]);
+    done(texts[i]);
+  });
+  budget.check_time();
+  budget.take(bytes);
+  for (const std::optional<ObjLineError>& error : errors)
+    if (error) throw Error(Trouble::Input, fmt::format("{}: line {}: {}", budget.file(), error->line, error->cause));
+  return before;
+}
+
+}  // namespace
+
+ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::function<void(std::string_view)>& done) {
+  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
+  const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
+  const std::vector<std::string_view> texts = cut(text, separator);
+  std::vector<ObjPart> parts(texts.size());
+  const std::vector<ObjCounts> before = read_parts(texts, separator, budget, done, parts);
+
+  ObjFile file;
+  std::uint64_t corners = 0;
+  for (const ObjPart& part : parts) {
+    corners += part.chunk.corners.size();
+    file.has_odd_position = file.has_odd_position || part.vertices.has_odd_position;
+    file.has_odd_normal = file.has_odd_normal || part.vertices.has_odd_normal;
+  }
+  if (corners >= 0xffffffffu) throw Error(Trouble::Input, budget.file() + ": more than 2^32 corners");
+  const ObjCounts& all = before.back();
+  const auto join_kind = [&](std::size_t i) {
+    if (i == 0) join(parts, &ObjVertices::positions, all.positions, file.positions);
+    if (i == 1) join(parts, &ObjVertices::uvs, all.uvs, file.uvs);
+    if (i == 2) join(parts, &ObjVertices::normals, all.normals, file.normals);
+  };
+  if (parts.size() > 1)
+    parallel_for(3, join_kind);
+  else
+    for (std::size_t i = 0; i < 3; ++i) join_kind(i);
+  join_colors(parts, before, budget, file);
+  for (ObjPart& part : parts) file.chunks.push_back(std::move(part.chunk));
+  return file;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,179 @@
+#include "zoneplate/formats/ply/ply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/import/model_folder.h"
+#include "zoneplate/formats/ply/mesh.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/scene/geometry/flat_normals.h"
+#include "zoneplate/scene/geometry/smooth_normals.h"
+#include "zoneplate/scene/sanitize.h"
+#include "zoneplate/scene/serial_ranges.h"
+
+namespace zoneplate {
+namespace {
+
+/// The elements that are read, of those that the file has.
+struct Found {
+  std::optional<PlyRows> vertices, faces, strips, edges;
+};
+
+Found find_elements(const PlyHeader& header, std::span<const std::uint8_t> body, ImportBudget& budget) {
+  Found found;
+  std::optional<PlyRows>* const slots[] = {&found.vertices, &found.faces, &found.strips, &found.edges};
+  constexpr const char* names[] = {"vertex", "face", "tristrips", "edge"};
+  // What comes after the last element that is read may even be missing.
+  std::size_t last = 0;
+  for (std::size_t e = 0; e < header.elements.size(); ++e)
+    if (std::find(std::begin(names), std::end(names), header.elements[e].name) != std::end(names)) last = e + 1;
+  for (std::size_t e = 0; e < last; ++e) {
+    PlyRows rows = find_ply_rows(header.elements[e], header.order, body, budget);
+    body = body.subspan(static_cast<std::size_t>(rows.size));
+    for (std::size_t i = 0; i < std::size(names); ++i)
+      if (header.elements[e].name == names[i] && !*slots[i]) *slots[i] = std::move(rows);
+  }
+  if (!found.vertices) throw Error(Trouble::Input, budget.file() + ": has no element vertex");
+  return found;
+}
+
+template <class V>
+std::vector<V> spread(const std::vector<V>& values, const std::vector<std::uint32_t>& index) {
+  std::vector<V> out(values.empty() ? 0 : index.size());
+  parallel_ranges(out.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) out[i] = values[index[i]];
+  });
+  return out;
+}
+
+/// Gives each corner a vertex of its own, with what its face says of it.
+void set_corners(Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
+  budget.take(mesh.index.size() * (2 * sizeof(float3) + sizeof(float2) + sizeof(float4)));
+  mesh.position = spread(mesh.position, mesh.index);
+  mesh.normal = spread(mesh.normal, mesh.index);
+  mesh.uv0 = faces.corner_uv.empty() ? spread(mesh.uv0, mesh.index) : std::move(faces.corner_uv);
+  mesh.color = faces.corner_color.empty() ? spread(mesh.color, mesh.index) : std::move(faces.corner_color);
+  std::iota(mesh.index.begin(), mesh.index.end(), 0u);
+}
+
+/// Makes the normals that are missing: all, or those that the file leaves zero.
+void complete_normals(Mesh& mesh, ImportBudget& budget) {
+  if (mesh.topology != Topology::Triangles) {
+    for (float3& n : mesh.normal) n = normalize(n, {0, 1, 0});
+    return;
+  }
+  if (mesh.normal.empty()) {
+    // Sums by vertex; at most every corner by its vertex, and a copy of that.
+    budget.take(mesh.position.size() * 28 + mesh.index.size() * (sizeof(float3) + 2 * sizeof(std::uint32_t) + 48));
+    make_smooth_normals(mesh);
+    return;
+  }
+  if (std::find(mesh.normal.begin(), mesh.normal.end(), float3{}) == mesh.normal.end()) return;
+  std::vector<float3> sum(mesh.normal.size());
+  serial_ranges(mesh.primitives(), [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t* i = &mesh.index[3 * begin]; i != mesh.index.data() + 3 * end; i += 3) {
+      const float3 n = flat_normal(mesh.position[i[0]], mesh.position[i[1]], mesh.position[i[2]]);
+      for (std::size_t c = 0; c < 3; ++c) sum[i[c]] += n;
+    }
+  });
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (mesh.normal[i] == float3{}) mesh.normal[i] = normalize(sum[i], {0, 1, 0});
+}
+
+/// The vertices, and beside them the triangles if they are plain: of either, finding the memory takes longest.
+void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
+  const bool are_plain = found.faces && are_plain_triangles(*found.faces);
+  const std::uint64_t bytes = are_plain ? found.faces->count() * 3 * sizeof(std::uint32_t) : 0;
+  budget.take(bytes);
+  parallel_for(2, [&](std::size_t i) {
+    if (i == 0) mesh = read_ply_vertices(*found.vertices, budget);
+    if (i == 1 && are_plain) faces.index = read_plain_triangles(*found.faces, found.vertices->count());
+  });
+  if (faces.index.empty()) budget.give_back(bytes);
+  budget.check_time();
+}
+
+/// The primitives that the elements make, with what is per corner left in `faces`.
+void choose_primitives(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
+  if (found.faces && faces.index.empty()) faces = read_ply_faces(*found.faces, mesh, budget);
+  if (faces.index.empty() && found.strips) faces.index = read_ply_strips(*found.strips, mesh, budget);
+  mesh.index = std::move(faces.index);
+  if (!mesh.index.empty() || faces.too_short > 0) return;
+  if (found.edges) mesh.index = read_ply_edges(*found.edges, mesh, budget);
+  mesh.topology = mesh.index.empty() ? Topology::Points : Topology::Lines;
+  if (mesh.topology == Topology::Lines) return;
+  budget.take(mesh.position.size() * sizeof(std::uint32_t));
+  mesh.index.resize(mesh.position.size());
+  std::iota(mesh.index.begin(), mesh.index.end(), 0u);
+}
+
+void add_material(const PlyHeader& header, const std::string& folder, const Mesh& mesh, Scene& scene,
+                  ImportBudget& budget) {
+  scene.materials.push_back(plain_material("default"));
+  Material& material = scene.materials.back();
+  if (!header.texture.empty() && !mesh.uv0.empty()) {
+    ModelFolder files(folder, budget, scene);
+    material.base_color_texture.image = files.image("", header.texture);
+  }
+  if (!mesh.color.empty() || material.base_color_texture.image >= 0) material.base_color = {1, 1, 1, 1};
+  const bool is_clear = std::any_of(mesh.color.begin(), mesh.color.end(), [](float4 c) { return c.w < 1; });
+  if (is_clear) material.alpha_mode = AlphaMode::Blend;
+}
+
+void warn(Scene& scene, const ImportBudget& budget, std::uint64_t count, const char* text) {
+  if (count > 0) scene.warnings.push_back(fmt::format("{}: {} {}", budget.file(), count, text));
+}
+
+}  // namespace
+
+Scene load_ply(const std::string& path, const LoadLimits& limits) {
+  const bool is_stream = path == "-";
+  const FileBytes file(path, limits.memory);
+  ImportBudget budget(is_stream ? "standard input" : path, limits);
+  PlyHeader header = parse_ply_header(file.bytes(), budget.file());
+  std::span<const std::uint8_t> body = file.bytes().subspan(header.size);
+  std::vector<std::uint8_t> numbers;
+  if (header.order == PlyOrder::Ascii) {
+    const auto* const text = reinterpret_cast<const char*>(file.bytes().data());
+    const auto lines = static_cast<std::size_t>(std::count(text, text + header.size, '\n'));
+    numbers = parse_ply_text({text + header.size, body.size()}, lines, header, budget);
+    body = numbers;
+  }
+
+  Scene scene;
+  const Found found = find_elements(header, body, budget);
+  Mesh mesh;
+  PlyFaces faces;
+  read_arrays(found, mesh, faces, budget);
+  choose_primitives(found, mesh, faces, budget);
+  warn(scene, budget, faces.too_short, "faces have fewer than 3 corners and are dropped");
+  warn(scene, budget, faces.too_concave, "faces have too many corners to be cut rightly");
+  const std::size_t primitives = mesh.primitives();
+  if (!faces.corner_uv.empty() || !faces.corner_color.empty()) {
+    if (mesh.normal.empty()) drop_not_finite(mesh), complete_normals(mesh, budget);
+    if (mesh.primitives() == primitives) set_corners(mesh, faces, budget);
+  }
+  drop_not_finite(mesh);
+  warn(scene, budget, primitives - mesh.primitives(), "primitives have a vertex that is not finite and are dropped");
+  if (mesh.index.empty())
+    throw Error(Trouble::Input, scene.warnings.empty() ? budget.file() + ": holds no vertices"
+                                                       : scene.warnings.front() + "; nothing is left to draw");
+  complete_normals(mesh, budget);
+
+  const std::filesystem::path place(path);
+  mesh.name = is_stream ? "object" : place.stem().string();
+  add_material(header, is_stream ? "." : place.parent_path().string(), mesh, scene, budget);
+  scene.objects.push_back(mesh.name);
+  scene.instances.push_back({0, 0, {}});
+  scene.meshes.push_back(std::move(mesh));
+  return scene;
+}
+
+}  // namespace zoneplate

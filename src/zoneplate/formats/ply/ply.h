@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+/// Loads a PLY file: ASCII, or binary of either byte order; properties of any type in any order.
+///
+/// Faces of any number of corners become triangles, strips too; edges become lines where there are no faces, and a file
+/// of nothing but vertices is a cloud of points. Read are normals, colours (of vertices, or of faces), texture
+/// coordinates (of vertices, or MeshLab's of faces) and MeshLab's comment that names a texture. Missing normals are
+/// smooth across edges that bend by less than 50° (scene/geometry/smooth_normals.h). All surfaces are double-sided.
+///
+/// Edges     what uses a vertex that is not finite is dropped, with a warning; other elements and properties are passed
+///           over.
+/// Exact     the same scene, to the bit, for any number of threads.
+/// Errors    Trouble::Input, one line naming file, place and cause.
+Scene load_ply(const std::string& path, const LoadLimits& limits = {});
+
+}  // namespace zoneplate

@@ -1,0 +1,292 @@
+#include "zoneplate/formats/ply/ply.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/import/damage_for_test.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/math/random.h"
+#include "zoneplate/scene/geometry/smooth_normals.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Scene load(const Bytes& bytes) {
+  const MemoryFile file;
+  return load_ply(file.write(bytes));
+}
+Scene load(const std::string& text) { return load(Bytes(text.begin(), text.end())); }
+
+std::string refusal(const std::string& text) {
+  const MemoryFile file;
+  const std::string path = file.write(Bytes(text.begin(), text.end()));
+  const std::string error = load_soundly(load_ply, path);
+  EXPECT_TRUE(error.starts_with(path + ": ")) << error;
+  return error.substr(std::min(error.size(), path.size() + 2));
+}
+
+const std::string ascii = "ply\nformat ascii 1.0\n";
+const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+
+TEST(Ply, AsciiQuadWithColorsAndUv) {
+  const Scene s = load(ascii + "comment by hand\nelement vertex 4\n" + xyz +
+                       "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\n"
+                       "property uchar blue\nproperty uchar alpha\nelement face 1\n"
+                       "property list uchar int vertex_indices\nend_header\n"
+                       "0 0 0 0 0 255 0 0 255\n1 0 0 1 0 0 128 0 255\n1 1 0 1 1 0 0 0 51\n0 1 0 0 0.75 9 9 9 255\n"
+                       "4 0 1 2 3\n");
+  ASSERT_EQ(s.meshes.size(), 1u);
+  const Mesh& m = s.meshes[0];
+  EXPECT_EQ(m.index, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(m.uv0[3], (float2{0, 0.25f}));
+  EXPECT_EQ(m.color[0], (float4{1, 0, 0, 1}));
+  EXPECT_EQ(m.color[1], (float4{0, decode_srgb8(128), 0, 1}));
+  EXPECT_EQ(m.color[2].w, 0.2f);
+  EXPECT_EQ(m.normal[2], (float3{0, 0, 1}));
+  EXPECT_EQ(s.materials[0].alpha_mode, AlphaMode::Blend);
+}
+
+/// The same values in every type and order.
+template <class T>
+Bytes pyramid(const char* type, bool is_big) {
+  std::string head = std::string("ply\nformat binary_") + (is_big ? "big" : "little") +
+                     "_endian 1.0\nelement vertex 4\nproperty uchar skipped\n";
+  for (const char* axis : {"z", "x", "y"}) head += std::string("property ") + type + " " + axis + "\n";
+  head += std::string("element face 2\nproperty list ") + "uchar uint vertex_index\nend_header\n";
+  Bytes out(head.begin(), head.end());
+  const auto add = [&](auto value) {
+    std::uint8_t raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    for (std::size_t i = 0; i < sizeof value; ++i) out.push_back(raw[is_big ? sizeof value - 1 - i : i]);
+  };
+  for (int v = 0; v < 4; ++v) {
+    add(std::uint8_t{77});
+    for (int c = 0; c < 3; ++c) add(static_cast<T>((v * 3 + c * 5) % 7));
+  }
+  add(std::uint8_t{4});
+  for (std::uint32_t i : {0u, 1u, 2u, 3u}) add(i);
+  add(std::uint8_t{3});
+  for (std::uint32_t i : {3u, 2u, 1u}) add(i);
+  return out;
+}
+
+template <class T>
+void expect_pyramid(const char* type) {
+  for (const bool is_big : {false, true}) {
+    const Scene s = load(pyramid<T>(type, is_big));
+    const Mesh& m = s.meshes[0];
+    EXPECT_EQ(m.primitives(), 3u) << type;
+    for (std::size_t k : {0u, 1u, 2u})
+      EXPECT_EQ(m.position[k], (float3{static_cast<float>((k * 3 + 5) % 7), static_cast<float>((k * 3 + 10) % 7),
+                                       static_cast<float>(k * 3 % 7)}))
+          << type;
+  }
+}
+
+TEST(Ply, EveryTypeInEveryByteOrder) {
+  expect_pyramid<std::int8_t>("char"), expect_pyramid<std::uint8_t>("uint8"), expect_pyramid<std::int16_t>("short");
+  expect_pyramid<std::uint16_t>("uint16"), expect_pyramid<std::int32_t>("int"), expect_pyramid<std::uint32_t>("uint32");
+  expect_pyramid<float>("float32"), expect_pyramid<double>("double");
+}
+
+TEST(Ply, PlainTrianglesAndListsOfAnyLengthAgreeForAnyNumberOfThreads) {
+  // A strip of squares, as triangles alike (which is the fast way) and with one pentagon at the end (which is not).
+  const int n = 20000;
+  for (const bool has_pentagon : {false, true}) {
+    std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(n) + "\n" + xyz +
+                       "element face " + std::to_string(n - 2 + (has_pentagon ? 1 : 0)) +
+                       "\nproperty list uchar int vertex_indices\nend_header\n";
+    Bytes bytes(head.begin(), head.end());
+    const auto add = [&](auto value) {
+      const auto* raw = reinterpret_cast<const std::uint8_t*>(&value);
+      bytes.insert(bytes.end(), raw, raw + sizeof value);
+    };
+    for (int i = 0; i < n; ++i) add(static_cast<float>(i / 2)), add(static_cast<float>(i % 2)), add(0.0f);
+    for (int i = 0; i + 2 < n; ++i) {
+      add(std::uint8_t{3});
+      for (const int k : {i, i + 1 + i % 2, i + 2 - i % 2}) add(k);
+    }
+    if (has_pentagon) {
+      add(std::uint8_t{5});
+      for (int k : {0, 2, 4, 3, 1}) add(k);
+    }
+    Scene one, four;
+    with_threads(1, [&] { one = load(bytes); });
+    with_threads(4, [&] { four = load(bytes); });
+    EXPECT_EQ(one.meshes[0].primitives(), static_cast<std::size_t>(n - 2 + (has_pentagon ? 3 : 0)));
+    EXPECT_EQ(one.meshes[0].index[3 * 777], 777u);
+    EXPECT_EQ(one.meshes[0].index, four.meshes[0].index);
+    EXPECT_EQ(one.meshes[0].position, four.meshes[0].position);
+    EXPECT_EQ(one.meshes[0].normal, four.meshes[0].normal);
+  }
+}
+
+TEST(Ply, PointsLinesAndStrips) {
+  const std::string vertices = "element vertex 4\n" + xyz;
+  const std::string body = "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const Scene points = load(ascii + vertices + body);
+  EXPECT_EQ(points.meshes[0].topology, Topology::Points);
+  EXPECT_EQ(points.meshes[0].primitives(), 4u);
+  const Scene lines =
+      load(ascii + vertices + "element edge 2\nproperty int vertex1\nproperty int vertex2\n" + body + "0 1\n3 2\n");
+  EXPECT_EQ(lines.meshes[0].topology, Topology::Lines);
+  EXPECT_EQ(lines.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 3, 2}));
+  const Scene strips = load(ascii + vertices + "element tristrips 1\nproperty list int int vertex_indices\n" + body +
+                            "8 0 1 2 3 -1 0 2 1\n");
+  std::vector<float3> corners;
+  for (const std::uint32_t k : strips.meshes[0].index) corners.push_back(strips.meshes[0].position[k]);
+  constexpr float3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{1, 1, 0};
+  EXPECT_EQ(corners, (std::vector<float3>{a, b, c, c, b, d, a, c, b}));
+}
+
+TEST(Ply, FacesMayHaveTheirOwnUvColorAndTexture) {
+  const TestFolder folder;
+  folder.write("a b.png", encode_png(Rgba8Image(2, 2, {1, 2, 3, 255})));
+  const std::string text =
+      ascii + "comment TextureFile  a b.png\nelement vertex 3\n" + xyz +
+      "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1 255 0 0\n3 0 1 2 6 0.5 0.5 1 1 0 0 0 0 255\n";
+  const Scene s = load_ply(folder.write("model.ply", text));
+  const Mesh& m = s.meshes[0];
+  ASSERT_EQ(m.position.size(), 6u);
+  EXPECT_EQ(m.uv0[0], (float2{0, 1}));
+  EXPECT_EQ(m.uv0[3], (float2{0.5f, 0.5f}));
+  EXPECT_EQ(m.color[0], (float4{1, 0, 0, 1}));
+  EXPECT_EQ(m.color[5], (float4{0, 0, 1, 1}));
+  EXPECT_EQ(s.materials[0].base_color_texture.image, 0);
+  EXPECT_EQ(s.images[0].name, "a b.png");
+}
+
+TEST(Ply, WhatIsNotFiniteIsDropped) {
+  const Scene s = load(ascii + "element vertex 4\n" + xyz +
+                       "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                       "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n3 0 1 2\n3 0 1 3\n");
+  EXPECT_EQ(s.meshes[0].primitives(), 1u);
+  EXPECT_EQ(s.warnings.size(), 1u);
+}
+
+TEST(Ply, Refusals) {
+  EXPECT_EQ(refusal("plyx\n"), "line 1: does not begin with 'ply'");
+  EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "line 2: version '2.0', wants 1.0");
+  EXPECT_EQ(refusal(ascii + "element vertex many\n"), "line 3: element vertex: 'many' is not a number of elements");
+  EXPECT_EQ(refusal(ascii + "property float x\n"), "line 3: a property before the first element");
+  EXPECT_EQ(refusal(ascii + "element vertex 1\nproperty real x\n"), "line 4: property: 'real' is not a type");
+  EXPECT_EQ(refusal(ascii + "element vertex 1\n"), "line 3: the header has no end_header");
+  EXPECT_EQ(refusal(ascii + "end_header\n"), "has no element vertex");
+  EXPECT_EQ(refusal(ascii + "element vertex 1\nproperty float x\nend_header\n1\n"),
+            "element vertex: has no x, y and z");
+  EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 2\n"),
+            "element vertex: the file ends in row 0 of 1");
+  EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 two 3\n"), "line 8: 'two' is not a number");
+  EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz +
+                    "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 0\n3 0 0 1\n"),
+            "face 1: uses vertex 1, there are 1");
+}
+
+/// The normals of a mesh's corners, in the order of its indices.
+std::vector<float3> corner_normals(const Mesh& m) {
+  std::vector<float3> out;
+  for (const std::uint32_t i : m.index) out.push_back(m.normal[i]);
+  return out;
+}
+
+TEST(SmoothNormals, AnEdgeOf90DegreesStaysAndOneOf20DegreesGoes) {
+  // Two squares that share an edge on the y axis, the second bent by the angle.
+  for (const float degrees : {20.0f, 90.0f}) {
+    const float c = std::cos(degrees * 0.017453292f), s = std::sin(degrees * 0.017453292f);
+    Mesh m;
+    m.position = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {c, 0, -s}, {c, 1, -s}};
+    m.index = {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2};
+    make_smooth_normals(m);
+    const std::vector<float3> n = corner_normals(m);
+    EXPECT_EQ(m.position.size(), degrees > 50 ? 8u : 6u);
+    EXPECT_NEAR(dot(n[1], n[6]), degrees > 50 ? 0 : 1, 1e-6f);
+    EXPECT_EQ(n[0], (float3{0, 0, 1}));
+    for (const float3 v : n) EXPECT_NEAR(length(v), 1, 1e-6f);
+  }
+}
+
+/// Rolling land with a rough part, 60 × 60 squares, in which every triangle is somewhere in the list.
+Mesh rough_land() {
+  constexpr std::uint32_t n = 60;
+  Mesh m;
+  for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
+    const std::uint32_t x = i % (n + 1), z = i / (n + 1);
+    const float rough = x > 20 && x < 40 ? 1.5f : 0.1f;
+    m.position.push_back({static_cast<float>(x), rough * unit_float(hash(i)), static_cast<float>(z)});
+  }
+  for (std::uint32_t k = 0; k < n * n; ++k) {
+    const std::uint32_t square = k * 1009 % (n * n), a = square / n * (n + 1) + square % n;
+    m.index.insert(m.index.end(), {a, a + n + 1, a + 1, a + 1, a + n + 1, a + n + 2});
+  }
+  return m;
+}
+
+/// The normals of all corners by their definition.
+std::vector<float3> defined_normals(const Mesh& m) {
+  std::vector<std::vector<std::size_t>> about(m.position.size());
+  for (std::size_t k = 0; k < m.index.size(); ++k) about[m.index[k]].push_back(k);
+  const auto at = [&](std::size_t corner, std::size_t step) {
+    return m.position[m.index[corner / 3 * 3 + (corner + step) % 3]];
+  };
+  const auto area = [&](std::size_t corner) {
+    const std::size_t first = corner / 3 * 3;
+    return cross(at(first, 1) - at(first, 0), at(first, 2) - at(first, 0));
+  };
+  std::vector<float3> out;
+  for (std::size_t k = 0; k < m.index.size(); ++k) {
+    const float3 own = normalize(area(k));
+    float3 sum;
+    for (const std::size_t c : about[m.index[k]]) {
+      const float3 p = m.position[m.index[c]];
+      float3 ends[2];
+      for (std::size_t j = 0, e = 0; j < 3; ++j)
+        if (c / 3 * 3 + j != c) ends[e++] = m.position[m.index[c / 3 * 3 + j]] - p;
+      const float3 normal = area(c);
+      if (dot(normalize(normal), own) > 0.64278761f)
+        sum += normal * (1 / (dot(ends[0], ends[0]) * dot(ends[1], ends[1])));
+    }
+    out.push_back(normalize(sum));
+  }
+  return out;
+}
+
+TEST(SmoothNormals, AreTheirDefinitionForAnyNumberOfThreads) {
+  const Mesh land = rough_land();
+  const std::vector<float3> wanted = defined_normals(land);
+  std::vector<float3> first;
+  for (const int threads : {1, 2, 5}) {
+    Mesh m = land;
+    with_threads(threads, [&] { make_smooth_normals(m); });
+    EXPECT_GT(m.position.size(), land.position.size() + 500);
+    const std::vector<float3> found = corner_normals(m);
+    if (first.empty()) first = found;
+    ASSERT_EQ(found, first) << threads;
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_GT(dot(found[i], wanted[i]), 0.99999f) << i;
+  }
+}
+
+TEST(SmoothNormals, AreThoseOfTheSphereWhoseVerticesTheyAre) {
+  // An octahedron with irregular points around its top: the weights make the normal exact whatever the triangles.
+  Mesh m;
+  m.position = {{0, 1, 0}};
+  const float tilt[] = {0.2f, 0.5f, 0.3f, 0.6f, 0.4f};
+  for (int i = 0; i < 5; ++i) {
+    const float a = 1.1f * static_cast<float>(i) + 0.3f * tilt[i];
+    m.position.push_back({std::sin(tilt[i]) * std::cos(a), std::cos(tilt[i]), -std::sin(tilt[i]) * std::sin(a)});
+  }
+  for (std::uint32_t i = 0; i < 5; ++i) m.index.insert(m.index.end(), {0, 1 + i, 1 + (i + 1) % 5});
+  make_smooth_normals(m);
+  EXPECT_NEAR(m.normal[0].y, 1, 1e-6f);
+}
+
+}  // namespace
+}  // namespace zoneplate

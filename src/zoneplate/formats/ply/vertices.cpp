@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/large_array.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/ply/mesh.h"
+#include "zoneplate/image/transfer.h"
+
+namespace zoneplate {
+namespace {
+
+using Names = std::initializer_list<std::string_view>;
+
+/// The property of any of the names that is no list.
+std::optional<std::size_t> find(const PlyElement& element, Names names) {
+  for (const std::string_view name : names)
+    for (std::size_t i = 0; i < element.properties.size(); ++i)
+      if (element.properties[i].name == name && !element.properties[i].is_list) return i;
+  return std::nullopt;
+}
+
+/// Properties that make one attribute; it is there if all of them are.
+template <std::size_t n>
+std::optional<std::array<std::size_t, n>> find_all(const PlyElement& element, const std::array<Names, n>& names) {
+  std::array<std::size_t, n> out{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto found = find(element, names[i]);
+    if (!found) return std::nullopt;
+    out[i] = *found;
+  }
+  return out;
+}
+
+/// Fills an attribute block by block from one property for each of its components.
+template <class V, std::size_t n>
+void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& properties, std::vector<V>& out) {
+  static_assert(sizeof(V) == n * sizeof(float));
+  if (const std::uint8_t* const first = floats_in_a_row(rows, properties)) {
+    parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) std::memcpy(&out[i], first + i * rows.stride, sizeof(V));
+    });
+    return;
+  }
+  parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = 0; c < n; ++c)
+      read_ply_column(rows, begin, end, properties[c], reinterpret_cast<float*>(&out[begin]) + c, n);
+  });
+}
+
+/// Makes linear colours of what the file has for them.
+void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& properties, bool has_alpha,
+                   std::vector<float4>& colors) {
+  std::array<float, 4> one{};
+  for (std::size_t c = 0; c < 4; ++c) one[c] = static_cast<float>(one_of(element.properties[properties[c]].stated));
+  std::array<float, 256> bytes{};
+  for (std::size_t i = 0; i < 256; ++i) bytes[i] = decode_srgb8(static_cast<std::uint8_t>(i));
+  const bool are_bytes = one[0] == 255 && one[1] == 255 && one[2] == 255;
+  const auto linear = [&](float code, float whole) {
+    if (!(code > 0)) return 0.0f;
+    return are_bytes ? bytes[static_cast<std::size_t>(std::min(code, 255.0f))] : decode_srgb(code / whole);
+  };
+  parallel_ranges(colors.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const float4 c = colors[i];
+      const float alpha = c.w / one[3];
+      colors[i] = {linear(c.x, one[0]), linear(c.y, one[1]), linear(c.z, one[2]),
+                   !has_alpha  ? 1.0f
+                   : alpha > 0 ? std::min(alpha, 1.0f)
+                               : 0.0f};
+    }
+  });
+}
+
+/// Unit normals; zero where the file's has no direction.
+void normalize_all(std::vector<float3>& normals) {
+  parallel_ranges(normals.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const float3 n = normals[i];
+      const double x = n.x, y = n.y, z = n.z, length = std::sqrt(x * x + y * y + z * z);
+      normals[i] =
+          length > 0 && std::isfinite(length)
+              ? float3{static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)}
+              : float3{0, 0, 0};
+    }
+  });
+}
+
+}  // namespace
+
+Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
+  const PlyElement& e = *rows.element;
+  const auto position = find_all<3>(e, {Names{"x"}, {"y"}, {"z"}});
+  if (!position) throw Error(Trouble::Input, budget.file() + ": element vertex: has no x, y and z");
+  if (e.count >= 0xffffffffu) throw Error(Trouble::Input, budget.file() + ": more than 2^32 vertices");
+  const auto normal = find_all<3>(e, {Names{"nx"}, {"ny"}, {"nz"}});
+  const auto uv = find_all<2>(
+      e, {Names{"s", "u", "texture_u", "texture_s", "texcoord_u"}, {"t", "v", "texture_v", "texture_t", "texcoord_v"}});
+  const auto color = find_all<3>(
+      e, {Names{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}});
+  const auto alpha = find(e, {"alpha", "a", "diffuse_alpha"});
+
+  const std::size_t n = rows.count();
+  budget.take(
+      n * (sizeof(float3) + (normal ? sizeof(float3) : 0) + (uv ? sizeof(float2) : 0) + (color ? sizeof(float4) : 0)));
+  Mesh mesh;
+  parallel_for(4, [&](std::size_t i) {
+    const auto make = [n](auto& values) { reserve_large(values, n), values.resize(n); };
+    if (i == 0) make(mesh.position);
+    if (i == 1 && normal) make(mesh.normal);
+    if (i == 2 && color) make(mesh.color);
+    if (i == 3 && uv) make(mesh.uv0);
+  });
+  read_columns(rows, *position, mesh.position);
+  if (normal) read_columns(rows, *normal, mesh.normal), normalize_all(mesh.normal);
+  if (uv) read_columns(rows, *uv, mesh.uv0);
+  for (float2& t : mesh.uv0) t.y = 1 - t.y;
+  if (color) {
+    const std::array<std::size_t, 4> all{(*color)[0], (*color)[1], (*color)[2], alpha.value_or((*color)[0])};
+    read_columns(rows, all, mesh.color);
+    decode_colors(e, all, alpha.has_value(), mesh.color);
+  }
+  return mesh;
+}
+
+}  // namespace zoneplate

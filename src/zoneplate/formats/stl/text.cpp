@@ -1,0 +1,188 @@
+#include "zoneplate/formats/stl/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <utility>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/import/text_scan.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+
+bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
+
+/// Compares without case; `word` is in lower case.
+bool is_word(std::string_view text, std::string_view word) {
+  return text.size() == word.size() && std::equal(text.begin(), text.end(), word.begin(), [](char a, char b) {
+           return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+         });
+}
+
+/// Whether the word that begins at `at` is "facet".
+bool is_facet(std::string_view text, std::size_t at) {
+  return is_word(text.substr(at, 5), "facet") && at + 5 < text.size() && is_space(text[at + 5]);
+}
+
+/// Cuts the text before lines that begin a facet, each part a little more than `chunk_bytes`.
+std::vector<std::string_view> cut(std::string_view text) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    std::size_t end = std::min(chunk_bytes, text.size());
+    while (end < text.size()) {
+      end = std::min(text.find_first_of("\r\n", end), text.size());
+      std::size_t word = end;
+      while (word < text.size() && is_space(text[word])) ++word;
+      if (is_facet(text, word)) break;
+      end = word;
+    }
+    parts.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return parts;
+}
+
+/// A cause of refusal and where it stands; thrown within a part only.
+struct TextError {
+  const char* at;
+  std::string cause;
+};
+
+/// Adds a solid, in place of one before it that has no loops.
+void add_solid(StlText& text, StlText::Solid solid) {
+  if (!text.solids.empty() && text.solids.back().before == solid.before)
+    text.solids.back() = std::move(solid);
+  else
+    text.solids.push_back(std::move(solid));
+}
+
+/// Reads one part of the text, as a text of its own.
+class PartReader {
+ public:
+  explicit PartReader(std::string_view part) : at_(part.data()), end_(part.data() + part.size()) {}
+
+  StlText read() {
+    constexpr std::uint64_t statements_per_check = 4096;
+    for (std::uint64_t i = 1; read_statement(); ++i)
+      if (i % statements_per_check == 0) check_deadline();
+    end_loop();
+    return std::move(out_);
+  }
+
+ private:
+  std::string_view next() {
+    while (at_ != end_ && is_space(*at_)) ++at_;
+    const char* const begin = at_;
+    while (at_ != end_ && !is_space(*at_)) ++at_;
+    return {begin, static_cast<std::size_t>(at_ - begin)};
+  }
+
+  std::string_view rest_of_line() {
+    const char* begin = at_;
+    while (at_ != end_ && *at_ != '\n' && *at_ != '\r') ++at_;
+    const char* last = at_;
+    while (begin != last && is_space(*begin)) ++begin;
+    while (last != begin && is_space(last[-1])) --last;
+    return {begin, static_cast<std::size_t>(last - begin)};
+  }
+
+  float number() {
+    const std::string_view word = next();
+    const std::optional<float> value = find_number(word);
+    if (!value) throw TextError{word.data(), fmt::format("'{}' is not a number", word.substr(0, 40))};
+    return *value;
+  }
+
+  float3 triple() {
+    const float x = number(), y = number();
+    return {x, y, number()};
+  }
+
+  void end_loop() {
+    if (out_.vertices.size() > begin_) out_.loops.push_back(begin_);
+    begin_ = out_.vertices.size();
+  }
+
+  bool read_statement() {
+    const std::string_view word = next();
+    if (word.empty()) return false;
+    if (is_word(word, "vertex")) {
+      out_.vertices.push_back(triple());
+    } else if (is_word(word, "normal")) {
+      triple();
+    } else if (is_word(word, "solid")) {
+      end_loop();
+      add_solid(out_, {out_.loops.size(), std::string(rest_of_line().substr(0, 200))});
+    } else if (is_word(word, "endsolid")) {
+      rest_of_line();
+    } else if (is_word(word, "endloop") || is_word(word, "endfacet") || is_word(word, "facet")) {
+      end_loop();
+    } else if (!is_word(word, "outer") && !is_word(word, "loop")) {
+      throw TextError{word.data(), fmt::format("'{}' is not a word of STL", word.substr(0, 40))};
+    }
+    return true;
+  }
+
+  const char* at_;
+  const char* end_;
+  std::uint64_t begin_ = 0;  ///< of the loop that is open
+  StlText out_;
+};
+
+StlText join(std::vector<StlText>& parts, ImportBudget& budget) {
+  std::uint64_t vertices = 0, loops = 0;
+  for (const StlText& part : parts) vertices += part.vertices.size(), loops += part.loops.size();
+  budget.take(vertices * sizeof(float3) + loops * sizeof(std::uint64_t));
+  StlText out;
+  out.vertices.reserve(vertices);
+  out.loops.reserve(loops + 1);
+  for (StlText& part : parts) {
+    for (StlText::Solid& s : part.solids) add_solid(out, {out.loops.size() + s.before, std::move(s.name)});
+    for (const std::uint64_t l : part.loops) out.loops.push_back(out.vertices.size() + l);
+    out.vertices.insert(out.vertices.end(), part.vertices.begin(), part.vertices.end());
+    part = {};
+  }
+  out.loops.push_back(out.vertices.size());
+  return out;
+}
+
+}  // namespace
+
+StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
+  const std::vector<std::string_view> cuts = cut(text);
+  std::vector<StlText> parts(cuts.size());
+  std::vector<std::optional<TextError>> errors(cuts.size());
+  // A vertex takes nine characters at least, and 40 in most files.
+  budget.take(text.size() / 9 * sizeof(float3));
+  // Each solid becomes a mesh, whose name is kept as the object's too.
+  constexpr std::size_t most_name = 200;
+  constexpr std::size_t solid_bytes =
+      2 * (sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance) + most_name);
+  std::atomic<std::uint64_t> solids = 0;
+  parallel_for(cuts.size(), [&](std::size_t i) {
+    if (!budget.has_time() || solids * solid_bytes > budget.memory_left()) return;
+    try {
+      parts[i] = PartReader(cuts[i]).read();
+    } catch (TextError& error) {
+      errors[i] = std::move(error);
+    }
+    solids += parts[i].solids.size();
+  });
+  budget.check_time();
+  budget.take(solids * solid_bytes);
+  for (const std::optional<TextError>& error : errors) {
+    if (!error) continue;
+    const auto line = 1 + std::count(text.data(), error->at, '\n');
+    throw Error(Trouble::Input, fmt::format("{}: line {}: {}", budget.file(), line, error->cause));
+  }
+  return join(parts, budget);
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,214 @@
+// FLIP: differences as a viewer sees them who flips between two pictures, from a stated distance.
+//
+// Each picture is blurred as the eye blurs it at that distance, colours are compared in a uniform space, and edges
+// and points that one picture has and the other lacks raise the error.
+//
+// Weak below a pixel: at the usual 67 pixels per degree the eye's blur hides much of what antialiasing methods differ
+// in; judge those at 20 to 30 pixels per degree (flip:ppd=25) too.
+#include "zoneplate/metrics/flip/flip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/metrics/flip/color.h"
+#include "zoneplate/metrics/flip/filters.h"
+#include "zoneplate/metrics/flip/flip_kernels.h"
+#include "zoneplate/metrics/power.h"
+#include "zoneplate/metrics/rows.h"
+
+namespace zoneplate {
+namespace scalar {
+namespace {
+
+void weighted_sums(const double* from, std::size_t step, const double* taps, std::size_t count, double* to,
+                   std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += taps[k] * from[k * step + i];
+    to[i] = sum;
+  }
+}
+
+}  // namespace
+
+const FlipKernels flip_kernels = {.weighted_sums = weighted_sums};
+
+}  // namespace scalar
+
+namespace metrics {
+namespace {
+
+constexpr int tile_side = 64;
+
+/// A tile's pixels: [x0, x0 + width) × [y0, y0 + height) of the picture.
+struct Tile {
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+/// What is compared at one pixel: the colour behind the eye's blur, and how much of an edge or a point is there.
+struct Seen {
+  Triple color;
+  double edge = 0, point = 0;
+};
+
+Triple light_of(Linear c) {
+  const auto unit = [](float v) { return v > 0 ? static_cast<double>(std::min(v, 1.0f)) : 0.0; };
+  return {unit(c.r), unit(c.g), unit(c.b)};
+}
+
+/// A tile of one picture in YCxCz with a margin of `reach` pixels on all sides, the picture's border repeated.
+struct Margin {
+  Plane<double> y, cx, cz;
+};
+
+Margin load_tile(const LinearImage& image, const Tile& tile, int reach) {
+  const int width = tile.width + 2 * reach, height = tile.height + 2 * reach;
+  Margin out{Plane<double>(width, height), Plane<double>(width, height), Plane<double>(width, height)};
+  for (int j = 0; j < height; ++j) {
+    const int y = std::clamp(tile.y0 - reach + j, 0, image.height() - 1);
+    for (int i = 0; i < width; ++i) {
+      const int x = std::clamp(tile.x0 - reach + i, 0, image.width() - 1);
+      const Triple c = opponent_from_rgb(light_of(image(x, y)));
+      out.y(i, j) = c.x, out.cx(i, j) = c.y, out.cz(i, j) = c.z;
+    }
+  }
+  return out;
+}
+
+/// A plane without its margin, filtered by one set of taps in x and another of as many in y.
+Plane<double> filter(const Plane<double>& in, int reach, const Taps& across, const Taps& down) {
+  const int radius = static_cast<int>(across.size()) / 2;
+  const int width = in.width() - 2 * reach, height = in.height() - 2 * reach;
+  const auto n = static_cast<std::size_t>(width);
+  const FlipKernels& kernels = pick(best_isa(), scalar::flip_kernels);
+  Plane<double> rows(width, height + 2 * radius), out(width, height);
+  for (int j = 0; j < rows.height(); ++j)
+    kernels.weighted_sums(in.row(j + reach - radius).data() + (reach - radius), 1, across.data(), across.size(),
+                          rows.row(j).data(), n);
+  for (int j = 0; j < height; ++j)
+    kernels.weighted_sums(rows.row(j).data(), n, down.data(), down.size(), out.row(j).data(), n);
+  return out;
+}
+
+void add(Plane<double>& sum, const Plane<double>& other) {
+  for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += other.values()[i];
+}
+
+/// The tile's pixels as they are seen.
+Plane<Seen> look(const LinearImage& image, const Tile& tile, const FlipFilters& f) {
+  const int reach = f.reach();
+  Margin c = load_tile(image, tile, reach);
+  const Plane<double> y = filter(c.y, reach, f.lightness, f.lightness);
+  const Plane<double> cx = filter(c.cx, reach, f.red_green, f.red_green);
+  Plane<double> cz = filter(c.cz, reach, f.blue_yellow_narrow, f.blue_yellow_narrow);
+  add(cz, filter(c.cz, reach, f.blue_yellow_broad, f.blue_yellow_broad));
+
+  // Features are looked for in the lightness before the blur, in [0, 1].
+  for (double& v : c.y.values()) v = (v + 16) / 116;
+  const Plane<double> edge_x = filter(c.y, reach, f.slope, f.smooth), edge_y = filter(c.y, reach, f.smooth, f.slope);
+  const Plane<double> point_x = filter(c.y, reach, f.bend, f.smooth), point_y = filter(c.y, reach, f.smooth, f.bend);
+
+  Plane<Seen> seen(tile.width, tile.height);
+  for (std::size_t i = 0; i < seen.values().size(); ++i) {
+    const Triple rgb = rgb_from_opponent({y.values()[i], cx.values()[i], cz.values()[i]});
+    const auto unit = [](double v) { return std::clamp(v, 0.0, 1.0); };
+    const auto norm = [i](const Plane<double>& a, const Plane<double>& b) {
+      return std::sqrt(a.values()[i] * a.values()[i] + b.values()[i] * b.values()[i]);
+    };
+    seen.values()[i] = {hunt_lab_from_rgb({unit(rgb.x), unit(rgb.y), unit(rgb.z)}), norm(edge_x, edge_y),
+                        norm(point_x, point_y)};
+  }
+  return seen;
+}
+
+/// Colour error in [0, 1]: differences up to 0.4 of the greatest take 0.95 of the range.
+double color_error(Triple a, Triple b, double greatest) {
+  constexpr double exponent = 0.7, knee = 0.4, knee_value = 0.95;
+  const double d = power(hyab(a, b), exponent);
+  const double bend = knee * greatest;
+  return d < bend ? d * knee_value / bend : knee_value + (d - bend) / (greatest - bend) * (1 - knee_value);
+}
+
+/// Whether the pictures agree in all that decides a tile's pixels.
+bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, int reach) {
+  const int left = std::max(0, tile.x0 - reach), right = std::min(a.width(), tile.x0 + tile.width + reach);
+  const int top = std::max(0, tile.y0 - reach), bottom = std::min(a.height(), tile.y0 + tile.height + reach);
+  const auto same = [](const Linear& p, const Linear& q) { return p.r == q.r && p.g == q.g && p.b == q.b; };
+  for (int y = top; y < bottom; ++y) {
+    const auto part = [&](const LinearImage& image) {
+      return image.row(y).subspan(static_cast<std::size_t>(left), static_cast<std::size_t>(right - left));
+    };
+    if (!std::ranges::equal(part(a), part(b), same)) return false;
+  }
+  return true;
+}
+
+/// The greatest colour difference of the gamut, between its green and its blue.
+double greatest_difference() { return power(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), 0.7); }
+
+double error_between(const Seen& a, const Seen& b, double greatest) {
+  const double color = color_error(a.color, b.color, greatest);
+  const double feature = std::max(std::abs(a.edge - b.edge), std::abs(a.point - b.point));
+  return power(color, 1 - std::sqrt(feature / std::sqrt(2.0)));
+}
+
+}  // namespace
+
+Plane<float> flip_map(const LinearImage& reference, const LinearImage& test, double pixels_per_degree) {
+  const int width = reference.width(), height = reference.height();
+  const FlipFilters filters = make_flip_filters(pixels_per_degree);
+  const double greatest = greatest_difference();
+  Plane<float> map(width, height);
+
+  // Tiles are there for the cache; a pixel's value does not depend on its tile.
+  const int across = (width + tile_side - 1) / tile_side, down = (height + tile_side - 1) / tile_side;
+  parallel_for(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), [&](std::size_t index) {
+    const int x0 = static_cast<int>(index) % across * tile_side, y0 = static_cast<int>(index) / across * tile_side;
+    const Tile tile{x0, y0, std::min(tile_side, width - x0), std::min(tile_side, height - y0)};
+    if (agree_around(reference, test, tile, filters.reach())) return;  // the error is 0 there
+    const Plane<Seen> a = look(reference, tile, filters), b = look(test, tile, filters);
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        map(x0 + x, y0 + y) = static_cast<float>(std::min(1.0, error_between(a(x, y), b(x, y), greatest)));
+      }
+    }
+  });
+  return map;
+}
+
+Score score_of_flip(Plane<float> map) {
+  const double total = sum_rows(map.height(), [&](int y) {
+    double row = 0;
+    for (const float value : map.row(y)) row += value;
+    return row;
+  });
+  std::vector<float> sorted(map.values().begin(), map.values().end());
+  std::ranges::sort(sorted);
+  double below = 0;
+  std::size_t median = 0;
+  while (median + 1 < sorted.size() && below + sorted[median] < total / 2) below += sorted[median++];
+
+  Score score;
+  score.value = total / static_cast<double>(sorted.size());
+  score.more = {{"weighted_median", sorted[median], ""},
+                {"p99", sorted[(sorted.size() - 1) * 99 / 100], ""},
+                {"max", sorted.back(), ""}};
+  score.map = std::move(map);
+  return score;
+}
+
+Metric flip() {
+  static constexpr Param params[] = {{"ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000}};
+  return {.name = "flip",
+          .summary = "difference seen when the pictures alternate, from a stated distance: mean of the map",
+          .source = "Andersson et al. 2020",
+          .unit = "",
+          .params = params,
+          .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
+            return score_of_flip(flip_map(reference[0].linear, test[0].linear, settings.number("ppd")));
+          }};
+}
+
+}  // namespace metrics
+}  // namespace zoneplate

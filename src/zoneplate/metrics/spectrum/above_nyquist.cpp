@@ -1,0 +1,105 @@
+// Energy above Nyquist: how much of what a picture's pixels cannot show came back as something else.
+//
+// A sampled picture has no frequencies above ½, so its aliases are found with a reference n × n times as large, which
+// still has them apart. In each ring of frequencies the picture is taken as the reference times one real factor, its
+// filter there; the rest is no filtered copy of what should be there: aliases (and noise).
+//
+// Weak where a filter is not round, for what differs between directions counts as aliases, and in the few bins of the
+// innermost rings, where a factor can fit an alias.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "zoneplate/metrics/metric.h"
+#include "zoneplate/metrics/power.h"
+#include "zoneplate/metrics/spectrum/radial_power.h"
+#include "zoneplate/signal/functions.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+/// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the picture and
+/// samples lie in the middle of their pixels.
+Complex half_pixel(double f) {
+  const SinCos turn = sin_cos_pi(f);
+  return {turn.cos, -turn.sin};
+}
+
+/// What a ring of frequencies holds: of reference and test the powers, and of both what they have in common.
+struct Ring {
+  double reference = 0, test = 0, common = 0, difference = 0;
+};
+
+/// The bins below ½ cycle per pixel of the test, by ring; the reference has n × n times its pixels.
+std::vector<Ring> compare_bins(const Spectrum& reference, const Spectrum& test, int n) {
+  const int width = test.width, height = test.height(), shorter = std::min(width, height);
+  std::vector<Ring> rings(static_cast<std::size_t>(shorter));
+  for (int ky = 0; ky < height; ++ky) {
+    for (int kx = 0; kx < test.half.width(); ++kx) {
+      const double fx = bin_frequency(kx, width), fy = bin_frequency(ky, height);
+      if (std::abs(fx) >= 0.5 || std::abs(fy) >= 0.5) continue;
+      const Complex found = test.half(kx, ky) * half_pixel(fx) * half_pixel(fy);
+      // The scaled spectra differ by the factor n, for the reference has n² times the samples at the same variance.
+      const Complex wanted =
+          reference.at(kx, 2 * ky <= height ? ky : ky - height) * half_pixel(fx / n) * half_pixel(fy / n) / double(n);
+      Ring& ring = rings[static_cast<std::size_t>(std::sqrt(fx * fx + fy * fy) * shorter + 0.5)];
+      const double weight = kx == 0 ? 1 : 2;
+      ring.reference += weight * std::norm(wanted);
+      ring.test += weight * std::norm(found);
+      ring.common += weight * (wanted.real() * found.real() + wanted.imag() * found.imag());
+      ring.difference += weight * std::norm(found - wanted);
+    }
+  }
+  return rings;
+}
+
+/// All power of the reference, in the units of the test's bins.
+double power_of(const Spectrum& reference, int n) {
+  const double pixels = static_cast<double>(reference.width) * reference.height();
+  return band_power(reference, 0, 1) * pixels / (static_cast<double>(n) * n);
+}
+
+Score measure(const LinearImage& reference, const LinearImage& test) {
+  const int n = reference.width() / test.width();
+  const Spectrum wanted = windowed_spectrum(luminance_plane(reference)),
+                 found = windowed_spectrum(luminance_plane(test));
+
+  Ring all;
+  double aliases = 0, passed = 0;
+  for (const Ring& ring : compare_bins(wanted, found, n)) {
+    const double factor = ring.reference > 0 ? ring.common / ring.reference : 0;
+    aliases += std::max(0.0, ring.test - factor * ring.common);
+    passed += factor * factor * ring.reference;
+    all.reference += ring.reference;
+    all.difference += ring.difference;
+  }
+
+  Score score;
+  const double whole = power_of(wanted, n);
+  const auto decibels = [&](double power) { return 10 * decimal_log(power / all.reference); };
+  score.value = decibels(aliases);
+  score.more = {{"difference", decibels(all.difference), "dB"},
+                {"passed", all.reference > 0 ? std::sqrt(passed / all.reference) : 0, ""},
+                {"reference_above_nyquist", whole > 0 ? std::max(0.0, 1 - all.reference / whole) : 0, "share"}};
+  return score;
+}
+
+}  // namespace
+
+Metric above_nyquist() {
+  return {.name = "above_nyquist",
+          .summary = "power of aliases in linear light, against the power of what the pixels can show",
+          .source = "in-band error against a reference of higher resolution, less the part a filter explains",
+          .unit = "dB",
+          .perfect = -std::numeric_limits<double>::infinity(),
+          .is_default = false,
+          .smallest = 16,
+          .sizes = Sizes::ReferenceMultiple,
+          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
+            const auto [low, high] = std::ranges::minmax(luminance_plane(reference[0].linear).values());
+            if (!(high > low)) return std::nullopt;
+            return measure(reference[0].linear, test[0].linear);
+          }};
+}
+
+}  // namespace zoneplate::metrics

@@ -1,0 +1,68 @@
+#include "zoneplate/metrics/ssim/ssim.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "zoneplate/metrics/charts_for_test.h"
+
+namespace zoneplate::metrics {
+namespace {
+
+Plane<double> constant(double value) { return Plane<double>(16, 12, value); }
+
+Similarity similarity_of_chart(int which) {
+  const ChartPair pair = chart_pair(which);
+  return structural_similarity(luma_plane(as_codes(pair.reference)), luma_plane(as_codes(pair.test)));
+}
+
+TEST(Ssim, OfConstantsIsTheLuminanceTermAlone) {
+  // No variance: contrast-structure is C2 / C2.
+  const Similarity s = structural_similarity(constant(0.25), constant(0.75));
+  const double expected = (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4);
+  EXPECT_NEAR(s.ssim, expected, 1e-12);
+  EXPECT_NEAR(s.contrast, 1, 1e-12);
+}
+
+TEST(Ssim, PublishedValues) {
+  EXPECT_NEAR(similarity_of_chart(0).ssim, 0.988870, 1e-6);
+  EXPECT_NEAR(similarity_of_chart(1).ssim, 0.017831, 1e-6);
+  EXPECT_NEAR(similarity_of_chart(3).ssim, 0.660097, 1e-6);
+}
+
+TEST(Ssim, OneWindowByHand) {
+  // 11 × 11 pixels have one window inside; a lone pixel in its middle weighs w = (the Gaussian's middle tap)².
+  Plane<double> a(11, 11, 0.0), b(11, 11, 0.0);
+  a(5, 5) = 1;
+  b(5, 5) = 0.5;
+  double sum = 0;
+  for (int i = -5; i <= 5; ++i) sum += std::exp(-i * i / 4.5);
+  const double w = 1 / (sum * sum), c1 = 1e-4, c2 = 9e-4;
+  const double luminance = (2 * w * w / 2 + c1) / (w * w + w * w / 4 + c1);
+  const double contrast = (2 * (w / 2 - w * w / 2) + c2) / ((w - w * w) + (w / 4 - w * w / 4) + c2);
+  const Similarity s = structural_similarity(a, b);
+  EXPECT_NEAR(s.ssim, luminance * contrast, 1e-12);
+  EXPECT_NEAR(s.contrast, contrast, 1e-12);
+  EXPECT_NEAR(s.map(5, 5), luminance * contrast, 1e-7);
+}
+
+TEST(MsSsim, OfConstantsIsTheLuminanceOfTheLastScale) {
+  const Plane<double> dark(177, 190, 0.25), light(177, 190, 0.75);
+  const double luminance = (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4);
+  EXPECT_NEAR(multiscale_similarity(dark, light), std::pow(luminance, 0.1333), 1e-12);
+}
+
+TEST(MsSsim, ForgivesFineErrorsMoreThanCoarseOnes) {
+  Plane<double> flat(192, 192, 0.5), fine = flat, coarse = flat;
+  for (int y = 0; y < 192; ++y) {
+    for (int x = 0; x < 192; ++x) {
+      fine(x, y) += (x + y) % 2 == 0 ? 0.05 : -0.05;
+      coarse(x, y) += (x / 16 + y / 16) % 2 == 0 ? 0.05 : -0.05;
+    }
+  }
+  EXPECT_GT(multiscale_similarity(flat, fine), 0.8);
+  EXPECT_LT(multiscale_similarity(flat, coarse), 0.5);
+}
+
+}  // namespace
+}  // namespace zoneplate::metrics

@@ -1,0 +1,372 @@
+#include "zoneplate/os/file.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/os/mapped_file_guard.h"
+
+namespace zoneplate {
+namespace {
+
+std::string cause_of(int error) { return std::system_category().message(error); }
+
+Error read_error(const std::string& path, const std::string& cause) {
+  return Error(Trouble::Input, (path == "-" ? "standard input" : path) + ": cannot be read: " + cause);
+}
+
+Error write_error(const std::string& path, const std::string& cause) {
+  return Error(Trouble::Output, (path == "-" ? "standard output" : path) + ": cannot be written: " + cause);
+}
+
+/// Closes what it holds; -1 holds nothing.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int fd() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+int open_retrying(const char* path, int flags, mode_t mode = 0) {
+  int fd = -1;
+  do fd = ::open(path, flags | O_CLOEXEC, mode);
+  while (fd < 0 && errno == EINTR);
+  return fd;
+}
+
+/// Reads up to `count` bytes, fewer only at the end of the file.
+std::size_t read_some(int fd, std::uint8_t* out, std::size_t count, const std::string& path) {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t n = ::read(fd, out + done, std::min(count - done, std::size_t{1} << 30));
+    if (n == 0) break;
+    if (n > 0) {
+      done += static_cast<std::size_t>(n);
+    } else if (errno == EAGAIN) {
+      pollfd wait{fd, POLLIN, 0};
+      ::poll(&wait, 1, -1);
+    } else if (errno != EINTR) {
+      throw read_error(path, cause_of(errno));
+    }
+  }
+  return done;
+}
+
+Error too_large(const std::string& path, std::uint64_t limit) {
+  return read_error(path, "larger than the limit of " + std::to_string(limit) + " bytes");
+}
+
+/// Reads to the end into a buffer that doubles.
+std::span<const std::uint8_t> read_all(int fd, const std::string& path, std::uint64_t limit) {
+  std::size_t capacity = std::size_t{1} << 16, size = 0;
+  auto buffer = std::make_unique<std::uint8_t[]>(capacity);
+  while (true) {
+    size += read_some(fd, buffer.get() + size, capacity - size, path);
+    if (size > limit) throw too_large(path, limit);
+    if (size < capacity) return {buffer.release(), size};
+    auto larger = std::make_unique<std::uint8_t[]>(2 * capacity);
+    std::memcpy(larger.get(), buffer.get(), size);
+    buffer = std::move(larger);
+    capacity *= 2;
+  }
+}
+
+}  // namespace
+
+FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
+  const bool is_stdin = path == "-";
+  const Descriptor file(is_stdin ? -1 : open_retrying(path.c_str(), O_RDONLY));
+  const int fd = is_stdin ? STDIN_FILENO : file.fd();
+  struct stat status {};
+  if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
+  if (S_ISDIR(status.st_mode)) throw read_error(path, "it is a directory");
+
+  // A file that says how large it is, is mapped; what cannot be mapped is read.
+  if (S_ISREG(status.st_mode) && status.st_size > 0 && !is_stdin) {
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    if (size > limit) throw too_large(path, limit);
+    // Writable and private, though nothing is written: so the system counts it as data of the process.
+    void* place = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, fd, 0);
+    if (place != MAP_FAILED) {
+      bytes_ = {static_cast<const std::uint8_t*>(place), size};
+      mapped_ = true;
+      enter_mapping(place, size);
+      return;
+    }
+  }
+  bytes_ = read_all(fd, path, limit);
+}
+
+FileBytes::~FileBytes() {
+  if (mapped_) {
+    leave_mapping(bytes_.data());
+    ::munmap(const_cast<std::uint8_t*>(bytes_.data()), bytes_.size());
+  } else {
+    delete[] bytes_.data();
+  }
+}
+
+void FileBytes::forget(const void* part, std::size_t size) const {
+  constexpr std::uintptr_t page = 4096;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(part) + page - 1) / page * page;
+  const auto end = (reinterpret_cast<std::uintptr_t>(part) + size) / page * page;
+  if (mapped_ && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+}
+
+FileBytes::FileBytes(FileBytes&& other) noexcept
+    : bytes_(std::exchange(other.bytes_, {})), mapped_(std::exchange(other.mapped_, false)) {}
+
+FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
+  std::swap(bytes_, other.bytes_);
+  std::swap(mapped_, other.mapped_);
+  return *this;
+}
+
+namespace {
+
+/// The names of the temporary files being written, for remove_temporaries alone.
+///
+/// A signal handler has no argument through which to receive them, so this is the one hidden state of the library:
+/// a fixed table whose entries change hands by one atomic word each. A name that finds no entry, or is too long for
+/// one, is written without: then only a fatal signal can leave it behind.
+enum class Entry { Free, Filling, Live, Removing };
+struct Slot {
+  std::atomic<Entry> entry{Entry::Free};
+  std::array<char, PATH_MAX> path{};
+};
+static_assert(std::atomic<Entry>::is_always_lock_free);
+constinit std::array<Slot, 8> slots;
+
+Slot* enter(const std::string& path) {
+  if (path.size() >= PATH_MAX) return nullptr;
+  for (Slot& slot : slots) {
+    Entry expected = Entry::Free;
+    if (!slot.entry.compare_exchange_strong(expected, Entry::Filling)) continue;
+    std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
+    slot.entry = Entry::Live;
+    return &slot;
+  }
+  return nullptr;
+}
+
+void leave(Slot* slot) {
+  // An entry that a signal handler is removing is freed by the handler.
+  Entry expected = Entry::Live;
+  if (slot) slot->entry.compare_exchange_strong(expected, Entry::Free);
+}
+
+}  // namespace
+
+/// A new file beside `target`, which it becomes by `commit`, or else disappears.
+class FileWriter::Temporary {
+ public:
+  Temporary(const std::filesystem::path& target, const std::string& asked) : target_(target.string()) {
+    // Only part of a very long name is used, so that the temporary name is not too long either.
+    const std::string stem = "." + target.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      const std::string suffix = attempt == 0 ? ".tmp" : "." + std::to_string(attempt) + ".tmp";
+      path_ = (target.parent_path() / (stem + suffix)).string();
+      slot_ = enter(path_);
+      fd_ = open_retrying(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+      if (fd_ >= 0) return;
+      const int error = errno;
+      leave(slot_);
+      if (error == ENOENT) throw write_error(asked, "no directory " + target.parent_path().string());
+      if (error != EEXIST) throw write_error(asked, cause_of(error));
+    }
+    throw write_error(asked, "its temporary names are taken, as " + path_);
+  }
+
+  ~Temporary() {
+    if (fd_ >= 0) ::close(fd_);
+    if (!is_committed_) ::unlink(path_.c_str());
+    leave(slot_);
+  }
+
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  int fd() const { return fd_; }
+
+  void commit(const std::string& asked) {
+    if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) throw write_error(asked, cause_of(errno));
+    if (::rename(path_.c_str(), target_.c_str()) != 0) throw write_error(asked, cause_of(errno));
+    is_committed_ = true;
+  }
+
+ private:
+  std::string target_, path_;
+  Slot* slot_ = nullptr;
+  int fd_ = -1;
+  bool is_committed_ = false;
+};
+
+namespace {
+
+/// While it lives, a write to a closed pipe is an error of this thread and not a signal.
+class PipeSignalBlocked {
+ public:
+  PipeSignalBlocked() {
+    sigset_t pending;
+    ::sigpending(&pending);
+    was_pending_ = ::sigismember(&pending, SIGPIPE) == 1;
+    ::sigemptyset(&pipe_);
+    ::sigaddset(&pipe_, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~PipeSignalBlocked() {
+    const timespec at_once{};
+    if (!was_pending_) ::sigtimedwait(&pipe_, nullptr, &at_once);
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  PipeSignalBlocked(const PipeSignalBlocked&) = delete;
+  PipeSignalBlocked& operator=(const PipeSignalBlocked&) = delete;
+
+ private:
+  sigset_t pipe_{}, before_{};
+  bool was_pending_ = false;
+};
+
+void write_all(int fd, std::span<const std::uint8_t> bytes, const std::string& asked) {
+  const PipeSignalBlocked guard;
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{1} << 30));
+    if (n > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    } else if (n < 0 && errno == EAGAIN) {
+      pollfd wait{fd, POLLOUT, 0};
+      ::poll(&wait, 1, -1);
+    } else if (n == 0 || errno != EINTR) {
+      throw write_error(asked, n == 0 ? "nothing more is accepted" : cause_of(errno));
+    }
+  }
+}
+
+/// Opens what is there (a device, a pipe) and writes into it.
+void write_in_place(const std::string& path, std::span<const std::uint8_t> bytes) {
+  Descriptor file(open_retrying(path.c_str(), O_WRONLY | O_TRUNC));
+  if (file.fd() < 0) throw write_error(path, cause_of(errno));
+  write_all(file.fd(), bytes, path);
+  if (::close(file.release()) != 0 && errno != EINTR) throw write_error(path, cause_of(errno));
+}
+
+/// The descriptors of the process and its devices are never replaced by a new file, even where they lead to one.
+bool is_process_or_device(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  return name.starts_with("/proc/") || (name.starts_with("/dev/") && !name.starts_with("/dev/shm/"));
+}
+
+/// The name at the end of a chain of symbolic links, whether it exists or not.
+std::filesystem::path follow_links(const std::string& asked) {
+  std::filesystem::path path = asked;
+  for (int links = 0; links < 40; ++links) {
+    std::error_code none;
+    if (is_process_or_device(path)) return path;
+    const std::filesystem::path next = std::filesystem::read_symlink(path, none);
+    if (none) return path;
+    path = path.parent_path() / next;
+  }
+  throw write_error(asked, cause_of(ELOOP));
+}
+
+void check_name(const std::string& path) {
+  if (path.empty() || path.find('\0') != std::string::npos) throw write_error(path, "not a file name");
+}
+
+/// `status`: of what is there already; null where nothing is.
+void check_target(const std::string& path, const std::filesystem::path& target, const struct stat* status) {
+  if (status && S_ISDIR(status->st_mode)) throw write_error(path, "it is a directory");
+  if (status && ::access(path.c_str(), W_OK) != 0) throw write_error(path, cause_of(errno));
+  if (target.filename().empty()) throw write_error(path, "it names a directory");
+}
+
+bool is_written_in_place(const std::filesystem::path& target, const struct stat* status) {
+  return target == "/dev/stdout" || (status && (!S_ISREG(status->st_mode) || is_process_or_device(target)));
+}
+
+}  // namespace
+
+FileWriter::FileWriter(std::string path) : path_(std::move(path)) {
+  if (path_ == "-") return;
+  check_name(path_);
+  const std::filesystem::path target = follow_links(path_);
+  struct stat status {};
+  const bool is_there = ::stat(path_.c_str(), &status) == 0;
+  check_target(path_, target, is_there ? &status : nullptr);
+  if (is_written_in_place(target, is_there ? &status : nullptr)) return;
+
+  // The new file takes over the permissions of the one that it replaces, where the file system lets it.
+  file_ = std::make_unique<Temporary>(target, path_);
+  if (is_there) static_cast<void>(::fchmod(file_->fd(), status.st_mode & 07777));
+}
+
+FileWriter::~FileWriter() = default;
+
+void FileWriter::write(std::span<const std::uint8_t> bytes) {
+  if (file_)
+    write_all(file_->fd(), bytes, path_);
+  else
+    kept_.insert(kept_.end(), bytes.begin(), bytes.end());
+}
+
+void FileWriter::commit() {
+  if (file_) return file_->commit(path_);
+  if (path_ == "-" || follow_links(path_) == "/dev/stdout") return write_all(STDOUT_FILENO, kept_, path_);
+  write_in_place(path_, kept_);
+}
+
+void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
+  FileWriter file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void check_savable(const std::string& path) {
+  if (path == "-") return;
+  check_name(path);
+  const std::filesystem::path target = follow_links(path);
+  struct stat status {};
+  const bool is_there = ::stat(path.c_str(), &status) == 0;
+  if (!is_there && errno != ENOENT) throw write_error(path, cause_of(errno));
+  check_target(path, target, is_there ? &status : nullptr);
+  if (is_written_in_place(target, is_there ? &status : nullptr)) return;
+  const std::string folder = target.has_parent_path() ? target.parent_path().string() : ".";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw write_error(path, errno == ENOENT ? "no directory " + folder : folder + ": " + cause_of(errno));
+}
+
+void remove_temporaries() {
+  const int error = errno;
+  for (Slot& slot : slots) {
+    Entry expected = Entry::Live;
+    if (!slot.entry.compare_exchange_strong(expected, Entry::Removing)) continue;
+    ::unlink(slot.path.data());
+    slot.entry = Entry::Free;
+  }
+  errno = error;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,41 @@
+#include "zoneplate/os/library.h"
+
+#include <dlfcn.h>
+
+#include "zoneplate/os/limited_child.h"
+
+namespace zoneplate {
+namespace {
+
+struct Package {
+  const char *file, *package;
+};
+/// In the order of Library: the versions whose headers the program was built with.
+constexpr Package packages[] = {{"libassimp.so.5", "libassimp5"},
+                                {"libmeshoptimizer.so.2d", "libmeshoptimizer2d"},
+                                {"libOpenEXRCore-3_1.so.30", "libopenexr-3-1-30"}};
+
+const Package& package_of(Library library) { return packages[static_cast<int>(library)]; }
+
+}  // namespace
+
+bool open_library(Library library) { return ::dlopen(package_of(library).file, RTLD_NOW | RTLD_LOCAL) != nullptr; }
+
+SharedLibrary::SharedLibrary(Library library, const std::string& place) : library_(library), place_(place) {
+  const Package& package = package_of(library);
+  const std::string message =
+      place + ": needs the library " + package.file + " (package " + package.package + "), which is not installed";
+  if (::dlopen(package.file, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD)) return;
+  if (is_limited_child()) throw LibraryNeeded(library, message);
+  if (!open_library(library)) throw Error(Trouble::Input, message);
+}
+
+SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
+  const char* const file = package_of(library_).file;
+  // The handle of a library that is open already.
+  if (void* const address = ::dlsym(::dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD), symbol))
+    return reinterpret_cast<AnyFunction>(address);
+  throw Error(Trouble::Input, place_ + ": the library " + file + " has no function " + symbol);
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,182 @@
+#include "zoneplate/os/limited_child.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <utility>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/os/library.h"
+#include "zoneplate/os/sandbox.h"
+
+namespace zoneplate {
+namespace {
+
+/// A fact of the process, as its number is: written once, before the child has a second thread.
+bool is_child = false;
+
+/// The first byte of an answer: this, or the kind of trouble that the rest, a text, tells of.
+constexpr std::uint8_t good = 255;
+
+void write_whole(int pipe, const void* data, std::size_t size) {
+  const auto* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t n = ::write(pipe, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) ::_exit(1);
+    at += n, size -= static_cast<std::size_t>(n);
+  }
+}
+
+[[noreturn]] void tell(int pipe, Trouble trouble, const std::string& cause) {
+  const auto kind = static_cast<std::uint8_t>(trouble);
+  write_whole(pipe, &kind, 1);
+  write_whole(pipe, cause.data(), cause.size());
+  ::_exit(0);
+}
+
+struct Task {
+  const std::string& place;
+  const LimitedChild::Limits& limits;
+  const std::function<void(ChildAnswer&)>& work;
+  const std::function<void()>& open;
+};
+
+std::string with_options(const std::string& text, const LimitedChild::Limits& limits) {
+  return text + (limits.options.empty() ? "" : " (" + limits.options + ")");
+}
+
+[[noreturn]] void be_child(int pipe, pid_t parent, int threads, const Task& task) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+  std::signal(SIGPIPE, SIG_IGN);
+  ChildAnswer answer(pipe);
+  try {
+    if (task.open) task.open();
+    is_child = true;
+    limit_resources(task.limits.memory, task.limits.seconds * threads);
+    if (task.limits.is_sandboxed && !enter_sandbox(task.limits.readable))
+      throw Error(Trouble::Failed, task.place + ": the system has no filter for system calls");
+    with_threads(threads, [&] { task.work(answer); });
+    ::_exit(0);
+  } catch (const Error& error) {
+    if (!answer.is_begun()) tell(pipe, error.trouble(), error.what());
+  } catch (const LibraryNeeded& needed) {
+    if (!answer.is_begun()) tell(pipe, Trouble::Input, needed.what());
+  } catch (const std::exception&) {
+    if (!answer.is_begun())
+      tell(pipe, Trouble::Input, with_options(task.place + ": needs more memory than the limit", task.limits));
+  }
+  ::_exit(1);
+}
+
+std::string cause_of(int status, const LimitedChild::Limits& limits) {
+  if (WIFEXITED(status)) return limits.worker + " gave no answer";
+  switch (WTERMSIG(status)) {
+    case SIGSYS:
+      return limits.worker + " made a system call that it has no right to, and was ended";
+    case SIGXCPU:
+    case SIGKILL:
+      return with_options(limits.worker + " ran out of time or memory", limits);
+    default:
+      return limits.worker + " crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
+  }
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return text;
+}
+
+}  // namespace
+
+bool is_limited_child() { return is_child; }
+
+void ChildAnswer::write(const void* data, std::size_t size) {
+  if (!is_begun_) write_whole(pipe_, &good, 1);
+  is_begun_ = true;
+  write_whole(pipe_, data, size);
+}
+
+LimitedChild::LimitedChild(std::string place, Limits limits, const std::function<void(ChildAnswer&)>& work,
+                           const std::function<void()>& open)
+    : place_(std::move(place)), limits_(std::move(limits)) {
+  const auto no = [&](int error) {
+    throw Error(Trouble::Failed, place_ + ": no process for it: " + std::strerror(error));
+  };
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) no(errno);
+  constexpr int pipe_bytes = 1 << 20;
+  ::fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
+  const pid_t parent = ::getpid();
+  const int threads = thread_limit();
+  id_ = ::fork();
+  if (id_ == 0) {
+    ::close(ends[0]);
+    be_child(ends[1], parent, threads, {place_, limits_, work, open});
+  }
+  const int error = errno;
+  ::close(ends[1]);
+  pipe_ = ends[0];
+  if (id_ < 0) ::close(pipe_), no(error);
+}
+
+LimitedChild::~LimitedChild() {
+  ::close(pipe_);
+  if (id_ < 0) return;
+  ::kill(id_, SIGKILL);
+  while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) continue;
+}
+
+std::size_t LimitedChild::read_some(void* out, std::size_t size) {
+  std::size_t done = 0;
+  while (done < size) {
+    if (limits_.check_time) limits_.check_time();
+    pollfd waiting{pipe_, POLLIN, 0};
+    if (::poll(&waiting, 1, 50) <= 0) continue;
+    const ssize_t n = ::read(pipe_, static_cast<char*>(out) + done, size - done);
+    if (n == 0) break;
+    if (n > 0) done += static_cast<std::size_t>(n);
+  }
+  return done;
+}
+
+/// The child has closed its end of the pipe: it has ended, is about to, or means harm.
+void LimitedChild::fail() {
+  int status = 0;
+  const Stopwatch patience;
+  while (::waitpid(id_, &status, WNOHANG) != id_) {
+    ::usleep(500);
+    if (patience.ms() > 1000) ::kill(id_, SIGKILL);
+  }
+  id_ = -1;
+  throw Error(Trouble::Input, place_ + ": " + cause_of(status, limits_));
+}
+
+void LimitedChild::begin() {
+  is_begun_ = true;
+  std::uint8_t kind = 0;
+  if (read_some(&kind, 1) == 0) fail();
+  if (kind == good) return;
+  std::string cause(4000, ' ');
+  cause.resize(read_some(cause.data(), cause.size()));
+  throw Error(kind == 0 || kind == 1 || kind == 3 ? static_cast<Trouble>(kind) : Trouble::Input, one_line(cause));
+}
+
+void LimitedChild::read(void* out, std::size_t size) {
+  if (!is_begun_) begin();
+  if (read_some(out, size) < size) fail();
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,87 @@
+#include "zoneplate/os/mapped_file_guard.h"
+
+#include <signal.h>
+#include <sys/mman.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+namespace {
+
+/// The mappings, for the signal's handler, which has no argument through which to receive them. An entry with size 0 is
+/// free, or about to be filled.
+struct Mapping {
+  std::atomic<std::uintptr_t> begin{0};
+  std::atomic<std::size_t> size{0};
+};
+static_assert(std::atomic<std::size_t>::is_always_lock_free);
+constinit std::array<Mapping, 256> mappings;
+constinit std::atomic<std::uint32_t> losses{0};
+
+struct sigaction before {};
+
+// What is lost reaches to the end, or else is of a disk of which nothing more is expected.
+void replace_lost(int, siginfo_t* info, void*) {
+  constexpr std::uintptr_t page = 4096;
+  const int error = errno;
+  const auto at = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  for (const Mapping& mapping : mappings) {
+    const std::uintptr_t begin = mapping.begin;
+    const std::size_t size = mapping.size;
+    if (at < begin || at - begin >= size) continue;
+    const std::uintptr_t from = at / page * page;
+    void* const zeros = ::mmap(reinterpret_cast<void*>(from), begin + size - from, PROT_READ,
+                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0);
+    if (zeros == MAP_FAILED) break;
+    ++losses;
+    errno = error;
+    return;
+  }
+  ::sigaction(SIGBUS, &before, nullptr);  // and comes again
+  errno = error;
+}
+
+}  // namespace
+
+void outlive_lost_bytes() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    struct sigaction action {};
+    action.sa_sigaction = replace_lost;
+    action.sa_flags = SA_SIGINFO;
+    ::sigaction(SIGBUS, &action, &before);
+  });
+}
+
+LostBytesWatch::LostBytesWatch() : before_(losses) {}
+
+void LostBytesWatch::check(const std::string& file) const {
+  if (losses != before_)
+    throw Error(Trouble::Input,
+                (file == "-" ? "standard input" : file) + ": cannot be read: bytes were lost meanwhile");
+}
+
+void enter_mapping(const void* begin, std::size_t size) {
+  for (Mapping& mapping : mappings) {
+    std::uintptr_t expected = 0;
+    if (!mapping.begin.compare_exchange_strong(expected, reinterpret_cast<std::uintptr_t>(begin))) continue;
+    mapping.size = size;
+    return;
+  }
+}
+
+void leave_mapping(const void* begin) {
+  for (Mapping& mapping : mappings) {
+    if (mapping.begin != reinterpret_cast<std::uintptr_t>(begin)) continue;
+    mapping.size = 0;
+    mapping.begin = 0;
+    return;
+  }
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,167 @@
+#include "zoneplate/os/sandbox.h"
+
+#include <fcntl.h>
+#include <linux/landlock.h>
+#include <sched.h>
+#include <seccomp.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+
+#include "zoneplate/os/memory_limit.h"
+
+namespace zoneplate {
+namespace {
+
+/// Calls that reading, allocating and threads need, whatever their arguments.
+constexpr int allowed_calls[] = {
+    SCMP_SYS(read),
+    SCMP_SYS(readv),
+    SCMP_SYS(pread64),
+    SCMP_SYS(write),
+    SCMP_SYS(writev),
+    SCMP_SYS(close),
+    SCMP_SYS(fstat),
+    SCMP_SYS(newfstatat),
+    SCMP_SYS(statx),
+    SCMP_SYS(stat),
+    SCMP_SYS(lstat),
+    SCMP_SYS(lseek),
+    SCMP_SYS(munmap),
+    SCMP_SYS(mremap),
+    SCMP_SYS(madvise),
+    SCMP_SYS(brk),
+    SCMP_SYS(futex),
+    SCMP_SYS(rseq),
+    SCMP_SYS(set_robust_list),
+    SCMP_SYS(rt_sigaction),
+    SCMP_SYS(rt_sigprocmask),
+    SCMP_SYS(rt_sigreturn),
+    SCMP_SYS(sigaltstack),
+    SCMP_SYS(sched_yield),
+    SCMP_SYS(sched_getaffinity),
+    SCMP_SYS(clock_gettime),
+    SCMP_SYS(clock_nanosleep),
+    SCMP_SYS(nanosleep),
+    SCMP_SYS(gettimeofday),
+    SCMP_SYS(getrandom),
+    SCMP_SYS(getrusage),
+    SCMP_SYS(readlink),
+    SCMP_SYS(readlinkat),
+    SCMP_SYS(access),
+    SCMP_SYS(faccessat),
+    SCMP_SYS(getcwd),
+    SCMP_SYS(getpid),
+    SCMP_SYS(gettid),
+    SCMP_SYS(exit),
+    SCMP_SYS(exit_group),
+    SCMP_SYS(poll),
+    SCMP_SYS(ppoll),
+    SCMP_SYS(pipe2),  // called by the threads of the address sanitizer
+    SCMP_SYS(restart_syscall),
+    SCMP_SYS(sysinfo),
+    SCMP_SYS(getdents64),
+};
+
+/// Calls that are answered with an error, since their callers manage without them.
+struct RefusedCall {
+  int number, error;
+};
+constexpr RefusedCall refused_calls[] = {
+    {SCMP_SYS(clone3), ENOSYS},  // a filter cannot see its arguments; the C library calls `clone` next
+    {SCMP_SYS(openat2), ENOSYS}, {SCMP_SYS(prlimit64), EPERM},  {SCMP_SYS(ioctl), ENOTTY},
+    {SCMP_SYS(fcntl), EPERM},    {SCMP_SYS(faccessat2), ENOSYS}};
+
+/// A filter for system calls that is released at the end.
+class Filter {
+ public:
+  Filter() : filter_(::seccomp_init(SCMP_ACT_KILL_PROCESS)) {
+    if (!filter_) return;
+    is_complete_ = ::seccomp_attr_set(filter_, SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS) == 0;
+    for (const int call : allowed_calls) allow(call, {});
+    for (const RefusedCall& call : refused_calls)
+      note(::seccomp_rule_add(filter_, SCMP_ACT_ERRNO(static_cast<std::uint16_t>(call.error)), call.number, 0));
+
+    constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
+    allow(SCMP_SYS(openat), {SCMP_A2_32(SCMP_CMP_MASKED_EQ, writing, O_RDONLY)});
+    allow(SCMP_SYS(mmap),
+          {SCMP_A2_32(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0), SCMP_A3_32(SCMP_CMP_MASKED_EQ, MAP_SHARED, 0)});
+    allow(SCMP_SYS(mprotect), {SCMP_A2_32(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
+    allow(SCMP_SYS(clone), {SCMP_A0_32(SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD)});
+    allow(SCMP_SYS(tgkill), {SCMP_A0_32(SCMP_CMP_EQ, static_cast<std::uint32_t>(::getpid()))});
+  }
+  ~Filter() { ::seccomp_release(filter_); }
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
+
+  bool install() { return is_complete_ && ::seccomp_load(filter_) == 0; }
+
+ private:
+  void allow(int call, const std::vector<scmp_arg_cmp>& conditions) {
+    note(::seccomp_rule_add_array(filter_, SCMP_ACT_ALLOW, call, static_cast<unsigned>(conditions.size()),
+                                  conditions.data()));
+  }
+  void note(int error) { is_complete_ = is_complete_ && error == 0; }
+
+  scmp_filter_ctx filter_;
+  bool is_complete_ = false;
+};
+
+/// The rights over files that the first version of Landlock knows.
+constexpr std::uint64_t first_rights = (std::uint64_t{1} << 13) - 1;
+
+long landlock_version() { return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION); }
+
+/// Confines this process to reading these files and folders. A path that does not exist is left out.
+void limit_files(const std::vector<std::string>& readable) {
+  constexpr std::uint64_t reading = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+  landlock_ruleset_attr all{};
+  all.handled_access_fs = first_rights;
+  const int rules = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &all, sizeof all.handled_access_fs, 0));
+  if (rules < 0) return;
+  for (const std::string& path : readable) {
+    const int file = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+    if (file < 0) continue;
+    landlock_path_beneath_attr rule{.allowed_access = reading, .parent_fd = file};
+    if (::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) != 0) {
+      rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;  // all that a file, which is no folder, may have
+      ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+    }
+    ::close(file);
+  }
+  ::syscall(SYS_landlock_restrict_self, rules, 0);
+  ::close(rules);
+}
+
+}  // namespace
+
+SandboxSupport sandbox_support() {
+  return {.filters_calls = ::prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0, .limits_files = landlock_version() >= 1};
+}
+
+bool enter_sandbox(const std::optional<std::vector<std::string>>& readable) {
+  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
+  if (readable && landlock_version() >= 1) limit_files(*readable);
+  return Filter().install();
+}
+
+void limit_resources(std::uint64_t bytes, double seconds) {
+  limit_memory(bytes);
+  rlimit data{};
+  ::getrlimit(RLIMIT_DATA, &data);
+  data.rlim_max = data.rlim_cur;
+  constexpr double most_seconds = 1e9;
+  const rlim_t time = seconds < most_seconds ? static_cast<rlim_t>(seconds) + 1 : RLIM_INFINITY;
+  const rlimit processor{time, time}, none{0, 0};
+  ::setrlimit(RLIMIT_DATA, &data);
+  ::setrlimit(RLIMIT_CPU, &processor);
+  ::setrlimit(RLIMIT_CORE, &none);
+  ::setrlimit(RLIMIT_FSIZE, &none);
+}
+
+}  // namespace zoneplate

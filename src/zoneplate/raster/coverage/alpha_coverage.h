@@ -1,0 +1,31 @@
+#pragma once
+
+#include "zoneplate/raster/types/fragment_shader.h"
+
+namespace zoneplate {
+
+/// Alpha as a number of samples, told one binary digit a call: what a test that says yes or no can bring over.
+///
+/// The number is alpha × samples, rounded; sharpened alpha is first made steep about the cutoff, so that it falls from
+/// 1 to 0 within a pixel: (alpha - cutoff) / max(|d alpha/dx| + |d alpha/dy|, 1e-4) + ½, clamped.
+/// Source    Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
+class AlphaDigits : public PointShader {
+ public:
+  AlphaDigits(const PointShader& inner, int samples, bool is_sharp)
+      : inner_(inner), samples_(samples), is_sharp_(is_sharp) {}
+
+  int digits() const;
+  void choose(int digit) { digit_ = digit; }
+
+  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override { inner_.shade(batch, wanted, out); }
+  /// 1 where the chosen digit of a point's number is 1, else 0; the cutoff is 1.
+  float alpha(const Batch& batch, float* out) const override;
+
+ private:
+  const PointShader& inner_;
+  int samples_;
+  bool is_sharp_;
+  int digit_ = 0;
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/raster/geometry/setup.h"
+#include "zoneplate/raster/types/tile_grid.h"
+
+namespace zoneplate {
+
+/// What is visible in one tile: depth and triangle id of every sample, planes by sample, 64 × 64 each.
+///
+/// The owner of a sample is the triangle of greatest depth there, of those the one with the lowest id: a total order,
+/// so the triangles may be drawn in any order.
+///
+/// For each of the 8 × 8 blocks of 8 × 8 pixels `block_far` holds a depth that no sample of the block is below, and
+/// `block_owner` the triangle that owns all of it, or `many_triangles`. Where it is `no_triangle` nothing was drawn
+/// yet, and the block's samples are not even written: `open_block` comes before the first of them is.
+struct TileVisibility {
+  static constexpr int blocks = 64;
+  int sample_count = 1;
+  float* depth = nullptr;
+  std::int32_t* id = nullptr;
+  float* block_far = nullptr;
+  std::int32_t* block_owner = nullptr;
+  std::uint64_t stale = 0;  ///< a bit for each block whose `block_far` may be too low
+
+  /// Nothing is drawn yet.
+  void clear();
+  /// The block's samples may be read and written one by one.
+  void open_block(int block);
+  void open_all();
+};
+
+/// A pixel that a triangle covers in front of what the tile holds, with the samples where it does.
+struct Fragment {
+  std::uint64_t samples;  ///< bit s: sample s
+  std::uint32_t pixel;    ///< 64 y + x within the tile
+};
+
+/// Eight neighbouring pixels of a row where a triangle is in front of what the tile holds at every sample.
+struct RowLayer {
+  std::int32_t id;
+  std::uint32_t row;      ///< 8 y + x / 8 within the tile
+  float least, greatest;  ///< its depths there
+};
+
+/// A block of 8 × 8 pixels where a triangle covers every sample in front of all that the tile holds there.
+struct BlockLayer {
+  std::int32_t id;
+  std::uint32_t block;
+  float least, greatest;  ///< its depths there
+};
+
+struct CoverageKernels {
+  /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Gives true if some
+  /// block's `block_far` may have risen.
+  bool (*draw)(const TileTriangle& triangle, TileVisibility& tile);
+  /// Lists the pixels where the triangle would win at least one sample; draws nothing. `out` has room for a fragment of
+  /// every pixel of the tile; gives the number of fragments, in order of rows.
+  ///
+  /// Requires  open blocks.
+  int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, Fragment* out);
+  /// Lists the rows of 8 pixels where the triangle would win every sample, in the lines from first_y to last_y; sets
+  /// is_partial[row] where it would win some but not all. Only in blocks whose bit is set. `out` has room for every row
+  /// of those lines.
+  ///
+  /// Requires  open blocks.
+  int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
+                      std::uint8_t* is_partial);
+  /// The greatest depth of the samples of each block; 0 where nothing is drawn.
+  void (*find_nearest)(const TileVisibility& tile, float* nearest);
+  /// Lists the blocks where the triangle covers every sample and is in front of `nearest`; sets the bits in `others` of
+  /// the other blocks where it may win some. `out` has room for every block; gives their number.
+  int (*collect_blocks)(const TileTriangle& triangle, const TileVisibility& tile, const float* nearest, BlockLayer* out,
+                        std::uint64_t& others);
+  /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
+  /// `many_triangles`; `no_triangle` where nothing is.
+  void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
+
+  static const CoverageKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
+};
+
+namespace scalar {
+extern const CoverageKernels coverage_kernels;
+}
+inline const CoverageKernels& coverage_kernels(Isa isa) { return pick(isa, scalar::coverage_kernels); }
+
+}  // namespace zoneplate

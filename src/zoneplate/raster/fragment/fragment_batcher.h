@@ -1,0 +1,188 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/raster/fragment/fragment_list.h"
+#include "zoneplate/raster/fragment/interpolate.h"
+#include "zoneplate/raster/geometry/draw.h"
+#include "zoneplate/raster/geometry/triangle_facing.h"
+#include "zoneplate/raster/types/fragment_shader.h"
+#include "zoneplate/raster/types/target.h"
+
+namespace zoneplate {
+
+/// A surface point to be shaded: where on the screen, of which triangle.
+struct Point {
+  std::int32_t x, y;      ///< 1/256 pixel from the picture's top-left corner
+  std::int32_t id;        ///< triangle
+  std::uint32_t pixel;    ///< within the tile
+  std::uint64_t samples;  ///< the samples of the pixel that take its colour
+};
+
+/// Points of one triangle in eight neighbouring pixels of a row, at the same place in each.
+struct PointRow {
+  std::int32_t x, y;    ///< the first; the others follow a pixel apart
+  std::int32_t id;      ///< triangle
+  std::uint32_t pixel;  ///< the first, within the tile
+};
+
+/// What the data planes show of a point.
+struct PointData {
+  std::vector<float3> normal, albedo;
+  std::vector<float2> uv;
+};
+
+/// Shades lists of points in batches of one material.
+class PointBatcher {
+ public:
+  PointBatcher(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target);
+  PointBatcher(const PointBatcher&) = delete;  // it points into itself
+
+  /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
+  void shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data);
+
+  /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
+  /// colours follow each other in `shaded`.
+  template <class Use>
+  void shade(std::span<const PointRow> rows, Use use);
+
+  /// The colours of rows in the order of the list: `use(shaded, first, count)` is called for consecutive parts of it,
+  /// which begin at row `first` and whose colours stand at the beginning of `shaded`.
+  template <class Use>
+  void shade_in_order(std::span<const PointRow> rows, Use use);
+
+  /// The colours of a list: `use(shaded, first, count)` is called for consecutive parts of it, which begin at point
+  /// `first` and whose colours stand at the beginning of `shaded`.
+  template <class Use>
+  void shade(const PointList& list, Use use);
+
+  /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
+  void test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there);
+
+  /// How far the points' alpha is above the cutoff, in their order: a surface is there where that is not negative.
+  void find_alpha_margins(std::span<const Point> points, std::vector<float>& margins);
+
+  std::uint64_t shaded() const { return shaded_; }
+
+ private:
+  /// The draw that the last triangle belongs to.
+  struct Known {
+    const Draw* draw = nullptr;
+    const ScreenVertex* screen = nullptr;  ///< null where they are not there
+    std::size_t number = 0;
+    std::int32_t begin = 0, end = 0;  ///< its triangles
+  };
+  /// The last triangle that needed clipping.
+  struct KnownClipped {
+    std::int32_t id = -1;
+    TriangleFacing facing;
+  };
+
+  template <class T>
+  std::span<const std::uint32_t> order_by_material(std::span<const T> list);
+  std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;
+  template <class Use>
+  void for_batches(std::span<const Point> points, Use use);
+  void number_up_to(std::size_t count);
+  void find_draw(std::int32_t id);
+  bool are_of_one_draw(const PointList& list);
+  void shade_mixed(const PointList& list);
+  int material_of(std::int32_t id);
+  void fetch_ahead(std::int32_t id) const;
+  void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
+  void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
+  void find_vertices(const PointList& list, std::size_t first);
+  void fill(const PointList& list, std::size_t first, std::size_t count);
+  void put_triangle(std::size_t i, std::int32_t id);
+  void interpolate();
+  const TriangleFacing& know_clipped(std::int32_t id);
+  void put_planes(std::size_t i, const BarycentricPlanes& planes);
+  static_assert(Batch::groups <= 32);  // a bit each
+  std::int32_t is_front(std::size_t told, const TriangleFacing& facing) const;
+  int interpolate_clipped_rows(int group, float spacing);
+  void interpolate_clipped(std::size_t group, float spacing);
+  void weigh_ends();
+
+  const ProjectedDraws& projected_;
+  const PointShader& shader_;
+  const InterpolateKernels& interpolate_;
+  const Target& target_;
+  const bool has_ends_;          ///< some draw has lines or points
+  const bool has_one_material_;  ///< all draws share theirs
+  std::uint64_t shaded_ = 0;
+
+  std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
+  std::vector<std::uint32_t> order_, material_;  ///< of a list of several materials; else empty
+  int one_material_ = 0;                         ///< of a list of one
+  Known known_;
+  KnownClipped known_clipped_;
+  PointShader::VertexMemory vertex_memory_;  ///< of the list's draw
+  Batch batches_[2];
+  Batch *batch_ = &batches_[0], *next_ = &batches_[1];  ///< of a list the next one's vertices are known
+  BatchCorners corners_{};
+  ScreenVertex found_corners_[3][Batch::room];  ///< of draws whose screen vertices are not there
+  ClippedGroup clipped_{};
+  Shaded shaded_batch_;
+  std::vector<Point> mixed_;     ///< a list of several draws
+  std::vector<Shaded> unmixed_;  ///< its colours in its order, a batch's capacity each
+};
+
+template <class Use>
+void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
+  const auto order = order_by_material(rows);
+  shaded_ += rows.size() * Batch::group;
+  for (std::size_t first = 0; first < rows.size();) {
+    const std::size_t count = same_material(order, first, Batch::capacity / Batch::group);
+    const auto numbers = order.subspan(first, count);
+    fill(rows, numbers);
+    shader_.shade(*batch_, {}, shaded_batch_);
+    use(numbers, shaded_batch_);
+    first += count;
+  }
+}
+
+template <class Use>
+void PointBatcher::shade(const PointList& list, Use use) {
+  constexpr std::size_t capacity = Batch::capacity;
+  const auto total = static_cast<std::size_t>(list.count);
+  shaded_ += total;
+  if (are_of_one_draw(list)) {
+    if (total > 0) find_vertices(list, 0);
+    for (std::size_t first = 0; first < total; first += capacity) {
+      const std::size_t count = std::min(capacity, total - first);
+      fill(list, first, count);
+      shader_.shade(*batch_, {}, shaded_batch_);
+      use(shaded_batch_, first, count);
+    }
+    return;
+  }
+  shade_mixed(list);
+  for (std::size_t first = 0; first < total; first += capacity)
+    use(unmixed_[first / capacity], first, std::min(capacity, total - first));
+}
+
+template <class Use>
+void PointBatcher::shade_in_order(std::span<const PointRow> rows, Use use) {
+  constexpr std::size_t most = Batch::capacity / Batch::group;
+  number_up_to(rows.size());
+  material_.clear();
+  shaded_ += rows.size() * Batch::group;
+  for (std::size_t first = 0; first < rows.size();) {
+    one_material_ = material_of(rows[first].id);
+    std::size_t count = 1;
+    const auto is_alike = [&](std::size_t i) {
+      return rows[i].id == rows[i - 1].id || material_of(rows[i].id) == one_material_;
+    };
+    while (first + count < rows.size() && count < most && is_alike(first + count)) ++count;
+    fill(rows, std::span<const std::uint32_t>(as_is_).subspan(first, count));
+    shader_.shade(*batch_, {}, shaded_batch_);
+    use(shaded_batch_, first, count);
+    first += count;
+  }
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,63 @@
+#include "zoneplate/raster/fragment/fragment_list.h"
+
+#include <bit>
+
+#include "zoneplate/raster/coverage/coverage.h"
+
+namespace zoneplate::scalar {
+namespace {
+
+SamplePosition place_of(const OwnerRow& row, std::uint32_t samples) {
+  if (samples == (1u << row.sample_count) - 1 && !row.is_per_sample) return {};
+  std::int32_t sum = row.first_place[std::countr_zero(samples)];
+  for (std::uint32_t left = samples & (samples - 1); left; left &= left - 1)
+    sum += row.more_places[std::countr_zero(left)];
+  return mean_place(sum);
+}
+
+void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t samples, PointList& out) {
+  const SamplePosition place = place_of(row, samples);
+  const int i = out.count++;
+  out.x[i] = row.x + lane * 256 + place.x;
+  out.y[i] = row.y + place.y;
+  out.id[i] = id;
+  out.at[i] = row.pixel + static_cast<std::uint32_t>(lane) + (samples << 12);
+}
+
+/// By first samples, and of those by pixels.
+void list(const OwnerRow& row, PointList& out) {
+  for (int s = 0; s < row.sample_count; ++s)
+    for (std::int32_t lane = 0; lane < Batch::group; ++lane) {
+      const auto id_of = [&](int sample) { return row.id[sample * tile_pixels + lane]; };
+      const std::int32_t id = id_of(s);
+      if ((row.wanted >> lane & 1) == 0 || id == no_triangle) continue;
+      if (row.is_per_sample) {
+        put(row, lane, id, 1u << s, out);
+        continue;
+      }
+      std::uint32_t samples = 0;
+      for (int t = 0; t < row.sample_count; ++t) samples |= id_of(t) == id ? 1u << t : 0;
+      if (std::countr_zero(samples) == s) put(row, lane, id, samples, out);
+    }
+}
+
+void add(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
+  for (int i = 0; i < count; ++i) {
+    float* const to = sum + 4 * PointList::pixel(at[i]);
+    to[0] += color.r[i] * weight[i], to[1] += color.g[i] * weight[i];
+    to[2] += color.b[i] * weight[i], to[3] += color.a[i] * weight[i];
+  }
+}
+
+void divide(const float* sum, float weight, Linear8& out) {
+  for (std::size_t i = 0; i < Linear8::size; ++i) {
+    const float* const of = sum + 4 * i;
+    out.set(i, {of[0] / weight, of[1] / weight, of[2] / weight, of[3] / weight});
+  }
+}
+
+}  // namespace
+
+const PointListKernels point_list_kernels = {.list = list, .add = add, .divide = divide};
+
+}  // namespace zoneplate::scalar

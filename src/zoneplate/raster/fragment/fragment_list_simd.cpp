@@ -1,0 +1,201 @@
+#include "zoneplate/raster/fragment/fragment_list.h"
+
+#include <hwy/highway.h>
+
+#include "zoneplate/math/elementary_simd.h"
+#include "zoneplate/raster/coverage/coverage.h"
+#include "zoneplate/raster/geometry/packing_simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace zoneplate::HWY_NAMESPACE {
+namespace {
+
+using I = hn::CappedTag<std::int32_t, 8>;
+using F = hn::CappedTag<float, 8>;
+using VI = hn::Vec<I>;
+using MI = hn::Mask<I>;
+using VF = hn::Vec<F>;
+constexpr I i32;
+constexpr F f32;
+constexpr int lanes = static_cast<int>(hn::MaxLanes(I()));
+
+HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
+
+/// The samples of a pixel that one triangle owns, a bit each, and the sum of their places.
+struct Owned {
+  VI samples, places;
+};
+
+/// floor((x + n / 2) / n) of whole numbers, n <= 16, where `half` is n / 2 + 1/64 and `inverse` 1 / n: what is added
+/// keeps the product's rounding from going below a whole number, and is too little to reach the next.
+HWY_INLINE VI mean(VI x, VF half, VF inverse) {
+  return truncated(f32, hn::Mul(hn::Add(hn::ConvertTo(f32, x), half), inverse));
+}
+
+/// The bit of each sample.
+struct SampleBits {
+  alignas(64) std::int32_t bit[PointList::most_samples][lanes];
+};
+constexpr SampleBits make_sample_bits() {
+  SampleBits b{};
+  for (int s = 0; s < PointList::most_samples; ++s)
+    for (std::int32_t& bit : b.bit[s]) bit = 1 << s;
+  return b;
+}
+constexpr SampleBits sample_bits = make_sample_bits();
+
+HWY_INLINE VI bit_of(int s) { return hn::Load(i32, sample_bits.bit[s]); }
+
+/// The pixels of a row that are drawn, from one on.
+HWY_INLINE MI wanted_lanes(const OwnerRow& row, int first) {
+  alignas(64) static constexpr std::int32_t bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
+  const VI wanted = set(static_cast<std::int32_t>(row.wanted >> first));
+  return hn::Ne(hn::And(wanted, hn::Load(i32, bits)), hn::Zero(i32));
+}
+
+/// Adds the points of those lanes.
+HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, PointList& out) {
+  const int count = out.count;
+  std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + count;
+  if (hn::AllTrue(i32, mask)) {
+    hn::StoreU(x, i32, out.x + count), hn::StoreU(y, i32, out.y + count);
+    hn::StoreU(owner, i32, out.id + count), hn::StoreU(at, i32, to);
+    out.count = count + lanes;
+    return;
+  }
+  const Packing<I> packing(mask);
+  packing.store(x, out.x + count), packing.store(y, out.y + count);
+  packing.store(owner, out.id + count), packing.store(at, to);
+  out.count = count + packing.count();
+}
+
+/// A vector's width of pixels.
+class Pixels {
+ public:
+  HWY_INLINE Pixels(const OwnerRow& row, int first)
+      : id_(row.id + first),
+        samples_(row.sample_count),
+        is_per_sample_(row.is_per_sample),
+        first_place_(row.first_place),
+        more_places_(row.more_places),
+        x_(hn::Add(set(row.x + first * 256), hn::ShiftLeft<8>(hn::Iota(i32, 0)))),
+        y_(set(row.y)),
+        at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))),
+        listed_(hn::VecFromMask(i32, hn::Not(wanted_lanes(row, first)))) {}
+
+  /// Lists the owners of sample s where it is the first that they own.
+  HWY_INLINE void list(int s, PointList& out) {
+    const VI owner = owner_of(s), bit = bit_of(s);
+    const MI is_new = hn::Eq(hn::And(listed_, bit), hn::Zero(i32));
+    const MI mask = hn::AndNot(hn::Eq(owner, set(no_triangle)), is_new);
+    if (hn::AllFalse(i32, mask)) return;
+    Owned owned{bit, set(first_place_[s])};
+    if (!is_per_sample_) {
+      for (int t = s + 1; t < samples_; ++t) {
+        const VI is_own = hn::VecFromMask(i32, hn::Eq(owner, owner_of(t)));
+        owned.samples = hn::Or(owned.samples, hn::And(is_own, bit_of(t)));
+        owned.places = hn::Add(owned.places, hn::And(is_own, set(more_places_[t])));
+      }
+      listed_ = hn::Or(listed_, hn::IfThenElseZero(mask, owned.samples));
+    }
+    put(mask, owner, owned, out);
+  }
+
+ private:
+  HWY_INLINE VI owner_of(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
+
+  /// Adds those of the mask.
+  HWY_INLINE void put(MI mask, VI owner, const Owned& owned, PointList& out) const {
+    const VI centre = set(128);
+    const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
+    const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
+    const VI all = set((1 << samples_) - 1), low = set(4095);
+    const MI is_centre = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
+    const VI x = hn::IfThenElse(is_centre, centre, mean(hn::And(owned.places, low), half, inverse));
+    const VI y = hn::IfThenElse(is_centre, centre, mean(hn::And(hn::ShiftRight<12>(owned.places), low), half, inverse));
+    HWY_NAMESPACE::put(mask, hn::Add(x_, x), hn::Add(y_, y), owner, hn::Add(at_, hn::ShiftLeft<12>(owned.samples)),
+                       out);
+  }
+
+  const std::int32_t* id_;
+  int samples_;
+  bool is_per_sample_;
+  const std::int32_t *first_place_, *more_places_;
+  VI x_, y_, at_;
+  VI listed_;  ///< the samples whose owners are listed, or not wanted: a bit each
+};
+
+/// The one sample of each of a vector's width of pixels, at their centres.
+HWY_INLINE void list_centres(const OwnerRow& row, int first, PointList& out) {
+  const VI pixel = hn::Iota(i32, first), owner = hn::LoadU(i32, row.id + first);
+  const MI mask = hn::And(hn::Ne(owner, set(no_triangle)), wanted_lanes(row, first));
+  if (hn::AllFalse(i32, mask)) return;
+  const VI x = hn::Add(set(row.x + 128), hn::ShiftLeft<8>(pixel));
+  const VI at = hn::Add(set(static_cast<std::int32_t>(row.pixel) + (1 << 12)), pixel);
+  put(mask, x, set(row.y + 128), owner, at, out);
+}
+
+// Vectors of fewer than eight lanes keep the order of eight: by first samples, and of those by pixels.
+void list(const OwnerRow& row, PointList& out) {
+  if (row.sample_count == 1 && !row.is_per_sample) {
+    for (int first = 0; first < Batch::group; first += lanes) list_centres(row, first, out);
+  } else if constexpr (lanes == Batch::group) {
+    Pixels pixels(row, 0);
+    for (int s = 0; s < row.sample_count; ++s) pixels.list(s, out);
+  } else {
+    Pixels left(row, 0), right(row, lanes);
+    for (int s = 0; s < row.sample_count; ++s) left.list(s, out), right.list(s, out);
+  }
+}
+
+using Quad = hn::FixedTag<float, 4>;
+using VQ = hn::Vec<Quad>;
+
+/// Four points' channels to four points and back.
+struct Turned {
+  VQ v[4];
+  HWY_INLINE Turned(VQ r, VQ g, VQ b, VQ a) {
+    const Quad d;
+    const VQ rb01 = hn::InterleaveLower(d, r, b), rb23 = hn::InterleaveUpper(d, r, b);
+    const VQ ga01 = hn::InterleaveLower(d, g, a), ga23 = hn::InterleaveUpper(d, g, a);
+    v[0] = hn::InterleaveLower(d, rb01, ga01), v[1] = hn::InterleaveUpper(d, rb01, ga01);
+    v[2] = hn::InterleaveLower(d, rb23, ga23), v[3] = hn::InterleaveUpper(d, rb23, ga23);
+  }
+};
+
+HWY_INLINE void add_one(VQ color, float weight, std::uint32_t at, float* sum) {
+  const Quad d;
+  float* const to = sum + 4 * PointList::pixel(at);
+  hn::StoreU(hn::Add(hn::LoadU(d, to), hn::Mul(color, hn::Set(d, weight))), d, to);
+}
+
+void add(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
+  const Quad d;
+  for (int i = 0; i < count; i += 4) {
+    const Turned turned(hn::Load(d, color.r + i), hn::Load(d, color.g + i), hn::Load(d, color.b + i),
+                        hn::Load(d, color.a + i));
+    const int n = count - i < 4 ? count - i : 4;
+    for (int k = 0; k < n; ++k) add_one(turned.v[k], weight[i + k], at[i + k], sum);
+  }
+}
+
+void divide(const float* sum, float weight, Linear8& out) {
+  const Quad d;
+  const VQ by = hn::Set(d, weight);
+  for (int i = 0; i < Linear8::size; i += 4) {
+    const float* const of = sum + 4 * i;
+    const Turned turned(hn::LoadU(d, of), hn::LoadU(d, of + 4), hn::LoadU(d, of + 8), hn::LoadU(d, of + 12));
+    hn::Store(hn::Div(turned.v[0], by), d, out.r + i), hn::Store(hn::Div(turned.v[1], by), d, out.g + i);
+    hn::Store(hn::Div(turned.v[2], by), d, out.b + i), hn::Store(hn::Div(turned.v[3], by), d, out.a + i);
+  }
+}
+
+}  // namespace
+
+}  // namespace zoneplate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const PointListKernels PointListKernels::HWY_NAMESPACE = {
+    .list = HWY_NAMESPACE::list, .add = HWY_NAMESPACE::add, .divide = HWY_NAMESPACE::divide};
+}  // namespace zoneplate

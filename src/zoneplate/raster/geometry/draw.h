@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "zoneplate/raster/geometry/arena.h"
+#include "zoneplate/raster/geometry/project.h"
+#include "zoneplate/raster/geometry/quads.h"
+#include "zoneplate/raster/geometry/setup.h"
+#include "zoneplate/raster/types/batch.h"
+
+namespace zoneplate {
+
+enum class Surface {
+  Opaque,
+  Masked,   ///< there or not, by the shader's alpha
+  Blended,  ///< laid over what is behind it, in exact order
+};
+
+/// Triangles that are drawn with one state: an instance of a mesh.
+///
+/// Its vertices come as positions with a matrix, as clip positions, or as those of quads. Triangles are numbered
+/// through the draws in their order; the number is the last word where depths are equal.
+struct Draw {
+  std::span<const float3> position;
+  float4x4 clip_from_object;
+  std::span<const float4> clip;          ///< used where it is not empty
+  std::span<const std::uint32_t> index;  ///< three a triangle
+
+  /// Lines and points, drawn as two triangles each; null: triangles. `position` and `clip` are not used then.
+  const QuadMesh* quads = nullptr;
+
+  Surface surface = Surface::Opaque;
+  bool culls_back_faces = false;
+  bool is_mirrored = false;  ///< front faces are clockwise
+  int material = 0;
+  std::uint32_t instance = 0;
+
+  std::size_t vertices() const { return quads ? quads->vertices() : clip.empty() ? position.size() : clip.size(); }
+  std::size_t triangles() const { return index.size() / 3; }
+  std::uint32_t primitive_of(std::uint32_t triangle) const { return quads ? triangle / 2 : triangle; }
+  float4 clip_position(std::uint32_t v) const {
+    if (quads) return make_quad(*quads, v / 4, clip_from_object).clip[v % 4];
+    return clip.empty() ? clip_from_object * float4{position[v].x, position[v].y, position[v].z, 1} : clip[v];
+  }
+};
+
+/// Draws with their screen vertices and triangle numbers.
+///
+/// Instances share the vertices of their mesh but not its screen vertices, of which there may be more than memory.
+/// Those of the first draws are kept, as many as there is room for; those of the others are there while their batch is
+/// at work, and found again one by one where a triangle is seen.
+struct ProjectedDraws {
+  std::span<const Draw> draws;
+  Viewport viewport;
+  std::vector<std::span<ScreenVertex>> screen;  ///< by draw; empty where they are not there
+  std::vector<std::int32_t> first_triangle;     ///< by draw, and the total at the end
+  std::size_t kept = 0;                         ///< screen vertices of the first draws
+  RawMemory memory, batch_memory;               ///< of the screen vertices
+
+  /// The draw that a triangle belongs to.
+  std::size_t draw_of(std::int32_t triangle) const;
+  /// A screen vertex of a draw, whether it is there or not.
+  ScreenVertex vertex(std::size_t draw, std::uint32_t v) const {
+    return screen[draw].empty() ? project(draws[draw].clip_position(v), viewport) : screen[draw][v];
+  }
+};
+
+/// Numbers the triangles; no screen vertices are there yet. The memory of `reused` serves again.
+///
+/// `kept`: screen vertices that are kept; none: as many as the draws' meshes have, or 2^22 where that is more.
+/// Errors    Trouble::Failed past 2^31 - 2 triangles.
+ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std::optional<std::size_t> kept = {},
+                            ProjectedDraws reused = {});
+
+/// Transforms the vertices of the draws that are kept, in parallel; returns the number of these draws.
+std::size_t project_kept(ProjectedDraws& projected, Isa isa);
+
+/// Transforms the vertices, in parallel, in batches of draws: `use(first, last)` is called batch after batch, when the
+/// screen vertices of the draws [first, last) are there. Draws that are kept fit into one batch.
+void project_batches(ProjectedDraws& projected, Isa isa, const std::function<void(std::size_t, std::size_t)>& use);
+
+/// Both, with all screen vertices kept.
+ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused = {});
+
+}  // namespace zoneplate

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/math/mat.h"
+#include "zoneplate/raster/types/viewport.h"
+
+namespace zoneplate {
+
+/// A vertex on the screen, as coverage and depth see it.
+///
+/// Units     x, y in 1/256 pixel from the picture's *centre*, x right, y down; |x|, |y| <= 2^22 (the guard band, ±16384
+/// pixels);
+///           z is the reversed depth in [0, 1]. inv_w = 1 / w > 0, or 0 for a vertex outside the near plane, the far
+///           plane or the guard band: its triangles go through the clipper, and its other members say nothing.
+struct ScreenVertex {
+  std::int32_t x = 0, y = 0;
+  float z = 0;
+  float inv_w = 0;
+  bool needs_clipping() const { return inv_w == 0; }
+};
+
+inline constexpr std::int32_t guard_band = 1 << 22;
+
+/// Clip space to the screen, for one vertex: division by w, viewport transform, snap to 1/256 pixel (round half to
+/// even).
+///
+/// Exact     x = round(clip.x / clip.w × 128 width), as floats; the picture's centre is the origin, so that 24 bits
+/// reach.
+ScreenVertex project(float4 clip, Viewport viewport);
+
+struct ProjectKernels {
+  /// project(clip_from_object * p) for n positions.
+  void (*transform)(const float4x4& clip_from_object, const float3* p, std::size_t n, Viewport viewport,
+                    ScreenVertex* out);
+
+  static const ProjectKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
+};
+
+namespace scalar {
+extern const ProjectKernels project_kernels;
+}
+inline const ProjectKernels& project_kernels(Isa isa) { return pick(isa, scalar::project_kernels); }
+
+}  // namespace zoneplate

@@ -1,0 +1,53 @@
+#include "zoneplate/raster/tile/rasterize.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/geometry/bin.h"
+#include "zoneplate/raster/tile/tile.h"
+
+namespace zoneplate {
+
+RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
+                       const Target& target, RasterMemory* memory) {
+  RasterCounts counts;
+  const Stopwatch geometry;
+  Stopwatch stage;
+  RasterMemory own;
+  RasterMemory& kept = memory ? *memory : own;
+  const SetupRules setup = rules.setup(target.viewport);
+  kept.projected = number_draws(draws, target.viewport, rules.room.screen_vertices, std::move(kept.projected));
+  kept.bins = make_bins(target, std::move(kept.bins));
+  project_batches(kept.projected, rules.isa, [&](std::size_t first, std::size_t last) {
+    counts.stages.vertices += stage.lap_ms();
+    add_to_bins(kept.projected, first, last, target, setup, rules.isa, kept.bins);
+    counts.stages.triangles += stage.lap_ms();
+  });
+  const ProjectedDraws& projected = kept.projected;
+  const Bins& bins = kept.bins;
+  counts.geometry_ms = geometry.ms();
+  for (const Draw& draw : draws) counts.vertices += draw.vertices();
+  counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
+  counts.set_up = bins.set_up;
+
+  // A thread keeps its tile buffers from tile to tile.
+  const Stopwatch tiles;
+  std::vector<std::unique_ptr<TileRenderer>> renderers(static_cast<std::size_t>(thread_limit()));
+  parallel_for(bins.tiles(), [&](std::size_t tile) {
+    std::unique_ptr<TileRenderer>& mine = renderers[static_cast<std::size_t>(thread_index())];
+    growing("tile buffers", [&] {
+      if (!mine) mine = std::make_unique<TileRenderer>(projected, bins, shader, rules, target);
+      mine->render(tile);
+    });
+  });
+  for (const auto& renderer : renderers)
+    if (renderer) counts.shaded += renderer->shaded(), counts.stages += renderer->times();
+  counts.tiles_ms = tiles.ms();
+  return counts;
+}
+
+}  // namespace zoneplate

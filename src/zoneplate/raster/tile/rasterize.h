@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "zoneplate/raster/geometry/bin.h"
+#include "zoneplate/raster/geometry/draw.h"
+#include "zoneplate/raster/geometry/setup.h"
+#include "zoneplate/raster/types/fragment_shader.h"
+#include "zoneplate/raster/types/room.h"
+#include "zoneplate/raster/types/stage_times.h"
+#include "zoneplate/raster/types/target.h"
+
+namespace zoneplate {
+
+struct RasterRules {
+  bool is_top_left = true;
+  bool is_painter = false;
+  Isa isa = best_isa();
+  RasterRoom room;
+
+  SetupRules setup(Viewport viewport) const {
+    return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};
+  }
+};
+
+/// What frames that are drawn one after the other may share.
+struct RasterMemory {
+  ProjectedDraws projected;
+  Bins bins;
+  Rgba8Image shown;  ///< an earlier picture that is done with, where there is one
+};
+
+struct RasterCounts {
+  double geometry_ms = 0, tiles_ms = 0;
+  StageTimes stages;
+  std::uint64_t vertices = 0, triangles = 0, set_up = 0, shaded = 0;
+};
+
+/// Draws triangles into a target: project, clip, set up, sort into tiles; then for each tile what is visible, shading
+/// once per surface and pixel (or sample), layers of blended surfaces in exact order, and the mean of the samples.
+///
+/// Exact     the result does not depend on the number of threads, the Isa, or the order of the draws where no two
+///           triangles have equal depth at a sample.
+/// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
+///           Carpenter, The A-buffer, SIGGRAPH 1984.
+/// A `memory` that was used for an earlier frame saves the system's work of finding new pages.
+RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
+                       const Target& target, RasterMemory* memory = nullptr);
+
+}  // namespace zoneplate

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/image/pixel.h"
+#include "zoneplate/raster/types/batch.h"
+
+namespace zoneplate {
+
+/// Layers of a pixel put under one another, the nearest first: what they show, and how much of what is behind them is
+/// seen through them.
+///
+/// Exact     in float, as written. Layers behind a transmittance of `least_transmittance` or less are left out, and
+///           need not be shaded.
+/// Source    Porter and Duff, Compositing Digital Images, 1984: over, from the front.
+struct Layers {
+  float r = 0, g = 0, b = 0;
+  float transmittance = 1;
+
+  /// colour += layer × transmittance; transmittance ×= 1 - alpha. Nothing, if the transmittance is not above `least`.
+  void put_under(const Linear& layer, float least);
+  /// The layers over what is behind all of them. The whole is opaque if that is.
+  Linear over(const Linear& behind) const;
+};
+
+/// The transmittance down to which layers count in a scene whose surfaces' channels are at most `brightest`: all that
+/// is behind it, the last surface too, adds at most 2^-25 to a channel, half of the smallest half float, whether layers
+/// are left out or not. 0, so that all layers count, for +infinity.
+inline float least_transmittance(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
+
+/// The same for eight pixels of a row.
+struct alignas(64) Layers8 {
+  static constexpr int size = Linear8::size;
+  float r[size], g[size], b[size], transmittance[size];
+  bool is_open;  ///< further layers count at one of the pixels at least
+
+  void clear();
+};
+
+/// Sums and means of samples, for eight pixels of a row whose points stand side by side in `color` from `first` on.
+///
+/// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
+struct ResolveKernels {
+  /// out = (0 + color × weight) / weight: one surface owns all samples. Of rows whose points follow each other.
+  void (*resolve)(const Shaded& color, int first, int rows, float weight, Linear8* const* out);
+  /// Layers::put_under for eight points.
+  void (*put_under)(const Shaded& color, int first, float least, Layers8& layers);
+  /// The same for rows whose points follow each other from the first on.
+  void (*put_rows_under)(const Shaded& color, int rows, float least, Layers8* const* layers);
+  /// Layers::over.
+  void (*over)(const Layers8& layers, Linear8& behind);
+  /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum.
+  void (*resolve_samples)(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out);
+  /// sum += color × weight.
+  void (*add)(const Shaded& color, int first, float weight, Linear8& sum);
+  /// out = sum / weight.
+  void (*divide)(const Linear8& sum, float weight, Linear8& out);
+  /// The pixels one by one.
+  void (*put)(const Linear8& color, Linear* out);
+
+  static const ResolveKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
+};
+
+namespace scalar {
+extern const ResolveKernels resolve_kernels;
+}
+inline const ResolveKernels& resolve_kernels(Isa isa) { return pick(isa, scalar::resolve_kernels); }
+
+}  // namespace zoneplate

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+
+#include "zoneplate/scene/builtin/make.h"
+
+namespace zoneplate {
+
+/// What the benchmark scenes share. They are made of integer hashes and of float operations in a fixed order, so that
+/// other renderers can be given the same vertices; their colours are meant to be drawn without sRGB decoding.
+
+/// A 32-bit hash of one word.
+///
+/// Source    the finaliser of math/random.h on its own.
+constexpr std::uint32_t hash_word(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+/// Four octaves of smooth lattice noise, each half as high and 2.1 times as fine as the one before.
+float bumps(float x, float y, float z);
+
+/// 1024 × 1024 texels of bricks and mortar with noise; alpha is 96 to 159.
+TextureImage brick_texture();
+
+/// One indexed triangle list with everything that a vertex of these scenes has.
+struct BenchMesh {
+  explicit BenchMesh(std::size_t vertices = 0, std::size_t indices = 0);
+  Mesh mesh;
+
+  /// Adds a quad of counter-clockwise corners: lower left, lower right, upper right, upper left.
+  void add_quad(const float3 (&corner)[4], float3 normal, const float2 (&uv)[4]);
+};
+
+/// The two triangles of every cell of a grid of (nx + 1) × (ny + 1) vertices, rows one after the other.
+///
+/// `index` holds 6 nx ny entries; `first` is the grid's first vertex.
+void fill_grid(std::span<std::uint32_t> index, std::uint32_t first, int nx, int ny);
+
+/// The Blinn-Phong material and the light that the lit ones share: base (ambient + N·L) + specular (N·H)^shininess.
+struct BenchLook {
+  float3 base{0.80f, 0.55f, 0.30f};
+  float3 light{0.40824829f, 0.81649658f, 0.40824829f};  ///< towards the light
+  float ambient = 0.15f, specular = 0.35f, exponent = 40;
+  bool textured = false, double_sided = false;
+  int anisotropy = 1;
+};
+Scene lit_scene(const char* name, Mesh mesh, const BenchLook& look);
+
+}  // namespace zoneplate

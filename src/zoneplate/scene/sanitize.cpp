@@ -1,0 +1,72 @@
+#include "zoneplate/scene/sanitize.h"
+
+#include <algorithm>
+#include <span>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/serial_ranges.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::size_t block = 1 << 15;
+
+/// The floats of a vector, all of which belong to some vertex.
+template <class V>
+std::span<const float> floats_of(const std::vector<V>& values, std::size_t begin, std::size_t end) {
+  if (values.empty()) return {};
+  constexpr std::size_t each = sizeof(V) / sizeof(float);
+  return {reinterpret_cast<const float*>(values.data()) + begin * each, (end - begin) * each};
+}
+
+/// Sums of x - x, which is 0 for finite x, else not a number: four of them, so that they do not wait for each other.
+bool all_finite(std::span<const float> values) {
+  float sums[4] = {0, 0, 0, 0};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += values[i + k] - values[i + k];
+  for (; i < values.size(); ++i) sums[0] += values[i] - values[i];
+  return sums[0] + sums[1] + sums[2] + sums[3] == 0;
+}
+
+bool all_finite(const Mesh& m, std::size_t begin, std::size_t end) {
+  return all_finite(floats_of(m.position, begin, end)) && all_finite(floats_of(m.normal, begin, end)) &&
+         all_finite(floats_of(m.tangent, begin, end)) && all_finite(floats_of(m.uv0, begin, end)) &&
+         all_finite(floats_of(m.uv1, begin, end)) && all_finite(floats_of(m.color, begin, end));
+}
+
+void make_zero(Mesh& m, std::size_t i) {
+  m.position[i] = {};
+  if (!m.normal.empty()) m.normal[i] = {};
+  if (!m.tangent.empty()) m.tangent[i] = {};
+  if (!m.uv0.empty()) m.uv0[i] = {};
+  if (!m.uv1.empty()) m.uv1[i] = {};
+  if (!m.color.empty()) m.color[i] = {};
+}
+
+}  // namespace
+
+std::uint64_t drop_not_finite(Mesh& m) {
+  std::vector<char> is_clean((m.position.size() + block - 1) / block);
+  parallel_ranges(m.position.size(), block,
+                  [&](std::size_t begin, std::size_t end) { is_clean[begin / block] = all_finite(m, begin, end); });
+  if (std::find(is_clean.begin(), is_clean.end(), 0) == is_clean.end()) return 0;
+
+  std::vector<bool> is_bad(m.position.size());
+  serial_ranges(m.position.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (!is_clean[i / block] && !all_finite(m, i, i + 1)) is_bad[i] = true, make_zero(m, i);
+  });
+  const auto corners = static_cast<std::size_t>(m.vertices_per_primitive());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k + corners <= m.index.size(); k += corners) {
+    if (std::any_of(&m.index[k], &m.index[k] + corners, [&](std::uint32_t i) { return is_bad[i]; })) continue;
+    for (std::size_t c = 0; c < corners; ++c) m.index[kept + c] = m.index[k + c];
+    kept += corners;
+  }
+  const std::uint64_t dropped = (m.index.size() - kept) / corners;
+  m.index.resize(kept);
+  return dropped;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,58 @@
+#include "zoneplate/shade/surface/brightness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/surface/lighting.h"
+#include "zoneplate/shade/surface/material_plan.h"
+#include "zoneplate/shade/texture/texture.h"
+
+namespace zoneplate {
+namespace {
+
+float greatest(const float (&color)[3]) { return std::max({color[0], color[1], color[2], 0.0f}); }
+
+/// The most light that arrives anywhere, perpendicular to its direction; `fading` is at most 1e6.
+float arriving(std::span<const PreparedLight> lights) {
+  float sum = 0;
+  for (const PreparedLight& light : lights)
+    sum += greatest(light.radiance) * (light.is_directional ? 1.0f : 1 / least_distance_squared);
+  return sum;
+}
+
+/// The greatest n·l F V D: V n·l is at most 1 / (2 α) and D at most 1 / (π α²).
+float highlight(const MaterialPlan& plan) {
+  if (plan.model != ShadingModel::MetallicRoughness) return greatest(plan.specular);
+  const bool is_textured = plan.metallic_roughness.texture != nullptr;
+  const float roughness = is_textured ? least_roughness : std::max(plan.roughness, least_roughness);
+  const float alpha = roughness * roughness;
+  return inverse_pi / (2 * alpha * alpha * alpha);
+}
+
+/// True for a texture of floats, whose texels may have any value; those of codes are at most 1.
+bool is_unbounded(const TextureSlot& slot) { return slot.texture != nullptr && slot.texture->view().values != nullptr; }
+
+/// Diffuse weights, cosines and their powers are at most 1.
+float brightest(const MaterialPlan& plan, float light, float environment) {
+  if (plan.attributes.color || is_unbounded(plan.base_color) || is_unbounded(plan.emissive)) return brightest_color;
+  const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
+  if (!plan.is_lit) return base;
+  // Twice the sum, for what rounding and the fit to the environment's integral add.
+  return 2 * (base * (1 + greatest(plan.ambient_share) + light + environment) + greatest(plan.own_ambient) +
+              highlight(plan) * light + environment + greatest(plan.emissive_factor));
+}
+
+}  // namespace
+
+float brightest_point(std::span<const MaterialPlan> plans, std::span<const PreparedLight> lights, float3 environment) {
+  const float light = arriving(lights), around = std::max({environment.x, environment.y, environment.z, 0.0f});
+  float most = 0;
+  for (const MaterialPlan& plan : plans) {
+    const float bound = brightest(plan, light, around);
+    most = bound < brightest_color ? std::max(most, bound) : brightest_color;
+  }
+  return most;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,187 @@
+#include "zoneplate/shade/surface/material_plan.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/math/elementary.h"
+
+namespace zoneplate {
+namespace {
+
+struct NamedUse {
+  const TextureUse* use;
+  TexelMeaning meaning;
+};
+
+bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+
+/// The textures that change what a material looks like.
+std::vector<NamedUse> uses_of(const Material& m) {
+  std::vector<NamedUse> uses = {{&m.base_color_texture, TexelMeaning::Color}};
+  if (m.model == ShadingModel::Unlit) return uses;
+  if (!is_black(m.emissive)) uses.push_back({&m.emissive_texture, TexelMeaning::Color});
+  uses.push_back({&m.normal_texture, TexelMeaning::Values});
+  uses.push_back({&m.occlusion_texture, TexelMeaning::Values});
+  if (m.model == ShadingModel::MetallicRoughness) {
+    uses.push_back({&m.metallic_roughness_texture, TexelMeaning::Values});
+  }
+  return uses;
+}
+
+TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotropy) {
+  TextureSlot slot{texture, make_filtering(use.sampler, anisotropy), coordinate_map(use), false,
+                   use.uv_set == 1 ? 1 : 0};
+  slot.is_mapped = !(slot.map == CoordinateMap{});
+  return slot;
+}
+
+void copy(float3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
+
+void copy_factors(const Material& m, MaterialPlan& plan) {
+  plan.model = m.model;
+  plan.alpha_mode = m.alpha_mode;
+  plan.factor[0] = m.base_color.x, plan.factor[1] = m.base_color.y;
+  plan.factor[2] = m.base_color.z, plan.factor[3] = m.base_color.w;
+  plan.metallic = std::clamp(m.metallic, 0.0f, 1.0f);
+  plan.roughness = std::clamp(m.roughness, 0.0f, 1.0f);
+  copy(m.emissive, plan.emissive_factor);
+  plan.normal_scale = m.normal_scale;
+  plan.occlusion_strength = std::clamp(m.occlusion_strength, 0.0f, 1.0f);
+  copy(m.specular, plan.specular);
+  plan.exponent = make_exponent(std::clamp(m.exponent, 0.0f, 1e5f));
+}
+
+/// Diffuse and ambient light are gathered before they meet the base colour, which is cheapest; the ambient term is
+/// ambient × light × what base colour there would be with a factor of 1.
+void plan_ambient(const Material& m, const Surroundings& s, MaterialPlan& plan) {
+  constexpr float least_divisor = 0x1p-32f;
+  if (m.model != ShadingModel::BlinnPhong && m.model != ShadingModel::Phong) return;
+  const float ambient[3] = {m.ambient.x, m.ambient.y, m.ambient.z};
+  const float light[3] = {s.ambient_light.x, s.ambient_light.y, s.ambient_light.z};
+  for (int c = 0; c < 3; ++c) {
+    if (plan.factor[c] >= least_divisor)
+      plan.ambient_share[c] = ambient[c] / plan.factor[c] * light[c];
+    else
+      plan.own_ambient[c] = ambient[c] * light[c];
+    if (plan.own_ambient[c] > 0) plan.has_own_ambient = true;
+  }
+}
+
+void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
+  const auto slot = [&](const TextureUse& use, TexelMeaning meaning) {
+    return make_slot(use, textures.find(use, meaning), anisotropy);
+  };
+  plan.base_color = slot(m.base_color_texture, TexelMeaning::Color);
+  if (m.model == ShadingModel::Unlit) return;
+  plan.emissive = slot(m.emissive_texture, TexelMeaning::Color);
+  plan.normal = slot(m.normal_texture, TexelMeaning::Values);
+  plan.occlusion = slot(m.occlusion_texture, TexelMeaning::Values);
+  if (m.model == ShadingModel::MetallicRoughness) {
+    plan.metallic_roughness = slot(m.metallic_roughness_texture, TexelMeaning::Values);
+  }
+}
+
+/// Which stages are needed, given the lights and textures there are.
+void decide(const Scene& scene, const Surroundings& s, const Material& m, MaterialPlan& plan) {
+  const bool is_metallic = m.model == ShadingModel::MetallicRoughness;
+  const bool has_lights = !scene.lights.empty();
+  const bool has_places = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                      [](const Light& light) { return light.kind != LightKind::Directional; });
+  plan.is_lit = m.model != ShadingModel::Unlit;
+  const bool uses_normal = plan.is_lit && (has_lights || (is_metallic && !is_black(s.environment)));
+  plan.has_specular = plan.is_lit && !is_metallic && has_lights && !is_black(m.specular);
+  plan.has_emissive = plan.is_lit && !is_black(m.emissive);
+  plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
+  if (!uses_normal) plan.normal.texture = nullptr;
+  if (!plan.has_emissive) plan.emissive.texture = nullptr;
+
+  Attributes& a = plan.attributes;
+  a.position = (plan.needs_viewer && !s.is_orthographic && !s.rays) || (uses_normal && has_places);
+  a.normal = uses_normal;
+  a.tangent = plan.normal.texture != nullptr;
+  a.tangent_uv_set = plan.normal.uv_set;
+  for (const TextureSlot* slot :
+       {&plan.base_color, &plan.metallic_roughness, &plan.emissive, &plan.occlusion, &plan.normal}) {
+    if (slot->texture != nullptr) a.uv[slot->uv_set] = true;
+  }
+}
+
+}  // namespace
+
+TextureSet::TextureSet(const Scene& scene, bool raw_colors) : TextureSet(raw_colors) {
+  find_uses(scene);
+  for (auto& [key, texture] : textures_)
+    texture = std::make_unique<Texture>(scene.images[static_cast<std::size_t>(key.first)].pixels, key.second);
+}
+
+TextureSet TextureSet::take(Scene& scene, bool raw_colors) {
+  TextureSet set(raw_colors);
+  set.find_uses(scene);
+  auto next = set.textures_.begin();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    TexelImage& pixels = scene.images[i].pixels;
+    const auto is_of_this = [&] { return next != set.textures_.end() && next->first.first == static_cast<int>(i); };
+    while (is_of_this()) {
+      auto& [key, texture] = *next++;
+      texture = is_of_this() ? std::make_unique<Texture>(pixels, key.second)
+                             : std::make_unique<Texture>(std::move(pixels), key.second);
+    }
+    pixels = TexelImage();
+  }
+  return set;
+}
+
+void TextureSet::find_uses(const Scene& scene) {
+  for (const TextureImage& image : scene.images) is_light_.push_back(image.pixels.kind() == TexelKind::Light);
+  for (const Material& material : scene.materials)
+    for (const NamedUse& named : uses_of(material)) {
+      if (named.use->image < 0) continue;
+      const TextureImage& image = scene.images.at(static_cast<std::size_t>(named.use->image));
+      if (image.pixels.empty()) throw Error(Trouble::Input, "texture " + image.name + ": has no texels");
+      textures_[key_of(named.use->image, named.meaning)] = nullptr;
+    }
+}
+
+TextureSet::Key TextureSet::key_of(int image, TexelMeaning meaning) const {
+  const bool is_raw = raw_colors_ && !is_light_[static_cast<std::size_t>(image)];
+  return {image, is_raw ? TexelMeaning::Values : meaning};
+}
+
+const Texture* TextureSet::find(const TextureUse& use, TexelMeaning meaning) const {
+  if (use.image < 0) return nullptr;
+  const auto found = textures_.find(key_of(use.image, meaning));
+  return found == textures_.end() ? nullptr : found->second.get();
+}
+
+CoordinateMap coordinate_map(const TextureUse& use) {
+  const float c = cos(use.rotation), s = sin(use.rotation);
+  return {{use.scale.x * c, use.scale.y * s, use.offset.x, -(use.scale.x * s), use.scale.y * c, use.offset.y}};
+}
+
+bool share_taps(const TextureSlot& a, const TextureSlot& b) {
+  const TextureView &s = a.texture->view(), &t = b.texture->view();
+  return s.width[0] == t.width[0] && s.height[0] == t.height[0] && a.uv_set == b.uv_set && a.filtering == b.filtering &&
+         a.map == b.map;
+}
+
+std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures) {
+  std::vector<MaterialPlan> plans(scene.materials.size());
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    copy_factors(scene.materials[i], plans[i]);
+    plan_ambient(scene.materials[i], surroundings, plans[i]);
+    find_slots(scene.materials[i], textures, surroundings.anisotropy, plans[i]);
+    decide(scene, surroundings, scene.materials[i], plans[i]);
+  }
+
+  // What some mesh of a material has or lacks, all of the material's batches are ready for.
+  for (const Mesh& mesh : scene.meshes) {
+    MaterialPlan& plan = plans[static_cast<std::size_t>(mesh.material)];
+    if (!mesh.color.empty()) plan.attributes.color = true;
+    if (mesh.normal.empty()) plan.has_bare_meshes = true;
+    if (mesh.tangent.empty()) plan.has_meshes_without_tangents = true;
+  }
+  return plans;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/surface/surface.h"
+#include "zoneplate/shade/surface/surface_kernels.h"
+#include "zoneplate/shade/surface/vertices.h"
+#include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture.h"
+
+namespace zoneplate {
+
+/// The textures of a scene's materials; an image that serves as colour and as data is there twice.
+class TextureSet {
+ public:
+  /// Makes the levels of what the materials use, one image after the other. With `raw_colors` the codes of colours are
+  /// values; light stays light.
+  /// Errors    Trouble::Input where an image that is used is empty; OutOfMemory("texture levels").
+  TextureSet(const Scene& scene, bool raw_colors);
+  /// The same, and takes the images with it: each is freed as soon as its texels are in the levels, those that no
+  /// material uses are freed at once. Afterwards all images of the scene are empty: only this set can texture it.
+  static TextureSet take(Scene& scene, bool raw_colors);
+
+  /// Null where the use names no image.
+  const Texture* find(const TextureUse& use, TexelMeaning meaning) const;
+
+ private:
+  using Key = std::pair<int, TexelMeaning>;
+  explicit TextureSet(bool raw_colors) : raw_colors_(raw_colors) {}
+  void find_uses(const Scene& scene);
+  Key key_of(int image, TexelMeaning meaning) const;
+
+  bool raw_colors_;
+  std::vector<bool> is_light_;  ///< by image
+  std::map<Key, std::unique_ptr<Texture>> textures_;
+};
+
+/// One texture of a material. `texture` null: absent.
+struct TextureSlot {
+  const Texture* texture = nullptr;
+  Filtering filtering;
+  CoordinateMap map;
+  bool is_mapped = false;  ///< the map is not the identity
+  int uv_set = 0;
+};
+
+/// The map of a use: scaled, rotated, moved; u' = cos u + sin v, v' = cos v - sin u (KHR_texture_transform).
+CoordinateMap coordinate_map(const TextureUse& use);
+
+/// Whether two slots look up the same texels with the same weights.
+bool share_taps(const TextureSlot& a, const TextureSlot& b);
+
+/// What is decided once for a material: which stages its points go through, with which constants.
+struct MaterialPlan {
+  ShadingModel model = ShadingModel::Unlit;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  TextureSlot base_color, metallic_roughness, emissive, occlusion, normal;
+
+  float factor[4] = {1, 1, 1, 1};
+  float metallic = 1, roughness = 1;
+  float emissive_factor[3] = {0, 0, 0};
+  float normal_scale = 1, occlusion_strength = 1;
+  float specular[3] = {0, 0, 0};
+  Exponent exponent;
+
+  // (Blinn-)Phong's ambient term, channel by channel: a share of the base colour, or, where the base colour's factor is
+  // too small to divide by, light of its own.
+  float ambient_share[3] = {0, 0, 0};  ///< times the base colour
+  float own_ambient[3] = {0, 0, 0};    ///< times the base colour without its factor
+  bool has_own_ambient = false;
+
+  bool is_lit = false;        ///< lights or an environment change its colour
+  bool has_specular = false;  ///< (Blinn-)Phong
+  bool has_emissive = false;
+  bool has_bare_meshes = false;  ///< some of its meshes have no normals
+  bool has_meshes_without_tangents = false;
+  bool needs_viewer = false;  ///< for the colour
+  Attributes attributes;      ///< for the colour
+};
+
+/// The plans of a scene's materials, by material.
+std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures);
+
+}  // namespace zoneplate

@@ -1,0 +1,314 @@
+#include "zoneplate/shade/surface/surface.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "zoneplate/shade/surface/brightness.h"
+#include "zoneplate/shade/surface/lighting.h"
+#include "zoneplate/shade/surface/material_plan.h"
+#include "zoneplate/shade/surface/surface_kernels.h"
+#include "zoneplate/shade/surface/vertices.h"
+#include "zoneplate/shade/texture/filtering.h"
+
+namespace zoneplate {
+namespace {
+
+Viewpoint make_viewpoint(const Surroundings& s) {
+  const float3 back = normalize(-s.view_direction, {0, 0, 1});
+  Viewpoint v{{s.eye.x, s.eye.y, s.eye.z}, {back.x, back.y, back.z}, s.is_orthographic, s.rays.has_value()};
+  if (!s.rays) return v;
+  const auto put = [](float3 from, float(&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
+  put(s.rays->first, v.ray), put(s.rays->dx, v.ray_dx), put(s.rays->dy, v.ray_dy);
+  return v;
+}
+
+std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
+  std::vector<PreparedLight> prepared;
+  for (const Light& light : lights) prepared.push_back(prepare(light));
+  return prepared;
+}
+
+/// A material under the scene's lights, which stay where they are.
+Illumination make_illumination(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
+                               const Viewpoint& viewpoint, float3 environment) {
+  const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
+  Illumination s;
+  s.light = lights.data(), s.lights = static_cast<int>(lights.size());
+  s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
+  s.has_occlusion = plan.occlusion.texture != nullptr;
+  s.has_emissive_texture = plan.emissive.texture != nullptr || plan.has_own_ambient;
+  s.has_emissive = plan.has_emissive || plan.has_own_ambient;
+  s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
+  copy(plan.emissive_factor, s.emissive);
+  s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
+  copy(plan.ambient_share, s.ambient), copy(plan.specular, s.specular);
+  s.exponent = plan.exponent;
+  s.has_material_texture = plan.metallic_roughness.texture != nullptr;
+  s.metallic = plan.metallic, s.roughness = plan.roughness;
+  s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
+  s.environment[0] = environment.x, s.environment[1] = environment.y, s.environment[2] = environment.z;
+  return s;
+}
+
+}  // namespace
+
+struct SurfaceShader::Data {
+  Data(const Scene& scene_in, const Surroundings& surroundings_in, const TextureSet* textures_in,
+       const VertexRecords* records_in)
+      : scene(scene_in),
+        surroundings(surroundings_in),
+        own_textures(textures_in ? nullptr : std::make_unique<TextureSet>(scene_in, surroundings_in.raw_colors)),
+        own_records(records_in ? nullptr : std::make_unique<VertexRecords>(scene_in)),
+        records(records_in ? *records_in : *own_records),
+        plans(make_plans(scene_in, surroundings_in, textures_in ? *textures_in : *own_textures)),
+        placements(make_placements(scene_in.instances)),
+        lights(prepare_all(scene_in.lights)),
+        viewpoint(make_viewpoint(surroundings_in)),
+        kernels(pick(surroundings_in.isa, scalar::surface_kernels)),
+        filtering(pick(surroundings_in.isa, scalar::filtering_kernels)) {
+    for (std::size_t m = 0; m < plans.size(); ++m) {
+      illuminations.push_back(make_illumination(plans[m], lights, viewpoint, surroundings.environment));
+      needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
+    }
+  }
+
+  /// What points need of their triangles' corners, and where it goes.
+  struct Needs {
+    Attributes attributes;
+    Interpolation interpolation;
+  };
+
+  /// To know the way to the viewer may ask for the points' places.
+  Needs make_needs(int material, Attributes attributes, bool needs_viewer) const {
+    if (needs_viewer && !viewpoint.is_orthographic && !viewpoint.has_rays) attributes.position = true;
+    return {attributes, interpolation(records.layout(material), attributes)};
+  }
+
+  const Scene& scene;
+  const Surroundings surroundings;
+  const std::unique_ptr<TextureSet> own_textures;
+  const std::unique_ptr<VertexRecords> own_records;
+  const VertexRecords& records;
+  const std::vector<MaterialPlan> plans;
+  const std::vector<Placement> placements;
+  const std::vector<PreparedLight> lights;
+  const Viewpoint viewpoint;
+  const SurfaceKernels& kernels;
+  const FilteringKernels& filtering;
+  std::vector<Illumination> illuminations;  ///< by material
+  std::vector<Needs> needs_of_color;        ///< by material
+
+  struct Walk;
+};
+
+/// One batch on its way through the stages of its material's plan.
+struct SurfaceShader::Data::Walk {
+  const Data& d;
+  const MaterialPlan& plan;
+  const Batch& batch;
+  const SurfaceKernels& kernels = d.kernels;
+  Points p;
+  Corners corners;
+  Coordinates coordinates;
+  Taps taps;
+  const TextureSlot* taps_of = nullptr;  ///< the slot for which `taps` stands
+  alignas(64) float texel_values[4][Batch::room];
+  float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
+
+  Walk(const Data& data, const Batch& of)
+      : d(data), plan(data.plans[static_cast<std::size_t>(of.material)]), batch(of) {
+    p.count = batch.padded();
+  }
+
+  void interpolate(const Needs& needs);
+  Footprint footprint(const TextureSlot& slot);
+  void sample(const TextureSlot& slot, float* const out[4]);
+  void find_base();
+  void find_normals();
+  void find_emissive();
+  void add_own_ambient();
+  void find_occlusion();
+  void find_metallic();
+  void light(Shaded& out);
+};
+
+/// Vertices to points: positions and tangents in world space, normals as the mesh has them.
+void SurfaceShader::Data::Walk::interpolate(const Needs& needs) {
+  const Attributes& attributes = needs.attributes;
+  find_corners(d.records, batch, corners);
+  if (needs.interpolation.quads > 0) kernels.interpolate(batch, corners, needs.interpolation, p);
+  if (attributes.position) kernels.place_positions(batch, corners, d.placements.data(), p);
+  if (!attributes.tangent) return;
+  if (plan.has_meshes_without_tangents) make_missing_tangents(d.scene, batch, attributes.tangent_uv_set, p);
+  kernels.place_tangents(batch, corners, d.placements.data(), p);
+}
+
+/// Where a slot's texture is looked up.
+Footprint SurfaceShader::Data::Walk::footprint(const TextureSlot& slot) {
+  const auto s = slot.uv_set;
+  if (!slot.is_mapped) {
+    return {p.uv[s][0], p.uv[s][1], p.uv_dx[s][0], p.uv_dx[s][1], p.uv_dy[s][0], p.uv_dy[s][1], batch.repeats_slopes};
+  }
+  kernels.map_coordinates(slot.map, batch, p, s, coordinates);
+  const Coordinates& c = coordinates;
+  return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.repeats_slopes};
+}
+
+/// The slot's texture at the points. Slots of one size and one sampler share their taps.
+void SurfaceShader::Data::Walk::sample(const TextureSlot& slot, float* const out[4]) {
+  if (slot.filtering.anisotropy > 1)
+    return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, footprint(slot), out, p.count);
+  if (taps_of == nullptr || !share_taps(*taps_of, slot)) {
+    d.filtering.find_taps(slot.texture->view(), slot.filtering, footprint(slot), taps, p.count);
+    taps_of = &slot;
+  }
+  d.filtering.mix_taps(slot.texture->view(), taps, out, p.count);
+}
+
+/// Factor × texture × vertex colour.
+void SurfaceShader::Data::Walk::find_base() {
+  const bool is_textured = plan.base_color.texture != nullptr;
+  float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
+  if (is_textured) sample(plan.base_color, base);
+  for (int c = 0; c < 4; ++c) {
+    if (!is_textured) {
+      kernels.fill(p.base[c], plan.factor[c], p.count);
+    } else if (plan.factor[c] != 1) {
+      kernels.scale(p.base[c], p.base[c], plan.factor[c], 0, p.count);
+    }
+    if (plan.attributes.color) kernels.multiply(p.base[c], p.color[c], p.count);
+  }
+  // A texture's alpha lies in [0, 1] by itself.
+  const bool may_leave = plan.attributes.color || !(plan.factor[3] >= 0 && plan.factor[3] <= 1);
+  if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
+}
+
+void SurfaceShader::Data::Walk::find_normals() {
+  if (plan.normal.texture == nullptr) return kernels.find_normals(batch, corners, d.placements.data(), p);
+  kernels.place_normals(batch, corners, d.placements.data(), p);
+  sample(plan.normal, texel);
+  kernels.bend_normals(batch, texel, plan.normal_scale, p);
+}
+
+void SurfaceShader::Data::Walk::find_emissive() {
+  if (plan.emissive.texture == nullptr) return;
+  sample(plan.emissive, texel);
+  for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
+}
+
+/// The ambient term of channels whose base colour has next to no factor: the surface seems to emit it.
+void SurfaceShader::Data::Walk::add_own_ambient() {
+  if (!plan.has_own_ambient) return;
+  const bool is_textured = plan.base_color.texture != nullptr, is_occluded = plan.occlusion.texture != nullptr;
+  if (is_textured) sample(plan.base_color, texel);
+  for (int c = 0; c < 3; ++c) {
+    if (plan.emissive.texture == nullptr) kernels.fill(p.emissive[c], plan.emissive_factor[c], p.count);
+    if (is_textured)
+      kernels.scale(texel[c], texel[c], plan.own_ambient[c], 0, p.count);
+    else
+      kernels.fill(texel[c], plan.own_ambient[c], p.count);
+    if (plan.attributes.color) kernels.multiply(texel[c], p.color[c], p.count);
+    if (is_occluded) kernels.multiply(texel[c], p.occlusion, p.count);
+    for (int i = 0; i < p.count; ++i) p.emissive[c][i] += texel[c][i];
+  }
+}
+
+/// 1 + strength (texture - 1).
+void SurfaceShader::Data::Walk::find_occlusion() {
+  if (plan.occlusion.texture == nullptr) return;
+  sample(plan.occlusion, texel);
+  kernels.scale(p.occlusion, texel[0], plan.occlusion_strength, 1 - plan.occlusion_strength, p.count);
+}
+
+void SurfaceShader::Data::Walk::find_metallic() {
+  if (plan.metallic_roughness.texture == nullptr) return;
+  sample(plan.metallic_roughness, texel);
+  kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
+  kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
+}
+
+/// Base colour and normal to the colour that is seen.
+void SurfaceShader::Data::Walk::light(Shaded& out) {
+  find_occlusion();
+  find_emissive();
+  add_own_ambient();
+  if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
+  const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
+  if (is_metallic) find_metallic();
+
+  const Illumination& what = d.illuminations[static_cast<std::size_t>(batch.material)];
+  if (is_metallic) {
+    kernels.light_metallic(what, batch, p, out);
+  } else {
+    kernels.light_phong(what, batch, p, out);
+  }
+}
+
+SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures,
+                             const VertexRecords* records)
+    : data_(std::make_unique<Data>(scene, surroundings, textures, records)),
+      brightest_(brightest_point(data_->plans, data_->lights, surroundings.environment)) {}
+
+SurfaceShader::~SurfaceShader() = default;
+
+void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const {
+  if (batch.count == 0) return;
+  Data::Walk walk(*data_, batch);
+  const MaterialPlan& plan = walk.plan;
+  Points& p = walk.p;
+
+  // What was asked for beside the colour may need more of the vertices.
+  const Data::Needs* needs = &data_->needs_of_color[static_cast<std::size_t>(batch.material)];
+  Data::Needs more;
+  if (wanted.normal || wanted.uv) {
+    Attributes attributes = plan.attributes;
+    if (wanted.normal) attributes.normal = true;
+    if (wanted.uv) attributes.uv[plan.base_color.uv_set] = true;
+    more = data_->make_needs(batch.material, attributes, plan.needs_viewer || (wanted.normal && plan.has_bare_meshes));
+    needs = &more;
+  }
+
+  walk.interpolate(*needs);
+  walk.find_base();
+  if (needs->attributes.normal) walk.find_normals();
+  if (plan.is_lit) {
+    walk.light(out);
+  } else {
+    walk.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
+  }
+
+  const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
+  if (wanted.normal) {
+    if (plan.has_bare_meshes) walk.kernels.default_normals(data_->viewpoint, batch, p);
+    for (int c = 0; c < 3; ++c) copy(p.normal[c], out.normal[c]);
+  }
+  if (wanted.albedo)
+    for (int c = 0; c < 3; ++c) copy(p.base[c], out.albedo[c]);
+  if (wanted.uv) {
+    const Footprint at = walk.footprint(plan.base_color);
+    copy(at.u, out.uv[0]), copy(at.v, out.uv[1]);
+  }
+}
+
+bool SurfaceShader::wants_slopes(int material) const {
+  const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
+  return a.uv[0] || a.uv[1];
+}
+
+std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
+  return {data_->records.of_instance(instance), static_cast<std::size_t>(data_->records.layout(material).floats)};
+}
+
+void SurfaceShader::alpha(const Batch& batch, float* out) const {
+  if (batch.count == 0) return;
+  Data::Walk walk(*data_, batch);
+  Attributes attributes;
+  attributes.color = walk.plan.attributes.color;
+  if (walk.plan.base_color.texture != nullptr) attributes.uv[walk.plan.base_color.uv_set] = true;
+  walk.interpolate(data_->make_needs(batch.material, attributes, false));
+  walk.find_base();
+  std::copy_n(walk.p.base[3], walk.p.count, out);
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,202 @@
+#include "zoneplate/shade/surface/vertices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "zoneplate/base/parallel.h"
+
+namespace zoneplate {
+namespace {
+
+struct Triangle {
+  std::uint32_t vertex[3];
+};
+
+/// The direction in which u grows over a triangle, and the sign of the triangle's area in (u, v).
+float4 face_tangent(const Mesh& mesh, const Triangle& t, int uv_set) {
+  const auto& uv = uv_set == 0 ? mesh.uv0 : mesh.uv1;
+  if (uv.empty()) return {0, 0, 0, 1};
+  const float3 p = mesh.position[t.vertex[0]];
+  const float3 e1 = mesh.position[t.vertex[1]] - p, e2 = mesh.position[t.vertex[2]] - p;
+  const float2 a = uv[t.vertex[1]] - uv[t.vertex[0]], b = uv[t.vertex[2]] - uv[t.vertex[0]];
+  const float area = a.x * b.y - a.y * b.x;
+
+  // v grows downwards in the image; the bitangent of a normal map points up, hence the sign.
+  const float sign = area > 0 ? 1.0f : area < 0 ? -1.0f : 0.0f;
+  const float3 along = (e1 * b.y - e2 * a.y) * sign;
+  return {along.x, along.y, along.z, -sign};
+}
+
+std::vector<RecordLayout> make_layouts(const Scene& scene) {
+  std::vector<RecordLayout> layouts(scene.materials.size());
+  const auto take = [](int& place, RecordLayout& layout) {
+    if (place < 0) place = layout.floats, layout.floats += 4;
+  };
+  for (const Mesh& mesh : scene.meshes) {
+    const auto m = static_cast<std::size_t>(mesh.material);
+    const Material& material = scene.materials[m];
+    for (const TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture,
+                                  &material.emissive_texture, &material.occlusion_texture, &material.normal_texture})
+      if (use->uv_set == 1) take(layouts[m].uv1, layouts[m]);
+    if (material.normal_texture.image >= 0) take(layouts[m].tangent, layouts[m]);
+    if (!mesh.color.empty()) take(layouts[m].color, layouts[m]);
+    if (!mesh.uv1.empty()) take(layouts[m].uv1, layouts[m]);
+  }
+  return layouts;
+}
+
+void write_record(const Mesh& mesh, const RecordLayout& layout, std::size_t v, float* to) {
+  const float3 p = mesh.position[v];
+  const float3 n = mesh.normal.empty() ? float3{} : mesh.normal[v];
+  const float2 uv = mesh.uv0.empty() ? float2{} : mesh.uv0[v];
+  to[0] = n.x, to[1] = n.y, to[2] = n.z, to[3] = p.x;
+  to[4] = p.y, to[5] = p.z, to[6] = uv.x, to[7] = uv.y;
+  const auto put = [&](int place, float4 value) {
+    float* const at = to + place;
+    if (place >= 0) at[0] = value.x, at[1] = value.y, at[2] = value.z, at[3] = value.w;
+  };
+  put(layout.tangent, mesh.tangent.empty() ? float4{} : mesh.tangent[v]);
+  put(layout.color, mesh.color.empty() ? float4{1, 1, 1, 1} : mesh.color[v]);
+  const float2 uv1 = mesh.uv1.empty() ? float2{} : mesh.uv1[v];
+  put(layout.uv1, {uv1.x, uv1.y, 0, 0});
+}
+
+}  // namespace
+
+VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene)), meshes_(scene.meshes.size()) {
+  constexpr std::size_t vertices_per_range = 8192;
+  std::vector<const float*> first(meshes_.size());
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    const RecordLayout& layout = layouts_[static_cast<std::size_t>(mesh.material)];
+    const auto stride = static_cast<std::size_t>(layout.floats);
+    auto* const records = reinterpret_cast<float*>(meshes_[m].room(mesh.position.size() * stride * sizeof(float)));
+    first[m] = records;
+    parallel_ranges(mesh.position.size(), vertices_per_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, records + v * stride);
+    });
+  }
+  for (const Instance& instance : scene.instances) instances_.push_back(first[static_cast<std::size_t>(instance.mesh)]);
+}
+
+void find_corners(const VertexRecords& records, const Batch& batch, Corners& out) {
+  const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
+  if (batch.one_instance) {
+    // Records that stand in one array are found when they are needed.
+    out.first = records.of_instance(batch.instance[0]), out.stride = stride;
+    std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
+    return;
+  }
+  out.first = nullptr;
+  const auto find = [&](std::size_t i) {
+    const float* const first = records.of_instance(batch.instance[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.record[k][i] = first + stride * batch.vertex[k][i];
+      __builtin_prefetch(out.record[k][i]);
+    }
+  };
+  std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
+  for (int g = 0; g < batch.padded() / Batch::group; g = batch.after_run(g)) {
+    const std::size_t first = static_cast<std::size_t>(g) * Batch::group;
+    if (batch.one_triangle[g]) {
+      find(first);
+      continue;
+    }
+    std::uint32_t difference = 0;
+    for (std::size_t i = first; i < first + Batch::group; ++i) {
+      find(i);
+      difference |= batch.instance[i] ^ batch.instance[first];
+    }
+    out.one_instance[g] = difference == 0;
+  }
+}
+
+namespace {
+
+/// Array i of those that begin at a member of Points.
+PointsArray array(std::size_t member, std::size_t i = 0) {
+  return {static_cast<std::int32_t>(member + i * sizeof(Points::Array))};
+}
+
+}  // namespace
+
+Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes) {
+  constexpr std::size_t position = offsetof(Points, position), normal = offsetof(Points, normal);
+  constexpr std::size_t tangent = offsetof(Points, tangent), color = offsetof(Points, color);
+  Interpolation what;
+  const auto quad = [&](bool is_wanted, int place) -> Interpolation::Quad* {
+    if (!is_wanted || place < 0) return nullptr;
+    what.quad[what.quads].place = place;
+    return &what.quad[what.quads++];
+  };
+  const auto want_coordinates = [&](Interpolation::Quad& q, std::size_t first, std::size_t set) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      q.value[first + c] = array(offsetof(Points, uv), 2 * set + c);
+      q.dx[first + c] = array(offsetof(Points, uv_dx), 2 * set + c);
+      q.dy[first + c] = array(offsetof(Points, uv_dy), 2 * set + c);
+    }
+  };
+  if (auto* q = quad(attributes.normal || attributes.position, 0)) {
+    if (attributes.normal)
+      for (std::size_t c = 0; c < 3; ++c) q->value[c] = array(normal, c);
+    if (attributes.position) q->value[3] = array(position, 0);
+  }
+  if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
+    if (attributes.position) q->value[0] = array(position, 1), q->value[1] = array(position, 2);
+    if (attributes.uv[0]) want_coordinates(*q, 2, 0);
+  }
+  if (auto* q = quad(attributes.tangent, layout.tangent))
+    for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(tangent, c);
+  if (auto* q = quad(attributes.color, layout.color))
+    for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(color, c);
+  if (auto* q = quad(attributes.uv[1], layout.uv1)) want_coordinates(*q, 0, 1);
+  return what;
+}
+
+void make_missing_tangents(const Scene& scene, const Batch& batch, int uv_set, Points& p) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i) {
+    const std::size_t told = batch.told(i);
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[batch.instance[told]].mesh)];
+    if (!mesh.tangent.empty()) continue;
+    const float4 t =
+        face_tangent(mesh, {{batch.vertex[0][told], batch.vertex[1][told], batch.vertex[2][told]}}, uv_set);
+    p.tangent[0][i] = t.x, p.tangent[1][i] = t.y, p.tangent[2][i] = t.z, p.tangent[3][i] = t.w;
+  }
+}
+
+void mark_lit(const Scene& scene, const Batch& batch, float* is_lit) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i) {
+    const Instance& instance = scene.instances[batch.instance[batch.told(i)]];
+    is_lit[i] = scene.meshes[static_cast<std::size_t>(instance.mesh)].normal.empty() ? 0.0f : 1.0f;
+  }
+}
+
+std::vector<Placement> make_placements(std::span<const Instance> instances) {
+  std::vector<Placement> placements;
+  placements.reserve(instances.size());
+  for (const Instance& instance : instances) {
+    Placement p{};
+    const float4x4& world = instance.world_from_object;
+    const float4x4 normal = normal_matrix(world);
+
+    // Cofactors of tiny or huge placements are brought near 1, so that their squares stay in range; those that are out
+    // of range themselves count as none.
+    float greatest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float4 v = normal.column[c];
+      greatest = std::max({greatest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    }
+    const bool is_in_range = greatest > 1e-36f && greatest < 1e36f;
+    const auto put = [](float4 v, float* to) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
+    for (std::size_t c = 0; c < 4; ++c) put(world.column[c], p.world_from_object + 3 * c);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (is_in_range) put(normal.column[c] * (1 / greatest), p.normal + 3 * c);
+    p.handedness = determinant3(world) < 0 ? -1.0f : 1.0f;
+    p.keeps_normals = normal == float4x4{} ? 1.0f : 0.0f;
+    placements.push_back(p);
+  }
+  return placements;
+}
+
+}  // namespace zoneplate

@@ -1,8 +1,0 @@
-#include "zoneplate/shade/surface_kernels.h"
-
-#include "zoneplate/shade/lanes_simd.h"
-#include "zoneplate/shade/surface_stages.h"
-
-namespace zoneplate {
-const SurfaceKernels SurfaceKernels::HWY_NAMESPACE = stages::all<HWY_NAMESPACE::Float, HWY_NAMESPACE::WideFloat>();
-}  // namespace zoneplate

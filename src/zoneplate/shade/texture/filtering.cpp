@@ -1,0 +1,90 @@
+#include "zoneplate/shade/texture/filtering.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "zoneplate/scene/material.h"
+#include "zoneplate/shade/lanes/lanes.h"
+#include "zoneplate/shade/texture/filtering_stages.h"
+#include "zoneplate/shade/texture/texture.h"
+
+namespace zoneplate {
+
+Filtering make_filtering(const Sampler& sampler, int anisotropy) {
+  const bool blends = sampler.level == LevelFilter::Linear && sampler.minify == TexelFilter::Linear;
+  return {
+      .mirror_u = sampler.wrap_u == Wrap::Mirror,
+      .clamp_u = sampler.wrap_u == Wrap::Clamp,
+      .mirror_v = sampler.wrap_v == Wrap::Mirror,
+      .clamp_v = sampler.wrap_v == Wrap::Clamp,
+      .nearest_magnify = sampler.magnify == TexelFilter::Nearest,
+      .nearest_minify = sampler.minify == TexelFilter::Nearest,
+      .has_levels = sampler.level != LevelFilter::None,
+      .blends_levels = sampler.level == LevelFilter::Linear,
+      .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, Filtering::most_anisotropy) : 1};
+}
+
+namespace scalar {
+namespace {
+
+/// a + (b - a) × weight / 32768, to the nearest.
+std::int32_t mix(std::int32_t a, std::int32_t b, std::int32_t weight) { return a + (((b - a) * weight + 16384) >> 15); }
+
+template <class Code>
+std::int32_t mix_level(const Code* codes, int shift, const Taps& taps, int level, int point, int channel) {
+  const auto code = [&](std::int32_t texel) {
+    return static_cast<std::int32_t>(codes[std::ptrdiff_t{4} * texel + channel]) << shift;
+  };
+  const std::int32_t upper = taps.upper[level][point], lower = taps.lower[level][point];
+  const std::int32_t right = taps.right(level, point), down = taps.down(level, point);
+  return mix(mix(code(upper), code(lower), down), mix(code(upper + 1), code(lower + 1), down), right);
+}
+
+template <class Code>
+void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float* const out[4], int count) {
+  for (int i = 0; i < count; ++i)
+    for (int c = 0; c < 4; ++c) {
+      std::int32_t value = mix_level(codes, shift, taps, 0, i, c);
+      const std::int32_t blend = taps.blend[Taps::by_fours(i)];
+      if (blend > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), blend);
+      out[c][i] = static_cast<float>(value) * unit;
+    }
+}
+
+float mix(float a, float b, float weight) { return a + (b - a) * weight; }
+
+float mix_level(const float* values, const Taps& taps, int level, int point, int channel) {
+  const float* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point] + channel;
+  const float* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point] + channel;
+  const float right = static_cast<float>(taps.right(level, point)) * 0x1p-15f;
+  const float down = static_cast<float>(taps.down(level, point)) * 0x1p-15f;
+  return mix(mix(upper[0], lower[0], down), mix(upper[4], lower[4], down), right);
+}
+
+void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
+  for (int i = 0; i < count; ++i)
+    for (int c = 0; c < 4; ++c) {
+      const float value = mix_level(values, taps, 0, i, c);
+      const int blend = taps.blend[Taps::by_fours(i)];
+      const float weight = static_cast<float>(blend) * 0x1p-15f;
+      out[c][i] = blend > 0 ? mix(value, mix_level(values, taps, 1, i, c), weight) : value;
+    }
+}
+
+void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
+  if (t.codes8 != nullptr) return mix_codes(t.codes8, 7, 1.0f / 32640.0f, taps, out, count);
+  if (t.codes15 != nullptr) return mix_codes(t.codes15, 0, 1.0f / 32767.0f, taps, out, count);
+  mix_values(t.values, taps, out, count);
+}
+
+void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
+  zoneplate::sample_anisotropic<Float>(
+      t, f, at, out, count, [&](const Taps& taps, float* const probe[4], int n) { mix_taps(t, taps, probe, n); });
+}
+
+}  // namespace
+
+const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps, &sample_anisotropic};
+
+}  // namespace scalar
+}  // namespace zoneplate

@@ -1,0 +1,315 @@
+#include "zoneplate/math/halves_simd.h"
+#include "zoneplate/shade/lanes/lanes_simd.h"
+#include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/filtering_stages.h"
+#include "zoneplate/shade/texture/texture_view.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace zoneplate::HWY_NAMESPACE {
+namespace {
+
+// Two texels side by side of a row, of each of two points: those are a block of 128 bits, as 16-bit lanes in two
+// vectors, and so is what they are mixed to. Eight points are a vector of four blocks, two of two or four of one.
+using Fixed = hn::CappedTag<std::int16_t, 32>;
+using V = hn::Vec<Fixed>;
+constexpr int blocks = static_cast<int>(hn::MaxLanes(Fixed())) / 8;
+constexpr int vectors = 4 / blocks;
+
+/// Of eight points the first of the two in a vector's block: such that weights by fours and results are turned by
+/// blocks only.
+constexpr int point_of(int vector, int block) {
+  return blocks == 1 ? 2 * vector : blocks == 2 ? 2 * vector + 4 * block : block % 2 * 4 + block / 2 * 2;
+}
+
+/// On x86 one instruction multiplies bytes by -128, but none by 128: there numbers have the other sign until they are
+/// stored, and are mixed to the same bits.
+constexpr bool are_negative = HWY_ARCH_X86 != 0;
+
+/// a + (b - a) × weight / 32768, to the nearest.
+HWY_INLINE V mix(V a, V b, V weight) { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), weight)); }
+/// The same of negative numbers, whose difference is rounded as that of positive ones.
+HWY_INLINE V mix_negative(V a, V b, V weight) { return hn::Sub(a, hn::MulFixedPoint15(hn::Sub(a, b), weight)); }
+
+/// Which bytes of the weights by fours go into which lanes of a block. `pair`: which two of the four points the block
+/// has; 64 bytes from `pair` 0 on are those of four blocks.
+struct Spread {
+  alignas(64) std::uint8_t down[2][32];         ///< four lanes of each point
+  alignas(64) std::uint8_t down_one[2][2][32];  ///< all of the first point, or of the second
+  alignas(64) std::uint8_t right[2][32];        ///< two lanes of each point, twice
+};
+
+constexpr Spread make_spread() {
+  Spread s{};
+  for (int pair = 0; pair < 2; ++pair)
+    for (int byte = 0; byte < 32; ++byte) {
+      const int half = byte % 2, lane = byte % 16 / 2;
+      s.down[pair][byte] = static_cast<std::uint8_t>(8 + 2 * (2 * pair + lane / 4) + half);
+      for (int p = 0; p < 2; ++p) s.down_one[p][pair][byte] = static_cast<std::uint8_t>(8 + 2 * (2 * pair + p) + half);
+      s.right[pair][byte] = static_cast<std::uint8_t>(2 * (2 * pair + lane / 2 % 2) + half);
+    }
+  return s;
+}
+constexpr Spread spread = make_spread();
+
+/// The weights by fours of the points of vector n of the eight from i on.
+HWY_INLINE V load_weights(const std::int16_t* weights, int i, [[maybe_unused]] int n) {
+  if constexpr (blocks == 4) {
+    const auto eight = hn::Load(hn::Half<Fixed>(), weights + 2 * i);
+    return combined(Fixed(), eight, eight);
+  } else {
+    return hn::Load(Fixed(), weights + 2 * i + (blocks == 2 ? 0 : n / 2 * 8));
+  }
+}
+
+HWY_INLINE V spread_weights(V weights, const std::uint8_t (&bytes)[2][32], int n) {
+  const hn::Repartition<std::uint8_t, Fixed> d;
+  return hn::BitCast(Fixed(), hn::TableLookupBytes(hn::BitCast(d, weights), hn::Load(d, bytes[n % 2])));
+}
+
+/// A vector of what `block` gives of each of its blocks.
+template <class Load>
+HWY_INLINE V join_blocks(Load block) {
+  if constexpr (blocks == 4) {
+    const hn::Half<Fixed> half;
+    return combined(Fixed(), combined(half, block(3), block(2)), combined(half, block(1), block(0)));
+  } else if constexpr (blocks == 2) {
+    return combined(Fixed(), block(1), block(0));
+  } else {
+    return block(0);
+  }
+}
+
+template <int first>
+HWY_INLINE V every_second_pair(V upper, V lower) {
+  const hn::Repartition<std::int32_t, Fixed> d;
+  return hn::BitCast(Fixed(), every_second_word<first>(hn::BitCast(d, upper), hn::BitCast(d, lower)));
+}
+
+/// What is mixed along x: of each of a block's points two channels, then its other two.
+struct Sides {
+  V left, right;
+};
+
+/// Codes of 8 bits, which are brought to 15. The channels that stand beside each other are red and blue, green and
+/// alpha.
+struct Codes8 {
+  const std::uint8_t* codes;
+  static constexpr bool is_negative = are_negative;
+  static constexpr float unit = 1.0f / 32640.0f;
+  static constexpr int channel[4] = {0, 2, 1, 3};
+
+  HWY_INLINE const std::uint8_t* at(const std::int32_t* texel, int point) const {
+    return codes + std::ptrdiff_t{4} * texel[point];
+  }
+
+  /// The texels at the points' places and on their right.
+  HWY_INLINE V pairs(const std::int32_t* texel, [[maybe_unused]] int n) const {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+    const auto quad = [&](int p) HWY_ATTR {
+      const auto load = [&](int point)
+                            HWY_ATTR { return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(texel, point))); };
+      __m256i v = _mm256_castsi128_si256(load(p));
+      v = _mm256_mask_broadcastq_epi64(v, 2, load(p + 1));
+      v = _mm256_mask_broadcastq_epi64(v, 4, load(p + 4));
+      return hn::Vec<hn::Half<Fixed>>{_mm256_mask_broadcastq_epi64(v, 8, load(p + 5))};
+    };
+    static_assert(blocks == 4);
+    return combined(Fixed(), quad(2), quad(0));
+#else
+    return join_blocks([&](int block) HWY_ATTR {
+      const hn::FixedTag<std::int16_t, 8> d;
+      const std::uint8_t *const p = at(texel, point_of(n, block)), *const q = at(texel, point_of(n, block) + 1);
+#if HWY_ARCH_X86
+      const __m128 first = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+      return hn::Vec<decltype(d)>{_mm_castps_si128(_mm_loadh_pi(first, reinterpret_cast<const __m64*>(q)))};
+#else
+      const hn::FixedTag<std::uint8_t, 16> bytes;
+      const hn::FixedTag<std::uint8_t, 8> half;
+      return hn::BitCast(d, hn::Combine(bytes, hn::LoadU(half, q), hn::LoadU(half, p)));
+#endif
+    });
+#endif
+  }
+
+  /// Every second byte × 128, from the first on or the second.
+  template <int first>
+  static HWY_INLINE V widened(V bytes) {
+#if HWY_ARCH_X86
+    const auto times = hn::Set(Fixed(), static_cast<std::int16_t>(first == 0 ? 0x0080 : 0x8000));
+#if HWY_TARGET <= HWY_AVX3
+    return V{_mm512_maddubs_epi16(bytes.raw, times.raw)};
+#elif HWY_TARGET <= HWY_AVX2
+    return V{_mm256_maddubs_epi16(bytes.raw, times.raw)};
+#else
+    return V{_mm_maddubs_epi16(bytes.raw, times.raw)};
+#endif
+#else
+    if (first == 0) return hn::ShiftLeft<7>(hn::And(bytes, hn::Set(Fixed(), 0x00ff)));
+    return hn::And(hn::ShiftRight<1>(bytes), hn::Set(Fixed(), 0x7f80));
+#endif
+  }
+
+  HWY_INLINE Sides sides(const std::int32_t* upper, const std::int32_t* lower, V weights, int n) const {
+    const V up = pairs(upper, n), low = pairs(lower, n), down = spread_weights(weights, spread.down, n);
+    const V even = mixed(widened<0>(up), widened<0>(low), down), odd = mixed(widened<1>(up), widened<1>(low), down);
+    return {every_second_pair<0>(odd, even), every_second_pair<1>(odd, even)};
+  }
+
+  static HWY_INLINE V mixed(V a, V b, V weight) { return is_negative ? mix_negative(a, b, weight) : mix(a, b, weight); }
+};
+
+/// Codes of 15 bits. The channels that stand beside each other are red and green, blue and alpha.
+struct Codes15 {
+  const std::uint16_t* codes;
+  static constexpr bool is_negative = false;
+  static constexpr float unit = 1.0f / 32767.0f;
+  static constexpr int channel[4] = {0, 1, 2, 3};
+
+  /// The texels at one point of each block, and on its right.
+  HWY_INLINE V pairs(const std::int32_t* texel, int n, int p) const {
+    return join_blocks([&](int block) HWY_ATTR {
+      const std::uint16_t* const from = codes + std::ptrdiff_t{4} * texel[point_of(n, block) + p];
+      return hn::LoadU(hn::FixedTag<std::int16_t, 8>(), reinterpret_cast<const std::int16_t*>(from));
+    });
+  }
+  HWY_INLINE Sides sides(const std::int32_t* upper, const std::int32_t* lower, V weights, int n) const {
+    const auto rows = [&](int p) HWY_ATTR {
+      return mix(pairs(upper, n, p), pairs(lower, n, p), spread_weights(weights, spread.down_one[p], n));
+    };
+    const hn::Repartition<std::int32_t, Fixed> d;
+    const auto even = hn::BitCast(d, rows(0)), odd = hn::BitCast(d, rows(1));
+    return {hn::BitCast(Fixed(), hn::InterleaveLower(d, even, odd)),
+            hn::BitCast(Fixed(), hn::InterleaveUpper(d, even, odd))};
+  }
+  static HWY_INLINE V mixed(V a, V b, V weight) { return mix(a, b, weight); }
+};
+
+/// A level of the points of vector n of the eight from i on.
+template <class Codes>
+HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, int n) {
+  const V weights = load_weights(taps.side[level], i, n);
+  const Sides sides = codes.sides(taps.upper[level] + i, taps.lower[level] + i, weights, n);
+  return Codes::mixed(sides.left, sides.right, spread_weights(weights, spread.right, n));
+}
+
+/// Both levels.
+template <class Codes>
+HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, int i, int n) {
+  const V first = mix_level(codes, taps, 0, i, n);
+  const auto positive = [&](V v) HWY_ATTR { return Codes::is_negative ? hn::Neg(v) : v; };
+  if (!has_second) return positive(first);
+  const V blend = spread_weights(load_weights(taps.blend, i, n), spread.right, n);
+  return positive(Codes::mixed(first, mix_level(codes, taps, 1, i, n), blend));
+}
+
+/// Pairs of channels, each a 32-bit lane, as floats.
+template <class D>
+struct Channels {
+  hn::Vec<D> low, high;
+  HWY_INLINE Channels(hn::Vec<hn::RebindToSigned<D>> pairs, float unit) {
+    const D d;
+    const hn::RebindToSigned<D> di;
+    low = hn::Mul(hn::ConvertTo(d, hn::And(pairs, hn::Set(di, 0xffff))), hn::Set(d, unit));
+    high = hn::Mul(hn::ConvertTo(d, hn::ShiftRight<16>(pairs)), hn::Set(d, unit));
+  }
+};
+
+/// Eight points' channels, from point i on.
+template <class Codes>
+HWY_INLINE void store_channels(const V (&mixed)[vectors], float* const out[4], int i) {
+  using Words = hn::Repartition<std::int32_t, Fixed>;
+  using Floats = hn::RebindToFloat<Words>;
+  const Words words;
+  constexpr auto& channel = Codes::channel;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+  alignas(64) static constexpr std::int32_t order[16] = {0, 1, 8, 9, 4, 5, 12, 13, 2, 3, 10, 11, 6, 7, 14, 15};
+  const auto pairs = hn::TableLookupLanes(hn::BitCast(words, mixed[0]), hn::SetTableIndices(words, order));
+  const Channels<Floats> s(pairs, Codes::unit);
+  const hn::Half<Floats> half;
+  hn::StoreU(hn::LowerHalf(half, s.low), half, out[channel[0]] + i);
+  hn::StoreU(hn::LowerHalf(half, s.high), half, out[channel[1]] + i);
+  hn::StoreU(hn::UpperHalf(half, s.low), half, out[channel[2]] + i);
+  hn::StoreU(hn::UpperHalf(half, s.high), half, out[channel[3]] + i);
+#else
+  const hn::Repartition<std::int64_t, Fixed> d;
+  for (int n = 0; n < vectors; n += 2) {
+    const auto a = hn::BitCast(d, mixed[n]), b = hn::BitCast(d, mixed[n + 1]);
+    const Channels<Floats> first(hn::BitCast(words, hn::InterleaveLower(d, a, b)), Codes::unit);
+    const Channels<Floats> second(hn::BitCast(words, hn::InterleaveUpper(d, a, b)), Codes::unit);
+    const int at = i + 2 * n;
+    hn::StoreU(first.low, Floats(), out[channel[0]] + at), hn::StoreU(first.high, Floats(), out[channel[1]] + at);
+    hn::StoreU(second.low, Floats(), out[channel[2]] + at), hn::StoreU(second.high, Floats(), out[channel[3]] + at);
+  }
+#endif
+}
+
+/// True if one of eight points from i on needs its second level.
+HWY_INLINE bool blends(const Taps& taps, int i) {
+  const hn::CappedTag<std::int16_t, 16> d;
+  auto any = hn::Zero(d);
+  for (std::size_t n = 0; n < 16; n += hn::MaxLanes(d)) any = hn::Or(any, hn::Load(d, taps.blend + 2 * i + n));
+  return !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+}
+
+template <class Codes>
+void mix_codes(const Codes& codes, const Taps& taps, float* const to[4], int count) {
+  float* const out[4] = {to[0], to[1], to[2], to[3]};
+  for (int i = 0; i < count; i += 8) {
+    const bool has_second = blends(taps, i);
+    V mixed[vectors];
+    for (int n = 0; n < vectors; ++n) mixed[n] = mix_levels(codes, taps, has_second, i, n);
+    store_channels<Codes>(mixed, out, i);
+  }
+}
+
+/// The four channels of a texel.
+using Channels4 = hn::FixedTag<float, 4>;
+using Texel = hn::Vec<Channels4>;
+
+HWY_INLINE Texel mix_texels(Texel a, Texel b, int weight) {
+  const Channels4 d;
+  return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d, static_cast<float>(weight) * 0x1p-15f)));
+}
+
+HWY_INLINE Texel mix_level(const float* values, const Taps& taps, int level, int point) {
+  const Channels4 d;
+  const float* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point];
+  const float* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point];
+  const int down = taps.down(level, point);
+  return mix_texels(mix_texels(hn::LoadU(d, upper), hn::LoadU(d, lower), down),
+                    mix_texels(hn::LoadU(d, upper + 4), hn::LoadU(d, lower + 4), down), taps.right(level, point));
+}
+
+/// Values that need no decoding, point by point.
+void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
+  for (int i = 0; i < count; ++i) {
+    Texel mixed = mix_level(values, taps, 0, i);
+    const int blend = taps.blend[Taps::by_fours(i)];
+    if (blend > 0) mixed = mix_texels(mixed, mix_level(values, taps, 1, i), blend);
+    alignas(16) float channel[4];
+    hn::Store(mixed, Channels4(), channel);
+    for (int c = 0; c < 4; ++c) out[c][i] = channel[c];
+  }
+}
+
+void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
+  if (t.codes8 != nullptr) return mix_codes(Codes8{t.codes8}, taps, out, count);
+  if (t.codes15 != nullptr) return mix_codes(Codes15{t.codes15}, taps, out, count);
+  mix_values(t.values, taps, out, count);
+}
+
+void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
+  zoneplate::sample_anisotropic<Float>(t, f, at, out, count,
+                                       [&](const Taps& taps, float* const probe[4], int n)
+                                           HWY_ATTR { mix_taps(t, taps, probe, n); });
+}
+
+}  // namespace
+
+}  // namespace zoneplate::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+namespace zoneplate {
+const FilteringKernels FilteringKernels::HWY_NAMESPACE = {&zoneplate::find_taps<HWY_NAMESPACE::WideFloat, TextureView>,
+                                                          &HWY_NAMESPACE::mix_taps, &HWY_NAMESPACE::sample_anisotropic};
+}  // namespace zoneplate

@@ -1,0 +1,294 @@
+#include "zoneplate/shade/texture/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/scene/material.h"
+
+namespace zoneplate {
+namespace {
+
+static_assert(TextureView::max_size == TextureImage::most_side);
+
+constexpr std::size_t rows_per_range = 32;
+
+struct Size {
+  std::int32_t width, height;
+  bool operator==(const Size&) const = default;
+};
+
+/// A sum of weighted texels, and its mean: exact for codes, rounded to the nearest.
+template <class Code>
+using Sum = std::conditional_t<std::is_floating_point_v<Code>, double, std::uint64_t>;
+
+template <class Code>
+Code mean_of(Sum<Code> sum, std::uint64_t total) {
+  if constexpr (std::is_floating_point_v<Code>)
+    return static_cast<Code>(sum / static_cast<double>(total));
+  else
+    return static_cast<Code>((sum + total / 2) / total);
+}
+
+/// The texels of one axis that a texel of a smaller image covers: `count` of them from `first`, by integer weights.
+struct Cover {
+  std::int32_t first, count;
+  std::uint64_t weight[3];
+};
+
+/// Along an axis of n texels that becomes one of `to` texels: as many, or half as many, rounded down. The weights sum
+/// to `total_weight(n, to)`.
+Cover cover(std::int32_t n, std::int32_t to, std::int32_t i) {
+  if (n == to) return {i, 1, {1, 0, 0}};
+  if (n % 2 == 0) return {2 * i, 2, {1, 1, 0}};
+  const std::int32_t half = n / 2;
+  return {2 * i,
+          3,
+          {static_cast<std::uint64_t>(half - i), static_cast<std::uint64_t>(half), static_cast<std::uint64_t>(i + 1)}};
+}
+
+std::uint64_t total_weight(std::int32_t n, std::int32_t to) {
+  return n == to ? 1 : n % 2 == 0 ? 2 : static_cast<std::uint64_t>(n);
+}
+
+/// Around a row of the level: copies of its last and its first texel.
+template <class Code>
+void close_row(Code* row, std::int32_t width) {
+  std::copy_n(row, 4, row + std::ptrdiff_t{4} * width);
+  std::copy_n(row + std::ptrdiff_t{4} * (width - 1), 4, row - 4);
+}
+
+/// Above and below a level whose rows are closed: copies of its last and its first row.
+template <class Code>
+void close_level(Code* codes, const TextureView& view, int l) {
+  const std::ptrdiff_t pitch = std::ptrdiff_t{4} * view.pitch(l);
+  Code* const level = codes + std::ptrdiff_t{4} * view.offset[l];
+  std::copy_n(level + pitch * view.height[l], pitch, level);
+  std::copy_n(level + pitch, pitch, level + pitch * (view.height[l] + 1));
+}
+
+/// Texel (0, y) of a level.
+template <class Code>
+Code* row_of(Code* codes, const TextureView& view, int l, std::int32_t y) {
+  return codes + std::ptrdiff_t{4} * view.texel(l, 0, y);
+}
+
+/// Both sizes even: the mean of four.
+template <class Code>
+void halve_row(const Code* upper, const Code* lower, std::int32_t out_width, Code* out) {
+  using Four = std::conditional_t<std::is_floating_point_v<Code>, double, std::uint32_t>;
+  for (std::int32_t x = 0; x < out_width; ++x)
+    for (int c = 0; c < 4; ++c) {
+      const std::ptrdiff_t at = std::ptrdiff_t{8} * x + c;
+      const Four sum = Four{upper[at]} + upper[at + 4] + lower[at] + lower[at + 4];
+      if constexpr (std::is_floating_point_v<Code>)
+        out[std::ptrdiff_t{4} * x + c] = static_cast<Code>(sum * 0.25);
+      else
+        out[std::ptrdiff_t{4} * x + c] = static_cast<Code>((sum + 2) >> 2);
+    }
+}
+
+/// Any size: row y of the smaller image, as weighted means of the rows that it covers.
+template <class Code>
+void shrink_row(const std::array<const Code*, 3>& source, const Cover& rows, Size from, Size to, Code* out) {
+  const std::uint64_t total = total_weight(from.width, to.width) * total_weight(from.height, to.height);
+  for (std::int32_t x = 0; x < to.width; ++x) {
+    const Cover columns = cover(from.width, to.width, x);
+    for (int c = 0; c < 4; ++c) {
+      Sum<Code> sum = 0;
+      for (std::size_t j = 0; j < static_cast<std::size_t>(rows.count); ++j)
+        for (std::int32_t i = 0; i < columns.count; ++i)
+          sum += static_cast<Sum<Code>>(rows.weight[j] * columns.weight[i]) *
+                 source[j][std::ptrdiff_t{4} * (columns.first + i) + c];
+      out[std::ptrdiff_t{4} * x + c] = mean_of<Code>(sum, total);
+    }
+  }
+}
+
+/// The rows that row y of the smaller image covers, each as `row(y, its number)`.
+template <class Code, class Row>
+std::array<const Code*, 3> covered_rows(const Cover& rows, const Row& row) {
+  std::array<const Code*, 3> source{};
+  for (std::int32_t j = 0; j < rows.count; ++j) source[static_cast<std::size_t>(j)] = row(rows.first + j, j);
+  return source;
+}
+
+/// The image, smaller: `row(y, room)` gives its row y, for which there is room.
+template <class Code, class Row>
+std::vector<Code> shrunk(Size from, Size to, const Row& row) {
+  const std::size_t width = std::size_t{4} * static_cast<std::size_t>(from.width);
+  const std::size_t out_width = std::size_t{4} * static_cast<std::size_t>(to.width);
+  std::vector<Code> out(out_width * static_cast<std::size_t>(to.height));
+  parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
+    std::vector<Code> room(3 * width);
+    for (std::size_t y = begin; y < end; ++y) {
+      const Cover rows = cover(from.height, to.height, static_cast<std::int32_t>(y));
+      const auto source = covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t number) {
+        return row(at, room.data() + width * static_cast<std::size_t>(number));
+      });
+      shrink_row(source, rows, from, to, out.data() + out_width * y);
+    }
+  });
+  return out;
+}
+
+/// Half of each side that is longer than a level may be.
+Size fitted(Size size) {
+  const auto part = [](std::int32_t n) { return n > TextureView::max_size ? n / 2 : n; };
+  return {part(size.width), part(size.height)};
+}
+
+/// Fills the sizes and offsets of all levels; gives the number of texels, with those that are only read.
+std::size_t lay_out(Size size, TextureView& view) {
+  std::int64_t texels = 0;
+  for (std::int32_t w = size.width, h = size.height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
+    view.width[view.levels] = w;
+    view.height[view.levels] = h;
+    view.offset[view.levels++] = static_cast<std::int32_t>(texels);
+    texels += (std::int64_t{w} + 2) * (h + 2);
+    if (w == 1 && h == 1) break;
+  }
+  texels += 2;
+  assert(texels < (std::int64_t{1} << 31));
+  return static_cast<std::size_t>(texels);
+}
+
+/// Each 8-bit sRGB code as 15-bit linear light. Neighbouring codes differ by 9 or more, so none is lost.
+std::array<std::uint16_t, 256> linear_codes() {
+  std::array<std::uint16_t, 256> table;
+  for (int code = 0; code < 256; ++code)
+    table[static_cast<std::size_t>(code)] =
+        static_cast<std::uint16_t>(32767.0f * decode_srgb8(static_cast<std::uint8_t>(code)) + 0.5f);
+  return table;
+}
+
+/// From 0 to `most`; 0 where it is not a number.
+float clamped(float value, float most) { return value > 0 ? std::min(value, most) : 0.0f; }
+
+float value_of(std::uint16_t code) { return static_cast<float>(code) / 65535.0f; }
+
+}  // namespace
+
+template <class Code, class Pixel, class Decode>
+void Texture::fill(const Plane<Pixel>& image, const Code* TextureView::*texels, const Decode& decode) {
+  const auto decode_row = [&](std::int32_t y, Code* out) {
+    for (const Pixel& p : image.row(y)) decode(p, out), out += 4;
+  };
+  // What is too large for level 0 is made smaller on the way there.
+  Size size{image.width(), image.height()};
+  std::vector<Code> smaller;
+  if (fitted(size) != size) {
+    smaller = shrunk<Code>(size, fitted(size), [&](std::int32_t y, Code* room) {
+      decode_row(y, room);
+      return room;
+    });
+    size = fitted(size);
+  }
+  const auto row_of_smaller = [&](std::int32_t y) { return smaller.data() + std::ptrdiff_t{4} * size.width * y; };
+  while (fitted(size) != size) {
+    std::vector<Code> half =
+        shrunk<Code>(size, fitted(size), [&](std::int32_t y, const Code*) { return row_of_smaller(y); });
+    smaller = std::move(half), size = fitted(size);
+  }
+
+  count_ = lay_out(size, view_);
+  memory_ = GrowingMemory(count_ * 4 * sizeof(Code));
+  memory_.grow(view_.levels > 1 ? static_cast<std::size_t>(view_.offset[1]) * 4 * sizeof(Code)
+                                : count_ * 4 * sizeof(Code));
+  auto* const target = reinterpret_cast<Code*>(memory_.data());
+  view_.*texels = target;
+  parallel_ranges(static_cast<std::size_t>(size.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
+    for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
+      Code* const row = row_of(target, view_, 0, y);
+      if (smaller.empty())
+        decode_row(y, row);
+      else
+        std::copy_n(row_of_smaller(y), std::ptrdiff_t{4} * size.width, row);
+      close_row(row, size.width);
+    }
+  });
+  close_level(target, view_, 0);
+}
+
+/// Makes all levels from level 0, each from the one before.
+template <class Code>
+void Texture::make_levels(const Code* TextureView::*texels) {
+  if (view_.*texels == nullptr) return;
+  memory_.grow(count_ * 4 * sizeof(Code));
+  auto* const codes = reinterpret_cast<Code*>(memory_.data());
+  for (std::int32_t l = 1; l < view_.levels; ++l) {
+    const Size from{view_.width[l - 1], view_.height[l - 1]}, to{view_.width[l], view_.height[l]};
+    const bool is_even = from.width % 2 == 0 && from.height % 2 == 0;
+    parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
+      for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
+        Code* const out = row_of(codes, view_, l, y);
+        const Cover rows = cover(from.height, to.height, y);
+        const auto source =
+            covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t) { return row_of(codes, view_, l - 1, at); });
+        if (is_even)
+          halve_row(source[0], source[1], to.width, out);
+        else
+          shrink_row(source, rows, from, to, out);
+        close_row(out, to.width);
+      }
+    });
+    close_level(codes, view_, l);
+  }
+}
+
+void Texture::make_first_level(const TexelImage& image, TexelMeaning meaning) {
+  const bool is_color = meaning == TexelMeaning::Color;
+  if (image.kind() == TexelKind::Codes16 && !image.empty()) {
+    const std::vector<float> table = is_color ? decoded_srgb16() : std::vector<float>();
+    const auto value = [&](std::uint16_t code) { return is_color ? table[code] : value_of(code); };
+    return fill(image.as<Rgba16>(), &TextureView::values, [&](const Rgba16& p, float* out) {
+      out[0] = value(p.r), out[1] = value(p.g), out[2] = value(p.b), out[3] = value_of(p.a);
+    });
+  }
+  if (image.kind() == TexelKind::Light && !image.empty()) {
+    const float most = is_color ? 1e9f : 1.0f;
+    return fill(image.as<float4>(), &TextureView::values, [&](const float4& p, float* out) {
+      out[0] = clamped(p.x, most), out[1] = clamped(p.y, most), out[2] = clamped(p.z, most), out[3] = clamped(p.w, 1);
+    });
+  }
+  const Rgba8Image white(1, 1, Rgba8{255, 255, 255, 255});
+  const Rgba8Image& codes = image.empty() ? white : image.as<Rgba8>();
+  if (!is_color)
+    return fill(codes, &TextureView::codes8,
+                [](const Rgba8& p, std::uint8_t* out) { out[0] = p.r, out[1] = p.g, out[2] = p.b, out[3] = p.a; });
+  const auto table = linear_codes();
+  fill(codes, &TextureView::codes15, [&](const Rgba8& p, std::uint16_t* out) {
+    out[0] = table[p.r], out[1] = table[p.g], out[2] = table[p.b];
+    out[3] = static_cast<std::uint16_t>((p.a * 32767 + 127) / 255);
+  });
+}
+
+/// Of the three one is there.
+void Texture::make_other_levels() {
+  make_levels(&TextureView::codes8);
+  make_levels(&TextureView::codes15);
+  make_levels(&TextureView::values);
+}
+
+Texture::Texture(const TexelImage& image, TexelMeaning meaning) {
+  growing("texture levels", [&] {
+    make_first_level(image, meaning);
+    make_other_levels();
+  });
+}
+
+Texture::Texture(TexelImage&& image, TexelMeaning meaning) {
+  growing("texture levels", [&] {
+    make_first_level(image, meaning);
+    image = TexelImage();
+    make_other_levels();
+  });
+}
+
+}  // namespace zoneplate

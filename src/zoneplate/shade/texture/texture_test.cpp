@@ -1,0 +1,262 @@
+#include "zoneplate/shade/texture/texture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/math/random.h"
+
+namespace zoneplate {
+namespace {
+
+Rgba8Image noise(int width, int height) {
+  Rgba8Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t word = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 7);
+      image(x, y) = {static_cast<std::uint8_t>(word), static_cast<std::uint8_t>(word >> 8),
+                     static_cast<std::uint8_t>(word >> 16), static_cast<std::uint8_t>(word >> 24)};
+    }
+  return image;
+}
+
+/// A level's codes, without its border.
+std::vector<std::uint32_t> codes_of(const TextureView& view, int level) {
+  std::vector<std::uint32_t> codes;
+  for (int y = 0; y < view.height[level]; ++y)
+    for (int i = 0; i < 4 * view.width[level]; ++i) {
+      const std::ptrdiff_t at = std::ptrdiff_t{4} * view.texel(level, 0, y) + i;
+      codes.push_back(view.codes8 != nullptr ? std::uint32_t{view.codes8[at]} : view.codes15[at]);
+    }
+  return codes;
+}
+
+/// The length that source texel s and target texel t share, along an axis scaled to n × m units.
+std::uint64_t overlap(std::int64_t s, std::int64_t n, std::int64_t t, std::int64_t m) {
+  return static_cast<std::uint64_t>(
+      std::max(std::int64_t{0}, std::min((s + 1) * m, (t + 1) * n) - std::max(s * m, t * n)));
+}
+
+/// The mean of what a target texel covers of the source, by areas.
+std::uint32_t mean(const std::vector<std::uint32_t>& source, int w, int h, int x, int y, int c) {
+  const int ow = std::max(1, w / 2), oh = std::max(1, h / 2);
+  std::uint64_t sum = 0, total = 0;
+  for (int j = 0; j < h; ++j)
+    for (int i = 0; i < w; ++i) {
+      const std::uint64_t area = overlap(i, w, x, ow) * overlap(j, h, y, oh);
+      sum += area * source[4 * static_cast<std::size_t>(j * w + i) + static_cast<std::size_t>(c)];
+      total += area;
+    }
+  return static_cast<std::uint32_t>((2 * sum + total) / (2 * total));
+}
+
+TEST(Texture, LevelsHalveDownToOneTexel) {
+  const Texture texture(Rgba8Image(13, 4), TexelMeaning::Values);
+  const TextureView& view = texture.view();
+  ASSERT_EQ(view.levels, 4);
+  const int widths[] = {13, 6, 3, 1}, heights[] = {4, 2, 1, 1}, offsets[] = {0, 90, 122, 137};
+  for (int l = 0; l < 4; ++l) {
+    EXPECT_EQ(view.width[l], widths[l]);
+    EXPECT_EQ(view.height[l], heights[l]);
+    EXPECT_EQ(view.offset[l], offsets[l]);
+  }
+}
+
+TEST(Texture, EachLevelIsTheRoundedMeanOfTheOneBefore) {
+  const int sizes[][2] = {{16, 16}, {8, 32}, {13, 7}, {5, 8}, {1, 9}, {6, 1}, {31, 33}, {12, 20}};
+  for (const auto& size : sizes)
+    for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
+      const Texture texture(noise(size[0], size[1]), meaning);
+      const TextureView& view = texture.view();
+      for (int l = 1; l < view.levels; ++l) {
+        const auto source = codes_of(view, l - 1), codes = codes_of(view, l);
+        for (int y = 0; y < view.height[l]; ++y)
+          for (int x = 0; x < view.width[l]; ++x)
+            for (int c = 0; c < 4; ++c) {
+              const std::size_t at = 4 * static_cast<std::size_t>(y * view.width[l] + x) + static_cast<std::size_t>(c);
+              ASSERT_EQ(codes[at], mean(source, view.width[l - 1], view.height[l - 1], x, y, c))
+                  << size[0] << "x" << size[1] << " level " << l;
+            }
+      }
+    }
+}
+
+TEST(Texture, TheBorderRepeatsTheLevel) {
+  const Texture texture(noise(12, 7), TexelMeaning::Values);
+  const TextureView& view = texture.view();
+  for (int l = 0; l < view.levels; ++l) {
+    const int w = view.width[l], h = view.height[l];
+    const auto at = [&](int x, int y) { return view.codes8 + std::ptrdiff_t{4} * view.texel(l, x, y); };
+    for (int y = -1; y <= h; ++y)
+      for (int x = -1; x <= w; ++x)
+        EXPECT_EQ(std::memcmp(at(x, y), at((x + w) % w, (y + h) % h), 4), 0) << x << " " << y;
+  }
+}
+
+TEST(Texture, WhatIsTooLargeIsHalved) {
+  Rgba8Image wide(2 * TextureView::max_size + 2, 1, Rgba8{10, 20, 30, 40});
+  for (int x = 0; x < wide.width(); x += 2) wide(x, 0).r = 12;
+  const Texture texture(wide, TexelMeaning::Values);
+  EXPECT_EQ(texture.view().width[0], TextureView::max_size / 2);
+  const auto codes = codes_of(texture.view(), 0);
+  for (std::size_t i = 0; i < codes.size(); i += 4) ASSERT_TRUE(codes[i] == 11 && codes[i + 1] == 20);
+}
+
+TEST(Texture, WhatIsTooLargeIsHalvedInLight) {
+  Rgba8Image wide(TextureView::max_size + 2, 3, Rgba8{0, 0, 0, 255});
+  Rgba16Image high(2, 2 * TextureView::max_size + 2, Rgba16{0, 0, 0, 65535});
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < wide.width(); x += 2) wide(x, y).r = 255;
+  for (int y = 0; y < high.height(); y += 2) high(0, y).g = 65535;
+  const Texture columns(wide, TexelMeaning::Color), rows(high, TexelMeaning::Color);
+  EXPECT_EQ(columns.view().width[0], TextureView::max_size / 2 + 1);
+  EXPECT_EQ(columns.view().height[0], 3);
+  const auto codes = codes_of(columns.view(), 0);
+  for (std::size_t i = 0; i < codes.size(); i += 4) ASSERT_TRUE(codes[i] == 16384 && codes[i + 1] == 0);
+  // 65,538 rows become 32,769 and then 16,384.
+  EXPECT_EQ(rows.view().width[0], 2);
+  EXPECT_EQ(rows.view().height[0], TextureView::max_size / 2);
+  for (int y = 0; y < rows.view().height[0]; ++y) {
+    const float* const texel = rows.view().values + std::ptrdiff_t{4} * rows.view().texel(0, 0, y);
+    ASSERT_TRUE(texel[1] == 0.5f && texel[5] == 0 && texel[3] == 1) << y;
+  }
+}
+
+TEST(Texture, OneColourStaysThatColour) {
+  for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
+    const Texture texture(Rgba8Image(37, 21, Rgba8{200, 100, 1, 77}), meaning);
+    const auto first = codes_of(texture.view(), 0);
+    for (int l = 0; l < texture.view().levels; ++l) {
+      const auto codes = codes_of(texture.view(), l);
+      for (std::size_t i = 0; i < codes.size(); ++i) ASSERT_EQ(codes[i], first[i % 4]);
+    }
+  }
+}
+
+TEST(Texture, ColoursAreDecodedAndAlphaIsNot) {
+  Rgba8Image ramp(256, 1);
+  for (int i = 0; i < 256; ++i) {
+    const auto code = static_cast<std::uint8_t>(i);
+    ramp(i, 0) = {code, code, code, code};
+  }
+  const Texture texture(ramp, TexelMeaning::Color);
+  for (int i = 0; i < 256; ++i) {
+    const double code = i / 255.0;
+    const double linear = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+    const std::uint16_t* const texel = texture.view().codes15 + std::ptrdiff_t{4} * texture.view().texel(0, i, 0);
+    EXPECT_NEAR(texel[0], 32767 * linear, 0.51);
+    EXPECT_NEAR(texel[3], 32767 * code, 0.51);
+  }
+}
+
+/// A level's values, without its border.
+std::vector<float> values_of(const TextureView& view, int level) {
+  std::vector<float> values;
+  for (int y = 0; y < view.height[level]; ++y) {
+    const float* const row = view.values + std::ptrdiff_t{4} * view.texel(level, 0, y);
+    values.insert(values.end(), row, row + std::ptrdiff_t{4} * view.width[level]);
+  }
+  return values;
+}
+
+TEST(Texture, LightAndSixteenBitsAreFloats) {
+  constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const Plane<float4> light(1, 1, float4{1e4f, 0.25f, 3, 0.5f}), odd(1, 1, float4{infinity, -1, nan, 7});
+  const Rgba16Image deep(1, 1, Rgba16{1, 32768, 65535, 32769});
+  const auto texel = [](const TexelImage& image, TexelMeaning meaning) {
+    return values_of(Texture(image, meaning).view(), 0);
+  };
+  const auto color = TexelMeaning::Color, data = TexelMeaning::Values;
+  EXPECT_EQ(texel(light, color), (std::vector<float>{1e4f, 0.25f, 3, 0.5f}));
+  EXPECT_EQ(texel(light, data), (std::vector<float>{1, 0.25f, 1, 0.5f}));
+  EXPECT_EQ(texel(odd, color), (std::vector<float>{1e9f, 0, 0, 1}));
+  EXPECT_EQ(texel(odd, data), (std::vector<float>{1, 0, 0, 1}));
+  const auto value = [](int code) { return static_cast<float>(code / 65535.0); };
+  EXPECT_EQ(texel(deep, data), (std::vector<float>{value(1), value(32768), 1, value(32769)}));
+  const std::vector<float> decoded = texel(deep, color);
+  EXPECT_NEAR(decoded[0], 1 / 65535.0 / 12.92, 1e-12);
+  EXPECT_NEAR(decoded[1], std::pow((32768 / 65535.0 + 0.055) / 1.055, 2.4), 2e-8);
+  EXPECT_EQ(decoded[2], 1);
+  EXPECT_EQ(decoded[3], value(32769));
+}
+
+/// Light from next to nothing to far above white.
+Plane<float4> bright_noise(int width, int height) {
+  Plane<float4> image(width, height);
+  for (std::uint32_t i = 0; i < image.values().size(); ++i) {
+    const auto light = [&](std::uint32_t c) { return std::exp2(24 * unit_float(hash(i, c, 9)) - 8); };
+    image.values()[i] = {light(0), light(1), light(2), unit_float(hash(i, 3, 9))};
+  }
+  return image;
+}
+
+TEST(Texture, LevelsOfFloatsAreMeansByArea) {
+  const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {6, 1}, {31, 33}};
+  for (const auto& size : sizes) {
+    const Texture texture(bright_noise(size[0], size[1]), TexelMeaning::Color);
+    const TextureView& view = texture.view();
+    for (int l = 1; l < view.levels; ++l) {
+      const auto source = values_of(view, l - 1), values = values_of(view, l);
+      const int w = view.width[l - 1], h = view.height[l - 1];
+      for (int t = 0; t < view.width[l] * view.height[l]; ++t)
+        for (int c = 0; c < 4; ++c) {
+          double sum = 0, total = 0;
+          for (int s = 0; s < w * h; ++s) {
+            const auto area = static_cast<double>(overlap(s % w, w, t % view.width[l], view.width[l]) *
+                                                  overlap(s / w, h, t / view.width[l], view.height[l]));
+            sum += area * source[static_cast<std::size_t>(4 * s + c)], total += area;
+          }
+          const float mean = values[static_cast<std::size_t>(4 * t + c)];
+          ASSERT_NEAR(mean, sum / total, sum / total * 0x1p-24 * 1.001) << size[0] << "x" << size[1] << " level " << l;
+        }
+    }
+  }
+}
+
+TEST(Texture, AnImageThatIsGivenIsFreed) {
+  TexelImage image = noise(37, 20);
+  const Texture kept(image, TexelMeaning::Color);
+  EXPECT_FALSE(image.empty());
+  const Texture taken(std::move(image), TexelMeaning::Color);
+  EXPECT_TRUE(image.empty());
+  ASSERT_EQ(taken.view().levels, kept.view().levels);
+  for (int l = 0; l < kept.view().levels; ++l) EXPECT_EQ(codes_of(taken.view(), l), codes_of(kept.view(), l));
+}
+
+TEST(Texture, AnEmptyImageIsWhite) {
+  for (const TexelImage& image : {TexelImage(), TexelImage(Rgba16Image()), TexelImage(Plane<float4>())}) {
+    const Texture texture(image, TexelMeaning::Values);
+    ASSERT_EQ(texture.view().levels, 1);
+    EXPECT_EQ(codes_of(texture.view(), 0), (std::vector<std::uint32_t>{255, 255, 255, 255}));
+  }
+}
+
+TEST(Texture, ThreadsDoNotMatter) {
+  const Rgba8Image image = noise(301, 222);
+  const Plane<float4> bright = bright_noise(301, 222);
+  std::vector<std::vector<std::uint32_t>> first;
+  std::vector<std::vector<float>> first_values;
+  for (const int threads : {1, 2, 7}) {
+    with_threads(threads, [&] {
+      const Texture texture(image, TexelMeaning::Color);
+      std::vector<std::vector<std::uint32_t>> levels;
+      for (int l = 0; l < texture.view().levels; ++l) levels.push_back(codes_of(texture.view(), l));
+      if (first.empty()) first = levels;
+      EXPECT_EQ(levels, first);
+      const Texture light(bright, TexelMeaning::Color);
+      std::vector<std::vector<float>> values;
+      for (int l = 0; l < light.view().levels; ++l) values.push_back(values_of(light.view(), l));
+      if (first_values.empty()) first_values = values;
+      EXPECT_EQ(values, first_values);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

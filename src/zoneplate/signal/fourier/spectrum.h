@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/image/plane.h"
+#include "zoneplate/signal/fourier/fourier.h"
+
+namespace zoneplate {
+
+/// What is seen of a spectrum. In the pictures frequency 0 is at pixel (width / 2, height / 2), rounded down; fx grows
+/// to the right and fy downwards, one bin a pixel.
+///
+/// Exact     the same bits on every machine and number of threads.
+
+/// log |X|, mapped so that the greatest magnitude is 1 and `range_db` decibels below it, and all less, is 0.
+Plane<float> centred_log_magnitude(const Spectrum& spectrum, double range_db = 120);
+
+/// The angle of X in [-π, π].
+Plane<float> centred_phase(const Spectrum& spectrum);
+
+/// The mean power |X|² / (w h)² in rings of equal width in √(fx² + fy²), fx and fy in cycles per pixel.
+struct RadialProfile {
+  double ring_width = 0;           ///< in cycles per pixel; ring i covers [i, i + 1) ring_width
+  std::vector<double> power;       ///< 0 for an empty ring; the rings reach the corners at √½
+  std::vector<std::int64_t> bins;  ///< how many bins the ring holds
+};
+
+/// `rings` rings up to the Nyquist frequency ½, and as many of the same width as reach the corners.
+RadialProfile radial_profile(const Spectrum& spectrum, int rings);
+
+/// The part of the plane's mean square that has radial frequencies in [low, high), cycles per pixel. All of it, from
+/// 0 to 1, is Parseval's mean square of the plane.
+double energy_between(const Spectrum& spectrum, double low, double high);
+
+}  // namespace zoneplate
