@@ -60,7 +60,7 @@ void geometry(benchmark::State& state, const char* name) {
 
 class White : public FragmentShader {
  public:
-  void shade(const FragmentBatch& batch, Wanted, FragmentOutputs& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.padded(); ++i) out.r[i] = out.g[i] = out.b[i] = out.a[i] = 1;
   }
   float alpha(const FragmentBatch&, float*) const override { return 0; }
