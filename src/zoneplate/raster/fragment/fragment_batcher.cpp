@@ -317,10 +317,24 @@ void FragmentBatcher::weigh_ends() {
 }
 
 void FragmentBatcher::shade(std::span<const Fragment> points, std::vector<Linear>& colors, FragmentData* data) {
-  shaded_ += points.size();
   colors.resize(points.size());
-  const FragmentShader::OutputMask wanted{
-      .normal = data && target_.normal, .uv = data && target_.uv, .albedo = data && target_.albedo};
+  shade(points, {.normal = data && target_.normal, .uv = data && target_.uv, .albedo = data && target_.albedo},
+        colors.data(), data);
+}
+
+void FragmentBatcher::shade_data(std::span<const Fragment> points, FragmentData& data) {
+  shade(points,
+        {.normal = target_.normal != nullptr,
+         .uv = target_.uv != nullptr,
+         .albedo = target_.albedo != nullptr,
+         .color = false},
+        nullptr, &data);
+}
+
+/// `colors`: as many as points, where colour is wanted.
+void FragmentBatcher::shade(std::span<const Fragment> points, FragmentShader::OutputMask wanted, Linear* colors,
+                            FragmentData* data) {
+  (wanted.color ? shaded_ : evaluated_) += points.size();
   if (wanted.normal) data->normal.resize(points.size());
   if (wanted.uv) data->uv.resize(points.size());
   if (wanted.albedo) data->albedo.resize(points.size());
@@ -329,7 +343,7 @@ void FragmentBatcher::shade(std::span<const Fragment> points, std::vector<Linear
     const FragmentOutputs& s = shaded_batch_;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::uint32_t at = numbers[i];
-      colors[at] = {s.r[i], s.g[i], s.b[i], s.a[i]};
+      if (wanted.color) colors[at] = {s.r[i], s.g[i], s.b[i], s.a[i]};
       if (wanted.normal) data->normal[at] = {s.normal[0][i], s.normal[1][i], s.normal[2][i]};
       if (wanted.uv) data->uv[at] = {s.uv[0][i], s.uv[1][i]};
       if (wanted.albedo) data->albedo[at] = {s.albedo[0][i], s.albedo[1][i], s.albedo[2][i]};

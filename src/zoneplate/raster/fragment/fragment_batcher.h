@@ -45,6 +45,9 @@ class FragmentBatcher {
   /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
   void shade(std::span<const Fragment> points, std::vector<Linear>& colors, FragmentData* data);
 
+  /// What the target has planes for, of the points in their order: nothing is lit.
+  void shade_data(std::span<const Fragment> points, FragmentData& data);
+
   /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
   /// colours follow each other in `shaded`.
   template <class Use>
@@ -67,6 +70,8 @@ class FragmentBatcher {
   void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
+  /// Fragments whose data alone were evaluated.
+  std::uint64_t evaluated() const { return evaluated_; }
 
  private:
   /// The draw that the last triangle belongs to.
@@ -87,6 +92,7 @@ class FragmentBatcher {
   std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;
   template <class Use>
   void for_batches(std::span<const Fragment> points, Use use);
+  void shade(std::span<const Fragment> points, FragmentShader::OutputMask wanted, Linear* colors, FragmentData* data);
   void number_up_to(std::size_t count);
   void find_draw(std::int32_t id);
   bool are_of_one_draw(const FragmentList& list);
@@ -113,7 +119,7 @@ class FragmentBatcher {
   const Target& target_;
   const bool has_ends_;          ///< some draw has lines or points
   const bool has_one_material_;  ///< all draws share theirs
-  std::uint64_t shaded_ = 0;
+  std::uint64_t shaded_ = 0, evaluated_ = 0;
 
   std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
   std::vector<std::uint32_t> order_, material_;  ///< of a list of several materials; else empty

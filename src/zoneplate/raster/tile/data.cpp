@@ -32,24 +32,26 @@ void TileRenderer::note_nearest() {
         nearest.depth = z, nearest.id = point.id;
         nearest.sample = target_.samples[static_cast<std::size_t>(first_sample_ + s)];
         nearest.place = {static_cast<std::uint8_t>(point.x & 255), static_cast<std::uint8_t>(point.y & 255)};
-        keep_data(pixel, p);
+        if (!target_.stores_data_alone()) keep_data(pixel, p);
       }
     }
 }
 
-/// Writes the planes, from nearest_. A triangle that owns all samples of a pixel is taken at the pixel's centre, and
-/// shaded there once more if it was not.
+/// Writes the planes, from nearest_. A triangle that owns all samples of a pixel is taken at the pixel's centre: where
+/// it was shaded elsewhere, its data are evaluated there once more, without light. Where no colour is wanted, all data
+/// are evaluated here.
 void TileRenderer::write_data() {
   if (!target_.wants_data()) return;
   points_.clear();
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) {
     Nearest& nearest = nearest_[pixel];
     const bool is_whole = nearest.first_owns == static_cast<int>(target_.samples.size());
-    if (nearest.id == no_primitive || !is_whole || nearest.place == SamplePosition{}) continue;
-    nearest.place = {};
-    points_.push_back(point_at(pixel, nearest.id, 0, nearest.place));
+    if (nearest.id == no_primitive) continue;
+    const bool is_moved = is_whole && nearest.place != SamplePosition{};
+    if (is_moved) nearest.place = {};
+    if (is_moved || target_.stores_data_alone()) points_.push_back(point_at(pixel, nearest.id, 0, nearest.place));
   }
-  if (shades_data()) shader_.shade(points_, colors_, &data_);
+  if (shades_data()) shader_.shade_data(points_, data_);
   for (std::size_t p = 0; p < points_.size(); ++p) keep_data(points_[p].pixel, p);
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
     if (nearest_[pixel].id != no_primitive) write_data(pixel);

@@ -87,8 +87,10 @@ void TileRenderer::write_background(std::size_t tile) {
 }
 
 void TileRenderer::finish() {
-  for (std::size_t i = 0; i < sum_.size(); ++i) resolve_.divide(sum_[i], weight_sum_, color_[i]);
-  write_colors();
+  if (!target_.stores_data_alone()) {
+    for (std::size_t i = 0; i < sum_.size(); ++i) resolve_.divide(sum_[i], weight_sum_, color_[i]);
+    write_colors();
+  }
   write_data();
   if (!target_.coverage) return;
   for (int y = top_; y < bottom_; ++y)

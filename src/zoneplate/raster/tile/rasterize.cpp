@@ -45,7 +45,10 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
     });
   });
   for (const auto& renderer : renderers)
-    if (renderer) counts.shaded += renderer->shaded(), counts.stages += renderer->times();
+    if (renderer) {
+      counts.shaded += renderer->shaded(), counts.evaluated += renderer->evaluated();
+      counts.stages += renderer->times();
+    }
   counts.tiles_ms = tiles.ms();
   return counts;
 }

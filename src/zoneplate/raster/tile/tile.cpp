@@ -309,6 +309,11 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
   times_.visibility += watch_.lap_ms();
   visibility_.materialize_all();
   find_points();
+  if (target_.stores_data_alone()) {
+    count_covered();
+    if (target_.sample_triangle) store_visibility();
+    return note_nearest();
+  }
   shader_.shade(points_, colors_, shades_data() ? &data_ : nullptr);
   times_.shading += watch_.lap_ms();
   accumulate();

@@ -30,6 +30,7 @@ class TileRenderer {
   void render(std::size_t tile);
 
   std::uint64_t shaded() const { return shader_.shaded(); }
+  std::uint64_t evaluated() const { return shader_.evaluated(); }
   const StageTimes& times() const { return times_; }
 
  private:
@@ -101,6 +102,8 @@ class TileRenderer {
   bool is_plain() const;
   void render_plain();
   void render_visibility();
+  void store_visibility();
+  void count_covered();
   void find_rows();
   void find_rows_of(int block);
   void add_block_of_rows(int block, std::int32_t id);

@@ -1,4 +1,6 @@
-// A tile of which only the owners of the samples are wanted: nothing is shaded.
+// A tile of which no colour is wanted: the owners of the samples, and how many of them each pixel has.
+#include <bit>
+
 #include "zoneplate/raster/tile/tile.h"
 
 namespace zoneplate {
@@ -9,6 +11,12 @@ void TileRenderer::render_visibility() {
   draw_masked();
   visibility_.materialize_all();
   times_.visibility += watch_.lap_ms();
+  store_visibility();
+  times_.output += watch_.lap_ms();
+}
+
+/// The owners of the samples of this pass, and their depths.
+void TileRenderer::store_visibility() {
   for (int s = 0; s < pass_samples_; ++s)
     for (int y = top_; y < bottom_; ++y)
       for (int x = left_; x < right_; ++x) {
@@ -17,11 +25,16 @@ void TileRenderer::render_visibility() {
         const std::size_t at = sample * tile_pixels + static_cast<std::size_t>(y * tile_size + x);
         const int column = tile_x_ + x - target_.x, row = tile_y_ + y - target_.y;
         const std::int32_t id = visibility_.id[at];
-        (*target_.sample_triangle)[sample](column, row) =
+        const auto number = static_cast<std::size_t>(first_sample_ + s);
+        (*target_.sample_triangle)[number](column, row) =
             id == no_primitive ? Target::no_id : static_cast<std::uint32_t>(id);
-        if (target_.sample_depth) (*target_.sample_depth)[sample](column, row) = visibility_.depth[at];
+        if (target_.sample_depth) (*target_.sample_depth)[number](column, row) = visibility_.depth[at];
       }
-  times_.output += watch_.lap_ms();
+}
+
+/// covered_: by the points of this pass.
+void TileRenderer::count_covered() {
+  for (const Fragment& point : points_) covered_[point.pixel] += static_cast<float>(std::popcount(point.samples));
 }
 
 }  // namespace zoneplate

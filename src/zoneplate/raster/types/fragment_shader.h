@@ -14,6 +14,7 @@ class FragmentShader {
   virtual ~FragmentShader() = default;
   struct OutputMask {
     bool normal = false, uv = false, albedo = false;
+    bool color = true;  ///< without it FragmentOutputs::r, g, b and a stay undefined
   };
   virtual void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const = 0;
   /// Alpha of masked surfaces' points, and the cutoff at and above which such a point is there.
