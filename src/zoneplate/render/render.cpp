@@ -27,9 +27,8 @@ class ScenePoints : public FragmentShader {
   ScenePoints(const PreparedScene& scene, const ViewUniforms& surroundings)
       : scene_(scene.scene()), surfaces_(scene_, surroundings, scene.textures(), scene.vertices()) {}
 
-  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
-    surfaces_.shade(batch, {.normal = wanted.normal, .uv = wanted.uv, .albedo = wanted.albedo, .color = wanted.color},
-                    out);
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    surfaces_.shade(batch, outputs, out);
   }
   float alpha(const FragmentBatch& batch, float* out) const override {
     surfaces_.alpha(batch, out);

@@ -42,11 +42,10 @@ class FragmentBatcher {
   FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target);
   FragmentBatcher(const FragmentBatcher&) = delete;  // it points into itself
 
-  /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
-  void shade(std::span<const Fragment> points, std::vector<Linear>& colors, FragmentData* data);
-
-  /// What the target has planes for, of the points in their order: nothing is lit.
-  void shade_data(std::span<const Fragment> points, FragmentData& data);
+  /// The colours of the fragments, in their order. `data`, if not null, gets what the target has planes for.
+  void shade(std::span<const Fragment> fragments, std::vector<Linear>& colors, FragmentData* data);
+  /// The data alone: materials and lights are not evaluated.
+  void shade_data(std::span<const Fragment> fragments, FragmentData& data);
 
   /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
   /// colours follow each other in `shaded`.
@@ -70,7 +69,7 @@ class FragmentBatcher {
   void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
-  /// Fragments whose data alone were evaluated.
+  /// Fragments of which only data were evaluated.
   std::uint64_t evaluated() const { return evaluated_; }
 
  private:
@@ -87,12 +86,12 @@ class FragmentBatcher {
     TriangleFacing facing;
   };
 
+  void shade_outputs(std::span<const Fragment> fragments, std::vector<Linear>* colors, FragmentData* data);
   template <class T>
   std::span<const std::uint32_t> order_by_material(std::span<const T> list);
   std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;
   template <class Use>
   void for_batches(std::span<const Fragment> points, Use use);
-  void shade(std::span<const Fragment> points, FragmentShader::OutputMask wanted, Linear* colors, FragmentData* data);
   void number_up_to(std::size_t count);
   void find_draw(std::int32_t id);
   bool are_of_one_draw(const FragmentList& list);

@@ -61,9 +61,6 @@ struct Target {
                                 instance || material || primitive || coverage);
   }
 
-  /// True if no colour is wanted: then nothing is lit, and blended surfaces leave no trace.
-  bool stores_data_alone() const { return !(color || shown || sample_color); }
-
   static constexpr std::uint32_t no_id = 0xffffffffu;  ///< in an id plane, where nothing is
 };
 
