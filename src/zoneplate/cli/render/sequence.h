@@ -14,7 +14,7 @@ namespace zoneplate::cli {
 ///
 /// Errors    ErrorKind::Usage: no frames, a name without a place for the number; ErrorKind::Input for an animation of
 ///           too many frames.
-void render_sequence(RenderArgs args, Resolver& resolver, ItemSender& out, Summary& summary);
+void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSender& out, Summary& summary);
 
 /// True where the name is that of a film: .apng, .gif, .mp4, .webm, and .webp.
 bool is_film(const std::string& output);

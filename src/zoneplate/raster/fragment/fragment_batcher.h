@@ -69,6 +69,8 @@ class FragmentBatcher {
   void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
+  /// Fragments of which only data were evaluated.
+  std::uint64_t evaluated() const { return evaluated_; }
 
  private:
   /// The draw that the last triangle belongs to.
@@ -116,7 +118,7 @@ class FragmentBatcher {
   const Target& target_;
   const bool has_ends_;          ///< some draw has lines or points
   const bool has_one_material_;  ///< all draws share theirs
-  std::uint64_t shaded_ = 0;
+  std::uint64_t shaded_ = 0, evaluated_ = 0;
 
   std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
   std::vector<std::uint32_t> order_, material_;  ///< of a list of several materials; else empty

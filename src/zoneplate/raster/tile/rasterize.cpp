@@ -45,7 +45,10 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
     });
   });
   for (const auto& used : buffers)
-    if (used) counts.shaded += used->batcher.shaded(), counts.stages += used->times;
+    if (used) {
+      counts.shaded += used->batcher.shaded(), counts.evaluated += used->batcher.evaluated();
+      counts.stages += used->times;
+    }
   counts.tiles_ms = tiles.ms();
   return counts;
 }

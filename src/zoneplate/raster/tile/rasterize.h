@@ -35,6 +35,7 @@ struct RasterCounts {
   double geometry_ms = 0, tiles_ms = 0;
   StageTimes stages;
   std::uint64_t vertices = 0, triangles = 0, set_up = 0, shaded = 0;
+  std::uint64_t evaluated = 0;  ///< fragments whose data alone were evaluated, without light
 };
 
 /// Draws triangles into a target: projects, clips, sets up and bins them; then, tile by tile, finds the visible
