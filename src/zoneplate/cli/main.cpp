@@ -162,6 +162,9 @@ int main(int argc, char** argv) {
   } catch (const cli::PartialFailure& failure) {
     cli::say_error(failure.what());
     return 5;
+  } catch (const cli::Difference& difference) {
+    cli::say_note(difference.what());
+    return 1;
   } catch (const std::bad_alloc&) {
     cli::say_error("out of memory");
     return 1;
