@@ -43,9 +43,21 @@ Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver
   return frame;
 }
 
-Rgba8Image show(Resolver& resolver, Frame& frame) {
+Rgba8Image show(Resolver& resolver, Frame& frame, RenderCounts* counts) {
   if (!frame.shown.empty()) return std::move(frame.shown);
-  return quantize8(resolver.finish(make_display(resolver.resolve(frame), frame.display), frame));
+  Stopwatch watch;
+  LinearImage linear = resolver.resolve(frame);
+  const double resolve_ms = watch.lap_ms();
+  DisplayImage display = make_display(std::move(linear), frame.display);
+  const double display_ms = watch.lap_ms();
+  display = resolver.finish(std::move(display), frame);
+  const double filter_ms = watch.lap_ms();
+  Rgba8Image codes = quantize8(display);
+  if (counts) {
+    counts->resolve_ms = resolve_ms, counts->filter_ms = filter_ms;
+    counts->display_ms = display_ms + watch.ms();
+  }
+  return codes;
 }
 
 Rgba8Image render_picture(const Scene& scene, const Camera& camera, Resolver& resolver, RenderOptions options,
@@ -53,7 +65,7 @@ Rgba8Image render_picture(const Scene& scene, const Camera& camera, Resolver& re
   const Request request = resolver.ask(0);
   if (request.is_local) options.shown = &display;
   Frame frame = render_rounds(scene, camera, resolver, request, options, display, counts);
-  return show(resolver, frame);
+  return show(resolver, frame, counts);
 }
 
 }  // namespace zoneplate

@@ -13,8 +13,8 @@ Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver
 
 /// The picture as it is shown: what the method makes of the frame, tone mapped in between, as 8-bit codes.
 ///
-/// A frame that holds `shown` already is that picture.
-Rgba8Image show(Resolver& resolver, Frame& frame);
+/// A frame that holds `shown` already is that picture. Where `counts` is given, the times of the three steps are set.
+Rgba8Image show(Resolver& resolver, Frame& frame, RenderCounts* counts = nullptr);
 
 /// Both in one; where the method's request is local the picture is made tile by tile.
 Rgba8Image render_picture(const Scene& scene, const Camera& camera, Resolver& resolver, RenderOptions options,

@@ -68,6 +68,9 @@ struct RenderOptions {
 /// Where time went and how much was done.
 struct RenderCounts {
   double prepare_ms = 0, geometry_ms = 0, tiles_ms = 0;
+  double resolve_ms = 0;               ///< of show(): the method's resolve, where the tiles have not done it
+  double display_ms = 0;               ///< of show(): tone mapping, encoding and 8 bits, where the tiles have not
+  double filter_ms = 0;                ///< of show(): the method's post-process filter
   StageTimes stages;                   ///< of geometry and tiles
   std::uint64_t vertices = 0;          ///< of all draws
   std::uint64_t triangles = 0;         ///< given
