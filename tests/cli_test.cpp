@@ -115,6 +115,8 @@ TEST_F(Cli, VersionTellsInstructionSetAndCompiler) {
   // The commit, the licence and what it is linked with, as bug reports and security notices refer to them.
   EXPECT_NE(result.out.find("\ncommit "), std::string::npos);
   EXPECT_NE(result.out.find("\nlicence Apache-2.0\n"), std::string::npos);
+  EXPECT_NE(result.out.find("\nUses Jimenez's MLAA. Copyright (C) 2010 "),
+            std::string::npos);  // as its licence demands
   for (const char* library : {"libpng ", "zlib ", "libjpeg-turbo ", "libwebp ", "FreeType ", "Draco ", "libseccomp ",
                               "fmt ", "Highway ", "JSON for Modern C++ ", "CLI11 "}) {
     const std::size_t at = result.out.find(library);

@@ -62,7 +62,10 @@ std::string version_text() {
       "commit {}\n"
       "licence Apache-2.0\n"
       "libpng {}, zlib {}, libjpeg-turbo {}, libwebp {}, FreeType {}, Draco {}, libseccomp {}\n"
-      "fmt {}.{}.{}, Highway {}.{}.{}, JSON for Modern C++ {}.{}.{}, CLI11 {}\n",
+      "fmt {}.{}.{}, Highway {}.{}.{}, JSON for Modern C++ {}.{}.{}, CLI11 {}\n"
+      // Its licence demands this statement of programs (THIRD_PARTY.md).
+      "Uses Jimenez's MLAA. Copyright (C) 2010 by Jorge Jimenez, Belen Masia, Jose I. Echevarria, Fernando Navarro and "
+      "Diego Gutierrez.\n",
       version, name_of(best_isa()), compiler(), commit, png_get_libpng_ver(nullptr), ::zlibVersion(),
       ZONEPLATE_VALUE(LIBJPEG_TURBO_VERSION), webp_version(), freetype_version(), draco::kDracoVersion,
       seccomp_library_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, HWY_MAJOR, HWY_MINOR,
