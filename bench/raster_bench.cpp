@@ -8,7 +8,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/tile/rasterize.h"
-#include "zoneplate/render/surfaces.h"
+#include "zoneplate/render/draw_list.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate {
@@ -58,12 +58,12 @@ void geometry(benchmark::State& state, const char* name) {
   state.counters["triangles_ms"] = triangles_ms;
 }
 
-class White : public PointShader {
+class White : public FragmentShader {
  public:
-  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.padded(); ++i) out.r[i] = out.g[i] = out.b[i] = out.a[i] = 1;
   }
-  float alpha(const Batch&, float*) const override { return 0; }
+  float alpha(const FragmentBatch&, float*) const override { return 0; }
 };
 
 // All of a frame but its shading.

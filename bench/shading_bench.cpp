@@ -14,7 +14,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int points = Batch::capacity;
+constexpr int points = FragmentBatch::capacity;
 
 template <class Work>
 void time_groups(benchmark::State& state, Work work) {
@@ -22,8 +22,9 @@ void time_groups(benchmark::State& state, Work work) {
     work();
     benchmark::ClobberMemory();
   }
-  state.counters["groups"] = benchmark::Counter(
-      static_cast<double>(Batch::groups), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["groups"] =
+      benchmark::Counter(static_cast<double>(FragmentBatch::groups),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 /// A block of 16 × 8 points that looks at a texture with 1.3 texels a pixel, so that two levels are mixed.
@@ -71,21 +72,21 @@ void mix_taps(benchmark::State& state, TexelMeaning meaning) {
 
 void sample_anisotropic(benchmark::State& state) {
   Looks l(TexelMeaning::Values, static_cast<float>(state.range(0)));
-  Filtering filtering;
+  SamplerState filtering;
   filtering.anisotropy = static_cast<std::int32_t>(state.range(0));
   time_groups(state, [&] { l.kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, points); });
 }
 
-/// A batch of one triangle's rows, or of points that are each told of by themselves.
+/// A batch of one triangle's rows, or of fragments that each have a triangle of their own.
 struct Surface {
   ScreenVertex screen[3] = {{0, 0, 0.5f, 0.3f}, {200000, 1000, 0.4f, 0.31f}, {1000, 150000, 0.3f, 0.32f}};
   float record[3][8] = {};
-  Placement placement{};
-  Batch batch;
-  BatchCorners screen_corners{};
-  Corners corners;
-  Points at;
-  Shaded shaded;
+  InstanceTransform placement{};
+  FragmentBatch batch;
+  BatchTriangles screen_corners{};
+  TriangleVertices corners;
+  ShadingState at;
+  FragmentOutputs shaded;
   const SurfaceKernels& kernels = pick(best_isa(), scalar::surface_kernels);
   const InterpolateKernels& weights = interpolate_kernels(best_isa());
 
@@ -99,8 +100,8 @@ struct Surface {
       batch.is_front[i] = 1, batch.instance[i] = 0;
       for (int k = 0; k < 3; ++k) screen_corners.vertex[k][i] = &screen[k], corners.record[k][i] = record[k];
     }
-    std::fill(std::begin(batch.one_triangle), std::end(batch.one_triangle), has_rows);
-    batch.run_end[0] = points / Batch::group;
+    std::fill(std::begin(batch.is_flat_run), std::end(batch.is_flat_run), has_rows);
+    batch.run_end[0] = points / FragmentBatch::group;
     std::fill(std::begin(corners.one_instance), std::end(corners.one_instance), true);
     find_weights();
   }
@@ -124,7 +125,7 @@ void light_phong(benchmark::State& state) {
   Surface s(true);
   PreparedLight light;
   light.radiance[0] = light.radiance[1] = light.radiance[2] = 1, light.towards[2] = 1;
-  Illumination what;
+  ShadingUniforms what;
   what.light = &light, what.lights = 1, what.has_specular = true, what.exponent = {40, 40};
   what.viewpoint.has_rays = true, what.viewpoint.ray[2] = 1;
   what.viewpoint.ray_dx[0] = what.viewpoint.ray_dy[1] = 1e-5f;

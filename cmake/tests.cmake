@@ -16,7 +16,7 @@ target_compile_options(zoneplate_tests PRIVATE -O0)
 set(laborious shade/surface/surface_kernels shade/surface/brdf raster/coverage/coverage raster/tile/rasterize
     raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
-list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp)
+list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)
 set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${built_quickly}")
 target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
                            ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>"

@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace zoneplate;
   std::span<const std::uint8_t> left(data, size);
   const auto source = [&](std::span<std::uint8_t> out) {
-    if (out.size() > left.size()) throw Error(Trouble::Input, "the pipe ends here");
+    if (out.size() > left.size()) throw Error(ErrorKind::Input, "the pipe ends here");
     std::copy_n(left.begin(), out.size(), out.begin());
     left = left.subspan(out.size());
   };

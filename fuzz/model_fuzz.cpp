@@ -35,7 +35,7 @@ std::string file_of(const Bytes& bytes) {
 }
 
 void check(const Scene& scene) {
-  const auto flaw = find_flaw(scene);
+  const auto flaw = find_invalid(scene);
   if (!flaw) return;
   std::fprintf(stderr, "the scene is not sound: %s\n", flaw->c_str());
   std::abort();

@@ -20,7 +20,7 @@ Scene read(const Bytes& bytes) {
   std::size_t at = 0;
   ImportBudget budget("answer", {.memory = 1 << 24, .pixels = 1 << 20, .seconds = 5});
   const ByteSource source = [&](void* out, std::size_t size) {
-    if (size > bytes.size() - at) throw Error(Trouble::Input, "answer: ends early");
+    if (size > bytes.size() - at) throw Error(ErrorKind::Input, "answer: ends early");
     std::copy_n(bytes.data() + at, size, static_cast<std::uint8_t*>(out));
     at += size;
   };
@@ -37,7 +37,7 @@ Bytes written(const Scene& scene) {
 }
 
 void check(const Scene& scene) {
-  if (find_flaw(scene)) std::abort();
+  if (find_invalid(scene)) std::abort();
   for (const Instance& i : scene.instances) static_cast<void>(scene.objects[static_cast<std::size_t>(i.object)].size());
   if (!scene.instances.empty()) static_cast<void>(scene.bounds());
   const Bytes bytes = written(scene);

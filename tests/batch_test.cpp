@@ -26,7 +26,7 @@ std::string text_of(const fs::path& path) {
 }
 
 // Runs the program in an empty folder of its own, which is removed at the end.
-class Batch : public testing::Test {
+class FragmentBatch : public testing::Test {
  protected:
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "zoneplate_batch_XXXXXX").string();
@@ -61,7 +61,7 @@ class Batch : public testing::Test {
   std::string complaint;
 };
 
-TEST_F(Batch, SeveralInputsGiveALineEachAndFailuresExitFive) {
+TEST_F(FragmentBatch, SeveralInputsGiveALineEachAndFailuresExitFive) {
   EXPECT_EQ(run("teapot nothing.stl sphere:triangles=12 -o '{model}.png' --size 16x16"), 5);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0]["status"], "done");
@@ -73,7 +73,7 @@ TEST_F(Batch, SeveralInputsGiveALineEachAndFailuresExitFive) {
   EXPECT_EQ(run("teapot triangles -o one.png"), 2);
 }
 
-TEST_F(Batch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
+TEST_F(FragmentBatch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
   std::string manifest;
   for (int i = 0; i < 7; ++i)
     manifest += R"({"input":"sphere:triangles=)" + std::to_string(12 * (i + 1) * (i + 1)) + R"(","output":"DIR/)" +
@@ -101,7 +101,7 @@ TEST_F(Batch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
   EXPECT_EQ(text_of(place / "whole/4.png"), text_of(place / "parts/4.png"));
 }
 
-TEST_F(Batch, AManifestsBadLinesAreNamed) {
+TEST_F(FragmentBatch, AManifestsBadLinesAreNamed) {
   write("jobs.jsonl",
         "{\"input\":\"teapot\",\"output\":\"a.png\"}\n{]\n{\"output\":\"b.png\"}\n"
         "{\"input\":\"teapot\",\"output\":\"b.png\",\"siz\":\"8x8\"}\n"
@@ -117,7 +117,7 @@ TEST_F(Batch, AManifestsBadLinesAreNamed) {
   EXPECT_NE(complaint.find("jobs.jsonl: line 6: manifest is for all jobs together"), std::string::npos) << complaint;
 }
 
-TEST_F(Batch, TheShardIsReadFromTheScheduler) {
+TEST_F(FragmentBatch, TheShardIsReadFromTheScheduler) {
   fs::create_directory(place / "out");
   write("jobs.jsonl",
         "{\"input\":\"teapot\",\"output\":\"out/0.png\"}\n{\"input\":\"teapot\",\"output\":\"out/1.png\"}\n");
@@ -131,7 +131,7 @@ TEST_F(Batch, TheShardIsReadFromTheScheduler) {
   EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8 --shard 2/2"), 2);
 }
 
-TEST_F(Batch, TurntablesAreNumberedOrFilms) {
+TEST_F(FragmentBatch, TurntablesAreNumberedOrFilms) {
   EXPECT_EQ(run("teapot -o t.###.png --turntable 4 --size 32x24"), 0) << complaint;
   EXPECT_EQ(pictures(), (std::vector<std::string>{"t.000.png", "t.001.png", "t.002.png", "t.003.png"}));
   EXPECT_NE(text_of(place / "t.000.png"), text_of(place / "t.002.png"));
@@ -157,7 +157,7 @@ std::string animated_triangle(const std::string& end) {
   "animations":[{"samplers":[{"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]})";
 }
 
-TEST_F(Batch, AnItemFailsAloneWhateverItTakes) {
+TEST_F(FragmentBatch, AnItemFailsAloneWhateverItTakes) {
   write("long.gltf", animated_triangle("1e30"));
   const std::string long_name(300, 'x');
   write("jobs.jsonl",
@@ -189,7 +189,7 @@ TEST_F(Batch, AnItemFailsAloneWhateverItTakes) {
   EXPECT_EQ(run("long.gltf -o d.####.png --frame-start 0 --size 8x8"), 3) << complaint;
 }
 
-TEST_F(Batch, ASandboxedItemOpensTheLibraryThatItNeeds) {
+TEST_F(FragmentBatch, ASandboxedItemOpensTheLibraryThatItNeeds) {
   ASSERT_EQ(run("checkerboard -o board.exr --size 16x16"), 0) << complaint;
   write("quad.mtl", "newmtl a\nmap_Kd board.exr\n");
   write("quad.obj",
@@ -201,7 +201,7 @@ TEST_F(Batch, ASandboxedItemOpensTheLibraryThatItNeeds) {
   EXPECT_EQ(text_of(place / "boxed.png"), text_of(place / "open.png"));
 }
 
-TEST_F(Batch, AContactSheetShowsEveryInputOrItsTrouble) {
+TEST_F(FragmentBatch, AContactSheetShowsEveryInputOrItsTrouble) {
   EXPECT_EQ(run("contact-sheet teapot nothing.obj triangles -o sheet.png --size 48x32"), 0) << complaint;
   EXPECT_EQ(pictures(), (std::vector<std::string>{"sheet.png"}));
   EXPECT_EQ(run("contact-sheet -o sheet.png"), 2);

@@ -118,11 +118,11 @@ class Llvmpipe {
   std::vector<std::uint8_t> window_ = std::vector<std::uint8_t>(static_cast<std::size_t>(4 * side * side));
 };
 
-struct White : PointShader {
-  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+struct White : FragmentShader {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.padded(); ++i) out.r[i] = out.g[i] = out.b[i] = out.a[i] = 1;
   }
-  float alpha(const Batch&, float*) const override { return 0; }
+  float alpha(const FragmentBatch&, float*) const override { return 0; }
 };
 
 Covered ours(const Points& triangle) {

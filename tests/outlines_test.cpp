@@ -61,7 +61,7 @@ Frame drawn(const GltfMaker& model, const Pinhole& pinhole, int width, int heigh
       .vertical_fov = static_cast<float>(pinhole.fov),
       .near = 0.1f,
       .far = 100};
-  const Request request = make_resolver(antialias::methods(), "none")->ask(0);
+  const Request request = make_resolver(antialias::methods(), "none")->request(0);
   return render(scene, camera, request, {.width = width, .height = height, .cull_back_faces = false});
 }
 
@@ -162,7 +162,7 @@ TEST_P(SharedOutlines, AgreeWithOtherRenderers) {
                       .vertical_fov = 0.7853982f,
                       .near = 0.1f,
                       .far = 100};
-  const Request request = make_resolver(antialias::methods(), "msaa:n=16")->ask(0);
+  const Request request = make_resolver(antialias::methods(), "msaa:n=16")->request(0);
   const Frame frame = render(scene, camera, request, {.width = scenario.width, .height = scenario.height});
 
   int count = 0;

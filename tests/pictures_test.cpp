@@ -31,7 +31,7 @@ struct Shot {
     options.environment = {default_environment, default_environment, default_environment};
   }
   Frame frame(const std::string& method, Planes planes = {}) const {
-    Request request = make_resolver(antialias::methods(), method)->ask(0);
+    Request request = make_resolver(antialias::methods(), method)->request(0);
     request.planes = planes;
     return render(scene, camera, request, options);
   }

@@ -92,11 +92,11 @@ void compare(const Case& c, int samples, double budget_ms, const std::string& pi
   const TextureSet textures(scene, true);
   RasterMemory memory;
   RenderOptions options{.width = work.width, .height = work.height, .raw_colors = true};
-  const VertexRecords records(scene);
+  const InterleavedVertices records(scene);
   options.shown = &display, options.textures = &textures, options.records = &records, options.memory = &memory;
   Frame frame;
   const Times ours =
-      time_frames(budget_ms, [&] { frame = render(scene, scene.cameras.front(), method->ask(0), options); });
+      time_frames(budget_ms, [&] { frame = render(scene, scene.cameras.front(), method->request(0), options); });
 
   const auto ms = [](Times t) { return fmt::format("{:8.1f} {:8.1f}", t.least, t.median); };
   fmt::print("{:<15}{}x  {}  {}  ", c.scene, samples, is_drawn_by_mesa ? ms(theirs) : fmt::format("{:>17}", "-"),

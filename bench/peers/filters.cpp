@@ -28,7 +28,7 @@ Rgba8Image load_codes(const std::string& path, int width, int height) {
   const FileBytes file(path);
   Rgba8Image image(width, height);
   if (file.bytes().size() != image.values().size_bytes())
-    throw Error(Trouble::Input,
+    throw Error(ErrorKind::Input,
                 fmt::format("{}: {} bytes, wants {}", path, file.bytes().size(), image.values().size_bytes()));
   std::memcpy(image.values().data(), file.bytes().data(), file.bytes().size());
   return image;
@@ -44,7 +44,7 @@ void draw(const std::string& name, int width, int height, const std::string& pat
 Rgba8Image filtered(const std::string& method, const Rgba8Image& image, Rgba8Image memory) {
   if (method == "fxaa") return apply_fxaa(image, {.preset = 12, .is_green_luma = true}, std::move(memory));
   if (method == "smaa") return apply_smaa(image, nullptr, {}, std::move(memory));
-  throw Error(Trouble::Usage, "method " + method + " is unknown: fxaa, smaa");
+  throw Error(ErrorKind::Usage, "method " + method + " is unknown: fxaa, smaa");
 }
 
 /// As the other program does it: SMAA mixes codes, with its tables and its distances of corners.

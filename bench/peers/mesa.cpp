@@ -11,7 +11,7 @@
 namespace zoneplate::peers {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) { throw Error(Trouble::Failed, "Mesa: " + what); }
+[[noreturn]] void fail(const std::string& what) { throw Error(ErrorKind::Failed, "Mesa: " + what); }
 
 /// The library and its functions by name.
 class Library {

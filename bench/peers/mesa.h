@@ -21,7 +21,7 @@ struct Work {
 /// drawn.
 class Mesa {
  public:
-  /// Errors    Trouble::Failed: there is no OSMesa, or it cannot do what is asked.
+  /// Errors    ErrorKind::Failed: there is no OSMesa, or it cannot do what is asked.
   Mesa(const Scene& scene, const Work& work);
   ~Mesa();
   Mesa(const Mesa&) = delete;

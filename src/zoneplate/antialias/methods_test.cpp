@@ -12,33 +12,33 @@ std::string refusal(std::string_view text) {
   try {
     make_resolver(antialias::methods(), text);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Usage);
+    EXPECT_EQ(e.trouble(), ErrorKind::Usage);
     return e.what();
   }
   return "accepted";
 }
 
 TEST(Method, TextsMakeRequests) {
-  const auto ask = [](std::string_view text) { return make_resolver(antialias::methods(), text)->ask(0); };
-  EXPECT_EQ(ask("none").samples.size(), 1u);
-  EXPECT_EQ(ask("msaa").samples, standard_pattern(4));
-  EXPECT_EQ(ask("msaa:n=16").samples, standard_pattern(16));
-  EXPECT_EQ(ask("msaa:grid=4").samples, grid_pattern(4));
-  EXPECT_EQ(ask("msaa:grid=4").rate, Rate::Surface);
-  EXPECT_EQ(ask("ssaa:n=3").samples, grid_pattern(3));
-  EXPECT_EQ(ask("ssaa:n=3").rate, Rate::Sample);
-  EXPECT_EQ(ask("ssaa:pattern=halton,samples=64").samples, named_pattern("halton", 64));
+  const auto request = [](std::string_view text) { return make_resolver(antialias::methods(), text)->request(0); };
+  EXPECT_EQ(request("none").samples.size(), 1u);
+  EXPECT_EQ(request("msaa").samples, standard_pattern(4));
+  EXPECT_EQ(request("msaa:n=16").samples, standard_pattern(16));
+  EXPECT_EQ(request("msaa:grid=4").samples, grid_pattern(4));
+  EXPECT_EQ(request("msaa:grid=4").rate, Rate::Surface);
+  EXPECT_EQ(request("ssaa:n=3").samples, grid_pattern(3));
+  EXPECT_EQ(request("ssaa:n=3").rate, Rate::Sample);
+  EXPECT_EQ(request("ssaa:pattern=halton,samples=64").samples, named_pattern("halton", 64));
 }
 
 TEST(Method, ReferencesDrawForThemselves) {
-  const auto ask = [](std::string_view text) { return make_resolver(antialias::methods(), text)->ask(0); };
+  const auto request = [](std::string_view text) { return make_resolver(antialias::methods(), text)->request(0); };
   for (const char* text : {"analytic", "analytic:filter=mitchell,shading=4,order=display", "converged",
                            "converged:samples=64,filter=gaussian,order=display"}) {
-    EXPECT_TRUE(ask(text).draw) << text;
-    EXPECT_FALSE(ask(text).is_local) << text;
-    EXPECT_TRUE(ask(text).estimates_error) << text;
+    EXPECT_TRUE(request(text).draw) << text;
+    EXPECT_FALSE(request(text).resolves_per_pixel) << text;
+    EXPECT_TRUE(request(text).estimates_error) << text;
   }
-  EXPECT_FALSE(ask("ssaa").draw);
+  EXPECT_FALSE(request("ssaa").draw);
 }
 
 TEST(Method, WrongTextsAreNamed) {

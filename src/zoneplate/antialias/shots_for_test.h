@@ -15,7 +15,7 @@ inline LinearImage shot(const Scene& scene, const std::string& method,
                         RenderOptions options = {.width = 160, .height = 120}, RenderCounts* counts = nullptr) {
   const std::unique_ptr<Resolver> resolver = make_resolver(methods(), method);
   Frame frame =
-      render_rounds(scene, scene.cameras.at(0), *resolver, resolver->ask(0), options, DisplayOptions{}, counts);
+      render_rounds(scene, scene.cameras.at(0), *resolver, resolver->request(0), options, DisplayOptions{}, counts);
   return resolver->resolve(frame);
 }
 

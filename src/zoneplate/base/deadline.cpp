@@ -10,7 +10,7 @@ using Clock = std::chrono::steady_clock;
 
 class Deadline {
  public:
-  Deadline(double seconds, Trouble trouble, const std::string& message, const Deadline* outer)
+  Deadline(double seconds, ErrorKind trouble, const std::string& message, const Deadline* outer)
       : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))),
         trouble_(trouble),
         message_(message),
@@ -24,7 +24,7 @@ class Deadline {
 
  private:
   Clock::time_point end_;
-  Trouble trouble_;
+  ErrorKind trouble_;
   const std::string& message_;
   const Deadline* outer_;
 };
@@ -37,7 +37,7 @@ const Deadline* current_deadline() { return current; }
 
 const Deadline* exchange_deadline(const Deadline* deadline) { return std::exchange(current, deadline); }
 
-void with_deadline(double seconds, Trouble trouble, const std::string& message, const std::function<void()>& body) {
+void with_deadline(double seconds, ErrorKind trouble, const std::string& message, const std::function<void()>& body) {
   constexpr double longest = 1e9;  // seconds; what the clock's type holds is some 300 years
   const Deadline deadline(std::min(seconds, longest), trouble, message, current);
   struct Restore {

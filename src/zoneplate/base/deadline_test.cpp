@@ -24,16 +24,16 @@ std::string error_of(const std::function<void()>& body) {
 
 TEST(Deadline, HoldsOnlyWithinItsBody) {
   EXPECT_EQ(error_of([] { check_deadline(); }), "");
-  EXPECT_EQ(error_of([] { with_deadline(0.001, Trouble::Failed, "late", [] { sleep_ms(5), check_deadline(); }); }),
+  EXPECT_EQ(error_of([] { with_deadline(0.001, ErrorKind::Failed, "late", [] { sleep_ms(5), check_deadline(); }); }),
             "late");
-  EXPECT_EQ(error_of([] { with_deadline(1000, Trouble::Failed, "late", check_deadline); }), "");
+  EXPECT_EQ(error_of([] { with_deadline(1000, ErrorKind::Failed, "late", check_deadline); }), "");
   EXPECT_EQ(error_of([] { check_deadline(); }), "");
 }
 
 TEST(Deadline, OuterLimitsHoldInside) {
   EXPECT_EQ(error_of([] {
-              with_deadline(0.001, Trouble::Failed, "outer", [] {
-                with_deadline(1000, Trouble::Failed, "inner", [] { sleep_ms(5), check_deadline(); });
+              with_deadline(0.001, ErrorKind::Failed, "outer", [] {
+                with_deadline(1000, ErrorKind::Failed, "inner", [] { sleep_ms(5), check_deadline(); });
               });
             }),
             "outer");
@@ -43,7 +43,7 @@ TEST(Deadline, EndsLoopsOnEveryThread) {
   std::atomic<int> done = 0;
   const std::string error = error_of([&] {
     with_threads(4, [&] {
-      with_deadline(0.02, Trouble::Failed, "late",
+      with_deadline(0.02, ErrorKind::Failed, "late",
                     [&] { parallel_for(100000, [&](std::size_t) { sleep_ms(1), ++done; }); });
     });
   });
@@ -55,7 +55,7 @@ TEST(Deadline, ReachesSerialCodeOnOtherThreads) {
   std::atomic<int> late = 0;
   error_of([&] {
     with_threads(3, [&] {
-      with_deadline(0.02, Trouble::Failed, "late", [&] {
+      with_deadline(0.02, ErrorKind::Failed, "late", [&] {
         parallel_for(3, [&](std::size_t) {
           sleep_ms(40);
           late += error_of(check_deadline) == "late";

@@ -6,7 +6,7 @@
 namespace zoneplate {
 
 /// What kind of thing went wrong; the command line turns it into its exit code.
-enum class Trouble {
+enum class ErrorKind {
   Failed,  ///< rendering or another run-time failure (exit 1)
   Usage,   ///< a wrong option, value or combination (exit 2)
   Input,   ///< an input that is missing, corrupt or unsupported (exit 3)
@@ -19,11 +19,11 @@ enum class Trouble {
 /// `chair.gltf: mesh 3: POSITION holds 12 bytes, wants 36 (3 vertices)`.
 class Error : public std::runtime_error {
  public:
-  Error(Trouble trouble, const std::string& message) : std::runtime_error(message), trouble_(trouble) {}
-  Trouble trouble() const { return trouble_; }
+  Error(ErrorKind trouble, const std::string& message) : std::runtime_error(message), trouble_(trouble) {}
+  ErrorKind trouble() const { return trouble_; }
 
  private:
-  Trouble trouble_;
+  ErrorKind trouble_;
 };
 
 }  // namespace zoneplate

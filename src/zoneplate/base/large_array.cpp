@@ -22,7 +22,7 @@ void prefer_large_pages(void* memory, std::size_t bytes) {
   if (memory != nullptr && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
-void find_pages(void* memory, std::size_t bytes) {
+void prefault(void* memory, std::size_t bytes) {
   constexpr std::size_t least = std::size_t{1} << 19;
   if (memory == nullptr || bytes < least) return;
   prefer_large_pages(memory, bytes);

@@ -12,13 +12,13 @@ namespace zoneplate {
 void prefer_large_pages(void* memory, std::size_t bytes);
 
 /// The same, and has the pages found by all threads at once: for what one thread then fills at a stretch.
-void find_pages(void* memory, std::size_t bytes);
+void prefault(void* memory, std::size_t bytes);
 
 /// Room for so many elements in an empty vector, its pages found.
 template <class T>
 void reserve_large(std::vector<T>& values, std::size_t count) {
   values.reserve(count);
-  find_pages(values.data(), count * sizeof(T));
+  prefault(values.data(), count * sizeof(T));
 }
 
 /// Makes an empty vector so long, its elements zero.

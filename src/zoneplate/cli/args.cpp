@@ -62,9 +62,9 @@ std::string usage_line(const Syntax& syntax) {
   const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string name = given.substr(0, given.find('='));
   const std::string_view near = closest(name, views);
-  throw Error(Trouble::Usage, near.empty()
-                                  ? fmt::format("unknown option {} (zoneplate {} --help lists them)", name, syntax.verb)
-                                  : fmt::format("unknown option {}; did you mean {}?", name, near));
+  throw Error(ErrorKind::Usage,
+              near.empty() ? fmt::format("unknown option {} (zoneplate {} --help lists them)", name, syntax.verb)
+                           : fmt::format("unknown option {}; did you mean {}?", name, near));
 }
 
 void set(const Option& option, const std::string& text) {
@@ -76,7 +76,7 @@ void set(const Option& option, const std::string& text) {
 }
 
 [[noreturn]] void refuse_value(const Option& option) {
-  throw Error(Trouble::Usage, names_of(option).front() + " takes no value");
+  throw Error(ErrorKind::Usage, names_of(option).front() + " takes no value");
 }
 
 std::string missing_value(const Option& option) { return names_of(option).front() + " needs a value: " + option.value; }
@@ -106,9 +106,9 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   } catch (const CLI::ArgumentMismatch& mismatch) {
     const std::string text = mismatch.what();
     const auto place = places.find(text.substr(0, text.find(':')));
-    throw Error(Trouble::Usage, place == places.end() ? text : place->second);
+    throw Error(ErrorKind::Usage, place == places.end() ? text : place->second);
   } catch (const CLI::ParseError& error) {
-    throw Error(Trouble::Usage, error.what());
+    throw Error(ErrorKind::Usage, error.what());
   }
   for (const std::string& extra : app.remaining())
     if (extra != "--") refuse_unknown(syntax, extra);
@@ -137,7 +137,7 @@ void set_option(const Syntax& syntax, const std::string& name, const std::option
   const auto option = std::find_if(syntax.options.begin(), syntax.options.end(), has_name);
   if (option == syntax.options.end()) refuse_unknown(syntax, wanted);
   if (option->value.empty() && value) refuse_value(*option);
-  if (!option->value.empty() && !value) throw Error(Trouble::Usage, missing_value(*option));
+  if (!option->value.empty() && !value) throw Error(ErrorKind::Usage, missing_value(*option));
   set(*option, value.value_or(""));
 }
 

@@ -31,7 +31,8 @@ struct Syntax {
 /// Takes the arguments after the verb: options in any order, `--name=value` or `--name value`, `--` ends options,
 /// the last of a repeated option counts. Answers false where -h or --help was asked for and shown.
 ///
-/// Errors    Trouble::Usage naming the option: unknown (with the closest one), without its value, or refused by `set`.
+/// Errors    ErrorKind::Usage naming the option: unknown (with the closest one), without its value, or refused by
+/// `set`.
 bool parse(Syntax& syntax, std::span<const std::string> arguments);
 
 /// Sets one option, named without dashes, as a job of a manifest does; `value` is nothing for a switch.

@@ -19,7 +19,7 @@ struct Toy {
   Toy() {
     syntax.options = {{"--size,-s,--extent", "N", "How large", "Form", true,
                        [this](auto& text) {
-                         if (text == "bad") throw Error(Trouble::Usage, "'bad' is not a size");
+                         if (text == "bad") throw Error(ErrorKind::Usage, "'bad' is not a size");
                          size = text;
                        }},
                       {"--loud", "", "Noise", "Sound", false, [this](auto&) { is_loud = true; }}};
@@ -28,7 +28,7 @@ struct Toy {
     try {
       parse(syntax, words);
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), Trouble::Usage);
+      EXPECT_EQ(error.trouble(), ErrorKind::Usage);
       return error.what();
     }
     return "no error";

@@ -51,7 +51,7 @@ void say(std::string_view kind, std::string_view color, std::string message) {
 }  // namespace
 
 void print(const std::string& text) {
-  if (!write_all(STDOUT_FILENO, text)) throw Error(Trouble::Output, std::string("stdout: ") + std::strerror(errno));
+  if (!write_all(STDOUT_FILENO, text)) throw Error(ErrorKind::Output, std::string("stdout: ") + std::strerror(errno));
 }
 
 void say_error(const std::string& message) { say("error", "\x1b[1;31m", message); }

@@ -6,7 +6,7 @@ namespace zoneplate::cli {
 
 /// Writes text to stdout, all of it or an error; nothing else of the program writes there but pictures for "-".
 ///
-/// Errors    Trouble::Output where stdout is closed or full.
+/// Errors    ErrorKind::Output where stdout is closed or full.
 void print(const std::string& text);
 
 enum class Verbosity { Quiet, Normal, Verbose };

@@ -75,7 +75,7 @@ void refuse_misspelt_verb(const std::string& word) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == near)
       throw Error(
-          i < verb_count ? Trouble::Usage : Trouble::Input,
+          i < verb_count ? ErrorKind::Usage : ErrorKind::Input,
           fmt::format("{}: no such {}; did you mean {}?", word, i < verb_count ? "verb" : "file or scene", near));
 }
 
@@ -117,15 +117,15 @@ extern "C" void leave(int signal) {
   ::_exit(128 + signal);
 }
 
-int exit_code(Trouble trouble) {
+int exit_code(ErrorKind trouble) {
   switch (trouble) {
-    case Trouble::Failed:
+    case ErrorKind::Failed:
       return 1;
-    case Trouble::Usage:
+    case ErrorKind::Usage:
       return 2;
-    case Trouble::Input:
+    case ErrorKind::Input:
       return 3;
-    case Trouble::Output:
+    case ErrorKind::Output:
       return 4;
   }
   return 1;
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     if (std::signal(signal, cli::leave) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup sets it
   std::signal(SIGPIPE, SIG_IGN);  // a closed stdout is an error of write(), and so exit code 4
   std::signal(SIGXFSZ, SIG_IGN);  // likewise a file that may not grow
-  outlive_lost_bytes();
+  survive_truncated_mappings();
   cli::shorten_stacks_of_threads();
   try {
     cli::run(std::vector<std::string>(argv + 1, argv + argc));

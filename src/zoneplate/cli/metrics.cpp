@@ -62,7 +62,7 @@ std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choic
     start = end + 1;
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos) {
-      if (choices.size() != 1) throw Error(Trouble::Usage, item + ": of which metric? As psnr=40");
+      if (choices.size() != 1) throw Error(ErrorKind::Usage, item + ": of which metric? As psnr=40");
       bounds.push_back({choices[0].metric, parse_bound(item)});
       continue;
     }
@@ -70,7 +70,7 @@ std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choic
     for (const Choice& choice : choices) {
       if (choice.metric->name == item.substr(0, equals)) found = choice.metric;
     }
-    if (found == nullptr) throw Error(Trouble::Usage, item + ": no metric of that name is measured");
+    if (found == nullptr) throw Error(ErrorKind::Usage, item + ": no metric of that name is measured");
     bounds.push_back({found, parse_bound(item.substr(equals + 1))});
   }
   return bounds;
@@ -163,7 +163,7 @@ void save_map(const std::string& path, const Comparison& comparison) {
     if (result.score.map.empty()) continue;
     return save_bytes(path, encode_png(metrics::paint_magma(result.score.map), {.has_alpha = false}));
   }
-  throw Error(Trouble::Usage, "--map: none of these metrics makes a map");
+  throw Error(ErrorKind::Usage, "--map: none of these metrics makes a map");
 }
 
 // The catalogue as the end of the help.
@@ -229,7 +229,7 @@ void run(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 2) {
-    throw Error(Trouble::Usage, "metrics takes two inputs: the reference and the pictures to judge");
+    throw Error(ErrorKind::Usage, "metrics takes two inputs: the reference and the pictures to judge");
   }
   const std::string reference = syntax.found_operands[0], test = syntax.found_operands[1];
   const std::vector<Choice> choices = choose(args.metric_names);
@@ -238,7 +238,7 @@ void run(std::span<const std::string> arguments) {
   Comparison comparison;
   with_threads(args.threads,
                [&] { comparison = compare_operands(reference, test, choices, !args.metric_names.empty()); });
-  if (comparison.results.empty()) throw Error(Trouble::Input, test + ": wants the size of " + reference);
+  if (comparison.results.empty()) throw Error(ErrorKind::Input, test + ": wants the size of " + reference);
   if (!args.map_path.empty()) save_map(args.map_path, comparison);
   const std::string missing = shortfall(comparison, bounds);
   print(args.wants_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));
@@ -252,7 +252,7 @@ void run_metrics(std::span<const std::string> arguments) {
   try {
     run(arguments);
   } catch (const Error& error) {
-    throw Error(Trouble::Usage, error.what());
+    throw Error(ErrorKind::Usage, error.what());
   }
 }
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw Error(Trouble::Output, path + ": " + why);
+  throw Error(ErrorKind::Output, path + ": " + why);
 }
 
 constexpr const char* is_there = "is there already; give another folder or remove it";
@@ -123,7 +123,7 @@ class StagedFolder {
 }  // namespace
 
 void check_output_folder(const std::string& asked) {
-  if (asked.empty()) throw Error(Trouble::Usage, "no output: give -o DIR");
+  if (asked.empty()) throw Error(ErrorKind::Usage, "no output: give -o DIR");
   const std::string path = without_slashes(asked);
   struct stat status {};
   if (::lstat(path.c_str(), &status) == 0) refuse(path, is_there);

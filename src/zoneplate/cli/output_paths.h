@@ -10,7 +10,7 @@ namespace zoneplate::cli {
 /// Checks before any work that `save_folder(path)` will succeed: there must be nothing under this name, and a folder
 /// that it can be made in. Of single files: check_savable (os/file.h).
 ///
-/// Errors    Trouble::Usage for an empty path; Trouble::Output naming the path and the cause.
+/// Errors    ErrorKind::Usage for an empty path; ErrorKind::Output naming the path and the cause.
 void check_output_folder(const std::string& path);
 
 /// A file of a folder: its name within the folder, with at most one folder of its own before a '/'.
@@ -26,7 +26,8 @@ struct OutputFile {
 /// SIGINT, SIGTERM and SIGHUP are held back from the calling thread meanwhile: one that arrives ends the writing
 /// before the next file, and is delivered when the unfinished folder is removed.
 /// Requires  no other thread that takes these signals.
-/// Errors    Trouble::Output naming the path and the cause, among them that another run has made the folder meanwhile.
+/// Errors    ErrorKind::Output naming the path and the cause, among them that another run has made the folder
+/// meanwhile.
 void save_folder(const std::string& path, std::span<const OutputFile> files);
 
 }  // namespace zoneplate::cli

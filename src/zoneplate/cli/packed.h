@@ -32,7 +32,7 @@ class Packer {
 
 /// Takes the values out again, in their order.
 ///
-/// Errors    Trouble::Failed where the bytes end too early, whatever they are.
+/// Errors    ErrorKind::Failed where the bytes end too early, whatever they are.
 class Unpacker {
  public:
   explicit Unpacker(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -51,7 +51,7 @@ class Unpacker {
 
  private:
   std::span<const std::uint8_t> take(std::uint64_t size) {
-    if (size > bytes_.size()) throw Error(Trouble::Failed, "the answer of an item's process is cut off");
+    if (size > bytes_.size()) throw Error(ErrorKind::Failed, "the answer of an item's process is cut off");
     const auto part = bytes_.first(static_cast<std::size_t>(size));
     bytes_ = bytes_.subspan(part.size());
     return part;

@@ -48,7 +48,7 @@ std::optional<std::vector<float>> numbers_in(std::string_view text) {
 }
 
 [[noreturn]] void refuse(const std::string& text, const std::string& wanted) {
-  throw Error(Trouble::Usage, fmt::format("'{}' is not {}", text, wanted));
+  throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, wanted));
 }
 
 // "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" after the '#'.
@@ -106,7 +106,7 @@ int2 parse_size(const std::string& text, int max_side) {
   if (sides.size() != 2 || !width || !height || *width < 1 || *height < 1)
     refuse(text, "a size WIDTH,HEIGHT or WIDTHxHEIGHT");
   if (*width > max_side || *height > max_side)
-    throw Error(Trouble::Usage, fmt::format("{} is too large: a side has at most {} pixels", text, max_side));
+    throw Error(ErrorKind::Usage, fmt::format("{} is too large: a side has at most {} pixels", text, max_side));
   return {*width, *height};
 }
 
@@ -156,9 +156,9 @@ std::size_t parse_choice(const std::string& text, std::span<const std::string_vi
   const auto found = std::find(names.begin(), names.end(), text);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string_view near = closest(text, names);
-  throw Error(Trouble::Usage, near.empty() ? fmt::format("'{}' is not one of {}", text, fmt::join(names, ", "))
-                                           : fmt::format("'{}' is not one of {}; did you mean {}?", text,
-                                                         fmt::join(names, ", "), near));
+  throw Error(ErrorKind::Usage, near.empty() ? fmt::format("'{}' is not one of {}", text, fmt::join(names, ", "))
+                                             : fmt::format("'{}' is not one of {}; did you mean {}?", text,
+                                                           fmt::join(names, ", "), near));
 }
 
 Isa parse_isa(const std::string& text) {
@@ -167,7 +167,7 @@ Isa parse_isa(const std::string& text) {
   const Isa isa = all_isas[parse_choice(text, names)];
   const auto supported = supported_isas();
   if (std::find(supported.begin(), supported.end(), isa) == supported.end())
-    throw Error(Trouble::Usage, fmt::format("this machine has no {}", text));
+    throw Error(ErrorKind::Usage, fmt::format("this machine has no {}", text));
   return isa;
 }
 

@@ -12,7 +12,7 @@
 
 namespace zoneplate::cli {
 
-// The text of an option made into a value. Every error is Trouble::Usage and says what was found and what is wanted;
+// The text of an option made into a value. Every error is ErrorKind::Usage and says what was found and what is wanted;
 // text after the value, infinities and NaN are errors.
 
 double parse_number(const std::string& text, double low, double high);

@@ -13,7 +13,7 @@ std::string refusal(Parse parse) {
   try {
     parse();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Usage);
+    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
     return error.what();
   }
   return "no error";

@@ -73,9 +73,9 @@ Camera base_camera(const Scene& scene, const View& view, float aspect) {
   }
   const int count = static_cast<int>(scene.cameras.size());
   if (*view.index >= count)
-    throw Error(Trouble::Usage, count == 0 ? "--camera-index: the scene has no camera"
-                                           : fmt::format("--camera-index: the scene has cameras 0 to {}, not {}",
-                                                         count - 1, *view.index));
+    throw Error(ErrorKind::Usage, count == 0 ? "--camera-index: the scene has no camera"
+                                             : fmt::format("--camera-index: the scene has cameras 0 to {}, not {}",
+                                                           count - 1, *view.index));
   return scene.cameras[static_cast<std::size_t>(*view.index)];
 }
 
@@ -93,7 +93,7 @@ Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   if (view.position) pose = {*view.position, centre, view.up};
   if (view.focal_point) pose.target = *view.focal_point;
   if (view.view_up) pose.up = *view.view_up;
-  if (pose.eye == pose.target) throw Error(Trouble::Usage, "the camera's position and its focal point are the same");
+  if (pose.eye == pose.target) throw Error(ErrorKind::Usage, "the camera's position and its focal point are the same");
   if (turns) pose = turned(pose, view.azimuth.value_or(0), view.elevation.value_or(0));
   camera.world_from_camera = inverse(look_at(pose.eye, pose.target, pose.up));
 

@@ -23,7 +23,7 @@ struct View {
 /// azimuth to the right and elevation upwards, after everything else. A base camera's focal point is the point on
 /// its axis next to the centre of the scene. Near and far enclose the scene, unless the base is used unchanged.
 ///
-/// Errors    Trouble::Usage for an index that the scene does not have, or a position equal to the focal point.
+/// Errors    ErrorKind::Usage for an index that the scene does not have, or a position equal to the focal point.
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
 
 }  // namespace zoneplate::cli

@@ -21,7 +21,7 @@ using Bytes = std::vector<std::uint8_t>;
 /// With what a decoder ends whose time is up when it begins.
 std::string late(const std::function<void()>& decode) {
   try {
-    with_deadline(0, Trouble::Failed, "the time is up", decode);
+    with_deadline(0, ErrorKind::Failed, "the time is up", decode);
   } catch (const Error& error) {
     return error.what();
   }

@@ -323,7 +323,7 @@ std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes) {
 
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                      const std::function<void(std::span<const Linear>)>& take_row) {
-  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": EXR: " + cause}; };
+  const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": EXR: " + cause}; };
   const std::optional<Windows> windows = find_windows(bytes);
   if (!windows) throw fail("the header is wrong");
   for (const Window& window : {windows->display, windows->data})

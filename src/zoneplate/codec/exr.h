@@ -24,9 +24,9 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 /// them already, at once.
 /// Shape     the display window; black and transparent where the data window does not reach.
 /// Units     as stored, premultiplied; what is not a number becomes 0, infinity 65504. Without A, alpha is 1.
-/// Errors    Trouble::Input with `name` in front: not such a picture, deep, without these channels or with fewer
-///           samples in one, truncated, corrupt, more than `max_pixels` pixels. Trouble::Failed where libOpenEXRCore is
-///           not installed.
+/// Errors    ErrorKind::Input with `name` in front: not such a picture, deep, without these channels or with fewer
+///           samples in one, truncated, corrupt, more than `max_pixels` pixels. ErrorKind::Failed where libOpenEXRCore
+///           is not installed.
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 

@@ -165,7 +165,7 @@ void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const st
     constexpr int lines_per_check = 16;
     if (j % lines_per_check == 0) check_deadline();
     if (!reader.read(line))
-      throw Error(Trouble::Input, name + ": HDR: scanline " + std::to_string(j) + " is corrupt or cut off");
+      throw Error(ErrorKind::Input, name + ": HDR: scanline " + std::to_string(j) + " is corrupt or cut off");
     for (int i = 0; i < scan.length(); ++i) {
       const int x = scan.is_by_columns ? j : i, y = scan.is_by_columns ? i : j;
       put(scan.is_x_down ? scan.width - 1 - x : x, scan.is_y_up ? scan.height - 1 - y : y,
@@ -178,7 +178,7 @@ void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const st
 template <class Image, class ToPixel>
 Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
              const ToPixel& to_pixel) {
-  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": HDR: " + cause}; };
+  const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": HDR: " + cause}; };
   const auto header = is_hdr(bytes) ? parse_header(bytes) : std::nullopt;
   if (!header) throw fail("the header is wrong");
   if (!header->is_rgbe) throw fail("its pixels are not RGBE");

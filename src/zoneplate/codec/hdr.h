@@ -20,7 +20,7 @@ std::optional<int2> find_hdr_size(std::span<const std::uint8_t> bytes);
 /// orders.
 ///
 /// Units     a channel is mantissa × 2^(exponent - 136), as stored: EXPOSURE lines are not undone. Alpha is 1.
-/// Errors    Trouble::Input with `name` in front: not such a picture, in XYZE, truncated, corrupt, more than
+/// Errors    ErrorKind::Input with `name` in front: not such a picture, in XYZE, truncated, corrupt, more than
 ///           `max_pixels` pixels.
 /// Source    Ward, Real Pixels, Graphics Gems II, 1991; the Radiance file formats' reference.
 LinearImage decode_hdr(std::span<const std::uint8_t> bytes, const std::string& name,

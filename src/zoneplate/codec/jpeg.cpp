@@ -128,18 +128,18 @@ class Reader {
   void check(bool is_well) const {
     if (is_well) return;
     check_deadline();
-    throw Error(Trouble::Input, name_ + ": JPEG: " + report_.message.data());
+    throw Error(ErrorKind::Input, name_ + ": JPEG: " + report_.message.data());
   }
 
   void check_size(std::uint64_t max_pixels) const {
     const std::uint64_t pixels = std::uint64_t{jpeg_.image_width} * jpeg_.image_height;
     if (pixels > max_pixels) {
-      throw Error(Trouble::Input, name_ + ": JPEG: " + std::to_string(jpeg_.image_width) + " x " +
-                                      std::to_string(jpeg_.image_height) + " pixels, at most " +
-                                      std::to_string(max_pixels) + " are allowed");
+      throw Error(ErrorKind::Input, name_ + ": JPEG: " + std::to_string(jpeg_.image_width) + " x " +
+                                        std::to_string(jpeg_.image_height) + " pixels, at most " +
+                                        std::to_string(max_pixels) + " are allowed");
     }
     // A Huffman code takes at least one bit for each 8 x 8 block: a small file that claims more is not whole.
-    if (!jpeg_.arith_code && pixels / 1024 > bytes_.size()) throw Error(Trouble::Input, name_ + ": JPEG: truncated");
+    if (!jpeg_.arith_code && pixels / 1024 > bytes_.size()) throw Error(ErrorKind::Input, name_ + ": JPEG: truncated");
   }
 
   void read_rows(Rgba8Image& image) {
@@ -185,7 +185,7 @@ std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes) {
 }
 
 Rgba8Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  if (!is_jpeg(bytes)) throw Error(Trouble::Input, name + ": not a JPEG file");
+  if (!is_jpeg(bytes)) throw Error(ErrorKind::Input, name + ": not a JPEG file");
   return Reader(bytes, name).decode(max_pixels);
 }
 

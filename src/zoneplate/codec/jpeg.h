@@ -23,7 +23,7 @@ struct JpegFrame {
 /// The frame header as libjpeg reads it; nothing where the bytes up to the first scan are not a sound JPEG.
 std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes);
 
-/// Errors    Trouble::Input with `name` in front: not a JPEG, truncated, corrupt, more than `max_pixels` pixels.
+/// Errors    ErrorKind::Input with `name` in front: not a JPEG, truncated, corrupt, more than `max_pixels` pixels.
 Rgba8Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 

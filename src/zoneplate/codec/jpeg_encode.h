@@ -10,7 +10,7 @@ namespace zoneplate {
 /// A JPEG file of quality 92 whose colour has every pixel's resolution; alpha is left out.
 ///
 /// Exact     the integer transform: the same bytes with the same version of libjpeg.
-/// Errors    Trouble::Failed: sides above 65500 pixels.
+/// Errors    ErrorKind::Failed: sides above 65500 pixels.
 std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image);
 
 }  // namespace zoneplate

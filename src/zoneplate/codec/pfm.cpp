@@ -79,7 +79,7 @@ bool is_pfm(std::span<const std::uint8_t> bytes) {
 }
 
 LinearImage decode_pfm(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, name + ": PFM: " + cause}; };
+  const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": PFM: " + cause}; };
   const std::optional<Header> header = parse_header(bytes);
   if (!header) throw fail("the header is wrong");
   if (header->pixels() > max_pixels)

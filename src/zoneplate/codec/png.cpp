@@ -89,7 +89,7 @@ class Reader {
 
  private:
   void check(bool is_well) const {
-    if (!is_well) throw Error(Trouble::Input, name_ + ": PNG: " + report_.message.data());
+    if (!is_well) throw Error(ErrorKind::Input, name_ + ": PNG: " + report_.message.data());
   }
 
   void read_header() {
@@ -107,12 +107,12 @@ class Reader {
   void check_size(std::uint64_t max_pixels) const {
     const std::uint64_t width = png_get_image_width(png_, info_), height = png_get_image_height(png_, info_);
     if (width * height > max_pixels) {
-      throw Error(Trouble::Input, name_ + ": PNG: " + std::to_string(width) + " x " + std::to_string(height) +
-                                      " pixels, at most " + std::to_string(max_pixels) + " are allowed");
+      throw Error(ErrorKind::Input, name_ + ": PNG: " + std::to_string(width) + " x " + std::to_string(height) +
+                                        " pixels, at most " + std::to_string(max_pixels) + " are allowed");
     }
     // Deflate makes at most 1032 bytes of one: a small file that claims more is not worth the memory.
     if (png_get_rowbytes(png_, info_) * height / 1032 > size_) {
-      throw Error(Trouble::Input, name_ + ": PNG: the file is truncated");
+      throw Error(ErrorKind::Input, name_ + ": PNG: the file is truncated");
     }
   }
 
@@ -153,7 +153,7 @@ bool is_png(std::span<const std::uint8_t> bytes) { return bytes.size() >= 8 && p
 bool has_16_bits(std::span<const std::uint8_t> png) { return png.size() > 24 && png[24] == 16; }
 
 PngImage decode_png_as_stored(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  if (!is_png(bytes)) throw Error(Trouble::Input, name + ": not a PNG file");
+  if (!is_png(bytes)) throw Error(ErrorKind::Input, name + ": not a PNG file");
   return Reader(bytes, name).decode(max_pixels);
 }
 
@@ -220,7 +220,7 @@ class Writer {
       write_rows(rows);
     });
     if (!is_well)
-      throw Error(Trouble::Failed, std::string("a picture cannot be encoded as PNG: ") + report_.message.data());
+      throw Error(ErrorKind::Failed, std::string("a picture cannot be encoded as PNG: ") + report_.message.data());
     return std::move(output_.bytes);
   }
 

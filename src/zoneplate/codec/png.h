@@ -18,7 +18,7 @@ struct PngImage {
 
 bool is_png(std::span<const std::uint8_t> bytes);
 
-/// Errors    Trouble::Input with `name` in front: not a PNG, truncated, corrupt, more than `max_pixels` pixels.
+/// Errors    ErrorKind::Input with `name` in front: not a PNG, truncated, corrupt, more than `max_pixels` pixels.
 PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name,
                     std::uint64_t max_pixels = std::uint64_t{1} << 28);
 /// The same in the file's own depth alone: of `pixels` and `pixels16` one is empty.

@@ -16,7 +16,7 @@ constexpr float effort = 60;  // of 100, for lossless files: above, time grows a
 constexpr int method = 4;     // of 6, the same trade
 
 [[noreturn]] void fail(const std::string& reason) {
-  throw Error(Trouble::Failed, "an animation cannot be encoded as WebP: " + reason);
+  throw Error(ErrorKind::Failed, "an animation cannot be encoded as WebP: " + reason);
 }
 
 struct Close {

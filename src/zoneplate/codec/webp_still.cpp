@@ -26,7 +26,7 @@ std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes) {
 }
 
 Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, name + ": " + cause); };
+  const auto fail = [&](const std::string& cause) { throw Error(ErrorKind::Input, name + ": " + cause); };
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) fail("not a sound WebP file");
   if (features.has_animation != 0) fail("is an animated WebP, wants a still one");
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
   WebPConfig config;
   WebPPicture picture;
   if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
-    throw Error(Trouble::Failed, "libwebp has another version than its headers");
+    throw Error(ErrorKind::Failed, "libwebp has another version than its headers");
   config.lossless = 1;
   config.exact = 1;     // colours that alpha hides are kept: filters mix them in
   config.quality = 70;  // the effort; as libwebp's own short functions have it
@@ -75,8 +75,8 @@ std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
   WebPMemoryWriterClear(&writer);
   WebPPictureFree(&picture);
   if (!is_done)
-    throw Error(Trouble::Failed, "a picture of " + std::to_string(image.width()) + " x " +
-                                     std::to_string(image.height()) + " pixels cannot be encoded as WebP");
+    throw Error(ErrorKind::Failed, "a picture of " + std::to_string(image.width()) + " x " +
+                                       std::to_string(image.height()) + " pixels cannot be encoded as WebP");
   return out;
 }
 

@@ -19,13 +19,13 @@ std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 
 /// Decodes a WebP picture.
 ///
-/// Errors    Trouble::Input with `name` in front: corrupt, animated, more than `max_pixels`.
+/// Errors    ErrorKind::Input with `name` in front: corrupt, animated, more than `max_pixels`.
 Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
 /// A lossless WebP file, also of colours that alpha hides; without alpha, the picture's alpha is not written.
 ///
 /// Exact     the same bytes with the same version of libwebp.
-/// Errors    Trouble::Failed: sides above 16383 pixels.
+/// Errors    ErrorKind::Failed: sides above 16383 pixels.
 std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha);
 
 }  // namespace zoneplate

@@ -69,7 +69,7 @@ TEST(Webp, RefusesWhatTheFormatCannotHold) {
     encode_webp(wide);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Failed);
+    EXPECT_EQ(error.trouble(), ErrorKind::Failed);
   }
 }
 

@@ -30,7 +30,7 @@ Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_glt
 const LoadLimits& limits_of(const LoadOptions& o) {
   const SceneChoice& c = o.choice;
   if (c.scene || c.animation || !c.variant.empty())
-    throw Error(Trouble::Usage, "only glTF files have scenes, variants and animations to choose from");
+    throw Error(ErrorKind::Usage, "only glTF files have scenes, variants and animations to choose from");
   return o.limits;
 }
 Scene read_obj(const std::string& path, const LoadOptions& o) { return load_obj(path, limits_of(o)); }
@@ -69,7 +69,7 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
   std::string wanted;
   for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
-    throw Error(Trouble::Usage, "standard input wants --format (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "standard input wants --format (" + wanted + ")");
   const std::string extension = extension_of(name, options.format);
   for (std::size_t i = 0; i < std::size(formats); ++i)
     if (extension == formats[i].extension) return loaders[i](name, options);
@@ -78,15 +78,15 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
 
   wanted += " and others, see zoneplate list formats";
   if (!options.format.empty())
-    throw Error(Trouble::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(name, ignored);
-  throw Error(Trouble::Input, exists ? name + ": not a format that can be read (" + wanted + ")"
-                                     : name + ": no such file, and no built-in scene of that name");
+  throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + wanted + ")"
+                                       : name + ": no such file, and no built-in scene of that name");
 }
 
 Scene read_watched(const std::string& name, const LoadOptions& options) {
-  const LostBytesWatch watch;
+  const MappedFileWatch watch;
   Scene scene = read_file(name, options);
   watch.check(name);
   return scene;

@@ -32,7 +32,7 @@ struct LoadOptions {
 ///
 /// A built-in scene goes before a file of the same name, which is reached as "./teapot". "-" is standard input, and
 /// wants a format; what it refers to is looked for in the working directory.
-/// Errors    Trouble::Input naming a file that is missing, of an unknown format or wrong inside; Trouble::Usage for
+/// Errors    ErrorKind::Input naming a file that is missing, of an unknown format or wrong inside; ErrorKind::Usage for
 ///           parameters of a built-in scene, a format that is not read, and standard input without one.
 Scene load_scene(const std::string& name, const LoadOptions& options = {});
 
@@ -55,7 +55,7 @@ class SceneSource {
  private:
   std::string name_;
   LoadOptions options_;
-  LostBytesWatch watch_;
+  MappedFileWatch watch_;
   std::unique_ptr<GltfModel> gltf_;
 };
 

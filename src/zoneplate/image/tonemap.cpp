@@ -143,14 +143,14 @@ void show_light(std::span<const Linear> pixels, const DisplayOptions& options, f
   best_kernels().display_row(step, &pixels.data()->r, light, pixels.size());
 }
 
-Presenter::Presenter(const DisplayOptions& options) : step_(make_step(options)) {
+DisplayTransform::DisplayTransform(const DisplayOptions& options) : step_(make_step(options)) {
   Rgba8 shown[Linear8::size];
   const Linear8 nothing{};
   present({&nothing, 1}, shown);
   background_ = shown[0];
 }
 
-void Presenter::present(std::span<const Linear8> groups, Rgba8* out) const {
+void DisplayTransform::present(std::span<const Linear8> groups, Rgba8* out) const {
   best_kernels().show_groups(step_, groups.data(), out, groups.size());
 }
 

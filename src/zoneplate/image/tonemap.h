@@ -33,9 +33,9 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
 void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light);
 
 /// quantize8 of make_display, a few pixels at a time: for those that are shown while they are in cache.
-class Presenter {
+class DisplayTransform {
  public:
-  explicit Presenter(const DisplayOptions& options);
+  explicit DisplayTransform(const DisplayOptions& options);
 
   /// `out` has room for eight pixels a group.
   void present(std::span<const Linear8> groups, Rgba8* out) const;

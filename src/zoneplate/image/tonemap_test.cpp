@@ -182,7 +182,7 @@ TEST(MakeDisplay, DoesNotDependOnThreads) {
   EXPECT_TRUE(make_display(LinearImage(), options).empty());
 }
 
-TEST(Presenter, ShowsWhatMakeDisplayDoesQuantized) {
+TEST(DisplayTransform, ShowsWhatMakeDisplayDoesQuantized) {
   LinearImage image(32, 1);
   for (int x = 0; x < 32; ++x) {
     const float a = x < 8 ? 1.0f : x % 5 == 0 ? 0.0f : static_cast<float>(x) / 31;
@@ -199,7 +199,7 @@ TEST(Presenter, ShowsWhatMakeDisplayDoesQuantized) {
                                    .background = {0.2f, 0.4f, 0.6f, 0.7f},
                                    .raw = (bits & 2) != 0};
       Rgba8 shown[32];
-      Presenter(options).present(groups, shown);
+      DisplayTransform(options).present(groups, shown);
       const Rgba8Image expected = quantize8(make_display(image, options));
       for (int x = 0; x < 32; ++x) EXPECT_EQ(shown[x], expected(x, 0)) << x << " " << bits;
     }

@@ -39,15 +39,15 @@ void check_pair(std::span<const Choice> choices, const Picture& reference, const
   const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
   const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
   if (is_equal || std::ranges::any_of(choices, takes_any)) return;
-  throw Error(Trouble::Input, fmt::format("picture {} has {} pixels, wants {} as the reference", index + 1,
-                                          size_of(test), size_of(reference)));
+  throw Error(ErrorKind::Input, fmt::format("picture {} has {} pixels, wants {} as the reference", index + 1,
+                                            size_of(test), size_of(reference)));
 }
 
 bool has_same_codes(const Picture& a, const Picture& b) { return a.display == b.display; }
 
 void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string& why) {
   if (unfit == Unfit::Refuse) {
-    throw Error(Trouble::Input, fmt::format("metric {}: picture {} {}", m.choice->metric->name, index + 1, why));
+    throw Error(ErrorKind::Input, fmt::format("metric {}: picture {} {}", m.choice->metric->name, index + 1, why));
   }
   m.is_left_out = true;
 }
@@ -75,8 +75,8 @@ void measure(Measurement& m, Frames reference, Frames test, std::size_t index, U
 
 void check_sizes(const Picture& first, const Picture& next, std::size_t index, std::string_view which) {
   if (first.width() == next.width() && first.height() == next.height()) return;
-  throw Error(Trouble::Input, fmt::format("{} frame {}: has {} pixels, wants {} as the frame before it", which,
-                                          index + 1, size_of(next), size_of(first)));
+  throw Error(ErrorKind::Input, fmt::format("{} frame {}: has {} pixels, wants {} as the frame before it", which,
+                                            index + 1, size_of(next), size_of(first)));
 }
 
 }  // namespace

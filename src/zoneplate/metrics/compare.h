@@ -18,7 +18,7 @@ struct Comparands {
 /// What to do with a metric that cannot judge these pictures (too small, too few, nothing there to measure).
 enum class Unfit {
   Leave,   ///< leave it out
-  Refuse,  ///< Trouble::Input
+  Refuse,  ///< ErrorKind::Input
 };
 
 /// One metric's answer.
@@ -40,7 +40,7 @@ struct Comparison {
 /// Judges pictures by metrics.
 ///
 /// Requires  count > 0.
-/// Errors    Trouble::Input naming the picture's number and sizes where a metric wants other sizes; as Unfit says.
+/// Errors    ErrorKind::Input naming the picture's number and sizes where a metric wants other sizes; as Unfit says.
 Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit);
 
 /// The metrics that are measured when the user names none.

@@ -80,7 +80,7 @@ std::string refusal(const Picture& a, const Picture& b, std::string_view name) {
   try {
     compare(sequence(as, bs), choices({name}), Unfit::Refuse);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Input);
+    EXPECT_EQ(error.trouble(), ErrorKind::Input);
     return error.what();
   }
   return {};

@@ -28,8 +28,8 @@ double parse_number(std::string_view metric, const Param& param, std::string_vie
   const bool is_allowed = param.choices.empty() ? value >= param.low && value <= param.high
                                                 : std::ranges::find(param.choices, value) != param.choices.end();
   if (!is_number || !is_allowed) {
-    throw Error(Trouble::Usage, fmt::format("metric {}: {}={}: wants {}{}", metric, param.name, text,
-                                            param.choices.empty() ? "a number from " : "", values_of(param)));
+    throw Error(ErrorKind::Usage, fmt::format("metric {}: {}={}: wants {}{}", metric, param.name, text,
+                                              param.choices.empty() ? "a number from " : "", values_of(param)));
   }
   return value;
 }
@@ -50,7 +50,7 @@ Settings::Settings(std::string_view metric, std::span<const Param> params, std::
     const std::string_view name = item.substr(0, item.find('='));
     const auto found = std::ranges::find(params, name, &Param::name);
     if (found == params.end()) {
-      throw Error(Trouble::Usage,
+      throw Error(ErrorKind::Usage,
                   fmt::format("metric {}: unknown parameter {}; there is: {}", metric, name, names_of(params)));
     }
     const std::string_view value = item.substr(std::min(item.size(), name.size() + 1));
@@ -80,7 +80,7 @@ Choice choose_metric(std::span<const Metric> catalogue, std::string_view text) {
   const std::string_view name = text.substr(0, text.find(':'));
   const auto found = std::ranges::find(catalogue, name, &Metric::name);
   if (found == catalogue.end()) {
-    throw Error(Trouble::Usage, fmt::format("unknown metric {}; there is: {}", name, names_of(catalogue)));
+    throw Error(ErrorKind::Usage, fmt::format("unknown metric {}; there is: {}", name, names_of(catalogue)));
   }
   const std::string_view rest = text.substr(std::min(text.size(), name.size() + 1));
   return {&*found, Settings(name, found->params, rest)};

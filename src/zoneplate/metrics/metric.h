@@ -33,7 +33,7 @@ std::string values_of(const Param& param);
 /// The values that a user gave to a metric's parameters, the others at their defaults.
 class Settings {
  public:
-  /// Parses `ppd=30,distance=2`. Errors: Trouble::Usage naming an unknown parameter or a value out of range.
+  /// Parses `ppd=30,distance=2`. Errors: ErrorKind::Usage naming an unknown parameter or a value out of range.
   Settings(std::string_view metric, std::span<const Param> params, std::string_view text = {});
 
   double number(std::string_view name) const;
@@ -95,7 +95,7 @@ struct Choice {
 
 /// Reads a text such as `flip:ppd=30`.
 ///
-/// Errors    Trouble::Usage naming an unknown metric, parameter or value, and what there is.
+/// Errors    ErrorKind::Usage naming an unknown metric, parameter or value, and what there is.
 Choice choose_metric(std::span<const Metric> catalogue, std::string_view text);
 
 }  // namespace zoneplate::metrics

@@ -92,7 +92,7 @@ std::vector<std::string> files_of(const fs::path& directory, const Wanted& is_wa
     std::error_code ignored;
     if (entry->is_regular_file(ignored) && is_wanted(entry->path().filename())) paths.push_back(entry->path().string());
   }
-  if (error) throw Error(Trouble::Input, fmt::format("{}: {}", directory.string(), error.message()));
+  if (error) throw Error(ErrorKind::Input, fmt::format("{}: {}", directory.string(), error.message()));
   std::ranges::sort(paths, comes_before);
   return paths;
 }
@@ -142,7 +142,7 @@ const std::string* find_alone(const std::vector<std::string>& paths, const std::
 }  // namespace
 
 Picture load_picture(const std::string& path) {
-  const LostBytesWatch watch;
+  const MappedFileWatch watch;
   const FileBytes file(path);
   Picture picture = is_hdr(file.bytes())   ? make_picture(decode_hdr(file.bytes(), path))
                     : is_exr(file.bytes()) ? make_picture(decode_exr(file.bytes(), path))
@@ -157,7 +157,7 @@ std::vector<std::string> list_pictures(const std::string& operand) {
   if (is_directory(operand)) {
     std::vector<std::string> paths = files_of(path, is_picture_name);
     if (paths.empty())
-      throw Error(Trouble::Input,
+      throw Error(ErrorKind::Input,
                   operand + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr or .pfm file");
     return paths;
   }
@@ -167,7 +167,7 @@ std::vector<std::string> list_pictures(const std::string& operand) {
   const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<std::string> paths =
       files_of(directory, [&](const fs::path& name) { return pattern->matches(name.string()); });
-  if (paths.empty()) throw Error(Trouble::Input, operand + ": no file has a number there");
+  if (paths.empty()) throw Error(ErrorKind::Input, operand + ": no file has a number there");
   return paths;
 }
 
@@ -186,15 +186,15 @@ PicturePairs pair_pictures(const std::string& reference, const std::string& test
   PicturePairs pairs{list_pictures(reference), list_pictures(test)};
   if (is_directory(reference) && is_directory(test)) {
     if (const std::string* alone = find_alone(pairs.reference, pairs.test)) {
-      throw Error(Trouble::Input, fmt::format("{}: no picture of that name in {}", *alone, test));
+      throw Error(ErrorKind::Input, fmt::format("{}: no picture of that name in {}", *alone, test));
     }
     if (const std::string* alone = find_alone(pairs.test, pairs.reference)) {
-      throw Error(Trouble::Input, fmt::format("{}: no picture of that name in {}", *alone, reference));
+      throw Error(ErrorKind::Input, fmt::format("{}: no picture of that name in {}", *alone, reference));
     }
   }
   if (pairs.reference.size() != pairs.test.size()) {
-    throw Error(Trouble::Input, fmt::format("{} has {} pictures, {} has {}", reference, pairs.reference.size(), test,
-                                            pairs.test.size()));
+    throw Error(ErrorKind::Input, fmt::format("{} has {} pictures, {} has {}", reference, pairs.reference.size(), test,
+                                              pairs.test.size()));
   }
   return pairs;
 }

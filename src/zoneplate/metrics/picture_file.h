@@ -10,14 +10,14 @@ namespace zoneplate::metrics {
 /// A picture from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, told apart by its first bytes. "-" is stdin.
 ///
 /// HDR, EXR and PFM are light, unbounded; their codes are what a screen shows of it, clamped.
-/// Errors    Trouble::Input naming the file and what is wrong with it.
+/// Errors    ErrorKind::Input naming the file and what is wrong with it.
 Picture load_picture(const std::string& path);
 
 /// The files that one operand names, in order.
 ///
 /// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr and .pfm files by name, numbers in names as numbers (9 before
 /// 10), nothing of its folders. A name with `####` or `%04d` in its last part: the files that have a number there, in
-/// the numbers' order. Anything else: that file. Errors    Trouble::Input where a directory or a pattern names no
+/// the numbers' order. Anything else: that file. Errors    ErrorKind::Input where a directory or a pattern names no
 /// picture.
 std::vector<std::string> list_pictures(const std::string& operand);
 
@@ -32,7 +32,7 @@ struct PicturePairs {
 /// The pictures of two operands. Of two directories those of equal names (the extension apart) are pairs; of anything
 /// else the first and first, second and second.
 ///
-/// Errors    Trouble::Input where the lists differ, naming the first picture that has no partner.
+/// Errors    ErrorKind::Input where the lists differ, naming the first picture that has no partner.
 PicturePairs pair_pictures(const std::string& reference, const std::string& test);
 
 }  // namespace zoneplate::metrics

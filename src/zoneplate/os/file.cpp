@@ -27,11 +27,11 @@ namespace {
 std::string cause_of(int error) { return std::system_category().message(error); }
 
 Error read_error(const std::string& path, const std::string& cause) {
-  return Error(Trouble::Input, (path == "-" ? "standard input" : path) + ": cannot be read: " + cause);
+  return Error(ErrorKind::Input, (path == "-" ? "standard input" : path) + ": cannot be read: " + cause);
 }
 
 Error write_error(const std::string& path, const std::string& cause) {
-  return Error(Trouble::Output, (path == "-" ? "standard output" : path) + ": cannot be written: " + cause);
+  return Error(ErrorKind::Output, (path == "-" ? "standard output" : path) + ": cannot be written: " + cause);
 }
 
 /// Closes what it holds; -1 holds nothing.

@@ -12,8 +12,8 @@ namespace zoneplate {
 /// The bytes of a whole file, mapped (or read, where it cannot be mapped, as a pipe or "-" for stdin).
 ///
 /// The mapping counts as memory of the process (os/memory_limit.h).
-/// Errors    Trouble::Input naming the file and the cause: missing, a directory, not readable, larger than `limit`. Of
-/// one that is cut off while it is mapped: os/mapped_file_guard.h.
+/// Errors    ErrorKind::Input naming the file and the cause: missing, a directory, not readable, larger than `limit`.
+/// Of one that is cut off while it is mapped: os/mapped_file_guard.h.
 class FileBytes {
  public:
   explicit FileBytes(const std::string& path, std::uint64_t limit = ~std::uint64_t{0});
@@ -37,7 +37,7 @@ class FileBytes {
 ///
 /// What cannot be renamed (stdout, a device, a pipe) is kept in memory until `commit` writes it. A temporary that is
 /// not committed is removed; `remove_temporaries` does so from a signal handler.
-/// Errors    Trouble::Output naming the file and the cause, from every member; nothing is left behind under either
+/// Errors    ErrorKind::Output naming the file and the cause, from every member; nothing is left behind under either
 /// name.
 class FileWriter {
  public:
@@ -61,7 +61,7 @@ void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes);
 
 /// Checks, without writing, that a file can be saved under this name.
 ///
-/// Errors    Trouble::Output naming the file and the cause: no folder, a folder or file without the right to write, a
+/// Errors    ErrorKind::Output naming the file and the cause: no folder, a folder or file without the right to write, a
 ///           folder of that name, a name that is too long.
 void check_savable(const std::string& path);
 

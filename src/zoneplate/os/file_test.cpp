@@ -34,7 +34,7 @@ Bytes loaded(const std::string& path) {
 }
 
 template <class Body>
-std::string error_of(Trouble trouble, Body body) {
+std::string error_of(ErrorKind trouble, Body body) {
   try {
     body();
   } catch (const Error& error) {
@@ -122,29 +122,29 @@ TEST_F(File, ReadsStandardInput) {
 }
 
 TEST_F(File, SaysWhyItCannotBeRead) {
-  EXPECT_EQ(error_of(Trouble::Input, [&] { FileBytes(path("none")); }),
+  EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(path("none")); }),
             path("none") + ": cannot be read: No such file or directory");
-  EXPECT_EQ(error_of(Trouble::Input, [&] { FileBytes(folder_.string()); }),
+  EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(folder_.string()); }),
             folder_.string() + ": cannot be read: it is a directory");
   save_bytes(path("a"), made(101));
   EXPECT_EQ(FileBytes(path("a"), 101).bytes().size(), 101u);
-  EXPECT_EQ(error_of(Trouble::Input, [&] { FileBytes(path("a"), 100); }),
+  EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(path("a"), 100); }),
             path("a") + ": cannot be read: larger than the limit of 100 bytes");
-  EXPECT_NE(error_of(Trouble::Input, [&] { FileBytes("/dev/zero", 1 << 20); }).find("larger"), std::string::npos);
+  EXPECT_NE(error_of(ErrorKind::Input, [&] { FileBytes("/dev/zero", 1 << 20); }).find("larger"), std::string::npos);
 }
 
 TEST_F(File, SaysWhyItCannotBeWritten) {
-  EXPECT_EQ(error_of(Trouble::Output, [&] { save_bytes(path("none/a.png"), made(1)); }),
+  EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes(path("none/a.png"), made(1)); }),
             path("none/a.png") + ": cannot be written: no directory " + path("none"));
-  EXPECT_EQ(error_of(Trouble::Output, [&] { save_bytes(folder_.string(), made(1)); }),
+  EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes(folder_.string(), made(1)); }),
             folder_.string() + ": cannot be written: it is a directory");
-  EXPECT_EQ(error_of(Trouble::Output, [&] { save_bytes(path("b/"), made(1)); }),
+  EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes(path("b/"), made(1)); }),
             path("b/") + ": cannot be written: it names a directory");
-  EXPECT_EQ(error_of(Trouble::Output, [&] { save_bytes("", made(1)); }), ": cannot be written: not a file name");
+  EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes("", made(1)); }), ": cannot be written: not a file name");
   save_bytes(path("a"), made(1));
-  EXPECT_EQ(error_of(Trouble::Output, [&] { save_bytes(path("a/b"), made(1)); }),
+  EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes(path("a/b"), made(1)); }),
             path("a/b") + ": cannot be written: Not a directory");
-  EXPECT_EQ(error_of(Trouble::Output, [&] { save_bytes(path(std::string(300, 'x')), made(1)); }),
+  EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes(path(std::string(300, 'x')), made(1)); }),
             path(std::string(300, 'x')) + ": cannot be written: File name too long");
   EXPECT_EQ(names(), std::vector<std::string>{"a"});
   save_bytes(path(std::string(255, 'x')), made(1));
@@ -154,7 +154,7 @@ TEST_F(File, IsNotReplacedWithoutPermission) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everything";
   save_bytes(path("a"), made(5));
   ::chmod(path("a").c_str(), 0400);
-  error_of(Trouble::Output, [&] { save_bytes(path("a"), made(1)); });
+  error_of(ErrorKind::Output, [&] { save_bytes(path("a"), made(1)); });
   EXPECT_EQ(loaded(path("a")), made(5));
 }
 
@@ -176,13 +176,13 @@ TEST_F(File, KeepsPermissionsAndFollowsLinks) {
   save_bytes(path("early"), made(2));
   EXPECT_EQ(loaded(path("later")), made(2));
   std::filesystem::create_symlink("circle", folder_ / "circle");
-  error_of(Trouble::Output, [&] { save_bytes(path("circle"), made(2)); });
+  error_of(ErrorKind::Output, [&] { save_bytes(path("circle"), made(2)); });
 }
 
 TEST_F(File, WritesIntoDevices) {
   save_bytes("/dev/null", made(100));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
-  EXPECT_EQ(error_of(Trouble::Output, [] { save_bytes("/dev/full", made(100)); }),
+  EXPECT_EQ(error_of(ErrorKind::Output, [] { save_bytes("/dev/full", made(100)); }),
             "/dev/full: cannot be written: No space left on device");
 }
 
@@ -208,7 +208,7 @@ TEST_F(File, ReportsAClosedPipe) {
               try {
                 save_bytes("-", made(1000));
               } catch (const Error& error) {
-                return error.trouble() == Trouble::Output &&
+                return error.trouble() == ErrorKind::Output &&
                                error.what() == std::string("standard output: cannot be written: Broken pipe")
                            ? 0
                            : 2;
@@ -232,7 +232,7 @@ TEST_F(File, LeavesNothingBehindWhenTheDiskIsFull) {
               try {
                 save_bytes(path("a"), made(50000));
               } catch (const Error& error) {
-                return error.trouble() == Trouble::Output ? 0 : 1;
+                return error.trouble() == ErrorKind::Output ? 0 : 1;
               }
               return 2;
             }),

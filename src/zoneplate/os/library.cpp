@@ -29,7 +29,7 @@ SharedLibrary::SharedLibrary(Library library, const std::string& place) : librar
       place + ": needs the library " + package.file + " (package " + package.package + "), which is not installed";
   if (::dlopen(package.file, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD)) return;
   if (is_limited_child()) throw LibraryNeeded(library, message);
-  if (!open_library(library)) throw Error(Trouble::Input, message);
+  if (!open_library(library)) throw Error(ErrorKind::Input, message);
 }
 
 SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
@@ -37,7 +37,7 @@ SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
   // The handle of a library that is open already.
   if (void* const address = ::dlsym(::dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD), symbol))
     return reinterpret_cast<AnyFunction>(address);
-  throw Error(Trouble::Input, place_ + ": the library " + file + " has no function " + symbol);
+  throw Error(ErrorKind::Input, place_ + ": the library " + file + " has no function " + symbol);
 }
 
 }  // namespace zoneplate

@@ -31,10 +31,10 @@ class SharedLibrary {
  public:
   /// Opens the library if it is not open yet. `place` begins error messages.
   ///
-  /// Errors    Trouble::Input naming the library and its package where it is not installed; LibraryNeeded.
+  /// Errors    ErrorKind::Input naming the library and its package where it is not installed; LibraryNeeded.
   SharedLibrary(Library library, const std::string& place);
 
-  /// Errors    Trouble::Input where the library has no such function.
+  /// Errors    ErrorKind::Input where the library has no such function.
   template <class Function>
   void find(Function*& function, const char* symbol) const {
     function = reinterpret_cast<Function*>(address_of(symbol));

@@ -37,7 +37,7 @@ void write_whole(int pipe, const void* data, std::size_t size) {
   }
 }
 
-[[noreturn]] void tell(int pipe, Trouble trouble, const std::string& cause) {
+[[noreturn]] void tell(int pipe, ErrorKind trouble, const std::string& cause) {
   const auto kind = static_cast<std::uint8_t>(trouble);
   write_whole(pipe, &kind, 1);
   write_whole(pipe, cause.data(), cause.size());
@@ -66,7 +66,7 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
     is_child = true;
     limit_resources(task.limits.memory, task.limits.seconds * threads);
     if (task.limits.is_sandboxed && !enter_sandbox(task.limits.readable))
-      throw Error(Trouble::Failed, task.place + ": the system has no filter for system calls");
+      throw Error(ErrorKind::Failed, task.place + ": the system has no filter for system calls");
     with_threads(threads, [&] {
       task.work(answer);
       ::_exit(0);  // the kernel ends the other threads sooner than they could be joined
@@ -74,10 +74,10 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
   } catch (const Error& error) {
     if (!answer.is_begun()) tell(pipe, error.trouble(), error.what());
   } catch (const LibraryNeeded& needed) {
-    if (!answer.is_begun()) tell(pipe, Trouble::Input, needed.what());
+    if (!answer.is_begun()) tell(pipe, ErrorKind::Input, needed.what());
   } catch (const std::exception&) {
     if (!answer.is_begun())
-      tell(pipe, Trouble::Input, with_options(task.place + ": needs more memory than the limit", task.limits));
+      tell(pipe, ErrorKind::Input, with_options(task.place + ": needs more memory than the limit", task.limits));
   }
   ::_exit(1);
 }
@@ -115,7 +115,7 @@ LimitedChild::LimitedChild(std::string place, Limits limits, const std::function
                            const std::function<void()>& open)
     : place_(std::move(place)), limits_(std::move(limits)) {
   const auto no = [&](int error) {
-    throw Error(Trouble::Failed, place_ + ": no process for it: " + std::strerror(error));
+    throw Error(ErrorKind::Failed, place_ + ": no process for it: " + std::strerror(error));
   };
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) no(errno);
@@ -163,7 +163,7 @@ void LimitedChild::fail() {
     if (patience.ms() > 1000) ::kill(id_, SIGKILL);
   }
   id_ = -1;
-  throw Error(Trouble::Input, place_ + ": " + cause_of(status, limits_));
+  throw Error(ErrorKind::Input, place_ + ": " + cause_of(status, limits_));
 }
 
 void LimitedChild::begin() {
@@ -173,7 +173,7 @@ void LimitedChild::begin() {
   if (kind == good) return;
   std::string cause(4000, ' ');
   cause.resize(read_some(cause.data(), cause.size()));
-  throw Error(kind == 0 || kind == 1 || kind == 3 ? static_cast<Trouble>(kind) : Trouble::Input, one_line(cause));
+  throw Error(kind == 0 || kind == 1 || kind == 3 ? static_cast<ErrorKind>(kind) : ErrorKind::Input, one_line(cause));
 }
 
 void LimitedChild::read(void* out, std::size_t size) {

@@ -30,8 +30,8 @@ bool is_limited_child();
 /// The child has limits on memory and time and the sandbox of sandbox.h; it ends with its parent, and is killed with
 /// this object. `work` makes its result first and writes it then: an Error that it throws before it writes is thrown
 /// here again, by the first `read`.
-/// Errors    Trouble::Input with `place` in front where the child crashes, runs out of memory or time, or makes a
-///           system call that a reader does not need; Trouble::Failed where no process can be started.
+/// Errors    ErrorKind::Input with `place` in front where the child crashes, runs out of memory or time, or makes a
+///           system call that a reader does not need; ErrorKind::Failed where no process can be started.
 class LimitedChild {
  public:
   struct Limits {

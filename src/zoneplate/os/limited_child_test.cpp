@@ -56,12 +56,12 @@ TEST(LimitedChild, AnswersFromManyThreads) {
 
 TEST(LimitedChild, PassesErrorsOn) {
   try {
-    LimitedChild child("model.xyz", {}, [](ChildAnswer&) { throw Error(Trouble::Usage, "two\nlines"); });
+    LimitedChild child("model.xyz", {}, [](ChildAnswer&) { throw Error(ErrorKind::Usage, "two\nlines"); });
     std::uint8_t byte = 0;
     child.read(&byte, 1);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Usage);
+    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
     EXPECT_STREQ(error.what(), "two lines");
   }
 }
@@ -78,7 +78,7 @@ TEST(LimitedChild, MayBeLost) {
   EXPECT_EQ(complaint_about(loop, {.seconds = 0}), "model.xyz: its reader ran out of time or memory");
   const Stopwatch clock;
   const auto be_patient = [&] {
-    if (clock.ms() > 200) throw Error(Trouble::Input, "that is enough");
+    if (clock.ms() > 200) throw Error(ErrorKind::Input, "that is enough");
   };
   EXPECT_EQ(complaint_about(loop, {.check_time = be_patient}), "that is enough");
 }
@@ -104,7 +104,7 @@ TEST(LimitedChild, OpensBeforeItsRightsAreTaken) {
     answer_one(answer);
   };
   EXPECT_EQ(complaint_about(write, {}, open), "");
-  EXPECT_EQ(complaint_about(answer_one, {}, [] { throw Error(Trouble::Failed, "no library"); }), "no library");
+  EXPECT_EQ(complaint_about(answer_one, {}, [] { throw Error(ErrorKind::Failed, "no library"); }), "no library");
   EXPECT_FALSE(is_limited_child());
 }
 

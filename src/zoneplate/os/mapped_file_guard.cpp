@@ -48,7 +48,7 @@ void replace_lost(int, siginfo_t* info, void*) {
 
 }  // namespace
 
-void outlive_lost_bytes() {
+void survive_truncated_mappings() {
   static std::once_flag once;
   std::call_once(once, [] {
     struct sigaction action {};
@@ -58,11 +58,11 @@ void outlive_lost_bytes() {
   });
 }
 
-LostBytesWatch::LostBytesWatch() : before_(losses) {}
+MappedFileWatch::MappedFileWatch() : before_(losses) {}
 
-void LostBytesWatch::check(const std::string& file) const {
+void MappedFileWatch::check(const std::string& file) const {
   if (losses != before_)
-    throw Error(Trouble::Input,
+    throw Error(ErrorKind::Input,
                 (file == "-" ? "standard input" : file) + ": cannot be read: bytes were lost meanwhile");
 }
 

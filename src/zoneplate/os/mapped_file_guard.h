@@ -10,13 +10,13 @@ namespace zoneplate {
 /// fails, reads as 0; without this call it ends the process (SIGBUS).
 ///
 /// For programs: the signal is the whole process's. Of memory that is not a FileBytes's it does what it did before.
-void outlive_lost_bytes();
+void survive_truncated_mappings();
 
 /// Tells readers at their end whether what they read was there.
-class LostBytesWatch {
+class MappedFileWatch {
  public:
-  LostBytesWatch();
-  /// Errors    Trouble::Input naming `file`, if any mapped file lost bytes since this watch began.
+  MappedFileWatch();
+  /// Errors    ErrorKind::Input naming `file`, if any mapped file lost bytes since this watch began.
   void check(const std::string& file) const;
 
  private:

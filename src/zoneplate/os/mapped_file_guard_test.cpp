@@ -20,8 +20,8 @@ TEST(LostBytes, OfAFileThatIsCutOffReadAsZeroAndAreToldOf) {
   save_bytes(path, std::vector<std::uint8_t>(1 << 16, 7));
   const pid_t child = ::fork();
   if (child == 0) {
-    outlive_lost_bytes();
-    const LostBytesWatch watch;
+    survive_truncated_mappings();
+    const MappedFileWatch watch;
     const FileBytes file(path);
     std::filesystem::resize_file(path, 5000);
     const auto bytes = file.bytes();
@@ -33,7 +33,7 @@ TEST(LostBytes, OfAFileThatIsCutOffReadAsZeroAndAreToldOf) {
     } catch (const Error& error) {
       said = error.what();
     }
-    LostBytesWatch().check(path);  // begun after the loss
+    MappedFileWatch().check(path);  // begun after the loss
     ::_exit(has_first && has_rest && said == path + ": cannot be read: bytes were lost meanwhile" ? 0 : 1);
   }
   int status = -1;

@@ -56,7 +56,7 @@ class File {
 };
 
 [[noreturn]] void fail(const std::string& program, const std::string& what) {
-  throw Error(Trouble::Failed, program + ": " + what);
+  throw Error(ErrorKind::Failed, program + ": " + what);
 }
 
 /// A file in memory that holds `text`, read from its start: unlike a pipe it takes everything at once, and a child

@@ -21,7 +21,7 @@ struct ProgramLimits {
 
 /// A file without a name among the temporary ones, which ends with this object.
 ///
-/// Errors    Trouble::Failed naming `owner`, where there is no room for it.
+/// Errors    ErrorKind::Failed naming `owner`, where there is no room for it.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string owner);
@@ -42,7 +42,7 @@ class ScratchFile {
 /// Runs a program of the system's folders on `input` as its stdin, without a shell.
 ///
 /// It is looked for in the absolute folders of PATH, then in /usr/local/bin, /usr/bin and /bin. Its environment is
-/// these folders and the C locale in UTF-8: no HOME, so that no settings of a user count. Errors    Trouble::Failed
+/// these folders and the C locale in UTF-8: no HOME, so that no settings of a user count. Errors    ErrorKind::Failed
 /// naming the program where it cannot be started or goes past a limit.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits = {});

@@ -17,13 +17,13 @@ struct DrawOptions {
   SamplePattern samples = standard_pattern(4);
   bool is_per_sample = false;  ///< run the fragment part once a sample, not once a triangle and pixel
   bool culls_back_faces = false;
-  Surface surface = Surface::Opaque;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
   RasterRules rules;
 };
 
 /// A user's shader as the rasterizer's: varyings are made again for the triangle's vertices, weighted, and handed on.
 template <Shader S>
-class ShaderPoints : public PointShader {
+class ShaderPoints : public FragmentShader {
  public:
   using Varyings = typename S::Varyings;
   static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);
@@ -32,10 +32,10 @@ class ShaderPoints : public PointShader {
 
   explicit ShaderPoints(const S& shader) : shader_(shader) {}
 
-  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for_points(batch, [&](int i, float4 c) { out.r[i] = c.x, out.g[i] = c.y, out.b[i] = c.z, out.a[i] = c.w; });
   }
-  float alpha(const Batch& batch, float* out) const override {
+  float alpha(const FragmentBatch& batch, float* out) const override {
     for_points(batch, [&](int i, float4 c) { out[i] = c.w; });
     return 0.5f;
   }
@@ -51,7 +51,8 @@ class ShaderPoints : public PointShader {
   }
 
   /// first + ((v1 - v0) b[0] + (v2 - v0) b[1]).
-  static Varyings weighted(const Floats& first, const Floats (&v)[3], const float (&b)[2][Batch::room], int i) {
+  static Varyings weighted(const Floats& first, const Floats (&v)[3],
+                           const float (&b)[2][FragmentBatch::padded_capacity], int i) {
     Floats sum;
     for (std::size_t f = 0; f < floats; ++f)
       sum[f] = first[f] + ((v[1][f] - v[0][f]) * b[0][i] + (v[2][f] - v[0][f]) * b[1][i]);
@@ -61,14 +62,14 @@ class ShaderPoints : public PointShader {
   }
 
   template <class Use>
-  void for_points(const Batch& batch, Use use) const {
+  void for_points(const FragmentBatch& batch, Use use) const {
     Floats corner[3] = {}, none = {};
     std::uint32_t known = 0;
     for (int i = 0; i < batch.count; ++i) {
-      const std::size_t told = batch.told(static_cast<std::size_t>(i));
-      if (i == 0 || batch.triangle[told] != known)
-        for (int k = 0; k < 3; ++k) corner[k] = varyings_of(batch.vertex[k][told]);
-      known = batch.triangle[told];
+      const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
+      if (i == 0 || batch.triangle[leader] != known)
+        for (int k = 0; k < 3; ++k) corner[k] = varyings_of(batch.vertex[k][leader]);
+      known = batch.triangle[leader];
       const Varyings u = weighted(corner[0], corner, batch.b, i);
       use(i, shader_.fragment(u, weighted(none, corner, batch.dbdx, i), weighted(none, corner, batch.dbdy, i)));
     }
@@ -90,7 +91,7 @@ LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::u
   Draw d;
   d.clip = clip;
   d.index = indices;
-  d.surface = options.surface;
+  d.alpha_mode = options.alpha_mode;
   d.culls_back_faces = options.culls_back_faces;
 
   LinearImage image(width, height, Linear{0, 0, 0, 0});

@@ -17,7 +17,7 @@ float to_half(float value) { return half_value(half_bits(value)); }
 }  // namespace
 
 EdgeDistances::EdgeDistances(const Scene& scene, std::span<const Draw> draws, Viewport viewport,
-                             const PointShader& surfaces)
+                             const FragmentShader& surfaces)
     : scene_(scene), draws_(draws), viewport_(viewport), surfaces_(surfaces) {
   std::uint32_t first = 0;
   for (const Draw& draw : draws) {
@@ -64,13 +64,13 @@ EdgeDistances::Distance EdgeDistances::nearest(const Edges& edges, double x, dou
   return out;
 }
 
-void EdgeDistances::shade(const Batch& batch, Wanted, Shaded& out) const {
+void EdgeDistances::shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const {
   Edges edges;
   std::uint32_t known = 0;
   for (int i = 0; i < batch.count; ++i) {
-    const std::size_t told = batch.told(static_cast<std::size_t>(i));
-    if (i == 0 || batch.triangle[told] != known) edges = edges_of(batch.triangle[told]);
-    known = batch.triangle[told];
+    const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
+    if (i == 0 || batch.triangle[leader] != known) edges = edges_of(batch.triangle[leader]);
+    known = batch.triangle[leader];
     const Distance d = nearest(edges, batch.x[i] - 128.0 * viewport_.width, batch.y[i] - 128.0 * viewport_.height);
     out.r[i] = d.is_along_row ? d.value : Frame::no_edge;
     out.g[i] = d.is_along_row ? Frame::no_edge : d.value;
@@ -79,12 +79,14 @@ void EdgeDistances::shade(const Batch& batch, Wanted, Shaded& out) const {
   if (is_masked(batch.material)) take_alpha_edges(batch, out);
 }
 
-/// Alpha at the point and one pixel to the right and below gives its slopes; the steeper decides.
-void EdgeDistances::take_alpha_edges(const Batch& batch, Shaded& out) const {
-  float here[Batch::room], right[Batch::room], below[Batch::room];
+/// Alpha at the point and one pixel to the right and below gives its derivatives; the steeper decides.
+void EdgeDistances::take_alpha_edges(const FragmentBatch& batch, FragmentOutputs& out) const {
+  float here[FragmentBatch::padded_capacity], right[FragmentBatch::padded_capacity],
+      below[FragmentBatch::padded_capacity];
   const float cutoff = surfaces_.alpha(batch, here);
-  const auto alpha_beside = [&](const float(&step)[2][Batch::room], float(&alpha)[Batch::room]) {
-    Batch beside = batch;
+  const auto alpha_beside = [&](const float(&step)[2][FragmentBatch::padded_capacity],
+                                float(&alpha)[FragmentBatch::padded_capacity]) {
+    FragmentBatch beside = batch;
     for (std::size_t k = 0; k < 2; ++k)
       for (int i = 0; i < batch.padded(); ++i) beside.b[k][i] = batch.b[k][i] + step[k][i];
     surfaces_.alpha(beside, alpha);
@@ -94,9 +96,9 @@ void EdgeDistances::take_alpha_edges(const Batch& batch, Shaded& out) const {
   for (int i = 0; i < batch.count; ++i) {
     const float dx = right[i] - here[i], dy = below[i] - here[i];
     const bool is_along_row = std::abs(dx) > std::abs(dy);
-    const float slope = is_along_row ? dx : dy, distance = (cutoff - here[i]) / slope;
+    const float derivative = is_along_row ? dx : dy, distance = (cutoff - here[i]) / derivative;
     const float edge = out.r[i] == Frame::no_edge ? out.g[i] : out.r[i];
-    if (slope == 0 || !(std::abs(distance) < std::abs(edge))) continue;
+    if (derivative == 0 || !(std::abs(distance) < std::abs(edge))) continue;
     out.r[i] = is_along_row ? distance : Frame::no_edge;
     out.g[i] = is_along_row ? Frame::no_edge : distance;
   }

@@ -11,20 +11,22 @@ namespace zoneplate {
 /// Evaluates how far the edges of the visible triangles are in place of the surfaces' light (Content::EdgeDistances).
 ///
 /// The colour of a point is (x, y, 0, 1) with the two values of Frame::edge_distance. Where alpha of a masked surface
-/// falls to its cutoff nearer than the edges are, as far as its slope at the pixel tells, that is the distance.
+/// falls to its cutoff nearer than the edges are, as far as its derivative at the pixel tells, that is the distance.
 ///
 /// Exact     edges join the vertices snapped to 1/256 pixel, as coverage knows them; those of triangles that are
 ///           clipped join the vertices as they are. An edge without length is no edge.
 /// Source    Persson, Geometry Buffer Anti-Aliasing, demo of July 2011 (humus.name): FillBuffers.shd, whose geometry
 ///           shader makes the distances, RG16F.
-class EdgeDistances : public PointShader {
+class EdgeDistances : public FragmentShader {
  public:
   /// `surfaces` is the scene's own shader. All arguments outlive this.
-  EdgeDistances(const Scene& scene, std::span<const Draw> draws, Viewport viewport, const PointShader& surfaces);
+  EdgeDistances(const Scene& scene, std::span<const Draw> draws, Viewport viewport, const FragmentShader& surfaces);
 
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override;
-  float alpha(const Batch& batch, float* out) const override { return surfaces_.alpha(batch, out); }
-  bool wants_slopes(int material) const override { return is_masked(material) || surfaces_.wants_slopes(material); }
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override;
+  float alpha(const FragmentBatch& batch, float* out) const override { return surfaces_.alpha(batch, out); }
+  bool needs_derivatives(int material) const override {
+    return is_masked(material) || surfaces_.needs_derivatives(material);
+  }
 
  private:
   /// a x + b y + c = 0, in 1/256 pixel from the picture's centre.
@@ -45,12 +47,12 @@ class EdgeDistances : public PointShader {
   }
   Edges edges_of(std::uint32_t triangle) const;
   static Distance nearest(const Edges& edges, double x, double y);
-  void take_alpha_edges(const Batch& batch, Shaded& out) const;
+  void take_alpha_edges(const FragmentBatch& batch, FragmentOutputs& out) const;
 
   const Scene& scene_;
   std::span<const Draw> draws_;
   Viewport viewport_;
-  const PointShader& surfaces_;
+  const FragmentShader& surfaces_;
   std::vector<std::uint32_t> first_triangle_;  ///< by draw
 };
 

@@ -2,7 +2,7 @@
 
 namespace zoneplate {
 
-GeometryPoints::GeometryPoints(const Scene& scene, const Camera& camera, const PointShader& surfaces)
+GeometryPoints::GeometryPoints(const Scene& scene, const Camera& camera, const FragmentShader& surfaces)
     : scene_(scene), surfaces_(surfaces), to_viewer_(normalize(xyz(camera.world_from_camera.column[2]), {0, 0, 1})) {
   const float4x4 camera_from_world = inverse(camera.world_from_camera);
   for (const Instance& instance : scene.instances) {
@@ -12,13 +12,13 @@ GeometryPoints::GeometryPoints(const Scene& scene, const Camera& camera, const P
   }
 }
 
-GeometryPoints::Corners GeometryPoints::corners_of(const Batch& batch, std::size_t told) const {
-  const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(scene_.instances[batch.instance[told]].mesh)];
-  const Placed& placed = placed_[batch.instance[told]];
-  const float side = batch.is_front[told] > 0 ? 1.0f : -1.0f;
+GeometryPoints::Corners GeometryPoints::corners_of(const FragmentBatch& batch, std::size_t leader) const {
+  const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(scene_.instances[batch.instance[leader]].mesh)];
+  const Placed& placed = placed_[batch.instance[leader]];
+  const float side = batch.is_front[leader] > 0 ? 1.0f : -1.0f;
   Corners out;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t v = batch.vertex[k][told];
+    const std::uint32_t v = batch.vertex[k][leader];
     const float3 p = mesh.position[v];
     const float4& d = placed.distance;
     out.distance[k] = ((d.x * p.x + d.y * p.y) + d.z * p.z) + d.w;
@@ -29,13 +29,13 @@ GeometryPoints::Corners GeometryPoints::corners_of(const Batch& batch, std::size
   return out;
 }
 
-void GeometryPoints::shade(const Batch& batch, Wanted, Shaded& out) const {
+void GeometryPoints::shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const {
   Corners corners;
   std::uint32_t known = 0;
   for (int i = 0; i < batch.count; ++i) {
-    const std::size_t told = batch.told(static_cast<std::size_t>(i));
-    if (i == 0 || batch.triangle[told] != known) corners = corners_of(batch, told);
-    known = batch.triangle[told];
+    const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
+    if (i == 0 || batch.triangle[leader] != known) corners = corners_of(batch, leader);
+    known = batch.triangle[leader];
     const float b = batch.b[0][i], c = batch.b[1][i];
     const auto mix = [&](const auto& at) { return at[0] + ((at[1] - at[0]) * b + (at[2] - at[0]) * c); };
     const float3 normal = normalize(mix(corners.normal), to_viewer_);

@@ -12,13 +12,13 @@ namespace zoneplate {
 ///
 /// The colour of a point is its geometry: see Frame::sample_geometry. Alpha is that of `surfaces`, the scene's own
 /// shader, which outlives this as the scene does.
-class GeometryPoints : public PointShader {
+class GeometryPoints : public FragmentShader {
  public:
-  GeometryPoints(const Scene& scene, const Camera& camera, const PointShader& surfaces);
+  GeometryPoints(const Scene& scene, const Camera& camera, const FragmentShader& surfaces);
 
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override;
-  float alpha(const Batch& batch, float* out) const override { return surfaces_.alpha(batch, out); }
-  bool wants_slopes(int material) const override { return surfaces_.wants_slopes(material); }
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override;
+  float alpha(const FragmentBatch& batch, float* out) const override { return surfaces_.alpha(batch, out); }
+  bool needs_derivatives(int material) const override { return surfaces_.needs_derivatives(material); }
 
  private:
   /// How an instance's vertices become geometry.
@@ -31,10 +31,10 @@ class GeometryPoints : public PointShader {
     float3 normal[3];
     float distance[3];
   };
-  Corners corners_of(const Batch& batch, std::size_t told) const;
+  Corners corners_of(const FragmentBatch& batch, std::size_t leader) const;
 
   const Scene& scene_;
-  const PointShader& surfaces_;
+  const FragmentShader& surfaces_;
   float3 to_viewer_;  ///< against the view axis
   std::vector<Placed> placed_;
 };

@@ -30,7 +30,7 @@ std::string listed(std::span<const std::string_view> words) {
 }
 
 [[noreturn]] void reject(std::string_view method, const std::string& what) {
-  throw Error(Trouble::Usage, std::string(method) + ": " + what);
+  throw Error(ErrorKind::Usage, std::string(method) + ": " + what);
 }
 
 int power_of_ten(int exponent) {
@@ -144,7 +144,7 @@ std::unique_ptr<Resolver> make_resolver(std::span<const Method> catalogue, std::
     if (m.name == name) return m.make(Settings(m.name, m.params, params));
   }
   const std::string_view near = closest(name, names);
-  throw Error(Trouble::Usage,
+  throw Error(ErrorKind::Usage,
               "unknown method '" + std::string(name) + "'" +
                   (near.empty() ? "; there are " + listed(names) : "; did you mean '" + std::string(near) + "'?"));
 }

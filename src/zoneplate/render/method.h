@@ -15,7 +15,7 @@
 
 namespace zoneplate {
 
-struct Drawing;  // render/drawing.h
+struct CustomDraw;  // render/custom_draw.h
 
 /// How often a surface is shaded.
 enum class Rate {
@@ -43,15 +43,16 @@ struct Request {
   AlphaTest alpha = AlphaTest::Pixel;  ///< of masked surfaces at rate *surface*
   Centroid centroid = Centroid::Mean;  ///< where surfaces are shaded at rate *surface*
   Planes planes;
-  Plane<std::uint8_t> where;    ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
-  float footprint = 0;          ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
-  bool is_local = false;        ///< the mean is the method's last word: `resolve` and `finish` change nothing
-  bool works_on_shown = false;  ///< on the picture after tone mapping: what is written as light would not have it
-  int halo = 0;  ///< pixels beyond a picture's sides that `finish` would read, so that a crop has the whole's bits
+  Plane<std::uint8_t> pixel_mask;   ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
+  float footprint = 0;              ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  bool resolves_per_pixel = false;  ///< the mean is the method's last word: `resolve` and `post_process` change nothing
+  bool is_display_referred = false;  ///< on the picture after tone mapping: what is written as light would not have it
+  int halo =
+      0;  ///< pixels beyond a picture's sides that `post_process` would read, so that a crop has the whole's bits
 
   /// Draws the colour in the method's own way, in place of the tiles' mean; `samples` then serve the data passes alone.
   /// It holds what it needs: the method itself may be gone when it is called.
-  std::function<void(const Drawing&)> draw;
+  std::function<void(const CustomDraw&)> draw;
   bool estimates_error = false;  ///< `draw` fills Frame::error
 };
 
@@ -59,12 +60,12 @@ struct Request {
 class Resolver {
  public:
   virtual ~Resolver() = default;
-  virtual Request ask(int /*frame*/) { return {}; }
+  virtual Request request(int /*frame*/) { return {}; }
   /// What to render more after a look at this frame, from which the method takes what it keeps; nothing when it has
   /// seen enough. `resolve` gets the last frame.
-  virtual std::optional<Request> ask_again(Frame& /*frame*/) { return std::nullopt; }
-  virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }               ///< before tone mapping
-  virtual DisplayImage finish(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
+  virtual std::optional<Request> refine(Frame& /*frame*/) { return std::nullopt; }
+  virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }  ///< before tone mapping
+  virtual DisplayImage post_process(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
 };
 
 /// One parameter of a method: a whole number in [low, high] (or one of `choices` where there are any), a number with
@@ -80,7 +81,7 @@ struct Param {
 /// The values that a user gave to a method's parameters, the others at their defaults.
 class Settings {
  public:
-  /// Parses `n=4,pattern=halton`. Errors: Trouble::Usage naming an unknown parameter or a value out of range.
+  /// Parses `n=4,pattern=halton`. Errors: ErrorKind::Usage naming an unknown parameter or a value out of range.
   Settings(std::string_view method, std::span<const Param> params, std::string_view text);
 
   int integer(std::string_view name) const;
@@ -115,7 +116,7 @@ std::string_view closest(std::string_view word, std::span<const std::string_view
 
 /// Makes the resolver of a text such as `msaa:n=4` from a catalogue.
 ///
-/// Errors    Trouble::Usage naming an unknown method (and the closest one), parameter or value.
+/// Errors    ErrorKind::Usage naming an unknown method (and the closest one), parameter or value.
 std::unique_ptr<Resolver> make_resolver(std::span<const Method> catalogue, std::string_view text);
 
 }  // namespace zoneplate

@@ -24,7 +24,7 @@ Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver
   RenderCounts sum;
   const Stopwatch preparing;
   std::optional<TextureSet> textures;
-  std::optional<VertexRecords> records;
+  std::optional<InterleavedVertices> records;
   RasterMemory memory;
   if (!options.textures) options.textures = &textures.emplace(scene, options.raw_colors);
   if (!options.records) options.records = &records.emplace(scene);
@@ -38,7 +38,7 @@ Frame render_rounds(const Scene& scene, const Camera& camera, Resolver& resolver
     return frame;
   };
   Frame frame = round(request);
-  while (const std::optional<Request> more = resolver.ask_again(frame)) frame = round(*more);
+  while (const std::optional<Request> more = resolver.refine(frame)) frame = round(*more);
   if (counts) *counts = sum;
   return frame;
 }
@@ -50,7 +50,7 @@ Rgba8Image show(Resolver& resolver, Frame& frame, RenderCounts* counts) {
   const double resolve_ms = watch.lap_ms();
   DisplayImage display = make_display(std::move(linear), frame.display);
   const double display_ms = watch.lap_ms();
-  display = resolver.finish(std::move(display), frame);
+  display = resolver.post_process(std::move(display), frame);
   const double filter_ms = watch.lap_ms();
   Rgba8Image codes = quantize8(display);
   if (counts) {
@@ -62,8 +62,8 @@ Rgba8Image show(Resolver& resolver, Frame& frame, RenderCounts* counts) {
 
 Rgba8Image render_picture(const Scene& scene, const Camera& camera, Resolver& resolver, RenderOptions options,
                           const DisplayOptions& display, RenderCounts* counts) {
-  const Request request = resolver.ask(0);
-  if (request.is_local) options.shown = &display;
+  const Request request = resolver.request(0);
+  if (request.resolves_per_pixel) options.shown = &display;
   Frame frame = render_rounds(scene, camera, resolver, request, options, display, counts);
   return show(resolver, frame, counts);
 }

@@ -10,31 +10,31 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/raster/tile/rasterize.h"
-#include "zoneplate/render/drawing.h"
+#include "zoneplate/render/custom_draw.h"
+#include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
 #include "zoneplate/render/geometry_points.h"
 #include "zoneplate/render/motion.h"
-#include "zoneplate/render/surfaces.h"
 #include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {
 namespace {
 
 /// The scene's materials as the rasterizer's shader.
-class ScenePoints : public PointShader {
+class ScenePoints : public FragmentShader {
  public:
-  ScenePoints(const Scene& scene, const Surroundings& surroundings, const RenderOptions& options)
+  ScenePoints(const Scene& scene, const ViewUniforms& surroundings, const RenderOptions& options)
       : scene_(scene), surfaces_(scene, surroundings, options.textures, options.records) {}
 
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
     surfaces_.shade(batch, {.normal = wanted.normal, .uv = wanted.uv, .albedo = wanted.albedo}, out);
   }
-  float alpha(const Batch& batch, float* out) const override {
+  float alpha(const FragmentBatch& batch, float* out) const override {
     surfaces_.alpha(batch, out);
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
   float brightest() const override { return surfaces_.brightest(); }
-  bool wants_slopes(int material) const override { return surfaces_.wants_slopes(material); }
+  bool needs_derivatives(int material) const override { return surfaces_.needs_derivatives(material); }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
     const std::span<const float> record = surfaces_.vertex_record(instance, material);
     return {reinterpret_cast<const std::byte*>(record.data()), record.size_bytes()};
@@ -57,10 +57,10 @@ PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const 
           up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
 }
 
-Surroundings surroundings_of(const Scene& scene, const Camera& camera, const float4x4& clip_from_camera,
+ViewUniforms surroundings_of(const Scene& scene, const Camera& camera, const float4x4& clip_from_camera,
                              const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
-  Surroundings s;
+  ViewUniforms s;
   s.eye = xyz(world_from_camera.column[3]);
   s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
   s.is_orthographic = camera.is_orthographic;
@@ -140,7 +140,7 @@ void find_distances(const float4x4& clip_from_camera, Frame& frame) {
 }
 
 void check(const RenderOptions& o, const Request& request) {
-  const auto reject = [](const std::string& what) { throw Error(Trouble::Usage, what); };
+  const auto reject = [](const std::string& what) { throw Error(ErrorKind::Usage, what); };
   if (o.width < 1 || o.height < 1 || o.width > 32768 || o.height > 32768)
     reject("a picture has 1 to 32768 pixels a side, not " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (const Crop c = o.crop.value_or(Crop{0, 0, o.width, o.height});
@@ -155,7 +155,7 @@ void check(const RenderOptions& o, const Request& request) {
 }
 
 /// The colour by the request's own hand, the data passes by the tiles.
-RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const PointShader& shader,
+RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const FragmentShader& shader,
                      const RasterRules& rules, const Target& target, const RenderOptions& options,
                      Plane<float>* error) {
   RasterCounts counts;
@@ -170,10 +170,12 @@ RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const 
 
 /// What has no colour shows opaque and masked surfaces alone.
 RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
-                             const PointShader& surfaces, const RasterRules& rules, Target& target,
+                             const FragmentShader& surfaces, const RasterRules& rules, Target& target,
                              const RenderOptions& options) {
-  std::erase_if(draws, [](const Draw& draw) { return draw.surface == Surface::Blended; });
-  const auto run = [&](const PointShader& points) { return rasterize(draws, points, rules, target, options.memory); };
+  std::erase_if(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
+  const auto run = [&](const FragmentShader& points) {
+    return rasterize(draws, points, rules, target, options.memory);
+  };
   if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
   if (request.content == Content::Visibility) return run(surfaces);
   target.is_per_sample = true;
@@ -206,8 +208,8 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
   if (target.is_per_sample && options.sample_footprint)
     target.spacing =
         request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
-  if (!request.where.empty()) target.where = &request.where;
-  std::optional<Presenter> presenter;
+  if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
+  std::optional<DisplayTransform> presenter;
   if (options.shown) target.presenter = &presenter.emplace(*options.shown);
   const bool has_color = request.content == Content::Colour;
   if (has_color)

@@ -13,7 +13,7 @@
 namespace zoneplate {
 
 class TextureSet;
-class VertexRecords;
+class InterleavedVertices;
 struct RasterMemory;
 
 /// A part of the picture, in its pixels.
@@ -61,7 +61,7 @@ struct RenderOptions {
   const Moment* next = nullptr;  ///< what Frame::flow leads to
   // The scene's, made once for many frames; null: made for this one.
   const TextureSet* textures = nullptr;
-  const VertexRecords* records = nullptr;
+  const InterleavedVertices* records = nullptr;
   RasterMemory* memory = nullptr;  ///< of earlier frames, to be used again; null: its own
 };
 

@@ -31,7 +31,7 @@ struct FigureStyle {
 ///
 /// Pictures keep their pixels. One whose rim is not paper gets an outline of one pixel around it.
 /// Exact     the same bits on every machine with the same versions of the font and of FreeType.
-/// Errors    Trouble::Failed naming the font and its package where it is not installed.
+/// Errors    ErrorKind::Failed naming the font and its package where it is not installed.
 Rgba8Image compose(const Figure& figure, const FigureStyle& style = {});
 
 /// The picture with every pixel `factor` × `factor` times: how a crop is shown, so that single pixels can be judged.

@@ -228,11 +228,11 @@ std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const 
     try {
       return run_child("gnuplot", {"-d", "-"}, script_of(plots, columns, size, terminal));
     } catch (const Error& error) {
-      throw Error(Trouble::Failed, std::string(error.what()) + "; plots need it (Debian's package gnuplot-nox)");
+      throw Error(ErrorKind::Failed, std::string(error.what()) + "; plots need it (Debian's package gnuplot-nox)");
     }
   }();
   if (answer.code != 0 || answer.out.empty())
-    throw Error(Trouble::Failed,
+    throw Error(ErrorKind::Failed,
                 fmt::format("gnuplot (Debian's package gnuplot-nox): exit code {}: {}", answer.code, answer.complaint));
   return answer.out;
 }

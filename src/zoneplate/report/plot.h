@@ -56,7 +56,7 @@ struct PlotSize {
 /// Drawn by gnuplot, a program of its own, in a child process with a time limit. Texts are shown as they are,
 /// but for ' which becomes ’.
 /// Exact     no time stamp; the same bytes wherever gnuplot and its fonts are the same.
-/// Errors    Trouble::Failed naming gnuplot and its package where it is not installed or does not answer.
+/// Errors    ErrorKind::Failed naming gnuplot and its package where it is not installed or does not answer.
 std::string plot_svg(const Plot& plot, const PlotSize& size = {});
 Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {});
 

@@ -98,16 +98,17 @@ Typeface::Typeface(Weight weight, int px) : px_(px) {
   const char* const file = files[weight == Weight::Bold];
   FT_Library library = nullptr;
   FT_Face face = nullptr;
-  if (FT_Init_FreeType(&library) != 0) throw Error(Trouble::Failed, "FreeType cannot be started");
+  if (FT_Init_FreeType(&library) != 0) throw Error(ErrorKind::Failed, "FreeType cannot be started");
   library_.reset(library);
   for (const char* folder : folders)
     if (FT_New_Face(library, (std::string(folder) + file).c_str(), 0, &face) == 0) break;
   if (face == nullptr)
-    throw Error(Trouble::Failed, fmt::format("{}: the font of captions is in none of {}; it is in Debian's package {}",
-                                             file, fmt::join(folders, ", "), package));
+    throw Error(ErrorKind::Failed,
+                fmt::format("{}: the font of captions is in none of {}; it is in Debian's package {}", file,
+                            fmt::join(folders, ", "), package));
   face_.reset(face);
   if (FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(px)) != 0)
-    throw Error(Trouble::Failed, fmt::format("{}: there are no letters of {} pixels", file, px));
+    throw Error(ErrorKind::Failed, fmt::format("{}: there are no letters of {} pixels", file, px));
 }
 
 int Typeface::leading() const { return static_cast<int>(leading_em * px_ + 0.5); }

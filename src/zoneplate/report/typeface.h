@@ -22,7 +22,7 @@ class Typeface {
  public:
   enum class Weight { Regular, Bold };
 
-  /// Errors    Trouble::Failed naming the font's file and package where it cannot be read.
+  /// Errors    ErrorKind::Failed naming the font's file and package where it cannot be read.
   Typeface(Weight weight, int px);
 
   int ascent() const;   ///< from the top of a line to its baseline

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "zoneplate/math/vec.h"
+#include "zoneplate/scene/alpha_mode.h"
 #include "zoneplate/scene/texel_image.h"
 
 namespace zoneplate {
@@ -43,7 +44,6 @@ struct TextureUse {
   float rotation = 0;
 };
 
-enum class AlphaMode { Opaque, Mask, Blend };
 enum class ShadingModel { MetallicRoughness, BlinnPhong, Phong, Unlit };
 
 /// What a surface is made of. Factors are linear; codes of base colour and emissive images are sRGB, those of the

@@ -164,7 +164,7 @@ bool is_one_line(const std::string& text) { return text.find('\n') == text.npos;
 
 }  // namespace
 
-std::optional<std::string> find_flaw(const Scene& s) {
+std::optional<std::string> find_invalid(const Scene& s) {
   if (auto flaw = flaw_among(s.meshes, "mesh", s)) return flaw;
   if (auto flaw = flaw_among(s.materials, "material", s)) return flaw;
   if (auto flaw = flaw_among_instances(s)) return flaw;

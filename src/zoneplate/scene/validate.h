@@ -12,6 +12,6 @@ namespace zoneplate {
 /// Loaders make sound scenes only. A scene that comes from another process is checked with this before it is used:
 /// then every index is in range, every number finite and within what the renderer takes.
 /// Cost      linear in vertices, indices and instances.
-std::optional<std::string> find_flaw(const Scene& scene);
+std::optional<std::string> find_invalid(const Scene& scene);
 
 }  // namespace zoneplate

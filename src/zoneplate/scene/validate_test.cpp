@@ -21,7 +21,7 @@ Scene triangle() {
 std::string flaw_after(const std::function<void(Scene&)>& change) {
   Scene s = triangle();
   change(s);
-  return find_flaw(s).value_or("");
+  return find_invalid(s).value_or("");
 }
 
 TEST(FindFlaw, EveryPromiseIsLookedThrough) {

@@ -20,7 +20,7 @@ enum class Border {
 /// "clamp", "reflect", "wrap", "zero", "cut".
 const char* name_of(Border border);
 
-/// Errors    Trouble::Usage for another name.
+/// Errors    ErrorKind::Usage for another name.
 Border parse_border(std::string_view name);
 
 /// Which of the n pixels stands at index i, which may be far outside; -1 for none (Zero, Cut).

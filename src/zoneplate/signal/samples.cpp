@@ -84,7 +84,7 @@ SamplePattern standard_pattern(int n) {
               sixteenths(-2, 6),  sixteenths(0, -7),  sixteenths(-4, -6), sixteenths(-6, 4),
               sixteenths(-8, 0),  sixteenths(7, -4),  sixteenths(6, 7),   sixteenths(-7, -8)};
     default:
-      throw Error(Trouble::Usage, "standard sample patterns have 1, 2, 4, 8 or 16 samples, not " + std::to_string(n));
+      throw Error(ErrorKind::Usage, "standard sample patterns have 1, 2, 4, 8 or 16 samples, not " + std::to_string(n));
   }
 }
 
@@ -97,10 +97,11 @@ SamplePattern grid_pattern(int n) {
 
 SamplePattern named_pattern(const std::string& name, int samples) {
   if (samples < 1 || samples > 4096)
-    throw Error(Trouble::Usage, "a pattern has 1 to 4096 samples, not " + std::to_string(samples));
+    throw Error(ErrorKind::Usage, "a pattern has 1 to 4096 samples, not " + std::to_string(samples));
   const int root = static_cast<int>(std::sqrt(samples) + 0.5);
   if ((name == "grid" || name == "rotated") && root * root != samples)
-    throw Error(Trouble::Usage, "pattern " + name + " has a square number of samples, not " + std::to_string(samples));
+    throw Error(ErrorKind::Usage,
+                "pattern " + name + " has a square number of samples, not " + std::to_string(samples));
   if (name == "grid") return grid_pattern(root);
   if (name == "rotated") return rotated_grid(root);
   if (name == "nrooks") return rooks(samples);
@@ -113,7 +114,7 @@ SamplePattern named_pattern(const std::string& name, int samples) {
     else if (name == "sobol")
       out.push_back(at(radical_inverse(2, i) + half_cell, sobol_y(i) + half_cell));
     else
-      throw Error(Trouble::Usage,
+      throw Error(ErrorKind::Usage,
                   "unknown sample pattern " + name + "; there are grid, rotated, halton, sobol, nrooks");
   }
   return out;

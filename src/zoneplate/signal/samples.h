@@ -26,7 +26,7 @@ SamplePattern grid_pattern(int n);
 /// "rotated" (the square grid turned by atan(1/n)), "halton" (bases 2 and 3), "sobol" (in the middle of its cells, of
 /// which 2^k samples have one each on every lattice of 2^k), "nrooks".
 ///
-/// Errors    Trouble::Usage for an unknown name or a number of samples that the pattern does not have.
+/// Errors    ErrorKind::Usage for an unknown name or a number of samples that the pattern does not have.
 SamplePattern named_pattern(const std::string& name, int samples);
 
 }  // namespace zoneplate

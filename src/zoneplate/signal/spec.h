@@ -21,12 +21,12 @@ struct Spec {
   std::map<std::string, double, std::less<>> values;
 };
 
-/// Errors    Trouble::Usage for an empty name, a parameter without `=`, one given twice, or not a finite number.
+/// Errors    ErrorKind::Usage for an empty name, a parameter without `=`, one given twice, or not a finite number.
 Spec parse_spec(std::string_view text);
 
 /// The value of each of `params`, in their order: as given, or the default.
 ///
-/// Errors    Trouble::Usage for a parameter that is not one of them, or a value outside [low, high].
+/// Errors    ErrorKind::Usage for a parameter that is not one of them, or a value outside [low, high].
 std::vector<double> settle(const Spec& spec, const std::vector<SpecParam>& params);
 
 /// "name:a=1,b=2" with numbers in the shortest form that reads back the same.

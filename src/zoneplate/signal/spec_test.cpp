@@ -11,7 +11,7 @@ std::string complaint(std::string_view text) {
   try {
     settle(parse_spec(text), {{"sigma", "width", 1, 0.1, 100}, {"radius", "reach", 4, 1, 8}});
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Usage);
+    EXPECT_EQ(e.trouble(), ErrorKind::Usage);
     return e.what();
   }
   return "";

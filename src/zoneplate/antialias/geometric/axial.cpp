@@ -88,7 +88,7 @@ class Axial : public Resolver {
     for (int i = 0; i < places; ++i) pattern_.push_back({at(i), 128});
     for (int i = 0; i < places; ++i) pattern_.push_back({128, at(i)});
   }
-  Request ask(int) override {
+  Request request(int) override {
     color_ = {};
     Request request;
     request.planes.normal = request.planes.object_id = request.planes.material_id = of_surfaces_;
@@ -96,7 +96,7 @@ class Axial : public Resolver {
     return request;
   }
   /// The picture first, then the triangles.
-  std::optional<Request> ask_again(Frame& frame) override {
+  std::optional<Request> refine(Frame& frame) override {
     if (!color_.empty()) return std::nullopt;
     color_ = std::move(frame.color);
     normal_ = std::move(frame.normal), object_ = std::move(frame.object_id), material_ = std::move(frame.material_id);

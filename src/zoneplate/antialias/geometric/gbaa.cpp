@@ -53,14 +53,14 @@ Step step_of(float offset) {
 
 class Gbaa : public Resolver {
  public:
-  Request ask(int) override {
+  Request request(int) override {
     color_ = {};
     Request request;
     request.halo = 1;
     return request;
   }
   /// The picture first, then the distances.
-  std::optional<Request> ask_again(Frame& frame) override {
+  std::optional<Request> refine(Frame& frame) override {
     if (!color_.empty()) return std::nullopt;
     color_ = std::move(frame.color);
     Request request;

@@ -78,14 +78,14 @@ class IdSraa : public Resolver {
     pattern_ = {SamplePosition{}};
     for (const SamplePosition p : standard_pattern(samples)) pattern_.push_back(p);
   }
-  Request ask(int) override {
+  Request request(int) override {
     color_ = {};
     Request request;
     request.halo = 1;
     return request;
   }
   /// The picture first, then the triangles.
-  std::optional<Request> ask_again(Frame& frame) override {
+  std::optional<Request> refine(Frame& frame) override {
     if (!color_.empty()) return std::nullopt;
     color_ = std::move(frame.color);
     Request request;

@@ -134,14 +134,14 @@ class Sraa : public Resolver {
  public:
   Sraa(int samples, Bilateral bilateral) : pattern_(standard_pattern(samples)), bilateral_(bilateral) {}
 
-  Request ask(int) override {
+  Request request(int) override {
     color_ = {};
     Request request;
     request.halo = 1;
     return request;
   }
   /// The picture first, then the geometry.
-  std::optional<Request> ask_again(Frame& frame) override {
+  std::optional<Request> refine(Frame& frame) override {
     if (!color_.empty()) return std::nullopt;
     color_ = std::move(frame.color);
     Request request;

@@ -2,7 +2,7 @@
 
 namespace zoneplate::antialias {
 
-Linear ShownLight::operator()(Linear color) const {
+Linear DisplayLight::operator()(Linear color) const {
   if (!(color.a > 0)) return {0, 0, 0, 0};
   const float a = color.a < 1 ? color.a : 1.0f;
   const auto straight = [&](float v) { return v / a * options_.exposure; };

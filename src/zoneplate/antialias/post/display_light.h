@@ -13,9 +13,9 @@ enum class FilterOrder {
 };
 
 /// Light as it comes from the display, before it is encoded: exposed, tone mapped, in [0, 1].
-class ShownLight {
+class DisplayLight {
  public:
-  explicit ShownLight(const DisplayOptions& options) : options_(options) {}
+  explicit DisplayLight(const DisplayOptions& options) : options_(options) {}
   /// Premultiplied in, premultiplied out.
   Linear operator()(Linear color) const;
 

@@ -44,29 +44,30 @@ class Adaptive : public Resolver {
   Adaptive(int n, float share)
       : fine_(grid_pattern(n)), limits_{0.4f * share, 0.3f * share, 0.6f * share, 0.3f * share} {}
 
-  Request ask(int) override {
+  Request request(int) override {
     first_ = {};
-    where_ = {};
-    Request request{.samples = standard_pattern(4), .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}};
+    pixel_mask_ = {};
+    Request request{
+        .samples = standard_pattern(4), .rate = Rate::Sample, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;
     return request;
   }
-  std::optional<Request> ask_again(Frame& frame) override {
-    if (!where_.empty()) return std::nullopt;
-    where_ = Plane<std::uint8_t>(frame.color.width(), frame.color.height());
-    for_rows(where_.height(), [&](int y) {
-      for (int x = 0; x < where_.width(); ++x) where_(x, y) = !range_of(frame, x, y).is_within(limits_);
+  std::optional<Request> refine(Frame& frame) override {
+    if (!pixel_mask_.empty()) return std::nullopt;
+    pixel_mask_ = Plane<std::uint8_t>(frame.color.width(), frame.color.height());
+    for_rows(pixel_mask_.height(), [&](int y) {
+      for (int x = 0; x < pixel_mask_.width(); ++x) pixel_mask_(x, y) = !range_of(frame, x, y).is_within(limits_);
     });
-    if (std::ranges::find(where_.values(), 1) == where_.values().end()) return std::nullopt;
+    if (std::ranges::find(pixel_mask_.values(), 1) == pixel_mask_.values().end()) return std::nullopt;
     first_ = std::move(frame.color);
-    return Request{.samples = fine_, .rate = Rate::Sample, .weights = {}, .planes = {}, .where = where_};
+    return Request{.samples = fine_, .rate = Rate::Sample, .weights = {}, .planes = {}, .pixel_mask = pixel_mask_};
   }
   LinearImage resolve(Frame& frame) override {
     if (first_.empty()) return std::move(frame.color);
     LinearImage out = std::move(first_);
     for_rows(out.height(), [&](int y) {
       for (int x = 0; x < out.width(); ++x)
-        if (where_(x, y)) out(x, y) = frame.color(x, y);
+        if (pixel_mask_(x, y)) out(x, y) = frame.color(x, y);
     });
     return out;
   }
@@ -75,7 +76,7 @@ class Adaptive : public Resolver {
   SamplePattern fine_;
   Limits limits_;
   LinearImage first_;
-  Plane<std::uint8_t> where_;
+  Plane<std::uint8_t> pixel_mask_;
 };
 
 constexpr Param params[] = {{.name = "n",

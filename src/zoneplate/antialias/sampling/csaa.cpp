@@ -18,9 +18,9 @@ namespace {
 class Csaa : public Resolver {
  public:
   Csaa(int samples, int slots) : pattern_(standard_pattern(samples)), slots_(static_cast<std::size_t>(slots)) {}
-  Request ask(int) override {
-    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
-    request.draw = [samples = pattern_, slots = slots_](const Drawing& drawing) {
+  Request request(int) override {
+    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
+    request.draw = [samples = pattern_, slots = slots_](const CustomDraw& drawing) {
       draw_with_slots(drawing, samples, slots);
     };
     return request;
@@ -37,7 +37,7 @@ constexpr Param params[] = {
     {.name = "slots", .meaning = "colours that a pixel keeps", .value = 4, .choices = slot_counts}};
 
 std::unique_ptr<Resolver> make(const Settings& s) {
-  if (s.integer("slots") > s.integer("n")) throw Error(Trouble::Usage, "csaa: more slots than samples: give n=16");
+  if (s.integer("slots") > s.integer("n")) throw Error(ErrorKind::Usage, "csaa: more slots than samples: give n=16");
   return std::make_unique<Csaa>(s.integer("n"), s.integer("slots"));
 }
 

@@ -44,15 +44,18 @@ class TileHistory {
         depth_(depth_lines_[0].values),
         id_(id_lines_[0].values),
         fragments_(tile_pixels) {
-    visibility_ = {
-        .sample_count = count_, .depth = depth_, .id = id_, .block_far = block_far_, .block_owner = block_owner_};
+    visibility_ = {.sample_count = count_,
+                   .depth = depth_,
+                   .id = id_,
+                   .block_min_depth = block_min_depth_,
+                   .block_primitive = block_primitive_};
   }
 
   void find(std::size_t tile, Plane<std::uint16_t>& known) {
     x_ = (bins_.first_column + static_cast<int>(tile) % bins_.columns) * tile_size;
     y_ = (bins_.first_row + static_cast<int>(tile) / bins_.columns) * tile_size;
     visibility_.clear();
-    visibility_.open_all();
+    visibility_.materialize_all();
     pixels_.assign(tile_pixels, CoverageSlots(all_));
     gather(tile);
     draw();
@@ -66,13 +69,12 @@ class TileHistory {
   void gather(std::size_t tile) {
     drawn_.clear();
     for (const Bins::Worker& worker : bins_.workers) {
-      for (const Surface surface : {Surface::Opaque, Surface::Masked})
-        for (const std::uint32_t t : worker.tiles[tile][static_cast<std::size_t>(surface)])
-          drawn_.push_back({worker.triangles[t].id, &worker.triangles[t], surface == Surface::Masked, 0, 0});
-      for (const SampleFragments* part = worker.fragments[tile]; part; part = part->previous)
+      for (const AlphaMode alpha_mode : {AlphaMode::Opaque, AlphaMode::Mask})
+        for (const std::uint32_t t : worker.tiles[tile][static_cast<std::size_t>(alpha_mode)])
+          drawn_.push_back({worker.triangles[t].id, &worker.triangles[t], alpha_mode == AlphaMode::Mask, 0, 0});
+      for (const SampleBin* part = worker.fragments[tile]; part; part = part->previous)
         for (std::int32_t i = 0; i < part->count; ++i)
-          drawn_.push_back(
-              {part->id(part->what[i]), nullptr, false, SampleFragments::at(part->what[i]), part->depth[i]});
+          drawn_.push_back({part->id(part->what[i]), nullptr, false, SampleBin::at(part->what[i]), part->depth[i]});
     }
     std::sort(drawn_.begin(), drawn_.end(), comes_before);
   }
@@ -97,7 +99,7 @@ class TileHistory {
     make_tile_triangle(triangle, target_.samples.data(), count_, x_, y_, tile_triangle_);
     const int n = coverage_.collect(tile_triangle_, visibility_, fragments_.data());
     for (int i = 0; i < n; ++i) {
-      const Fragment& f = fragments_[static_cast<std::size_t>(i)];
+      const CoveredPixel& f = fragments_[static_cast<std::size_t>(i)];
       const int x = static_cast<int>(f.pixel % tile_size), y = static_cast<int>(f.pixel / tile_size);
       auto samples = static_cast<std::uint32_t>(f.samples);
       if (is_masked) samples &= kept_samples(x, y, triangle.id);
@@ -136,10 +138,10 @@ class TileHistory {
   std::vector<Line<std::int32_t>> id_lines_;
   float* depth_;  ///< by sample and pixel, as in TileVisibility
   std::int32_t* id_;
-  float block_far_[TileVisibility::blocks];
-  std::int32_t block_owner_[TileVisibility::blocks];
+  float block_min_depth_[TileVisibility::blocks];
+  std::int32_t block_primitive_[TileVisibility::blocks];
   TileVisibility visibility_;
-  std::vector<Fragment> fragments_;
+  std::vector<CoveredPixel> fragments_;
   TileTriangle tile_triangle_;
   int x_ = 0, y_ = 0;  ///< the tile's first pixel
   std::vector<Drawn> drawn_;
@@ -220,7 +222,7 @@ std::uint32_t CoverageSlots::known() const {
   return samples;
 }
 
-void draw_with_slots(const Drawing& drawing, const SamplePattern& samples, std::size_t slots) {
+void draw_with_slots(const CustomDraw& drawing, const SamplePattern& samples, std::size_t slots) {
   Target target = drawing.target;
   Sampled sampled;
   sampled.color.assign(samples.size(), LinearImage(target.width, target.height, Linear{0, 0, 0, 0}));

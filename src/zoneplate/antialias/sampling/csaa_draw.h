@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "zoneplate/raster/geometry/setup.h"
-#include "zoneplate/render/drawing.h"
+#include "zoneplate/render/custom_draw.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate::antialias {
@@ -14,7 +14,7 @@ struct Drawn {
   std::int32_t id;
   const Triangle* triangle;  ///< null: a sample
   bool is_masked;
-  std::uint32_t at;  ///< as in SampleFragments
+  std::uint32_t at;  ///< as in SampleBin
   float depth;
 };
 
@@ -53,6 +53,6 @@ class CoverageSlots {
 /// Surfaces take slots in the order of drawing. A masked one takes that of the samples that it keeps to the end,
 /// because alpha is asked of no others; a blended one takes none, and colours what is there.
 /// Exact     with as many slots as surfaces it is multisampling.
-void draw_with_slots(const Drawing& drawing, const SamplePattern& samples, std::size_t slots);
+void draw_with_slots(const CustomDraw& drawing, const SamplePattern& samples, std::size_t slots);
 
 }  // namespace zoneplate::antialias

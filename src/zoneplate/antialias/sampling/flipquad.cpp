@@ -17,12 +17,12 @@ constexpr std::uint8_t near = 96, far = 160;  // 3/8 and 5/8
 
 class FlipQuad : public Resolver {
  public:
-  Request ask(int) override {
+  Request request(int) override {
     Request request{.samples = {{near, 0}, {far, 0}, {0, far}, {0, near}},
                     .rate = Rate::Surface,
                     .weights = {},
                     .planes = {},
-                    .where = {}};
+                    .pixel_mask = {}};
     request.planes.sample_colors = true;
     request.halo = 1;
     return request;

@@ -23,14 +23,14 @@ class Msaa : public Resolver {
         gather_(gathering_),
         alpha_(alpha),
         centroid_(centroid) {}
-  Request ask(int) override {
-    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
+  Request request(int) override {
+    Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.alpha = alpha_;
     request.centroid = centroid_;
-    request.is_local = gathering_.is_plain();
+    request.resolves_per_pixel = gathering_.is_plain();
     request.planes.sample_colors = !gathering_.is_plain();
     request.halo = gathering_.reach();
-    request.works_on_shown = gathering_.weight == SampleWeight::Display;
+    request.is_display_referred = gathering_.weight == SampleWeight::Display;
     return request;
   }
   LinearImage resolve(Frame& frame) override {
@@ -39,7 +39,7 @@ class Msaa : public Resolver {
     gather_.add(frame, pattern_);
     return gather_.light();
   }
-  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
   }
 
@@ -71,7 +71,7 @@ constexpr Param params[] = {
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   if (s.is_given("n") && s.is_given("grid"))
-    throw Error(Trouble::Usage, "msaa: n and grid exclude each other: n is a standard pattern, grid a regular one");
+    throw Error(ErrorKind::Usage, "msaa: n and grid exclude each other: n is a standard pattern, grid a regular one");
   return std::make_unique<Msaa>(s.is_given("grid") ? grid_pattern(s.integer("grid")) : standard_pattern(s.integer("n")),
                                 gathering_of("msaa", s), static_cast<AlphaTest>(s.integer("alpha")),
                                 static_cast<Centroid>(s.integer("centroid")));

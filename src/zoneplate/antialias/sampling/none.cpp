@@ -6,7 +6,7 @@ namespace {
 
 class None : public Resolver {
  public:
-  Request ask(int) override { return {.is_local = true}; }
+  Request request(int) override { return {.resolves_per_pixel = true}; }
 };
 
 }  // namespace

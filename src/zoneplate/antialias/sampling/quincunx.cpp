@@ -12,8 +12,9 @@ namespace {
 
 class Quincunx : public Resolver {
  public:
-  Request ask(int) override {
-    Request request{.samples = {{128, 128}, {0, 0}}, .rate = Rate::Surface, .weights = {}, .planes = {}, .where = {}};
+  Request request(int) override {
+    Request request{
+        .samples = {{128, 128}, {0, 0}}, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;
     request.halo = 1;
     return request;

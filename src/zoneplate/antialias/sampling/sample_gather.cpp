@@ -70,7 +70,7 @@ Gathering gathering_of(std::string_view method, const Settings& settings) {
   const double radius = settings.number("radius");
   if (settings.integer("filter") == 0) {
     if (settings.is_given("radius"))
-      throw Error(Trouble::Usage, std::string(method) + ": radius is a filter's: give filter=mitchell, for example");
+      throw Error(ErrorKind::Usage, std::string(method) + ": radius is a filter's: give filter=mitchell, for example");
     return out;
   }
   out.kernel = make_kernel(settings.chosen("filter"));

@@ -30,7 +30,7 @@ struct Gathering {
 /// The parameters `resolve`, `filter` and `radius` of methods that gather samples, and what they say.
 ///
 /// `radius` is the filter's in hundredths of a pixel; 0 leaves it as the kernel has it.
-/// Errors    Trouble::Usage where the radius has no filter.
+/// Errors    ErrorKind::Usage where the radius has no filter.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};

@@ -4,8 +4,8 @@
 // follows the grid: a nearly vertical edge shows n levels of coverage on an n × n grid, not n². Halton's points have
 // their mean beside the pixel's middle, and move the picture by that.
 //
-// Source: Crow, The Aliasing Problem in Computer-Generated Shaded Images, CACM 20(11), 1977. The patterns are those of
-// signal/samples.h, the filters those of signal/filter/kernel.h.
+// Source: Crow, The Aliasing Problem in Computer-Generated FragmentOutputs Images, CACM 20(11), 1977. The patterns are
+// those of signal/samples.h, the filters those of signal/filter/kernel.h.
 #include <algorithm>
 #include <cmath>
 
@@ -22,14 +22,19 @@ class Ssaa : public Resolver {
   Ssaa(SamplePattern pattern, Gathering gathering)
       : pattern_(std::move(pattern)), gathering_(std::move(gathering)), gather_(gathering_) {}
 
-  Request ask(int) override {
+  Request request(int) override {
     if (gathering_.is_plain())
-      return {.samples = pattern_, .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}, .is_local = true};
+      return {.samples = pattern_,
+              .rate = Rate::Sample,
+              .weights = {},
+              .planes = {},
+              .pixel_mask = {},
+              .resolves_per_pixel = true};
     gather_ = SampleGather(gathering_);
     taken_ = 0;
     return next_round();
   }
-  std::optional<Request> ask_again(Frame& frame) override {
+  std::optional<Request> refine(Frame& frame) override {
     if (gathering_.is_plain()) return std::nullopt;
     take(frame);
     if (taken_ == pattern_.size()) return std::nullopt;
@@ -40,7 +45,7 @@ class Ssaa : public Resolver {
     if (gather_.is_empty()) take(frame);
     return gather_.light();
   }
-  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
   }
 
@@ -50,11 +55,11 @@ class Ssaa : public Resolver {
     return {first, first + static_cast<std::ptrdiff_t>(std::min(samples_a_round, pattern_.size() - taken_))};
   }
   Request next_round() const {
-    Request request{.samples = round(), .rate = Rate::Sample, .weights = {}, .planes = {}, .where = {}};
+    Request request{.samples = round(), .rate = Rate::Sample, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
     request.halo = gathering_.reach();
-    request.works_on_shown = gathering_.weight == SampleWeight::Display;
+    request.is_display_referred = gathering_.weight == SampleWeight::Display;
     return request;
   }
   void take(const Frame& frame) {
@@ -81,7 +86,7 @@ constexpr Param params[] = {
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   if (s.is_given("n") && s.is_given("samples"))
-    throw Error(Trouble::Usage, "ssaa: n and samples exclude each other: n=4 is samples=16");
+    throw Error(ErrorKind::Usage, "ssaa: n and samples exclude each other: n=4 is samples=16");
   const int samples = s.is_given("samples") ? s.integer("samples") : s.integer("n") * s.integer("n");
   return std::make_unique<Ssaa>(named_pattern(std::string(s.chosen("pattern")), samples), gathering_of("ssaa", s));
 }

@@ -39,8 +39,8 @@ float4 background_of(const std::string& scene) {
 
 BenchTiming time_frames(const BenchWork& work) {
   std::optional<Scene> found = make_builtin_scene(work.scene);
-  if (!found) throw Error(Trouble::Input, work.scene + ": no such built-in scene (zoneplate list scenes)");
-  if (found->cameras.empty()) throw Error(Trouble::Input, work.scene + ": has no camera of its own");
+  if (!found) throw Error(ErrorKind::Input, work.scene + ": no such built-in scene (zoneplate list scenes)");
+  if (found->cameras.empty()) throw Error(ErrorKind::Input, work.scene + ": has no camera of its own");
   BenchTiming timing;
   for (Material& material : found->materials) {
     int& anisotropy = material.base_color_texture.sampler.anisotropy;
@@ -51,7 +51,7 @@ BenchTiming time_frames(const BenchWork& work) {
   RenderOptions options{.width = work.size.x, .height = work.size.y, .raw_colors = true, .isa = work.isa};
   const TextureSet textures(scene, options.raw_colors);
   options.textures = &textures;
-  const VertexRecords records(scene);
+  const InterleavedVertices records(scene);
   options.records = &records;
   const std::unique_ptr<Resolver> resolver =
       make_resolver(antialias::methods(), work.samples == 1 ? "none" : fmt::format("msaa:n={}", work.samples));
@@ -63,7 +63,7 @@ BenchTiming time_frames(const BenchWork& work) {
   const auto frame = [&] {
     RenderCounts counts;
     const Stopwatch whole;
-    Frame rendered = render(scene, scene.cameras.front(), resolver->ask(0), options, &counts);
+    Frame rendered = render(scene, scene.cameras.front(), resolver->request(0), options, &counts);
     const double ms = whole.ms();
     if (timing.frame_ms.empty() || ms < least(timing.frame_ms)) timing.best = counts;
     timing.frame_ms.push_back(ms);

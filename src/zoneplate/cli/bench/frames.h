@@ -33,7 +33,7 @@ struct BenchTiming {
 /// A frame is everything from a scene that is ready to its 8-bit picture in memory, on the threads of the innermost
 /// `with_threads`.
 ///
-/// Errors    Trouble::Input: no such built-in scene.
+/// Errors    ErrorKind::Input: no such built-in scene.
 BenchTiming time_frames(const BenchWork& work);
 
 double least(const std::vector<double>& v);

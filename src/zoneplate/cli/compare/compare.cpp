@@ -132,12 +132,12 @@ TrialOptions trial_options(const CompareArgs& args) {
   else if (std::filesystem::exists(out.reference, ignored))
     out.is_reference_file = true;
   else if (out.reference.find_first_of("./") != std::string::npos)
-    throw Error(Trouble::Input, out.reference + ": no such file");
+    throw Error(ErrorKind::Input, out.reference + ": no such file");
   else
     make_resolver(antialias::methods(), out.reference);  // names the methods that there are
   if (out.is_reference_file && args.scenes.size() > 1)
-    throw Error(Trouble::Usage, fmt::format("--reference {}: one picture is the truth of one scene, not of {}",
-                                            out.reference, args.scenes.size()));
+    throw Error(ErrorKind::Usage, fmt::format("--reference {}: one picture is the truth of one scene, not of {}",
+                                              out.reference, args.scenes.size()));
   return out;
 }
 
@@ -261,7 +261,7 @@ void run_compare(std::span<const std::string> arguments) {
   args.command.insert(args.command.end(), arguments.begin(), arguments.end());
   args.scenes = scenes_of(syntax.found_operands);
   if (args.scenes.empty())
-    throw Error(Trouble::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
+    throw Error(ErrorKind::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
   const TrialOptions options = trial_options(args);
   check_output_folder(args.render.output);
   check_scenes(args);

@@ -86,8 +86,8 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTr
   const std::string found = size(out.reference_picture.width(), out.reference_picture.height());
   const std::string wanted = size(stage.options.width, stage.options.height);
   if (found != wanted)
-    throw Error(Trouble::Input, fmt::format("{}: has {} pixels, the pictures have {}; give --size {}",
-                                            options.reference, found, wanted, found));
+    throw Error(ErrorKind::Input, fmt::format("{}: has {} pixels, the pictures have {}; give --size {}",
+                                              options.reference, found, wanted, found));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ struct TrialSetup {
 /// before its turn.
 ///
 /// The picture that is judged has 8 bits a channel, as it is written.
-/// Errors    those of methods and files; Trouble::Input where the reference has another size.
+/// Errors    those of methods and files; ErrorKind::Input where the reference has another size.
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
                        const std::function<void(const std::string&)>& tell);
 

@@ -20,8 +20,8 @@ constexpr int factor = 8, samples = 4;
 Frame sampled(const Scene& scene, int width, int height) {
   RenderOptions options{.width = width, .height = height};
   const auto resolver = make_resolver(antialias::methods(), "msaa:grid=2");
-  Request request = resolver->ask(0);
-  request.is_local = false;
+  Request request = resolver->request(0);
+  request.resolves_per_pixel = false;
   request.planes.samples = true;
   return render(scene, camera_of(scene, width, height), request, options);
 }

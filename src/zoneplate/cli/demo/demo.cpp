@@ -77,8 +77,8 @@ std::vector<Demo> chosen(const std::string& name) {
   }
   if (name == "all") return all;
   const std::string_view near = closest(name, names);
-  throw Error(Trouble::Usage, near.empty() ? fmt::format("demo: no lesson {}; `zoneplate demo -h` lists them", name)
-                                           : fmt::format("demo: no lesson {}; did you mean {}?", name, near));
+  throw Error(ErrorKind::Usage, near.empty() ? fmt::format("demo: no lesson {}; `zoneplate demo -h` lists them", name)
+                                             : fmt::format("demo: no lesson {}; did you mean {}?", name, near));
 }
 
 void save_lesson(const Lesson& lesson, const DemoSize& size, const std::vector<std::string>& files) {
@@ -121,14 +121,15 @@ void make_folder(const std::string& path) {
   std::error_code trouble, ignored;
   std::filesystem::create_directory(path, trouble);
   if (!std::filesystem::is_directory(path, ignored))
-    throw Error(Trouble::Output, fmt::format("{}: the folder cannot be made: {}", path, trouble.message()));
+    throw Error(ErrorKind::Output, fmt::format("{}: the folder cannot be made: {}", path, trouble.message()));
 }
 
 void check_output(const std::string& lesson, const std::string& output) {
   if (output.empty())
-    throw Error(Trouble::Usage, lesson == "all" ? "no output: give -o FOLDER" : "no output: give -o OUT.png");
+    throw Error(ErrorKind::Usage, lesson == "all" ? "no output: give -o FOLDER" : "no output: give -o OUT.png");
   if (lesson != "all" && !output.ends_with(".png") && !output.ends_with(".PNG"))
-    throw Error(Trouble::Usage, fmt::format("--output: {} is not a format that a lesson is written in (.png)", output));
+    throw Error(ErrorKind::Usage,
+                fmt::format("--output: {} is not a format that a lesson is written in (.png)", output));
 }
 
 }  // namespace
@@ -156,7 +157,7 @@ void run_demo(std::span<const std::string> arguments) {
   Syntax syntax = demo_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 1)
-    throw Error(Trouble::Usage, "demo: give one lesson; `zoneplate demo -h` lists them");
+    throw Error(ErrorKind::Usage, "demo: give one lesson; `zoneplate demo -h` lists them");
   const std::string& name = syntax.found_operands.front();
   const std::vector<Demo> lessons = chosen(name);
   check_output(name, args.output);

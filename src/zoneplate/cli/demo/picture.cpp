@@ -30,7 +30,7 @@ constexpr Rgba8 mark_color{255, 196, 0, 255};  // of crops: on light and on dark
 
 Scene scene_of(const std::string& text) {
   std::optional<Scene> scene = make_builtin_scene(text);
-  if (!scene) throw Error(Trouble::Usage, text + ": no such built-in scene");
+  if (!scene) throw Error(ErrorKind::Usage, text + ": no such built-in scene");
   return std::move(*scene);
 }
 
@@ -46,7 +46,7 @@ LinearImage shoot(const Scene& scene, const std::string& method, int width, int 
   RenderOptions options{.width = width, .height = height};
   options.environment = apply_look(lit, camera, {});
   const auto resolver = make_resolver(antialias::methods(), method);
-  Frame frame = render_rounds(lit, camera, *resolver, resolver->ask(0), options, {}, counts);
+  Frame frame = render_rounds(lit, camera, *resolver, resolver->request(0), options, {}, counts);
   LinearImage light = resolver->resolve(frame);
   const float background = decode_srgb(background_code);
   for (Linear& c : light.values()) {

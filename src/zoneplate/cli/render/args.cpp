@@ -67,7 +67,7 @@ Crop parse_crop(const std::string& text) {
     at = comma + 1;
   }
   if (numbers.size() != 4 || numbers[2] == 0 || numbers[3] == 0)
-    throw Error(Trouble::Usage, fmt::format("'{}' is not a rectangle x,y,width,height", text));
+    throw Error(ErrorKind::Usage, fmt::format("'{}' is not a rectangle x,y,width,height", text));
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
@@ -291,18 +291,18 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 }
 
 void check_output(RenderArgs& args) {
-  if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png, or -o - for stdout");
+  if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png, or -o - for stdout");
   const bool is_film = is_one_of(extension_of(args.output), {".apng", ".gif", ".mp4", ".webm"});
   args.sequence.is_film = is_film || has_frame_number(args.output);
   if (args.output == "-") {
     if (!args.aovs.empty() && args.stdout_format != "exr")
-      throw Error(Trouble::Usage, "--aov writes files beside OUT, which cannot be -; an .exr holds them itself");
-    if (args.sequence.is_wanted()) throw Error(Trouble::Usage, "several frames cannot be written to -");
+      throw Error(ErrorKind::Usage, "--aov writes files beside OUT, which cannot be -; an .exr holds them itself");
+    if (args.sequence.is_wanted()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
     return;
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(args.output, ignored))
-    throw Error(Trouble::Output, args.output + ": is a directory");
+    throw Error(ErrorKind::Output, args.output + ": is a directory");
   if (!is_film) check_picture_ending(args.output);
 }
 
@@ -329,7 +329,7 @@ std::string extension_of(const std::string& name) {
 void check_picture_ending(const std::string& output) {
   if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"}))
     throw Error(
-        Trouble::Usage,
+        ErrorKind::Usage,
         fmt::format("--output: {} is not a format that can be written (.png, .jpg, .webp, .exr, .pfm, .rgba)", output));
 }
 
@@ -342,27 +342,27 @@ void check_args(RenderArgs& args) {
   check_output(args);
   const std::string ending = extension_of(args.named_output());
   if (args.output != "-" && args.stdout_format != "png")
-    throw Error(Trouble::Usage, "--output-format is for -o -: elsewhere the name's ending tells the format");
+    throw Error(ErrorKind::Usage, "--output-format is for -o -: elsewhere the name's ending tells the format");
   if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
-    throw Error(Trouble::Usage, "--bit-depth: only .png and .rgba have 16 bits");
+    throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
-    throw Error(Trouble::Usage, "--dither is for 8 bits a channel");
+    throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
   if (args.sequence.shutter && !args.sequence.is_wanted())
-    throw Error(Trouble::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
+    throw Error(ErrorKind::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
-    throw Error(Trouble::Usage, "--shutter goes with neither --aov nor --crop");
+    throw Error(ErrorKind::Usage, "--shutter goes with neither --aov nor --crop");
   for (const Aov* aov : args.aovs) {
     if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_wanted())
-      throw Error(Trouble::Usage, fmt::format("--aov {} wants a sequence, or a frame of one: -s 5 -e 5", aov->name));
+      throw Error(ErrorKind::Usage, fmt::format("--aov {} wants a sequence, or a frame of one: -s 5 -e 5", aov->name));
     if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
-      throw Error(Trouble::Usage, fmt::format("--aov {} wants an .exr, or a picture of it beside a .png", aov->name));
+      throw Error(ErrorKind::Usage, fmt::format("--aov {} wants an .exr, or a picture of it beside a .png", aov->name));
   }
   if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
     args.load.choice.animation = SceneChoice::all_animations;
   if (const auto& crop = args.options.crop)
     if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(Trouble::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
-                                              args.options.width, args.options.height));
+      throw Error(ErrorKind::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+                                                args.options.width, args.options.height));
 }
 
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
@@ -372,12 +372,12 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   args.inputs = syntax.found_operands;
   if (!args.manifest.empty()) {
     if (!args.inputs.empty())
-      throw Error(Trouble::Usage, "--manifest names the inputs: " + args.inputs.front() + " is one more");
+      throw Error(ErrorKind::Usage, "--manifest names the inputs: " + args.inputs.front() + " is one more");
     return args;
   }
-  if (args.inputs.empty()) throw Error(Trouble::Usage, "no input: give a model or a built-in scene");
+  if (args.inputs.empty()) throw Error(ErrorKind::Usage, "no input: give a model or a built-in scene");
   if (args.inputs.size() > 1 && args.output.find("{model}") == std::string::npos)
-    throw Error(Trouble::Usage, "several inputs want {model} in the output's name, as pictures/{model}.png");
+    throw Error(ErrorKind::Usage, "several inputs want {model} in the output's name, as pictures/{model}.png");
   args.input = args.inputs.front();
   check_args(args);
   return args;

@@ -71,10 +71,10 @@ Syntax render_syntax(RenderArgs& args);
 
 /// Checks what options have made of one picture's or sequence's arguments, and completes them.
 ///
-/// Errors    Trouble::Usage.
+/// Errors    ErrorKind::Usage.
 void check_args(RenderArgs& args);
 
-/// Errors    Trouble::Usage for a name whose ending is not that of a picture that can be written.
+/// Errors    ErrorKind::Usage for a name whose ending is not that of a picture that can be written.
 void check_picture_ending(const std::string& output);
 
 /// The ending of a name in lower case, with its dot.
@@ -85,7 +85,7 @@ bool exists(const std::string& path);
 
 /// Parses and checks the whole command line of the verb; nothing where help was asked for.
 ///
-/// Errors    Trouble::Usage.
+/// Errors    ErrorKind::Usage.
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments);
 
 }  // namespace zoneplate::cli

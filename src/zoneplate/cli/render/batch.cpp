@@ -46,7 +46,7 @@ class Jobs {
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  // Errors    Trouble::Input or Usage, naming the line.
+  // Errors    ErrorKind::Input or Usage, naming the line.
   RenderArgs read(const Line& line) {
     ImportBudget budget(line.place, common_.load.limits);
     const JsonValue job =
@@ -54,8 +54,8 @@ class Jobs {
     try {
       return read(job, JsonView(job, line.place));
     } catch (const Error& error) {
-      if (error.trouble() != Trouble::Usage) throw;
-      throw Error(Trouble::Usage, line.place + ": " + error.what());
+      if (error.trouble() != ErrorKind::Usage) throw;
+      throw Error(ErrorKind::Usage, line.place + ": " + error.what());
     }
   }
 

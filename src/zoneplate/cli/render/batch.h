@@ -10,7 +10,7 @@ namespace zoneplate::cli {
 /// those of the command line: {"input": "a.glb", "output": "a.png", "size": "64x64", "no-background": true}. Of several
 /// items that follow each other with the same input, the model is read once. An item fails alone, whatever it throws
 /// and whatever the system does to its process (items.h).
-/// Errors    PartialFailure where some items failed, after all others were made; Trouble::Usage for the manifest.
+/// Errors    PartialFailure where some items failed, after all others were made; ErrorKind::Usage for the manifest.
 void render_batch(const RenderArgs& args);
 
 }  // namespace zoneplate::cli

@@ -71,7 +71,7 @@ Panel panel_of(const SheetArgs& args, const std::string& input, const std::strin
     const std::vector<std::uint8_t> codes = process.next({});
     Rgba8Image image = blank(args);
     if (codes.size() != image.values().size_bytes())
-      throw Error(Trouble::Failed, input + ": a picture of a wrong size");
+      throw Error(ErrorKind::Failed, input + ": a picture of a wrong size");
     std::memcpy(image.values().data(), codes.data(), codes.size());
     return {std::move(image), name};
   } catch (const std::exception& error) {
@@ -147,12 +147,12 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   args.render.options.point_size = 3, args.render.options.line_width = 1.5f;  // single pixels would not be seen
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
-  if (syntax.found_operands.empty()) throw Error(Trouble::Usage, "no input: give models or built-in scenes");
-  if (args.output.empty()) throw Error(Trouble::Usage, "no output: give -o OUT.png");
+  if (syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "no input: give models or built-in scenes");
+  if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png");
   static_cast<void>(make_resolver(antialias::methods(), args.render.method));
   check_picture_ending(args.output);
   if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
-    throw Error(Trouble::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
+    throw Error(ErrorKind::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
   args.render.output = args.output;
   check_outputs(args.render);
 

@@ -35,7 +35,7 @@ Animation film_of(double rate) {
   film.seconds = is_whole ? 1 : 1000;
   film.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
   if (film.per < 1 || film.per > 65535)
-    throw Error(Trouble::Usage, "--frame-rate: wants a whole number, or one up to 65");
+    throw Error(ErrorKind::Usage, "--frame-rate: wants a whole number, or one up to 65");
   return film;
 }
 
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> FfmpegFilm::encode() const {
   const int milliseconds = 60'000 + static_cast<int>(std::min<std::uint64_t>(frames_.size() / 1000, 1'000'000'000));
   ProgramResult answer = run_child("ffmpeg", arguments, frames_, {.milliseconds = milliseconds});
   if (answer.code != 0 || answer.out.empty())
-    throw Error(Trouble::Failed,
+    throw Error(ErrorKind::Failed,
                 fmt::format("ffmpeg: {}", answer.complaint.empty() ? "wrote nothing" : answer.complaint));
   return std::move(answer.out);
 }

@@ -12,7 +12,7 @@ namespace zoneplate::cli {
 
 /// A film without frames, whose frames last 1 / rate seconds.
 ///
-/// Errors    Trouble::Usage for a rate that is no fraction of small whole numbers.
+/// Errors    ErrorKind::Usage for a rate that is no fraction of small whole numbers.
 Animation film_of(double rate);
 
 /// True for the name of a GIF, MP4 or WebM film, which the program ffmpeg encodes.
@@ -29,12 +29,12 @@ class FfmpegFilm {
 
   /// Adds pixels in the order of the frames, RGBA, 8 bits a channel, rows from the top; in parts of any size.
   ///
-  /// Errors    Trouble::Failed where the folder for temporary files is full.
+  /// Errors    ErrorKind::Failed where the folder for temporary files is full.
   void add(std::span<const std::uint8_t> pixels) { frames_.append(pixels); }
 
   /// The bytes of the film.
   ///
-  /// Errors    Trouble::Failed with ffmpeg's first line of complaint, or where it is not installed.
+  /// Errors    ErrorKind::Failed with ffmpeg's first line of complaint, or where it is not installed.
   std::vector<std::uint8_t> encode() const;
 
  private:

@@ -195,7 +195,7 @@ void run_info(std::span<const std::string> arguments) {
        "Options", false, [&](auto& text) { options.limits.allowed_paths.push_back(text); }}};
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 1)
-    throw Error(Trouble::Usage, "info takes one input: a model or a built-in scene");
+    throw Error(ErrorKind::Usage, "info takes one input: a model or a built-in scene");
 
   const std::string& input = syntax.found_operands.front();
   ItemProcess process({.name = input == "-" ? "standard input" : input,

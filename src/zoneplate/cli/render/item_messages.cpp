@@ -53,7 +53,7 @@ class Body {
     if (left_ > 0) fail("longer than its parts");
   }
   [[noreturn]] void fail(const std::string& cause) const {
-    throw Error(Trouble::Failed, place_ + ": its process sent a message that is " + cause);
+    throw Error(ErrorKind::Failed, place_ + ": its process sent a message that is " + cause);
   }
 
  private:
@@ -86,7 +86,7 @@ void ItemSender::film_frame(const Rgba8Image& image) {
   send(Kind::FilmFrame, 0, 0, {first, image.values().size_bytes()});
 }
 void ItemSender::result(std::span<const std::uint8_t> bytes) { send(Kind::Result, 0, 0, bytes); }
-void ItemSender::failure(Trouble trouble, const std::string& message) {
+void ItemSender::failure(ErrorKind trouble, const std::string& message) {
   send(Kind::Failure, static_cast<int>(trouble), 0, bytes_of(message));
 }
 void ItemSender::needs_library(Library library, const std::string& message) {
@@ -102,8 +102,8 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
   const ItemEvents::Read read = [&](std::span<std::uint8_t> out) { body.read(out); };
   if (header.kind == Kind::Result) return body.rest();
   if (header.kind == Kind::Failure) {
-    const bool is_known = header.first >= 0 && header.first <= static_cast<int>(Trouble::Output);
-    throw Error(is_known ? static_cast<Trouble>(header.first) : Trouble::Failed, body.text());
+    const bool is_known = header.first >= 0 && header.first <= static_cast<int>(ErrorKind::Output);
+    throw Error(is_known ? static_cast<ErrorKind>(header.first) : ErrorKind::Failed, body.text());
   }
   if (header.kind == Kind::Progress) {
     const std::string stage = body.text();

@@ -36,7 +36,7 @@ class ItemSender {
   void film_frame(const Rgba8Image& image);
   /// The end of a job: its result, an error, or the library without which it cannot go on.
   void result(std::span<const std::uint8_t> bytes);
-  void failure(Trouble trouble, const std::string& message);
+  void failure(ErrorKind trouble, const std::string& message);
   void needs_library(Library library, const std::string& message);
 
   /// Whether the job at work has called has_read.
@@ -68,7 +68,8 @@ struct ItemEvents {
 
 /// Receives one message from `source` and acts on it; the result of the job, if it was that.
 ///
-/// Errors    the error that the message carries; Trouble::Failed naming `place` for bytes that are no message, and for
+/// Errors    the error that the message carries; ErrorKind::Failed naming `place` for bytes that are no message, and
+/// for
 ///           results and texts past 1 GB; what `source` and the events throw.
 std::optional<std::vector<std::uint8_t>> receive_message(const std::string& place, const ItemEvents& events,
                                                          const ItemEvents::Read& source);

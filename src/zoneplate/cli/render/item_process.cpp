@@ -45,8 +45,8 @@ ItemProcess::~ItemProcess() = default;
 void ItemProcess::check_time() const {
   const double seconds = watch_.ms() / 1000;
   if (!has_read_ && seconds > limits_.load.seconds + grace)
-    throw Error(Trouble::Input, late_reading(limits_.name, limits_.load));
-  if (seconds > limits_.seconds + grace) throw Error(Trouble::Failed, late_item(limits_));
+    throw Error(ErrorKind::Input, late_reading(limits_.name, limits_.load));
+  if (seconds > limits_.seconds + grace) throw Error(ErrorKind::Failed, late_item(limits_));
 }
 
 void ItemProcess::start(std::size_t first) {
@@ -69,7 +69,7 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     sender.begin_job();
     try {
       std::vector<std::uint8_t> result;
-      with_deadline(limits_.seconds, Trouble::Failed, late_item(limits_), [&] { result = work_(job, sender); });
+      with_deadline(limits_.seconds, ErrorKind::Failed, late_item(limits_), [&] { result = work_(job, sender); });
       sender.result(result);
       continue;
     } catch (const LibraryNeeded& needed) {
@@ -77,14 +77,14 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     } catch (const Error& error) {
       // What fails after reading, or while rendering, does not know the model's name.
       const std::string message = error.what();
-      const bool wants_name = sender.is_past_reading() || error.trouble() == Trouble::Failed;
+      const bool wants_name = sender.is_past_reading() || error.trouble() == ErrorKind::Failed;
       const bool is_named = !wants_name || message.find(limits_.name) != message.npos;
       sender.failure(error.trouble(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
-      sender.failure(sender.is_past_reading() ? Trouble::Failed : Trouble::Input,
+      sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
                      out_of_memory(limits_, error, sender.is_past_reading()));
     } catch (const std::exception& error) {
-      sender.failure(Trouble::Failed, limits_.name + ": " + error.what());
+      sender.failure(ErrorKind::Failed, limits_.name + ": " + error.what());
     }
     return;
   }
@@ -95,13 +95,13 @@ void ItemProcess::read(std::span<std::uint8_t> out) {
   try {
     child_->read(out.data(), out.size());
   } catch (const Error& error) {
-    if (has_read_ && error.trouble() == Trouble::Input) throw Error(Trouble::Failed, error.what());
+    if (has_read_ && error.trouble() == ErrorKind::Input) throw Error(ErrorKind::Failed, error.what());
     throw;
   }
 }
 
 void ItemProcess::begin_again_with(Library library, const std::string& message) {
-  if (!open_library(library)) throw Error(Trouble::Input, message);
+  if (!open_library(library)) throw Error(ErrorKind::Input, message);
   child_.reset();
   start(next_ - 1);
 }
@@ -128,7 +128,7 @@ std::vector<std::uint8_t> ItemProcess::next(ItemEvents events) {
 }
 
 void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read) {
-  with_deadline(limits.seconds, Trouble::Input, late_reading(name, limits), read);
+  with_deadline(limits.seconds, ErrorKind::Input, late_reading(name, limits), read);
 }
 
 bool wants_sandbox(bool is_asked_for) {

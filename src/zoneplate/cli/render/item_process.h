@@ -41,7 +41,8 @@ class ItemProcess {
   /// The result of the next job. The first call starts the process. The events has_read and needs_library are added
   /// here.
   ///
-  /// Errors    what the job throws; Trouble::Input before it has read its model, and Trouble::Failed after that, where
+  /// Errors    what the job throws; ErrorKind::Input before it has read its model, and ErrorKind::Failed after that,
+  /// where
   ///           its process ran out of memory or time or was ended by a signal; what the events throw. The next call
   ///           goes on with the job after it, in a new process.
   std::vector<std::uint8_t> next(ItemEvents events);
@@ -64,7 +65,7 @@ class ItemProcess {
 
 /// Reads a model within the limit on the time to read one. Of an item's process.
 ///
-/// Errors    Trouble::Input naming the model and the option when the time is up; what `read` throws.
+/// Errors    ErrorKind::Input naming the model and the option when the time is up; what `read` throws.
 void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read);
 
 /// Warns, once a process, where files are read without a sandbox because the kernel has none, and returns whether items

@@ -30,7 +30,7 @@ ItemLimits small_limits() {
 }
 
 struct Ending {
-  std::optional<Trouble> trouble;
+  std::optional<ErrorKind> trouble;
   std::string message;
   bool operator==(const Ending&) const = default;
 };
@@ -79,24 +79,24 @@ TEST(ItemProcess, SendsFilesFramesAndItsResult) {
 }
 
 TEST(ItemProcess, ErrorsAreOfReadingOrOfRendering) {
-  const Ending usage{Trouble::Usage, "no such option"};
-  EXPECT_EQ(ending_of([](ItemSender&) { throw Error(Trouble::Usage, "no such option"); }), usage);
+  const Ending usage{ErrorKind::Usage, "no such option"};
+  EXPECT_EQ(ending_of([](ItemSender&) { throw Error(ErrorKind::Usage, "no such option"); }), usage);
   const auto crash = [](ItemSender& sender) { sender.progress("x", 0), std::abort(); };
-  EXPECT_EQ(ending_of(crash), (Ending{Trouble::Input, "model.xyz: its process crashed (signal 6)"}));
+  EXPECT_EQ(ending_of(crash), (Ending{ErrorKind::Input, "model.xyz: its process crashed (signal 6)"}));
   const auto late_crash = [](ItemSender& sender) { sender.has_read(), std::abort(); };
-  EXPECT_EQ(ending_of(late_crash), (Ending{Trouble::Failed, "model.xyz: its process crashed (signal 6)"}));
+  EXPECT_EQ(ending_of(late_crash), (Ending{ErrorKind::Failed, "model.xyz: its process crashed (signal 6)"}));
   const auto killed = [](ItemSender& sender) { sender.has_read(), ::raise(SIGKILL); };
   ItemLimits trusted = small_limits();
   trusted.is_sandboxed = false;
   EXPECT_EQ(ending_of(killed, trusted).message,
             "model.xyz: its process ran out of time or memory (--max-memory, --max-seconds)");
   EXPECT_EQ(ending_of([](ItemSender&) { throw std::length_error("too long"); }),
-            (Ending{Trouble::Failed, "model.xyz: too long"}));
+            (Ending{ErrorKind::Failed, "model.xyz: too long"}));
 }
 
 TEST(ItemProcess, GoesOnAfterAJobThatFails) {
   ItemProcess process(small_limits(), 5, [](std::size_t job, ItemSender&) {
-    if (job == 1) throw Error(Trouble::Input, "one");
+    if (job == 1) throw Error(ErrorKind::Input, "one");
     if (job == 2) std::abort();
     return Bytes{static_cast<std::uint8_t>(job)};
   });
@@ -113,8 +113,8 @@ TEST(ItemProcess, WhatTheReceiverThrowsEndsThatJobAlone) {
     return Bytes{static_cast<std::uint8_t>(job)};
   });
   ItemEvents full_disk;
-  full_disk.file = [](int, int, std::uint64_t, const ItemEvents::Read&) { throw Error(Trouble::Output, "full"); };
-  EXPECT_EQ(ending_of(process, full_disk), (Ending{Trouble::Output, "full"}));
+  full_disk.file = [](int, int, std::uint64_t, const ItemEvents::Read&) { throw Error(ErrorKind::Output, "full"); };
+  EXPECT_EQ(ending_of(process, full_disk), (Ending{ErrorKind::Output, "full"}));
   ItemEvents taken;
   taken.file = [](int, int, std::uint64_t size, const ItemEvents::Read& read) {
     Bytes bytes(size);
@@ -131,20 +131,20 @@ TEST(ItemProcess, MemoryIsNamedByWhatGrew) {
     std::vector<Bytes> all;
     for (;;) all.emplace_back(1 << 20, std::uint8_t{1});
   };
-  EXPECT_EQ(ending_of(grow), (Ending{Trouble::Input,
+  EXPECT_EQ(ending_of(grow), (Ending{ErrorKind::Input,
                                      "model.xyz: reading it needs more memory than the limit of 64 MB "
                                      "(--max-memory)"}));
   const auto grow_late = [&](ItemSender& sender) {
     sender.has_read();
     growing("screen vertices", [&] { grow(sender); });
   };
-  EXPECT_EQ(ending_of(grow_late), (Ending{Trouble::Failed,
+  EXPECT_EQ(ending_of(grow_late), (Ending{ErrorKind::Failed,
                                           "model.xyz: screen vertices need more memory than the limit "
                                           "of 64 MB (--max-memory)"}));
   // What a library allocates is counted too.
   const auto grow_by_malloc = [](ItemSender&) {
     for (int i = 0; i < 128; ++i)
-      if (void* const memory = std::malloc(1 << 20); !memory) throw Error(Trouble::Input, "malloc failed");
+      if (void* const memory = std::malloc(1 << 20); !memory) throw Error(ErrorKind::Input, "malloc failed");
   };
   EXPECT_EQ(ending_of(grow_by_malloc).message, "malloc failed");
 }
@@ -154,7 +154,8 @@ void sleep_seconds(double s) { std::this_thread::sleep_for(std::chrono::duration
 TEST(ItemProcess, TimeIsKeptWithAndWithoutItsHelp) {
   ItemLimits hurried = small_limits();
   hurried.load.seconds = 0.05;
-  const Ending late{Trouble::Input, "model.xyz: takes longer to load than the limit of 0.05 s (--max-import-seconds)"};
+  const Ending late{ErrorKind::Input,
+                    "model.xyz: takes longer to load than the limit of 0.05 s (--max-import-seconds)"};
   const auto polite = [&](ItemSender&) {
     within_import_time("model.xyz", hurried.load, [] {
       for (;;) sleep_seconds(0.01), check_deadline();
@@ -165,7 +166,7 @@ TEST(ItemProcess, TimeIsKeptWithAndWithoutItsHelp) {
 
   ItemLimits short_item = small_limits();
   short_item.seconds = 0.05;
-  const Ending too_long{Trouble::Failed, "model.xyz: takes longer than the limit of 0.05 s (--max-seconds)"};
+  const Ending too_long{ErrorKind::Failed, "model.xyz: takes longer than the limit of 0.05 s (--max-seconds)"};
   const auto slow = [](ItemSender& sender) { sender.has_read(), sleep_seconds(100); };
   EXPECT_EQ(ending_of(slow, short_item), too_long);
   const auto checked = [](ItemSender& sender) {
@@ -184,16 +185,16 @@ TEST(ItemProcess, HasNoRightsButToReadItsFolder) {
   const auto opens = [](const std::string& path) {
     return [path](ItemSender&) {
       const int file = ::open(path.c_str(), O_RDONLY);
-      if (file < 0) throw Error(Trouble::Input, "model.xyz: cannot be read: " + std::to_string(errno));
+      if (file < 0) throw Error(ErrorKind::Input, "model.xyz: cannot be read: " + std::to_string(errno));
     };
   };
   EXPECT_EQ(ending_of(opens(folder + "/in/a"), limits), Ending{});
   if (sandbox_support().limits_files) {
     EXPECT_EQ(ending_of(opens(folder + "/out/a"), limits),
-              (Ending{Trouble::Input, "model.xyz: cannot be read: " + std::to_string(EACCES)}));
-    EXPECT_EQ(ending_of(opens("/etc/passwd"), limits).trouble, Trouble::Input);
+              (Ending{ErrorKind::Input, "model.xyz: cannot be read: " + std::to_string(EACCES)}));
+    EXPECT_EQ(ending_of(opens("/etc/passwd"), limits).trouble, ErrorKind::Input);
   }
-  const Ending ended{Trouble::Input,
+  const Ending ended{ErrorKind::Input,
                      "model.xyz: its process made a system call that it has no right to, and was ended"};
   EXPECT_EQ(ending_of([&](ItemSender&) { ::open((folder + "/in/b").c_str(), O_WRONLY | O_CREAT, 0600); }, limits),
             ended);
@@ -212,7 +213,7 @@ TEST(ItemMessages, BytesThatAreNoMessageAreAnError) {
   const auto receive = [&](const Bytes& bytes) {
     std::size_t at = 0;
     const auto source = [&](std::span<std::uint8_t> out) {
-      if (out.size() > bytes.size() - at) throw Error(Trouble::Input, "at its end");
+      if (out.size() > bytes.size() - at) throw Error(ErrorKind::Input, "at its end");
       std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), out.size(), out.begin());
       at += out.size();
     };

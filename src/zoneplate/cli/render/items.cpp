@@ -53,7 +53,7 @@ Summary RenderItems::next() {
   events.file = [&](int frame, int layer, std::uint64_t size, const ItemEvents::Read& read) {
     const Stopwatch watch;
     if (layer >= static_cast<int>(args.aovs.size()))
-      throw Error(Trouble::Failed, args.input + ": an unknown data pass");
+      throw Error(ErrorKind::Failed, args.input + ": an unknown data pass");
     FileWriter file(output_path(args, frame, layer));
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { file.write(part); });
     file.commit();
@@ -63,7 +63,7 @@ Summary RenderItems::next() {
     const std::optional<Crop>& crop = args.options.crop;
     const int width = crop ? crop->width : args.options.width, height = crop ? crop->height : args.options.height;
     if (size != std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height))
-      throw Error(Trouble::Failed, args.input + ": a frame of another size than the film's");
+      throw Error(ErrorKind::Failed, args.input + ": a frame of another size than the film's");
     if (!film) film.emplace(args.output, width, height, film_of(args.sequence.rate));
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
   };

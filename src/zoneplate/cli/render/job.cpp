@@ -34,7 +34,7 @@ Stage& RenderJobs::stage_of(const RenderArgs& args) {
 Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Stopwatch total_watch;
   const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
-  check_request(args, resolver->ask(0));
+  check_request(args, resolver->request(0));
   Summary summary;
   summary.threads = thread_limit();
   out.progress("read", 0);

@@ -40,10 +40,10 @@ float4 background_of(const RenderArgs& args) {
 }
 
 Request request_of(Resolver& resolver, const RenderArgs& args) {
-  Request request = resolver.ask(0);
+  Request request = resolver.request(0);
   for (const Aov* aov : args.aovs) request.planes.*(aov->plane) = request.planes.depth = true;
   if (request.planes.error && !request.estimates_error)
-    throw Error(Trouble::Usage,
+    throw Error(ErrorKind::Usage,
                 "--aov error: " + args.method + " has no estimate of its error; converged and analytic have");
   return request;
 }
@@ -85,7 +85,7 @@ void finish(const RenderArgs& args, LinearImage picture, const Frame& frame, Res
     out.linear = over_background(std::move(picture), frame.display);
     return;
   }
-  const DisplayImage shown = resolver.finish(make_display(picture, frame.display), frame);
+  const DisplayImage shown = resolver.post_process(make_display(picture, frame.display), frame);
   if (args.bit_depth == 16)
     out.image16 = quantize16(shown);
   else
@@ -139,8 +139,9 @@ void check_memory(const RenderArgs& args, const Request& request) {
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
   if (need > args.load.limits.memory)
-    throw Error(Trouble::Failed, fmt::format("{}: a picture of {}x{} needs {} MB of memory, --max-memory allows {} MB",
-                                             args.input, width, height, need >> 20, args.load.limits.memory >> 20));
+    throw Error(ErrorKind::Failed,
+                fmt::format("{}: a picture of {}x{} needs {} MB of memory, --max-memory allows {} MB", args.input,
+                            width, height, need >> 20, args.load.limits.memory >> 20));
 }
 
 void count_times(Summary& summary) {
@@ -164,17 +165,18 @@ std::string output_path(const RenderArgs& args, int frame, int layer) {
 
 void check_outputs(const RenderArgs& args) {
   if (args.output == "-" && ::isatty(STDOUT_FILENO) == 1)
-    throw Error(Trouble::Usage, "a picture will not be written to a terminal");
+    throw Error(ErrorKind::Usage, "a picture will not be written to a terminal");
   const int frame = args.sequence.is_wanted() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
   for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
     check_savable(output_path(args, frame, layer));
 }
 
 void check_request(const RenderArgs& args, const Request& request) {
-  if (request.works_on_shown && is_linear(args.named_output()))
-    throw Error(Trouble::Usage, fmt::format("--anti-aliasing: {} works on the picture as shown, and {} holds the light "
-                                            "before that: write a .png, or take a method such as msaa or ssaa",
-                                            args.method, extension_of(args.named_output())));
+  if (request.is_display_referred && is_linear(args.named_output()))
+    throw Error(ErrorKind::Usage,
+                fmt::format("--anti-aliasing: {} works on the picture as shown, and {} holds the light "
+                            "before that: write a .png, or take a method such as msaa or ssaa",
+                            args.method, extension_of(args.named_output())));
   check_memory(args, request);
 }
 
@@ -184,7 +186,7 @@ Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera
   const Request request = request_of(resolver, args);
   RenderOptions options = args.options;
   options.crop = rendered_crop(args.options, request.halo);
-  const bool is_shown = request.is_local && args.bit_depth == 8 && !args.dithers && !is_linear(output);
+  const bool is_shown = request.resolves_per_pixel && args.bit_depth == 8 && !args.dithers && !is_linear(output);
   if (is_shown) options.shown = &display;
   Frame frame = render_rounds(scene, camera, resolver, request, options, display, &summary.counts);
   count_times(summary);
@@ -213,7 +215,7 @@ Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera
 Rendered render_mean(const RenderArgs& args, int count, const std::function<const Scene&(int)>& scene_at,
                      const Camera& camera, Resolver& resolver, Summary& summary) {
   const DisplayOptions display = display_of(args);
-  const Request request = resolver.ask(0);
+  const Request request = resolver.request(0);
   LinearImage sum;
   Frame frame;
   for (int i = 0; i < count; ++i) {

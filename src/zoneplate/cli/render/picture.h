@@ -34,14 +34,14 @@ std::string aov_path(const std::string& output, std::string_view name);
 
 /// Fails at once, not after a long render, where one of the item's files can never be written.
 ///
-/// Errors    Trouble::Output; Trouble::Usage for a terminal.
+/// Errors    ErrorKind::Output; ErrorKind::Usage for a terminal.
 void check_outputs(const RenderArgs& args);
 
 /// The name of a file of the item. `frame`: its number in a sequence, or -1; `layer`: the place of a data pass among
 /// `args.aovs`, or -1 for the picture.
 std::string output_path(const RenderArgs& args, int frame, int layer);
 
-/// Errors    Trouble::Failed where frame and picture need more than the limit on memory; Trouble::Usage where the
+/// Errors    ErrorKind::Failed where frame and picture need more than the limit on memory; ErrorKind::Usage where the
 ///           method would leave no trace in a file of linear values.
 void check_request(const RenderArgs& args, const Request& request);
 

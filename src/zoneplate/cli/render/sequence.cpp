@@ -104,7 +104,7 @@ class Plan {
     const SequenceArgs& s = args_.sequence;
     const double last = std::floor(end_ * s.rate + 1e-6);
     if (!((last - first) / s.jump < most_frames))
-      throw Error(Trouble::Input,
+      throw Error(ErrorKind::Input,
                   fmt::format("{}: its animation ends at {:.6g} s, which is more than {} frames: choose some of them "
                               "with --frames or --frame-end",
                               args_.input, end_, most_frames));
@@ -118,9 +118,9 @@ class Plan {
     int last = s.turntable ? *s.turntable - 1 : has_last ? 0 : last_of_animation(first);
     if (s.count) last = first + (*s.count - 1) * s.jump;
     if (s.last) last = *s.last;
-    if (last < first) throw Error(Trouble::Usage, fmt::format("there is no frame from {} to {}", first, last));
+    if (last < first) throw Error(ErrorKind::Usage, fmt::format("there is no frame from {} to {}", first, last));
     if ((last - first) / s.jump >= most_frames)
-      throw Error(Trouble::Usage, fmt::format("more than {} frames", most_frames));
+      throw Error(ErrorKind::Usage, fmt::format("more than {} frames", most_frames));
     for (int f = first; f <= last; f += s.jump) frames_.push_back(f);
   }
 
@@ -163,7 +163,7 @@ class Plan {
   double end_ = 0;  // of the animation, in seconds
   std::unique_ptr<Stage> stage_;
   std::optional<TextureSet> textures_;
-  std::optional<VertexRecords> records_;
+  std::optional<InterleavedVertices> records_;
   RasterMemory memory_;
   std::vector<int> frames_;
   float3 centre_;
@@ -220,12 +220,13 @@ Rendered render_frame(RenderArgs& args, Plan& plan, const Camera& still, int fra
 }
 
 void check_film(const RenderArgs& args, std::size_t frames) {
-  if (!args.aovs.empty()) throw Error(Trouble::Usage, "--aov wants numbered frames, as chair.####.png");
+  if (!args.aovs.empty()) throw Error(ErrorKind::Usage, "--aov wants numbered frames, as chair.####.png");
   const std::uint64_t bytes = std::uint64_t{4} * frames * static_cast<std::uint64_t>(args.options.width) *
                               static_cast<std::uint64_t>(args.options.height);
   if (!is_encoded_by_ffmpeg(args.output) && bytes > args.load.limits.memory)
-    throw Error(Trouble::Failed, fmt::format("{}: a film of {} frames needs {} MB of memory, --max-memory allows {} MB",
-                                             args.input, frames, bytes >> 20, args.load.limits.memory >> 20));
+    throw Error(ErrorKind::Failed,
+                fmt::format("{}: a film of {} frames needs {} MB of memory, --max-memory allows {} MB", args.input,
+                            frames, bytes >> 20, args.load.limits.memory >> 20));
 }
 
 bool is_one_frame(const SequenceArgs& s) { return s.count == 1 || (s.first && s.first == s.last); }
@@ -241,7 +242,7 @@ bool is_film(const std::string& output) {
 void render_sequence(RenderArgs args, Resolver& resolver, ItemSender& out, Summary& summary) {
   const bool has_number = has_frame_number(args.output);
   if (!has_number && !is_film(args.output) && !is_one_frame(args.sequence))
-    throw Error(Trouble::Usage,
+    throw Error(ErrorKind::Usage,
                 args.output +
                     ": several frames want a place for their number, as chair.####.png, or a film: .apng, "
                     ".webp, .gif, .mp4, .webm");

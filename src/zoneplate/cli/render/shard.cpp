@@ -37,12 +37,12 @@ Shard parse_shard(const std::string& text) {
     if (!index) index = find_variable("JOB_COMPLETION_INDEX");
     if (slash == text.npos) count = find_variable("SLURM_ARRAY_TASK_COUNT").value_or(0);
     if (!index || count == 0)
-      throw Error(Trouble::Usage, fmt::format("'{}': neither SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT nor "
-                                              "JOB_COMPLETION_INDEX say which shard this is",
-                                              text));
+      throw Error(ErrorKind::Usage, fmt::format("'{}': neither SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT nor "
+                                                "JOB_COMPLETION_INDEX say which shard this is",
+                                                text));
   }
   if (!index || *index >= count)
-    throw Error(Trouble::Usage, fmt::format("'{}' is not a shard i/n with i from 0 to n - 1, nor auto", text));
+    throw Error(ErrorKind::Usage, fmt::format("'{}' is not a shard i/n with i from 0 to n - 1, nor auto", text));
   return {*index, count};
 }
 

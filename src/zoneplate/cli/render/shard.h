@@ -14,7 +14,7 @@ struct Shard {
 /// "i/n" with i from 0 to n - 1, or "auto": what Slurm (an array's task) or Kubernetes (an indexed job's, with the
 /// number after a slash: "auto/8") say in the environment.
 ///
-/// Errors    Trouble::Usage.
+/// Errors    ErrorKind::Usage.
 Shard parse_shard(const std::string& text);
 
 }  // namespace zoneplate::cli

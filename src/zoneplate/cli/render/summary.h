@@ -23,7 +23,7 @@ struct Summary {
 /// The summary as bytes, for the program's own process.
 std::vector<std::uint8_t> pack_summary(const Summary& summary);
 
-/// Errors    Trouble::Failed where the bytes end too early.
+/// Errors    ErrorKind::Failed where the bytes end too early.
 Summary unpack_summary(std::span<const std::uint8_t> bytes);
 
 }  // namespace zoneplate::cli

@@ -22,7 +22,7 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
   if (path.empty() || path == "-" || path.starts_with("/dev/")) return;
   for (const std::string_view ending : endings)
     if (path.ends_with(ending)) return;
-  throw Error(Trouble::Usage,
+  throw Error(ErrorKind::Usage,
               fmt::format("--output: {}: wants a name that ends in {}, or -", path, fmt::join(endings, " or ")));
 }
 
@@ -49,13 +49,13 @@ Option border_option(Border& border, const std::string& rules) {
           [&border, rules](auto& text) {
             border = parse_border(text);
             if (rules.find(text) == std::string::npos)
-              throw Error(Trouble::Usage, fmt::format("'{}' cannot be used here; wants {}", text, rules));
+              throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be used here; wants {}", text, rules));
           }};
 }
 
 const std::string& only_operand(const Syntax& syntax, const std::string& what) {
   if (syntax.found_operands.size() == 1) return syntax.found_operands[0];
-  throw Error(Trouble::Usage,
+  throw Error(ErrorKind::Usage,
               fmt::format("zoneplate {} wants {}; found {} operands", syntax.verb, what, syntax.found_operands.size()));
 }
 

@@ -32,7 +32,7 @@ Option border_option(Border& border, const std::string& rules);
 
 /// The one operand of a subcommand.
 ///
-/// Errors    Trouble::Usage where there is none or more than one, saying that `what` is wanted.
+/// Errors    ErrorKind::Usage where there is none or more than one, saying that `what` is wanted.
 const std::string& only_operand(const Syntax& syntax, const std::string& what);
 
 /// What IMAGE may be and what the patterns are, for the end of the help.

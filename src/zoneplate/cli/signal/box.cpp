@@ -77,7 +77,7 @@ void run_signal_box(std::span<const std::string> arguments) {
   BoxArgs args;
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
-  if (!syntax.found_operands.empty()) throw Error(Trouble::Usage, "signal box takes no operands: --widths 3,7,15");
+  if (!syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "signal box takes no operands: --widths 3,7,15");
   check_plot_name(args.output);
   if (!args.output.empty()) save_plots(args.output, {kernels_plot(args), responses_plot(args)}, 2, {});
 

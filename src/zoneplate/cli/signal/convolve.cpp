@@ -197,7 +197,7 @@ void run_image(const ConvolveArgs& args, const std::string& input) {
 
 Plane<double> parse_values(const std::string& text) {
   Plane<double> values = parse_number_rows(text);
-  if (values.height() != 1) throw Error(Trouble::Usage, "one row of numbers is wanted");
+  if (values.height() != 1) throw Error(ErrorKind::Usage, "one row of numbers is wanted");
   return values;
 }
 
@@ -256,7 +256,7 @@ void run_signal_convolve(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (args.values && !syntax.found_operands.empty())
-    throw Error(Trouble::Usage, "either an IMAGE or --values is convolved, not both");
+    throw Error(ErrorKind::Usage, "either an IMAGE or --values is convolved, not both");
   if (args.values) {
     check_plot_name(args.output);
     return with_threads(args.threads, [&] { convolve_row(args); });

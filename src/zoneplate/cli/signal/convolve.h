@@ -19,7 +19,7 @@ struct ConvolveArgs : SignalArgs {
 
 /// The convolution of `values`: printed, and drawn where there is an output.
 ///
-/// Errors    Trouble::Usage for a kernel of more than one row.
+/// Errors    ErrorKind::Usage for a kernel of more than one row.
 void convolve_row(const ConvolveArgs& args);
 
 }  // namespace zoneplate::cli

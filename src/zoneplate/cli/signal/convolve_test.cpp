@@ -113,7 +113,7 @@ TEST_F(SignalConvolve, NumbersAreReadOrRefused) {
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"--values", "1 2", "--kernel", "1 2; 3 4"}), "one row"));
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"--values", " "}), "no numbers"));
   save("bad.txt", "1 2 x\n");
-  EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--kernel", at("bad.txt")}, Trouble::Input),
+  EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--kernel", at("bad.txt")}, ErrorKind::Input),
                        "'x' is not a number"));
 }
 

@@ -41,11 +41,11 @@ void set_single(FilterArgs& args, Pass pass, const std::string& text) {
 
 void set_band(FilterArgs& args, Pass pass, const std::string& text) {
   const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) throw Error(Trouble::Usage, fmt::format("'{}' is not a band LOW:HIGH", text));
+  if (colon == std::string::npos) throw Error(ErrorKind::Usage, fmt::format("'{}' is not a band LOW:HIGH", text));
   args.filter.low = parse_number(text.substr(0, colon), least_cut, greatest_cut);
   args.filter.high = parse_number(text.substr(colon + 1), least_cut, greatest_cut);
   if (!(args.filter.low < args.filter.high))
-    throw Error(Trouble::Usage, fmt::format("'{}': the lower frequency comes first", text));
+    throw Error(ErrorKind::Usage, fmt::format("'{}': the lower frequency comes first", text));
   args.filter.pass = pass;
   ++args.passes_given;
 }
@@ -200,7 +200,7 @@ void run_signal_filter(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.passes_given != 1)
-    throw Error(Trouble::Usage, "one of --low-pass, --high-pass, --band-pass and --band-stop is wanted");
+    throw Error(ErrorKind::Usage, "one of --low-pass, --high-pass, --band-pass and --band-stop is wanted");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage before = load_signal(input, args.uses_codes);

@@ -23,7 +23,7 @@ double parse_fraction(const std::string& text) {
   const double above = parse_number(text.substr(0, slash), -1e12, 1e12);
   if (slash == std::string::npos) return above;
   const double below = parse_number(text.substr(slash + 1), -1e12, 1e12);
-  if (below == 0) throw Error(Trouble::Usage, fmt::format("'{}' divides by zero", text));
+  if (below == 0) throw Error(ErrorKind::Usage, fmt::format("'{}' divides by zero", text));
   return above / below;
 }
 
@@ -71,12 +71,13 @@ Plane<double> parse_number_rows(const std::string& text) {
     if (auto row = parse_row(text.substr(at, end - at)); !row.empty()) rows.push_back(std::move(row));
     at = end + 1;
   }
-  if (rows.empty()) throw Error(Trouble::Usage, "there are no numbers");
+  if (rows.empty()) throw Error(ErrorKind::Usage, "there are no numbers");
   const std::size_t width = rows[0].size();
   Plane<double> out(static_cast<int>(width), static_cast<int>(rows.size()));
   for (std::size_t y = 0; y < rows.size(); ++y) {
     if (rows[y].size() != width)
-      throw Error(Trouble::Usage, fmt::format("row {} has {} numbers, the first has {}", y + 1, rows[y].size(), width));
+      throw Error(ErrorKind::Usage,
+                  fmt::format("row {} has {} numbers, the first has {}", y + 1, rows[y].size(), width));
     std::copy(rows[y].begin(), rows[y].end(), out.row(static_cast<int>(y)).begin());
   }
   return out;
@@ -90,7 +91,7 @@ KernelChoice parse_kernel_choice(const std::string& text) {
     try {
       choice = of_numbers(text, without_comments({file.bytes().begin(), file.bytes().end()}));
     } catch (const Error& error) {
-      throw Error(Trouble::Input, fmt::format("{}: {}", text, error.what()));
+      throw Error(ErrorKind::Input, fmt::format("{}: {}", text, error.what()));
     }
   } else if (starts_a_number(text)) {
     choice = of_numbers(text, text);
@@ -99,8 +100,8 @@ KernelChoice parse_kernel_choice(const std::string& text) {
     choice = {text, taps, outer_product(taps, taps)};
   }
   if (choice.weights.width() > greatest_side || choice.weights.height() > greatest_side)
-    throw Error(Trouble::Usage, fmt::format("{}: a kernel of {} × {} weights is too large, wants {} at most", text,
-                                            choice.weights.width(), choice.weights.height(), greatest_side));
+    throw Error(ErrorKind::Usage, fmt::format("{}: a kernel of {} × {} weights is too large, wants {} at most", text,
+                                              choice.weights.width(), choice.weights.height(), greatest_side));
   return choice;
 }
 

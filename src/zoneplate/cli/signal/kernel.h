@@ -20,12 +20,12 @@ struct KernelChoice {
   double sum() const;
 };
 
-/// Errors    Trouble::Usage for text that is none of these, Trouble::Input for a file that holds something else.
+/// Errors    ErrorKind::Usage for text that is none of these, ErrorKind::Input for a file that holds something else.
 KernelChoice parse_kernel_choice(const std::string& text);
 
 /// "1 3/4 -.5": numbers and fractions at spaces and commas; rows at semicolons and line ends, all of one length.
 ///
-/// Errors    Trouble::Usage naming what is no number.
+/// Errors    ErrorKind::Usage naming what is no number.
 Plane<double> parse_number_rows(const std::string& text);
 
 }  // namespace zoneplate::cli

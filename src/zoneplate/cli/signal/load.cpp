@@ -71,7 +71,7 @@ LinearImage load_file(const std::string& operand, bool uses_codes) {
 
 LinearImage load_signal(const std::string& operand, bool uses_codes) {
   if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
-  const LostBytesWatch watch;
+  const MappedFileWatch watch;
   LinearImage image = load_file(operand, uses_codes);
   watch.check(operand);
   return image;

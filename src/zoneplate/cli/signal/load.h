@@ -11,7 +11,7 @@ namespace zoneplate::cli {
 /// pattern's is given with its folder.
 ///
 /// Units     linear light; with `uses_codes` the sRGB codes in [0, 1] in its place. Premultiplied either way.
-/// Errors    Trouble::Input naming the file and what is wrong with it; Trouble::Usage for a pattern's parameters.
+/// Errors    ErrorKind::Input naming the file and what is wrong with it; ErrorKind::Usage for a pattern's parameters.
 LinearImage load_signal(const std::string& operand, bool uses_codes);
 
 }  // namespace zoneplate::cli

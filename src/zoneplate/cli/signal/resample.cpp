@@ -31,8 +31,8 @@ int2 size_from(const std::string& text, int width, int height) {
   const auto scaled = [&](int n) { return static_cast<int>(std::clamp(std::floor(n * factor + 0.5), 1.0, 1e9)); };
   const int2 size{scaled(width), scaled(height)};
   if (factor <= 0 || size.x > greatest_side || size.y > greatest_side)
-    throw Error(Trouble::Usage, fmt::format("--size: {} gives {} × {}, wants 1 to {} pixels a side", text, size.x,
-                                            size.y, greatest_side));
+    throw Error(ErrorKind::Usage, fmt::format("--size: {} gives {} × {}, wants 1 to {} pixels a side", text, size.x,
+                                              size.y, greatest_side));
   return size;
 }
 
@@ -97,8 +97,8 @@ void run_signal_resample(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
-  if (args.size.empty()) throw Error(Trouble::Usage, "--size is missing: the new size, as 640x480 or 50%");
-  if (args.output.empty()) throw Error(Trouble::Usage, "--output is missing: where to write the picture");
+  if (args.size.empty()) throw Error(ErrorKind::Usage, "--size is missing: the new size, as 640x480 or 50%");
+  if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: where to write the picture");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage image = load_signal(input, args.uses_codes);

@@ -164,9 +164,9 @@ void run_signal_sample(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (!syntax.found_operands.empty())
-    throw Error(Trouble::Usage, "signal sample takes no operands: --frequency F --rate R");
-  if (args.frequency == 0 || args.rate == 0) throw Error(Trouble::Usage, "--frequency and --rate are wanted");
-  if (args.frequency > 1000 * args.rate) throw Error(Trouble::Usage, "--frequency is more than 1000 times the rate");
+    throw Error(ErrorKind::Usage, "signal sample takes no operands: --frequency F --rate R");
+  if (args.frequency == 0 || args.rate == 0) throw Error(ErrorKind::Usage, "--frequency and --rate are wanted");
+  if (args.frequency > 1000 * args.rate) throw Error(ErrorKind::Usage, "--frequency is more than 1000 times the rate");
   check_plot_name(args.output);
   if (!args.output.empty())
     save_plots(args.output, {waves_plot(args), copies_plot(args)}, 1, {.width = 1000, .height = 380});

@@ -57,7 +57,7 @@ class SignalVerb : public testing::Test {
   }
   /// The message of the error that is thrown, which has to be of this kind.
   template <class Run>
-  static std::string refusal(Run run, const Words& words, Trouble trouble = Trouble::Usage) {
+  static std::string refusal(Run run, const Words& words, ErrorKind trouble = ErrorKind::Usage) {
     try {
       out(run, words);
     } catch (const Error& error) {

@@ -262,7 +262,7 @@ void run_signal_spectrum(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.is_periodic && args.window != "none")
-    throw Error(Trouble::Usage, "--window and --periodic are two remedies for one ill: take one of them");
+    throw Error(ErrorKind::Usage, "--window and --periodic are two remedies for one ill: take one of them");
   args.shown == Shown::Radial ? check_plot_name(args.output) : check_picture_name(args.output);
   with_threads(args.threads, [&] {
     const Analysis analysis = analyse(args, load_signal(input, args.uses_codes));

@@ -96,8 +96,8 @@ TEST_F(SignalSpectrum, RefusesWhatMakesNoSense) {
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "--window", "hann", "--periodic"}), "take one"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "-o", "x.jpg"}), "ends in .png"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise:size=0"}), "size"));
-  refusal(run_signal_spectrum, {at("missing.png")}, Trouble::Input);
-  refusal(run_signal_spectrum, {"noise:size=8", "-o", at("no/such/folder/x.png")}, Trouble::Output);
+  refusal(run_signal_spectrum, {at("missing.png")}, ErrorKind::Input);
+  refusal(run_signal_spectrum, {"noise:size=8", "-o", at("no/such/folder/x.png")}, ErrorKind::Output);
 }
 
 TEST_F(SignalSpectrum, SubcommandsAreFoundAndMisspeltOnesNamed) {

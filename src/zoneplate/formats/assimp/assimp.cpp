@@ -76,12 +76,12 @@ Scene import(const AssimpLibrary& library, const std::string& path, std::string_
   const std::unique_ptr<const aiScene, decltype(library.release)> read(
       library.import(files.model_name().c_str(), steps, files.io()), library.release);
   if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
-  if (!read) throw Error(Trouble::Input, budget.file() + ": " + one_line(library.error()));
+  if (!read) throw Error(ErrorKind::Input, budget.file() + ": " + one_line(library.error()));
   Scene scene;
   ModelFolder textures(folder, budget, scene);
   convert_assimp_scene(*read, textures);
-  if (scene.instances.empty()) throw Error(Trouble::Input, budget.file() + ": holds nothing to draw");
-  if (const auto flaw = find_flaw(scene)) throw Error(Trouble::Input, budget.file() + ": " + *flaw);
+  if (scene.instances.empty()) throw Error(ErrorKind::Input, budget.file() + ": holds nothing to draw");
+  if (const auto flaw = find_invalid(scene)) throw Error(ErrorKind::Input, budget.file() + ": " + *flaw);
   return scene;
 }
 
@@ -89,7 +89,7 @@ Scene import(const AssimpLibrary& library, const std::string& path, std::string_
 
 struct AssimpLibrary {
   explicit AssimpLibrary(const std::string& file) {
-    throw Error(Trouble::Input, file + ": needs the library assimp, which this program was built without");
+    throw Error(ErrorKind::Input, file + ": needs the library assimp, which this program was built without");
   }
 };
 Scene import(const AssimpLibrary&, const std::string&, std::string_view, ImportBudget&) { return {}; }

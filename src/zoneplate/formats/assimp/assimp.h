@@ -19,7 +19,7 @@ std::span<const SceneFormat> assimp_formats();
 ///
 /// In a LimitedChild, which has its limits already, the library works in that process.
 /// Requires  `extension` is one of assimp_formats().
-/// Errors    Trouble::Input with the library's own words where it refuses the file, where it crashes, and where it is
+/// Errors    ErrorKind::Input with the library's own words where it refuses the file, where it crashes, and where it is
 ///           not installed.
 Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits);
 

@@ -168,7 +168,7 @@ class Conversion {
   void add_face(const aiFace& face, const aiMesh& m, std::array<std::vector<std::uint32_t>, 3>& index) {
     const std::span<const unsigned> corners(face.mIndices, face.mNumIndices);
     if (std::any_of(corners.begin(), corners.end(), [&](unsigned i) { return i >= m.mNumVertices; }))
-      throw Error(Trouble::Input, budget_.file() + ": a face names a vertex that is not there");
+      throw Error(ErrorKind::Input, budget_.file() + ": a face names a vertex that is not there");
     if (corners.empty()) return;
     constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
     if (corners.size() > many_corners) budget_.check_time();
@@ -215,7 +215,8 @@ class Conversion {
 
   void add_node(const aiNode& node, const float4x4& world_from_parent, int depth) {
     if (depth > budget_.limits().node_depth)
-      throw Error(Trouble::Input, fmt::format("{}: nodes deeper than {}", budget_.file(), budget_.limits().node_depth));
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: nodes deeper than {}", budget_.file(), budget_.limits().node_depth));
     budget_.check_time();
     budget_.take(2 * sizeof(std::string) + node.mName.length);
     const aiMatrix4x4& t = node.mTransformation;
@@ -226,7 +227,7 @@ class Conversion {
     if (node.mNumMeshes > 0) scene_.objects.push_back(text_of(node.mName));
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       if (node.mMeshes[i] >= parts_.size())
-        throw Error(Trouble::Input, budget_.file() + ": a node names a mesh that is not there");
+        throw Error(ErrorKind::Input, budget_.file() + ": a node names a mesh that is not there");
       for (const int part : parts_[node.mMeshes[i]]) add_instance({part, object, world});
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], world, depth + 1);

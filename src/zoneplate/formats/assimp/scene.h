@@ -8,7 +8,7 @@ namespace zoneplate {
 
 /// Fills a scene with what assimp has read; `folder` is where its textures are looked for. Nothing of it is trusted.
 ///
-/// Errors    Trouble::Input: indices out of range, nodes too deep, the limits.
+/// Errors    ErrorKind::Input: indices out of range, nodes too deep, the limits.
 void convert_assimp_scene(const aiScene& from, ModelFolder& folder);
 
 }  // namespace zoneplate

@@ -27,7 +27,7 @@ ElementShape read_shape(const GltfFile& file, const JsonView& owner, const char*
 /// The elements of the accessor whose index stands under `key` of `owner`.
 ///
 /// Normalised integers become [0, 1] or [-1, 1]; other integers keep their value. Sparse elements are in their place.
-/// Errors    Trouble::Input naming owner and key: no such accessor, another type than asked for, an element outside
+/// Errors    ErrorKind::Input naming owner and key: no such accessor, another type than asked for, an element outside
 ///           its buffer view, sparse indices that are out of range or do not grow, more memory than the budget.
 /// Single numbers.
 std::vector<float> read_float(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});

@@ -28,7 +28,7 @@ std::vector<AnimationSpan> list_animations(GltfFile& file);
 ///
 /// Units     seconds; before the first key of a channel and after its last one the value of that key holds.
 /// Exact     + - × / √ and math/elementary.h only, in float.
-/// Errors    Trouble::Input naming animation and sampler: times that do not grow, too few values, unknown words.
+/// Errors    ErrorKind::Input naming animation and sampler: times that do not grow, too few values, unknown words.
 void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses);
 
 }  // namespace zoneplate

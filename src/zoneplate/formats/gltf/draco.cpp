@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 std::uint64_t size_of_type(int type) { return type < 5122 ? 1 : type < 5124 ? 2 : 4; }
 
 [[noreturn]] void fail(const std::string& place, const std::string& cause) {
-  throw Error(Trouble::Input, place + ": the Draco mesh " + cause);
+  throw Error(ErrorKind::Input, place + ": the Draco mesh " + cause);
 }
 
 /// A request for one mesh, as decode_draco takes it.

@@ -25,7 +25,7 @@ struct DracoMesh {
 /// Decodes a triangle mesh that Draco has packed.
 ///
 /// The library works in a child process (import_child.h), so that a hostile file ends the child alone.
-/// Errors    Trouble::Input with `place` in front: corrupt data, other counts than wished, the limits.
+/// Errors    ErrorKind::Input with `place` in front: corrupt data, other counts than wished, the limits.
 DracoMesh decode_draco(std::span<const std::uint8_t> packed, std::uint64_t index_count,
                        std::span<const DracoWish> wishes, const std::string& place, ImportBudget& budget);
 

@@ -6,7 +6,7 @@ namespace zoneplate {
 
 /// Decodes a primitive's KHR_draco_mesh_compression, if it has it, and gives its accessors their values.
 ///
-/// Errors    Trouble::Input naming the primitive (formats/gltf/draco.h).
+/// Errors    ErrorKind::Input naming the primitive (formats/gltf/draco.h).
 void decode_draco_primitive(GltfFile& file, const JsonView& primitive);
 
 }  // namespace zoneplate

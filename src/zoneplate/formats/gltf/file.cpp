@@ -42,7 +42,7 @@ GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
 }
 
 void GltfFile::read_chunks(std::span<const std::uint8_t> bytes) {
-  const auto fail = [&](const std::string& cause) { throw Error(Trouble::Input, path_ + ": " + cause); };
+  const auto fail = [&](const std::string& cause) { throw Error(ErrorKind::Input, path_ + ": " + cause); };
   if (bytes.size() < 20) fail("GLB of " + bytes_text(bytes.size()) + ", wants 20 at least");
   if (const std::uint32_t version = read_u32(bytes, 4); version != 2)
     fail("GLB version " + std::to_string(version) + ", wants 2");

@@ -25,7 +25,7 @@ struct GltfBytes {
 /// Every range of bytes that it hands out lies within what the file says and within what is really there.
 class GltfFile {
  public:
-  /// Errors    Trouble::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2.
+  /// Errors    ErrorKind::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2.
   GltfFile(const std::string& path, const LoadLimits& limits);
 
   const JsonView& root() const { return *root_; }
@@ -40,7 +40,7 @@ class GltfFile {
 
   /// The bytes that a URI names: of a data: URI or of a file relative to the model's folder.
   ///
-  /// Errors    Trouble::Input naming `owner`: another scheme, a path outside the folder (unless allowed), bad base64,
+  /// Errors    ErrorKind::Input naming `owner`: another scheme, a path outside the folder (unless allowed), bad base64,
   ///           unreadable.
   GltfBytes load_uri(const JsonView& owner, const std::string& uri);
 
@@ -51,7 +51,8 @@ class GltfFile {
 
   /// Counts elements that the scene gets of accessors for which there are no bytes.
   ///
-  /// Errors    Trouble::Input when they are more in all than any file means: a small file must not ask for all memory.
+  /// Errors    ErrorKind::Input when they are more in all than any file means: a small file must not ask for all
+  /// memory.
   void take_zeros(const JsonView& accessor, std::uint64_t count);
   /// Begins anew, for another scene of the file.
   void forget_zeros() { zeros_ = 0; }

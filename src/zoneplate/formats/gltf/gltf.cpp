@@ -141,8 +141,8 @@ std::optional<std::size_t> find_variant(GltfFile& file, const std::string& name)
     if (i < most_shown) known += (known.empty() ? "" : ", ") + names[i].substr(0, 120);
     if (i == most_shown) known += ", ...";
   }
-  throw Error(Trouble::Usage, "--variant: the file has no variant " + quoted(name) +
-                                  (known.empty() ? ", nor any other" : ", but " + known));
+  throw Error(ErrorKind::Usage, "--variant: the file has no variant " + quoted(name) +
+                                    (known.empty() ? ", nor any other" : ", but " + known));
 }
 
 class SceneReader {

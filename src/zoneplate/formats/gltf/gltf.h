@@ -15,8 +15,8 @@ namespace zoneplate {
 /// joints.
 ///
 /// Space     a camera's transform has no scale and no mirroring; lights likewise.
-/// Errors    Trouble::Input, one line naming the file, the place and the cause; a required extension that is not
-///           supported is named. An optional one gives a warning that names it. Trouble::Usage for a choice that the
+/// Errors    ErrorKind::Input, one line naming the file, the place and the cause; a required extension that is not
+///           supported is named. An optional one gives a warning that names it. ErrorKind::Usage for a choice that the
 ///           file does not have.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {}, const SceneChoice& choice = {});
 

@@ -20,7 +20,7 @@ std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
   try {
     load(m, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Input);
+    EXPECT_EQ(e.trouble(), ErrorKind::Input);
     const std::string text = e.what();
     return text.substr(text.find("f.glb: ") + 7);
   }
@@ -234,7 +234,7 @@ TEST(Gltf, MissingFilesAreNamed) {
     load_gltf("/nowhere/x.glb");
     FAIL();
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Input);
+    EXPECT_EQ(e.trouble(), ErrorKind::Input);
     EXPECT_NE(std::string(e.what()).find("/nowhere/x.glb"), std::string::npos);
   }
 }

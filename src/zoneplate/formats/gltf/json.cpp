@@ -42,7 +42,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     // The library says "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
     const std::string text = e.what();
     const std::size_t end = text.find("] ");
-    throw Error(Trouble::Input, budget_.file() + ": not JSON: " + one_line(text.substr(end + 2)));
+    throw Error(ErrorKind::Input, budget_.file() + ": not JSON: " + one_line(text.substr(end + 2)));
   }
 
  private:
@@ -64,7 +64,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool open(JsonValue::Kind kind) {
     if (open_.size() == greatest_depth)
-      throw Error(Trouble::Input, budget_.file() + ": JSON nested deeper than " + std::to_string(greatest_depth));
+      throw Error(ErrorKind::Input, budget_.file() + ": JSON nested deeper than " + std::to_string(greatest_depth));
     add({.kind = kind});
     open_.push_back(last_);  // stays where it is: only the innermost open list grows
     return true;
@@ -148,7 +148,7 @@ JsonView::JsonView(const JsonValue& value, std::string place) : value_(&value), 
 }
 
 void JsonView::fail(const std::string& cause) const {
-  throw Error(Trouble::Input, place_ + (place_.ends_with(':') ? " " : ": ") + cause);
+  throw Error(ErrorKind::Input, place_ + (place_.ends_with(':') ? " " : ": ") + cause);
 }
 
 const JsonValue* JsonView::find(const char* key) const {

@@ -28,7 +28,7 @@ struct JsonValue {
 
 /// Reads a JSON text; trailing white space and zero bytes are passed over.
 ///
-/// Errors    Trouble::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, larger in
+/// Errors    ErrorKind::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, larger in
 ///           memory than the budget, or not read within its time.
 JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget);
 
@@ -40,7 +40,7 @@ std::string quoted(const std::string& text);
 /// A key that is missing gives the default, or where there is none an error; so does a value of the wrong kind.
 class JsonView {
  public:
-  /// Errors    Trouble::Input when `value` is not an object.
+  /// Errors    ErrorKind::Input when `value` is not an object.
   JsonView(const JsonValue& value, std::string place);
 
   const std::string& place() const { return place_; }

@@ -16,7 +16,7 @@ std::string error_of(const std::string& text, const LoadLimits& limits = {}) {
   try {
     parse(text, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Input);
+    EXPECT_EQ(e.trouble(), ErrorKind::Input);
     return e.what();
   }
   return "";
@@ -129,7 +129,7 @@ TEST(GltfJson, TimeIsCheckedOnTheWay) {
   std::string many = "[0";
   for (int i = 0; i < 5000; ++i) many += ",0";
   const std::string late = "late";
-  EXPECT_THROW(with_deadline(0, Trouble::Input, late, [&] { parse(many + "]"); }), Error);
+  EXPECT_THROW(with_deadline(0, ErrorKind::Input, late, [&] { parse(many + "]"); }), Error);
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ GltfMaterials load_materials(GltfFile& file) {
   }
   // Of several broken images the first in the file is named, whichever thread met its own first.
   for (const std::string& t : trouble)
-    if (!t.empty()) throw Error(Trouble::Input, t);
+    if (!t.empty()) throw Error(ErrorKind::Input, t);
   for (const TextureImage& image : out.images)
     if (const auto warning = size_warning(image)) file.warn(file.budget().file() + ": " + *warning);
   return out;

@@ -15,7 +15,7 @@ struct GltfMaterials {
 /// Reads all materials and decodes the images that they use, the images in parallel.
 ///
 /// Factors out of their range are clamped and textures of a third uv set left out, both with a warning.
-/// Errors    Trouble::Input naming the material or image: a bad index or value, an image that cannot be read.
+/// Errors    ErrorKind::Input naming the material or image: a bad index or value, an image that cannot be read.
 GltfMaterials load_materials(GltfFile& file);
 
 }  // namespace zoneplate

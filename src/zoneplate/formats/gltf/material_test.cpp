@@ -34,7 +34,7 @@ std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
   try {
     load(m, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Input);
+    EXPECT_EQ(e.trouble(), ErrorKind::Input);
     const std::string text = e.what();
     return text.substr(text.find("f.glb: ") + 7);
   }

@@ -22,7 +22,7 @@ struct GltfPose {
 ///
 /// Strips, fans and loops become lists; morph targets and joints are applied; missing normals and tangents are made.
 /// A primitive without a material gets the number after the last of `materials`.
-/// Errors    Trouble::Input naming mesh, primitive and attribute.
+/// Errors    ErrorKind::Input naming mesh, primitive and attribute.
 std::vector<Mesh> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
                                  std::span<const Material> materials);
 

@@ -9,7 +9,7 @@ namespace zoneplate {
 
 /// The bytes of a buffer view that EXT_meshopt_compression packs; `packed` are those of the extension's own range.
 ///
-/// Errors    Trouble::Input naming the place: a mode, filter or size that the extension does not have, corrupt data,
+/// Errors    ErrorKind::Input naming the place: a mode, filter or size that the extension does not have, corrupt data,
 ///           more memory than the budget.
 ///           Also where libmeshoptimizer, which this opens, is not installed.
 /// Source    EXT_meshopt_compression; decoded by meshoptimizer.

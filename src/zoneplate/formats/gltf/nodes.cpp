@@ -27,10 +27,10 @@ float4x4 read_transform(const JsonView& json, const GltfNodePose* pose) {
 /// Says what there is where a number is asked for that there is not.
 void check_number(const std::optional<int>& number, std::size_t count, const char* what, const char* option) {
   if (!number || (*number >= 0 && static_cast<std::size_t>(*number) < count)) return;
-  throw Error(Trouble::Usage, std::string(option) + ": the file has " +
-                                  (count == 0 ? std::string("no ") + what
-                                              : std::string(what) + "s 0 to " + std::to_string(count - 1) + ", not " +
-                                                    std::to_string(*number)));
+  throw Error(ErrorKind::Usage, std::string(option) + ": the file has " +
+                                    (count == 0 ? std::string("no ") + what
+                                                : std::string(what) + "s 0 to " + std::to_string(count - 1) + ", not " +
+                                                      std::to_string(*number)));
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct GltfNode {
 /// nobody's child.
 class GltfNodes {
  public:
-  /// Errors    Trouble::Input: a node that is reached twice (cycles included), deeper than the limit, a bad index;
-  ///           Trouble::Usage: a scene or animation that the file does not have.
+  /// Errors    ErrorKind::Input: a node that is reached twice (cycles included), deeper than the limit, a bad index;
+  ///           ErrorKind::Usage: a scene or animation that the file does not have.
   explicit GltfNodes(GltfFile& file, const SceneChoice& choice = {});
 
   const std::vector<GltfNode>& in_scene() const { return nodes_; }

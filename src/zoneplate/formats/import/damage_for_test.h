@@ -32,7 +32,7 @@ class MemoryFile {
 };
 
 /// Everything that scene.h, mesh.h and material.h promise.
-inline void expect_sound(const Scene& s) { ASSERT_EQ(find_flaw(s).value_or(""), ""); }
+inline void expect_sound(const Scene& s) { ASSERT_EQ(find_invalid(s).value_or(""), ""); }
 
 /// Loads a file with `load(path, limits)`; the message, or nothing if it was loaded.
 template <class Load>
@@ -41,7 +41,7 @@ std::string load_soundly(const Load& load, const std::string& path) {
     expect_sound(load(path, {.memory = 1 << 24, .pixels = 1 << 20, .seconds = 5}));
     return "";
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), Trouble::Input);
+    EXPECT_EQ(e.trouble(), ErrorKind::Input);
     EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
     return e.what();
   }

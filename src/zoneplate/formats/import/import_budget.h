@@ -21,11 +21,11 @@ class ImportBudget {
   const LoadLimits& limits() const { return limits_; }
   std::uint64_t memory_left() const { return left_; }
 
-  /// Errors    Trouble::Input when fewer than `bytes` are left, and ever after.
+  /// Errors    ErrorKind::Input when fewer than `bytes` are left, and ever after.
   void take(std::uint64_t bytes) {
     is_spent_ = is_spent_ || bytes > left_;
     if (is_spent_)
-      throw Error(Trouble::Input,
+      throw Error(ErrorKind::Input,
                   file_ + ": needs more than the limit of " + std::to_string(limits_.memory) + " bytes (--max-memory)");
     left_ -= bytes;
   }
@@ -36,12 +36,12 @@ class ImportBudget {
   void restart(std::uint64_t left) { left_ = left, is_spent_ = false, clock_ = Stopwatch(); }
 
   bool has_time() const { return clock_.ms() <= limits_.seconds * 1000; }
-  /// Errors    Trouble::Input when the time is up; those of base/deadline.h.
+  /// Errors    ErrorKind::Input when the time is up; those of base/deadline.h.
   void check_time() const {
     check_deadline();
     if (!has_time())
-      throw Error(Trouble::Input, file_ + ": takes longer to load than the limit of " +
-                                      std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) + " ms");
+      throw Error(ErrorKind::Input, file_ + ": takes longer to load than the limit of " +
+                                        std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) + " ms");
   }
 
  private:

@@ -96,7 +96,7 @@ TEST(ImportBudget, TimeRunsOutBetweenTheFacesOfABlock) {
 template <class Load>
 std::string late(const Load& load, const std::string& path) {
   try {
-    with_deadline(0, Trouble::Failed, "the time is up", [&] { load(path, LoadLimits{}); });
+    with_deadline(0, ErrorKind::Failed, "the time is up", [&] { load(path, LoadLimits{}); });
   } catch (const Error& error) {
     return error.what();
   }
@@ -128,7 +128,7 @@ double seconds_of(const Load& load, const std::string& text, Scene& scene) {
 /// A line's place is compared with 10^4 others here and there, or it is not: those times lie far apart.
 constexpr double generous = 20;
 
-const std::string one_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string single_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 TEST(ImportBudget, PositionsThatCollideTakeTheTimeOfOthers) {
   std::string text;
@@ -148,21 +148,21 @@ TEST(ImportBudget, PositionsThatCollideTakeTheTimeOfOthers) {
 
 TEST(ImportBudget, VeryManyNamesTakeLinearTime) {
   const std::string long_name(100000, 'n');
-  std::string text = "o " + long_name + "\n" + one_triangle;
+  std::string text = "o " + long_name + "\n" + single_triangle;
   for (int i = 0; i < 40000; ++i) text += fmt::format("s {}\nf 1 2 3\n", i);
   Scene scene;
   // The object's name is looked up once, not for each smoothing group.
   EXPECT_LT(seconds_of(load_obj, text, scene), generous);
   EXPECT_EQ(scene.objects, NameList{long_name});
 
-  text = one_triangle;
+  text = single_triangle;
   for (int i = 0; i < 20000; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
   EXPECT_LT(seconds_of(load_obj, text, scene), generous);
   EXPECT_EQ(scene.meshes.size(), 20001u);
 }
 
 TEST(ImportBudget, LibrariesAreLookedForAThousandTimes) {
-  std::string text = one_triangle + "mtllib";
+  std::string text = single_triangle + "mtllib";
   for (int i = 0; i < 500; ++i) text += fmt::format(" none{}", i);
   for (int i = 0; i < 100000; ++i) text += fmt::format("\nmtllib none{}.mtl", i);
   Scene scene;
@@ -189,7 +189,7 @@ TEST(ImportBudget, EmptyLinesAndSolidsTakeLinearTime) {
 
 /// Of what is said between two elements the last of each kind holds, and the others take no room.
 TEST(ImportBudget, NamesOfNothingTakeNoRoom) {
-  std::string text = one_triangle;
+  std::string text = single_triangle;
   for (int i = 0; i < 1000; ++i) text += "o a\ng b\nusemtl c\ns 1\n";
   ObjPart part;
   ASSERT_TRUE(read_obj_part(text + "o last\nf 1 2 3\n", '\n', part));

@@ -101,7 +101,7 @@ TextureImage ModelFolder::decode(const std::string& name, std::span<const std::u
 
 int ModelFolder::load(const std::string& name, const std::optional<std::string>& path) {
   return add([&] {
-    if (!path) throw Error(Trouble::Input, name + ": not found in the model's folder");
+    if (!path) throw Error(ErrorKind::Input, name + ": not found in the model's folder");
     const FileBytes file = open(*path);
     return decode(name, file.bytes());
   });

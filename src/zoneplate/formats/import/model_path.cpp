@@ -114,7 +114,7 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
 FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
                      std::uint64_t limit) {
   namespace fs = std::filesystem;
-  const auto fail = [&](const std::string& cause) -> Error { return {Trouble::Input, path + ": " + cause}; };
+  const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, path + ": " + cause}; };
   // What is held open has a name that stays its own; to be held is not yet to be read, and waits for nobody.
   struct Held {
     int number;

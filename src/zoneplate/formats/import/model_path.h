@@ -29,7 +29,7 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
 /// Opens a file that find_path found. The file that is open is checked to lie in the folder or among `allowed`, not
 /// only the one that stood under that name before.
 ///
-/// Errors    Trouble::Input naming the path: it leads out of the folder by now, is no regular file, cannot be read.
+/// Errors    ErrorKind::Input naming the path: it leads out of the folder by now, is no regular file, cannot be read.
 FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
                      std::uint64_t limit);
 

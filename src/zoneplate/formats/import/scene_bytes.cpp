@@ -126,7 +126,7 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& cause) const {
-    throw Error(Trouble::Input, budget_.file() + ": its reader's answer is no scene: " + cause);
+    throw Error(ErrorKind::Input, budget_.file() + ": its reader's answer is no scene: " + cause);
   }
 
  private:
@@ -218,7 +218,7 @@ Scene read_scene(const ByteSource& source, ImportBudget& budget) {
   Scene scene;
   Reader reader(source, budget);
   pass(reader, scene);
-  if (const auto flaw = find_flaw(scene)) reader.fail(*flaw);
+  if (const auto flaw = find_invalid(scene)) reader.fail(*flaw);
   return scene;
 }
 

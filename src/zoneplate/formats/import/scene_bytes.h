@@ -17,8 +17,8 @@ void write_scene(const Scene& scene, const ByteSink& sink);
 
 /// What `write_scene` wrote. Whoever wrote it is not trusted.
 ///
-/// Errors    Trouble::Input naming the budget's file: bytes that are no scene, a scene that is not sound (scene/validate.h),
-/// more
+/// Errors    ErrorKind::Input naming the budget's file: bytes that are no scene, a scene that is not sound
+/// (scene/validate.h), more
 ///           than the budget.
 Scene read_scene(const ByteSource& source, ImportBudget& budget);
 

@@ -27,7 +27,7 @@ Scene read(const Bytes& bytes, const LoadLimits& limits = {}) {
   std::size_t at = 0;
   ImportBudget budget("file", limits);
   const ByteSource source = [&](void* out, std::size_t size) {
-    if (size > bytes.size() - at) throw Error(Trouble::Input, "file: ends early");
+    if (size > bytes.size() - at) throw Error(ErrorKind::Input, "file: ends early");
     std::copy_n(bytes.data() + at, size, static_cast<std::uint8_t*>(out));
     at += size;
   };
@@ -81,7 +81,7 @@ TEST(SceneBytes, AreNotTrusted) {
     try {
       expect_sound(read(bytes, {.memory = 1 << 24, .pixels = 1 << 20}));
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), Trouble::Input);
+      EXPECT_EQ(error.trouble(), ErrorKind::Input);
       ++refused;
     }
     if (HasFatalFailure()) FAIL() << "case " << i;

@@ -19,14 +19,14 @@ namespace {
 struct NeedsMore {};
 
 /// What lies around a part.
-struct Surroundings {
+struct LineContext {
   ObjCounts before, all;
 };
 
 class PartReader {
  public:
   /// `known` is null where nothing is known yet.
-  PartReader(std::string_view text, char separator, const Surroundings* known, ObjPart& part)
+  PartReader(std::string_view text, char separator, const LineContext* known, ObjPart& part)
       : at_(text.data()),
         end_(text.data() + text.size()),
         separator_(separator),
@@ -325,7 +325,7 @@ class PartReader {
 
   const char *at_, *end_;
   char separator_;
-  const Surroundings* known_;
+  const LineContext* known_;
   ObjPart& part_;
   ObjChunk& chunk_;
   ObjVertices& vertices_;
@@ -365,7 +365,7 @@ bool read_obj_part(std::string_view text, char separator, ObjPart& part) {
 void read_obj_part(std::string_view text, char separator, const ObjCounts& before, const ObjCounts& all,
                    ObjPart& part) {
   part = {};
-  const Surroundings known{before, all};
+  const LineContext known{before, all};
   PartReader reader(text, separator, &known, part);
   reader.read();
   part.counts = reader.counts();

@@ -18,7 +18,7 @@ struct ObjLayout {
 
 /// Objects are those of `o`; in a file without any `o`, the groups of `g`. What comes before the first is `unnamed`.
 ///
-/// Errors    Trouble::Input when memory or time of the budget run out.
+/// Errors    ErrorKind::Input when memory or time of the budget run out.
 ObjLayout lay_out(const ObjFile& file, const std::string& unnamed, ImportBudget& budget);
 
 }  // namespace zoneplate

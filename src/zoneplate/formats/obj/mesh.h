@@ -25,7 +25,7 @@ struct ObjMeshes {
 /// Corners that agree in position, texture coordinate and normal become one vertex; vertices are in the order of
 /// their first use. Texture coordinates are turned to our origin at the top left, colours from sRGB codes to linear.
 ///
-/// Errors    Trouble::Input when memory or time of the budget run out.
+/// Errors    ErrorKind::Input when memory or time of the budget run out.
 ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::vector<std::vector<float3>>& normals,
                       ImportBudget& budget);
 

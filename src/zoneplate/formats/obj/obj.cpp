@@ -190,9 +190,9 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   file = {};
   report_losses(found, name, scene.warnings);
   if (found.meshes.empty())
-    throw Error(Trouble::Input, scene.warnings.empty()
-                                    ? name + ": holds no faces, lines or points"
-                                    : scene.warnings.front() + "; nothing is left that can be drawn");
+    throw Error(ErrorKind::Input, scene.warnings.empty()
+                                      ? name + ": holds no faces, lines or points"
+                                      : scene.warnings.front() + "; nothing is left that can be drawn");
   add_meshes(std::move(found), layout, scene, budget);
 
   ModelFolder folder(is_stream ? "." : place.parent_path().string(), budget, scene);

@@ -16,7 +16,7 @@ namespace zoneplate {
 /// Edges     a vertex that is not finite drops what uses it; what is passed over (unknown statements, free-form
 ///           geometry, missing libraries, materials and images) gives a warning that names it.
 /// Exact     the same scene, to the bit, for any number of threads.
-/// Errors    Trouble::Input, one line naming file, line and cause.
+/// Errors    ErrorKind::Input, one line naming file, line and cause.
 Scene load_obj(const std::string& path, const LoadLimits& limits = {});
 
 }  // namespace zoneplate

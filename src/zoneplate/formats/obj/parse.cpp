@@ -88,7 +88,7 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   const std::vector<ObjCounts> before = accumulate(parts);
   const ObjCounts& all = before.back();
   if (std::max({all.positions, all.uvs, all.normals}) >= most_obj_items)
-    throw Error(Trouble::Input, budget.file() + ": more than 2^30 vertices");
+    throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
 
   // Whichever thread meets an error, the first line that has one is reported.
   std::vector<std::optional<ObjLineError>> errors(parts.size());
@@ -109,7 +109,7 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   budget.check_time();
   budget.take(bytes);
   for (const std::optional<ObjLineError>& error : errors)
-    if (error) throw Error(Trouble::Input, fmt::format("{}: line {}: {}", budget.file(), error->line, error->cause));
+    if (error) throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", budget.file(), error->line, error->cause));
   return before;
 }
 
@@ -129,7 +129,7 @@ ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::functi
     file.has_odd_position = file.has_odd_position || part.vertices.has_odd_position;
     file.has_odd_normal = file.has_odd_normal || part.vertices.has_odd_normal;
   }
-  if (corners >= 0xffffffffu) throw Error(Trouble::Input, budget.file() + ": more than 2^32 corners");
+  if (corners >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   const ObjCounts& all = before.back();
   const auto join_kind = [&](std::size_t i) {
     if (i == 0) join(parts, &ObjVertices::positions, all.positions, file.positions);

@@ -24,7 +24,7 @@ struct ObjFile {
 /// the moment.
 ///
 /// Edges     a corner that names a texture coordinate or normal that is not there has none, with a note.
-/// Errors    Trouble::Input naming file, line and cause: a number that is none, too few numbers, a vertex that is not
+/// Errors    ErrorKind::Input naming file, line and cause: a number that is none, too few numbers, a vertex that is not
 ///           there.
 ObjFile parse_obj(
     std::string_view text, ImportBudget& budget,

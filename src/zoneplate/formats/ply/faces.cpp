@@ -31,7 +31,7 @@ std::optional<std::size_t> find_indices(const PlyElement& element) {
 
 std::size_t need_indices(const PlyElement& element, const ImportBudget& budget) {
   if (const auto found = find_indices(element)) return *found;
-  throw Error(Trouble::Input, fmt::format("{}: element {}: has no list vertex_indices", budget.file(), element.name));
+  throw Error(ErrorKind::Input, fmt::format("{}: element {}: has no list vertex_indices", budget.file(), element.name));
 }
 
 /// A row that names a vertex which is not there.
@@ -46,8 +46,8 @@ void report(const std::vector<std::optional<BadIndex>>& found, const PlyRows& ro
   budget.check_time();
   for (const std::optional<BadIndex>& bad : found)
     if (bad)
-      throw Error(Trouble::Input, fmt::format("{}: {} {}: uses vertex {}, there are {}", budget.file(),
-                                              rows.element->name, bad->row, bad->value, vertices.position.size()));
+      throw Error(ErrorKind::Input, fmt::format("{}: {} {}: uses vertex {}, there are {}", budget.file(),
+                                                rows.element->name, bad->row, bad->value, vertices.position.size()));
 }
 
 std::size_t blocks(std::size_t count) { return (count + PlyRows::block - 1) / PlyRows::block; }
@@ -232,7 +232,7 @@ PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget&
   out.index = joined(parts, &PlyFaces::index, budget);
   out.corner_uv = joined(parts, &PlyFaces::corner_uv, budget);
   out.corner_color = joined(parts, &PlyFaces::corner_color, budget);
-  if (out.index.size() >= 0xffffffffu) throw Error(Trouble::Input, budget.file() + ": more than 2^32 corners");
+  if (out.index.size() >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   return out;
 }
 

@@ -55,7 +55,7 @@ class HeaderReader {
 
  private:
   [[noreturn]] void fail(const std::string& cause) const {
-    throw Error(Trouble::Input, fmt::format("{}: line {}: {}", file_, line_number_, cause));
+    throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", file_, line_number_, cause));
   }
 
   bool next_line() {

@@ -38,7 +38,7 @@ struct PlyHeader {
 
 /// Reads the header of a PLY file; lines end in any way.
 ///
-/// Errors    Trouble::Input naming `file`, line and cause.
+/// Errors    ErrorKind::Input naming `file`, line and cause.
 PlyHeader parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);
 
 }  // namespace zoneplate

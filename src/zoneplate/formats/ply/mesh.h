@@ -9,7 +9,7 @@ namespace zoneplate {
 ///
 /// Colours are sRGB codes, of integers over their whole range and floats in [0, 1]; texture coordinates have their
 /// origin at the bottom left in the file.
-/// Errors    Trouble::Input: no x, y or z, more vertices than 32-bit indices can name.
+/// Errors    ErrorKind::Input: no x, y or z, more vertices than 32-bit indices can name.
 Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
 
 /// The triangles of a PLY file's faces.
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> read_plain_triangles(const PlyRows& faces, std::size_
 
 /// Cuts the faces into triangles, whatever they are.
 ///
-/// Errors    Trouble::Input naming the first face that uses a vertex which is not there.
+/// Errors    ErrorKind::Input naming the first face that uses a vertex which is not there.
 PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget);
 
 /// The triangles of strips: an index below 0 ends one.

@@ -40,7 +40,7 @@ Found find_elements(const PlyHeader& header, std::span<const std::uint8_t> body,
     for (std::size_t i = 0; i < std::size(names); ++i)
       if (header.elements[e].name == names[i] && !*slots[i]) *slots[i] = std::move(rows);
   }
-  if (!found.vertices) throw Error(Trouble::Input, budget.file() + ": has no element vertex");
+  if (!found.vertices) throw Error(ErrorKind::Input, budget.file() + ": has no element vertex");
   return found;
 }
 
@@ -163,8 +163,8 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   drop_not_finite(mesh);
   warn(scene, budget, primitives - mesh.primitives(), "primitives have a vertex that is not finite and are dropped");
   if (mesh.index.empty())
-    throw Error(Trouble::Input, scene.warnings.empty() ? budget.file() + ": holds no vertices"
-                                                       : scene.warnings.front() + "; nothing is left to draw");
+    throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds no vertices"
+                                                         : scene.warnings.front() + "; nothing is left to draw");
   complete_normals(mesh, budget);
 
   const std::filesystem::path place(path);

@@ -16,7 +16,7 @@ namespace zoneplate {
 /// Edges     what uses a vertex that is not finite is dropped, with a warning; other elements and properties are passed
 ///           over.
 /// Exact     the same scene, to the bit, for any number of threads.
-/// Errors    Trouble::Input, one line naming file, place and cause.
+/// Errors    ErrorKind::Input, one line naming file, place and cause.
 Scene load_ply(const std::string& path, const LoadLimits& limits = {});
 
 }  // namespace zoneplate

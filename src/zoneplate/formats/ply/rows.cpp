@@ -36,7 +36,7 @@ std::optional<std::uint32_t> list_count(const std::uint8_t* at, PlyType type, Pl
 }
 
 [[noreturn]] void fail(const ImportBudget& budget, const PlyElement& element, const std::string& cause) {
-  throw Error(Trouble::Input, fmt::format("{}: element {}: {}", budget.file(), element.name, cause));
+  throw Error(ErrorKind::Input, fmt::format("{}: element {}: {}", budget.file(), element.name, cause));
 }
 
 /// Walks over rows one by one, and checks that each lies within the body.
@@ -279,7 +279,7 @@ std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t line
   for (const std::optional<WordError>& error : errors)
     if (error) {
       const auto line = static_cast<std::size_t>(std::count(body.data(), error->at, '\n')) + lines_before + 1;
-      throw Error(Trouble::Input, fmt::format("{}: line {}: '{}' is not a number", budget.file(), line, error->word));
+      throw Error(ErrorKind::Input, fmt::format("{}: line {}: '{}' is not a number", budget.file(), line, error->word));
     }
 
   std::vector<std::size_t> first(parts.size() + 1);

@@ -37,7 +37,7 @@ double read_ply_value(const std::uint8_t* at, PlyType type, PlyOrder order);
 
 /// Finds the rows of the element that begin at the front of `body`.
 ///
-/// Errors    Trouble::Input: rows that end after the body, a list with a negative count.
+/// Errors    ErrorKind::Input: rows that end after the body, a list with a negative count.
 PlyRows find_ply_rows(const PlyElement& element, PlyOrder order, std::span<const std::uint8_t> body,
                       ImportBudget& budget);
 
@@ -78,7 +78,7 @@ void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, st
 /// The body of an ASCII file as the numbers it says, each a double in this machine's order; the elements' types change
 /// accordingly.
 ///
-/// Errors    Trouble::Input naming the line of what is not a number.
+/// Errors    ErrorKind::Input naming the line of what is not a number.
 std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
                                          ImportBudget& budget);
 

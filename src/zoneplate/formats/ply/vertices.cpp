@@ -96,8 +96,8 @@ void normalize_all(std::vector<float3>& normals) {
 Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
   const PlyElement& e = *rows.element;
   const auto position = find_all<3>(e, {Names{"x"}, {"y"}, {"z"}});
-  if (!position) throw Error(Trouble::Input, budget.file() + ": element vertex: has no x, y and z");
-  if (e.count >= 0xffffffffu) throw Error(Trouble::Input, budget.file() + ": more than 2^32 vertices");
+  if (!position) throw Error(ErrorKind::Input, budget.file() + ": element vertex: has no x, y and z");
+  if (e.count >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 vertices");
   const auto normal = find_all<3>(e, {Names{"nx"}, {"ny"}, {"nz"}});
   const auto uv = find_all<2>(
       e, {Names{"s", "u", "texture_u", "texture_s", "texcoord_u"}, {"t", "v", "texture_v", "texture_t", "texcoord_v"}});

@@ -132,16 +132,16 @@ void add_mesh(Scene& scene, Mesh mesh, std::string name, ImportBudget& budget) {
 
 void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudget& budget) {
   if (bytes.size() < header_bytes)
-    throw Error(Trouble::Input, fmt::format("{}: neither ASCII STL nor binary STL: {} bytes, wants {} at least",
-                                            budget.file(), bytes.size(), header_bytes));
+    throw Error(ErrorKind::Input, fmt::format("{}: neither ASCII STL nor binary STL: {} bytes, wants {} at least",
+                                              budget.file(), bytes.size(), header_bytes));
   const std::uint64_t said = read_u32(&bytes[80]), held = (bytes.size() - header_bytes) / facet_bytes;
   if (said > held)
-    throw Error(Trouble::Input, fmt::format("{}: not an STL file, or cut off: says it has {} triangles, holds {}",
-                                            budget.file(), said, held));
+    throw Error(ErrorKind::Input, fmt::format("{}: not an STL file, or cut off: says it has {} triangles, holds {}",
+                                              budget.file(), said, held));
   if (bytes.size() > header_bytes + said * facet_bytes)
     scene.warnings.push_back(fmt::format("{}: {} bytes after the last triangle are passed over", budget.file(),
                                          bytes.size() - header_bytes - said * facet_bytes));
-  if (said > 0xffffffffu / 3) throw Error(Trouble::Input, budget.file() + ": more than 2^32 corners");
+  if (said > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   add_mesh(scene, read_facets(bytes, said, budget), name, budget);
 }
 
@@ -175,7 +175,7 @@ Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, cons
 
 void read_text(Bytes bytes, const std::string& name, Scene& scene, ImportBudget& budget) {
   StlText text = parse_stl_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, budget);
-  if (text.vertices.size() > 0xffffffffu / 3) throw Error(Trouble::Input, budget.file() + ": more than 2^32 corners");
+  if (text.vertices.size() > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   budget.take(3 * text.vertices.size() * (2 * sizeof(float3) + sizeof(std::uint32_t)));
   if (text.solids.empty() || text.solids[0].before > 0) text.solids.insert(text.solids.begin(), {0, ""});
 
@@ -208,8 +208,8 @@ Scene load_stl(const std::string& path, const LoadLimits& limits) {
   else
     read_binary(file.bytes(), name, scene, budget);
   if (scene.meshes.empty())
-    throw Error(Trouble::Input, scene.warnings.empty() ? budget.file() + ": holds no triangles"
-                                                       : scene.warnings.front() + "; nothing is left to draw");
+    throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds no triangles"
+                                                         : scene.warnings.front() + "; nothing is left to draw");
   return scene;
 }
 

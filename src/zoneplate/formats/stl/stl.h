@@ -16,7 +16,7 @@ namespace zoneplate {
 /// Space     Scene::up is +Z, as programs that write STL have it.
 /// Edges     a triangle that is not finite is dropped, with a warning; so are bytes after the last triangle.
 /// Exact     the same scene, to the bit, for any number of threads.
-/// Errors    Trouble::Input, one line naming file, place and cause.
+/// Errors    ErrorKind::Input, one line naming file, place and cause.
 Scene load_stl(const std::string& path, const LoadLimits& limits = {});
 
 }  // namespace zoneplate

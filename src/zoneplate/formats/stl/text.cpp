@@ -180,7 +180,7 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
   for (const std::optional<TextError>& error : errors) {
     if (!error) continue;
     const auto line = 1 + std::count(text.data(), error->at, '\n');
-    throw Error(Trouble::Input, fmt::format("{}: line {}: {}", budget.file(), line, error->cause));
+    throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", budget.file(), line, error->cause));
   }
   return join(parts, budget);
 }

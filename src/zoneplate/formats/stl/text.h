@@ -23,7 +23,7 @@ struct StlText {
 
 /// Reads an ASCII STL file, in parallel. Words are separated by any white space, their case does not matter.
 ///
-/// Errors    Trouble::Input naming file, line and cause: a word that is not known, a number that is none.
+/// Errors    ErrorKind::Input naming file, line and cause: a word that is not known, a number that is none.
 StlText parse_stl_text(std::string_view text, ImportBudget& budget);
 
 }  // namespace zoneplate

@@ -10,8 +10,8 @@ namespace {
 constexpr float least_slope = 1e-4f;
 
 /// The batch's points moved by a pixel (or sample) along one direction.
-Batch moved(const Batch& batch, const float (&change)[2][Batch::room]) {
-  Batch out = batch;
+FragmentBatch moved(const FragmentBatch& batch, const float (&change)[2][FragmentBatch::padded_capacity]) {
+  FragmentBatch out = batch;
   for (int k = 0; k < 2; ++k)
     for (int i = 0; i < batch.padded(); ++i) out.b[k][i] += change[k][i];
   return out;
@@ -21,9 +21,9 @@ Batch moved(const Batch& batch, const float (&change)[2][Batch::room]) {
 
 int AlphaDigits::digits() const { return static_cast<int>(std::bit_width(static_cast<unsigned>(samples_))); }
 
-float AlphaDigits::alpha(const Batch& batch, float* out) const {
+float AlphaDigits::alpha(const FragmentBatch& batch, float* out) const {
   const float cutoff = inner_.alpha(batch, out);
-  alignas(64) float right[Batch::room], below[Batch::room];
+  alignas(64) float right[FragmentBatch::padded_capacity], below[FragmentBatch::padded_capacity];
   if (is_sharp_) {
     inner_.alpha(moved(batch, batch.dbdx), right);
     inner_.alpha(moved(batch, batch.dbdy), below);

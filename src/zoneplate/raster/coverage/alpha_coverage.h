@@ -9,20 +9,22 @@ namespace zoneplate {
 /// The number is alpha × samples, rounded; sharpened alpha is first made steep about the cutoff, so that it falls from
 /// 1 to 0 within a pixel: (alpha - cutoff) / max(|d alpha/dx| + |d alpha/dy|, 1e-4) + ½, clamped.
 /// Source    Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
-class AlphaDigits : public PointShader {
+class AlphaDigits : public FragmentShader {
  public:
-  AlphaDigits(const PointShader& inner, int samples, bool is_sharp)
+  AlphaDigits(const FragmentShader& inner, int samples, bool is_sharp)
       : inner_(inner), samples_(samples), is_sharp_(is_sharp) {}
 
   int digits() const;
   void choose(int digit) { digit_ = digit; }
 
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override { inner_.shade(batch, wanted, out); }
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
+    inner_.shade(batch, wanted, out);
+  }
   /// 1 where the chosen digit of a point's number is 1, else 0; the cutoff is 1.
-  float alpha(const Batch& batch, float* out) const override;
+  float alpha(const FragmentBatch& batch, float* out) const override;
 
  private:
-  const PointShader& inner_;
+  const FragmentShader& inner_;
   int samples_;
   bool is_sharp_;
   int digit_ = 0;

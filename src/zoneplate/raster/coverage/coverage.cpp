@@ -5,26 +5,26 @@
 namespace zoneplate {
 
 void TileVisibility::clear() {
-  std::fill_n(block_far, blocks, 0.0f);
-  std::fill_n(block_owner, blocks, no_triangle);
-  stale = 0;
+  std::fill_n(block_min_depth, blocks, 0.0f);
+  std::fill_n(block_primitive, blocks, no_primitive);
+  dirty = 0;
 }
 
-void TileVisibility::open_block(int block) {
-  if (block_owner[block] == no_triangle) {
+void TileVisibility::materialize_block(int block) {
+  if (block_primitive[block] == no_primitive) {
     const int corner = block / 8 * 8 * tile_size + block % 8 * 8;
     for (int s = 0; s < sample_count; ++s)
       for (int y = 0; y < 8; ++y) {
         std::fill_n(depth + s * tile_pixels + corner + y * tile_size, 8, 0.0f);
-        std::fill_n(id + s * tile_pixels + corner + y * tile_size, 8, no_triangle);
+        std::fill_n(id + s * tile_pixels + corner + y * tile_size, 8, no_primitive);
       }
   }
-  block_owner[block] = many_triangles;
+  block_primitive[block] = mixed_primitives;
 }
 
-void TileVisibility::open_all() {
+void TileVisibility::materialize_all() {
   for (int block = 0; block < blocks; ++block)
-    if (block_owner[block] == no_triangle) open_block(block);
+    if (block_primitive[block] == no_primitive) materialize_block(block);
 }
 
 namespace scalar {
@@ -44,7 +44,7 @@ bool wins(const TileTriangle& t, const TileVisibility& tile, int s, int x, int y
 
 bool draw(const TileTriangle& t, TileVisibility& tile) {
   for (int y = t.first_y & ~7; y <= t.last_y; y += 8)
-    for (int x = t.first_x & ~7; x <= t.last_x; x += 8) tile.open_block(y + x / 8);
+    for (int x = t.first_x & ~7; x <= t.last_x; x += 8) tile.materialize_block(y + x / 8);
   for (int s = 0; s < tile.sample_count; ++s)
     for (int y = t.first_y; y <= t.last_y; ++y)
       for (int x = t.first_x; x <= t.last_x; ++x)
@@ -55,7 +55,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
   return false;
 }
 
-int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
+int collect(const TileTriangle& t, const TileVisibility& tile, CoveredPixel* out) {
   int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
     for (int x = t.first_x; x <= t.last_x; ++x) {
@@ -67,13 +67,13 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   return count;
 }
 
-int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
+int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, SpanLayer* out,
                  std::uint8_t* is_partial) {
   int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
       if (!(blocks >> ((y & ~7) + bx / 8) & 1)) continue;
-      RowLayer layer{t.id, static_cast<std::uint32_t>(y * 8 + bx / 8), t.z_high, t.z_low};
+      SpanLayer layer{t.id, static_cast<std::uint32_t>(y * 8 + bx / 8), t.z_high, t.z_low};
       int won = 0;
       for (int s = 0; s < tile.sample_count; ++s)
         for (int x = bx; x < bx + 8; ++x) {
@@ -94,7 +94,7 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_
 void find_nearest(const TileVisibility& tile, float* nearest) {
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     nearest[block] = 0;
-    if (tile.block_owner[block] == no_triangle) continue;
+    if (tile.block_primitive[block] == no_primitive) continue;
     for (int s = 0; s < tile.sample_count; ++s)
       for (int i = 0; i < 64; ++i) {
         const int y = block / 8 * 8 + i / 8, x = block % 8 * 8 + i % 8;
@@ -128,12 +128,12 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
 
 void find_owners(const TileVisibility& tile, std::int32_t* owners) {
   for (int row = 0; row < tile_pixels / 8; ++row) {
-    owners[row] = tile.block_owner[row / 64 * 8 + row % 8];
-    if (owners[row] != many_triangles) continue;
+    owners[row] = tile.block_primitive[row / 64 * 8 + row % 8];
+    if (owners[row] != mixed_primitives) continue;
     owners[row] = tile.id[row * 8];
     for (int s = 0; s < tile.sample_count; ++s)
       for (int x = 0; x < 8; ++x)
-        if (tile.id[s * tile_pixels + row * 8 + x] != tile.id[row * 8]) owners[row] = many_triangles;
+        if (tile.id[s * tile_pixels + row * 8 + x] != tile.id[row * 8]) owners[row] = mixed_primitives;
   }
 }
 

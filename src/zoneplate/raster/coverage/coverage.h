@@ -13,33 +13,33 @@ namespace zoneplate {
 /// The owner of a sample is the triangle of greatest depth there, of those the one with the lowest id: a total order,
 /// so the triangles may be drawn in any order.
 ///
-/// For each of the 8 × 8 blocks of 8 × 8 pixels `block_far` holds a depth that no sample of the block is below, and
-/// `block_owner` the triangle that owns all of it, or `many_triangles`. Where it is `no_triangle` nothing was drawn
-/// yet, and the block's samples are not even written: `open_block` comes before the first of them is.
+/// For each of the 8 × 8 blocks of 8 × 8 pixels `block_min_depth` holds a depth that no sample of the block is below,
+/// and `block_primitive` the triangle that owns all of it, or `mixed_primitives`. Where it is `no_primitive` nothing
+/// was drawn yet, and the block's samples are not even written: `materialize_block` comes before the first of them is.
 struct TileVisibility {
   static constexpr int blocks = 64;
   int sample_count = 1;
   float* depth = nullptr;
   std::int32_t* id = nullptr;
-  float* block_far = nullptr;
-  std::int32_t* block_owner = nullptr;
-  std::uint64_t stale = 0;  ///< a bit for each block whose `block_far` may be too low
+  float* block_min_depth = nullptr;
+  std::int32_t* block_primitive = nullptr;
+  std::uint64_t dirty = 0;  ///< a bit for each block whose `block_min_depth` may be too low
 
   /// Nothing is drawn yet.
   void clear();
   /// The block's samples may be read and written one by one.
-  void open_block(int block);
-  void open_all();
+  void materialize_block(int block);
+  void materialize_all();
 };
 
 /// A pixel that a triangle covers in front of what the tile holds, with the samples where it does.
-struct Fragment {
+struct CoveredPixel {
   std::uint64_t samples;  ///< bit s: sample s
   std::uint32_t pixel;    ///< 64 y + x within the tile
 };
 
 /// Eight neighbouring pixels of a row where a triangle is in front of what the tile holds at every sample.
-struct RowLayer {
+struct SpanLayer {
   std::int32_t id;
   std::uint32_t row;      ///< 8 y + x / 8 within the tile
   float least, greatest;  ///< its depths there
@@ -54,19 +54,19 @@ struct BlockLayer {
 
 struct CoverageKernels {
   /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Gives true if some
-  /// block's `block_far` may have risen.
+  /// block's `block_min_depth` may have risen.
   bool (*draw)(const TileTriangle& triangle, TileVisibility& tile);
   /// Lists the pixels where the triangle would win at least one sample; draws nothing. `out` has room for a fragment of
   /// every pixel of the tile; gives the number of fragments, in order of rows.
   ///
   /// Requires  open blocks.
-  int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, Fragment* out);
+  int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, CoveredPixel* out);
   /// Lists the rows of 8 pixels where the triangle would win every sample, in the lines from first_y to last_y; sets
   /// is_partial[row] where it would win some but not all. Only in blocks whose bit is set. `out` has room for every row
   /// of those lines.
   ///
   /// Requires  open blocks.
-  int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
+  int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, std::uint64_t blocks, SpanLayer* out,
                       std::uint8_t* is_partial);
   /// The greatest depth of the samples of each block; 0 where nothing is drawn.
   void (*find_nearest)(const TileVisibility& tile, float* nearest);
@@ -75,7 +75,7 @@ struct CoverageKernels {
   int (*collect_blocks)(const TileTriangle& triangle, const TileVisibility& tile, const float* nearest, BlockLayer* out,
                         std::uint64_t& others);
   /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
-  /// `many_triangles`; `no_triangle` where nothing is.
+  /// `mixed_primitives`; `no_primitive` where nothing is.
   void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
 
   static const CoverageKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)

@@ -231,30 +231,30 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       if (place == Block::Outside) continue;
       const std::uint64_t bit = std::uint64_t{1} << block;
       const float nearest = greatest_depth(t, spread, bx, by);
-      if (nearest < tile.block_far[block]) continue;
-      if (tile.stale & bit) {
-        tile.stale &= ~bit;
-        tile.block_far[block] = farthest(tile, bx, by, tile.block_far[block]);
+      if (nearest < tile.block_min_depth[block]) continue;
+      if (tile.dirty & bit) {
+        tile.dirty &= ~bit;
+        tile.block_min_depth[block] = farthest(tile, bx, by, tile.block_min_depth[block]);
         has_risen = true;
-        if (nearest < tile.block_far[block]) continue;
+        if (nearest < tile.block_min_depth[block]) continue;
       }
-      if (place == Block::Inside && tile.block_owner[block] == no_triangle) {
+      if (place == Block::Inside && tile.block_primitive[block] == no_primitive) {
         fill_block(t, tile, bx, by);
-        tile.block_far[block] = least_depth(t, spread, bx, by);
-        tile.block_owner[block] = t.id;
+        tile.block_min_depth[block] = least_depth(t, spread, bx, by);
+        tile.block_primitive[block] = t.id;
         has_risen = true;
         continue;
       }
-      tile.open_block(block);
+      tile.materialize_block(block);
       const int top = greatest(by, t.first_y), bottom = least(by + 7, t.last_y);
       const bool all = draw_block(t, spread, step, by_sample, tile, bx, top, bottom);
-      tile.stale |= bit;
-      if (place == Block::Inside && all) tile.block_owner[block] = t.id;
+      tile.dirty |= bit;
+      if (place == Block::Inside && all) tile.block_primitive[block] = t.id;
     }
   return has_risen;
 }
 
-int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
+int collect(const TileTriangle& t, const TileVisibility& tile, CoveredPixel* out) {
   const F d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Spread spread = spread_of(t, tile.sample_count);
@@ -279,7 +279,7 @@ int collect(const TileTriangle& t, const TileVisibility& tile, Fragment* out) {
   return count;
 }
 
-int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, RowLayer* out,
+int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, SpanLayer* out,
                  std::uint8_t* is_partial) {
   const F d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -314,7 +314,7 @@ void find_nearest(const TileVisibility& tile, float* nearest) {
   const F d;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     nearest[block] = 0;
-    if (tile.block_owner[block] == no_triangle) continue;
+    if (tile.block_primitive[block] == no_primitive) continue;
     const float* const corner = tile.depth + block / 8 * 8 * tile_size + block % 8 * 8;
     VF high = hn::Zero(d);
     for (int s = 0; s < tile.sample_count; ++s)
@@ -334,7 +334,7 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
       const Block place = classify(t, reach, bx, by);
       const int block = by + bx / 8;
-      if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_far[block]) continue;
+      if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_min_depth[block]) continue;
       const float low = least_depth(t, spread, bx, by);
       if (place == Block::Inside && low > nearest[block])
         out[count++] = {t.id, static_cast<std::uint32_t>(block), low, greatest_depth(t, spread, bx, by)};
@@ -349,9 +349,9 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
   const int lanes = static_cast<int>(hn::Lanes(d)), samples = tile.sample_count;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     const int first_row = block / 8 * 64 + block % 8;
-    const std::int32_t owner = tile.block_owner[block];
+    const std::int32_t owner = tile.block_primitive[block];
     for (int row = first_row; row < first_row + 64; row += 8) owners[row] = owner;
-    if (owner != many_triangles) continue;
+    if (owner != mixed_primitives) continue;
     for (int row = first_row; row < first_row + 64; row += 8) {
       const std::int32_t* const id = tile.id + row * 8;
       const VI first = hn::Set(d, id[0]);

@@ -37,7 +37,8 @@ struct Buffers {
   explicit Buffers(int samples)
       : z(static_cast<std::size_t>(samples) * tile_pixels + 16),
         id(static_cast<std::size_t>(samples) * tile_pixels + 16) {
-    visibility = {.sample_count = samples, .depth = align(z), .id = align(id), .block_far = far, .block_owner = owner};
+    visibility = {
+        .sample_count = samples, .depth = align(z), .id = align(id), .block_min_depth = far, .block_primitive = owner};
     visibility.clear();
   }
   template <class T>
@@ -160,7 +161,7 @@ std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int trian
         make_tile_triangle(t, pattern.data(), samples, tile_x, tile_y, tile);
         buffers.visibility.clear();
         coverage_kernels(isa).draw(tile, buffers.visibility);
-        buffers.visibility.open_all();
+        buffers.visibility.materialize_all();
         wrong += definition.differing(pattern, tile_x, tile_y, buffers.visibility);
       }
   }
@@ -194,7 +195,7 @@ TEST(Coverage, TheDefinitionOfATileIsThatOfItsSamples) {
     if (doubled_area(v[0], v[1], v[2]) == 0) continue;
     const int tile_x = static_cast<int>(hash(i, 32) % 16) * 64, tile_y = static_cast<int>(hash(i, 33) % 12) * 64;
     Buffers expected(2);
-    expected.visibility.open_all();
+    expected.visibility.materialize_all();
     for (int s = 0; s < 2; ++s)
       for (int p = 0; p < tile_pixels; ++p) {
         const SamplePosition at = pattern[static_cast<std::size_t>(s)];
@@ -238,8 +239,8 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
     scalar::coverage_kernels.draw(tile, first.visibility);
     make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, rules), pattern.data(), 16, 448, 320, tile);
     scalar::coverage_kernels.draw(tile, second.visibility);
-    first.visibility.open_all();
-    second.visibility.open_all();
+    first.visibility.materialize_all();
+    second.visibility.materialize_all();
     for (int i = 0; i < 16 * tile_pixels; ++i) {
       const SamplePosition at = pattern[static_cast<std::size_t>(i / tile_pixels)];
       const std::int64_t x = (448 + i % 64) * 256 + at.x - 512 * 256,
@@ -267,7 +268,7 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
     const SamplePattern pattern = standard_pattern(samples);
     for (const Isa isa : supported_isas()) {
       Buffers a(samples), b(samples);
-      std::vector<Fragment> fa(tile_pixels), fb(tile_pixels);
+      std::vector<CoveredPixel> fa(tile_pixels), fb(tile_pixels);
       TileTriangle tile;
       for (std::uint32_t i = 0; i < 600; ++i) {
         ScreenVertex v[3];
@@ -277,9 +278,9 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), rules),
                            pattern.data(), samples, 512, 384, tile);
         if (i % 3 == 0) {
-          a.visibility.open_all();
-          b.visibility.open_all();
-          std::vector<RowLayer> ra(tile_pixels / 8), rb(tile_pixels / 8);
+          a.visibility.materialize_all();
+          b.visibility.materialize_all();
+          std::vector<SpanLayer> ra(tile_pixels / 8), rb(tile_pixels / 8);
           std::vector<std::uint8_t> pa(tile_pixels / 8), pb(tile_pixels / 8);
           const std::uint64_t blocks = i % 2 == 0 ? ~std::uint64_t{0} : 0x0f3355aa5533f00full;
           const int rows = scalar::coverage_kernels.collect_rows(tile, a.visibility, blocks, ra.data(), pa.data());
@@ -302,8 +303,8 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
       scalar::coverage_kernels.find_owners(a.visibility, owners_a.data());
       coverage_kernels(isa).find_owners(b.visibility, owners_b.data());
       EXPECT_EQ(owners_a, owners_b);
-      a.visibility.open_all();
-      b.visibility.open_all();
+      a.visibility.materialize_all();
+      b.visibility.materialize_all();
       const auto bytes = static_cast<std::size_t>(samples) * tile_pixels * 4;
       EXPECT_EQ(std::memcmp(a.visibility.depth, b.visibility.depth, bytes), 0) << name_of(isa) << " " << samples;
       EXPECT_EQ(std::memcmp(a.visibility.id, b.visibility.id, bytes), 0) << name_of(isa) << " " << samples;
@@ -347,8 +348,8 @@ TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
           listed |= std::uint64_t{1} << a[k].block;
         }
         whole += n;
-        held.visibility.open_all();
-        std::vector<Fragment> found(tile_pixels);
+        held.visibility.materialize_all();
+        std::vector<CoveredPixel> found(tile_pixels);
         const int won = kernels.collect(tile, held.visibility, found.data());
         for (int k = 0; k < won; ++k) {
           const std::uint32_t pixel = found[static_cast<std::size_t>(k)].pixel;

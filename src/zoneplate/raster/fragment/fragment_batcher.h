@@ -16,7 +16,7 @@
 namespace zoneplate {
 
 /// A surface point to be shaded: where on the screen, of which triangle.
-struct Point {
+struct Fragment {
   std::int32_t x, y;      ///< 1/256 pixel from the picture's top-left corner
   std::int32_t id;        ///< triangle
   std::uint32_t pixel;    ///< within the tile
@@ -24,47 +24,47 @@ struct Point {
 };
 
 /// Points of one triangle in eight neighbouring pixels of a row, at the same place in each.
-struct PointRow {
+struct FragmentSpan {
   std::int32_t x, y;    ///< the first; the others follow a pixel apart
   std::int32_t id;      ///< triangle
   std::uint32_t pixel;  ///< the first, within the tile
 };
 
 /// What the data planes show of a point.
-struct PointData {
+struct FragmentData {
   std::vector<float3> normal, albedo;
   std::vector<float2> uv;
 };
 
 /// Shades lists of points in batches of one material.
-class PointBatcher {
+class FragmentBatcher {
  public:
-  PointBatcher(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target);
-  PointBatcher(const PointBatcher&) = delete;  // it points into itself
+  FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target);
+  FragmentBatcher(const FragmentBatcher&) = delete;  // it points into itself
 
   /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
-  void shade(std::span<const Point> points, std::vector<Linear>& colors, PointData* data);
+  void shade(std::span<const Fragment> points, std::vector<Linear>& colors, FragmentData* data);
 
   /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
   /// colours follow each other in `shaded`.
   template <class Use>
-  void shade(std::span<const PointRow> rows, Use use);
+  void shade(std::span<const FragmentSpan> rows, Use use);
 
   /// The colours of rows in the order of the list: `use(shaded, first, count)` is called for consecutive parts of it,
   /// which begin at row `first` and whose colours stand at the beginning of `shaded`.
   template <class Use>
-  void shade_in_order(std::span<const PointRow> rows, Use use);
+  void shade_in_order(std::span<const FragmentSpan> rows, Use use);
 
   /// The colours of a list: `use(shaded, first, count)` is called for consecutive parts of it, which begin at point
   /// `first` and whose colours stand at the beginning of `shaded`.
   template <class Use>
-  void shade(const PointList& list, Use use);
+  void shade(const FragmentList& list, Use use);
 
   /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
-  void test_alpha(std::span<const Point> points, std::vector<std::uint8_t>& is_there);
+  void test_alpha(std::span<const Fragment> points, std::vector<std::uint8_t>& is_there);
 
   /// How far the points' alpha is above the cutoff, in their order: a surface is there where that is not negative.
-  void find_alpha_margins(std::span<const Point> points, std::vector<float>& margins);
+  void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
 
@@ -86,29 +86,29 @@ class PointBatcher {
   std::span<const std::uint32_t> order_by_material(std::span<const T> list);
   std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;
   template <class Use>
-  void for_batches(std::span<const Point> points, Use use);
+  void for_batches(std::span<const Fragment> points, Use use);
   void number_up_to(std::size_t count);
   void find_draw(std::int32_t id);
-  bool are_of_one_draw(const PointList& list);
-  void shade_mixed(const PointList& list);
+  bool are_of_one_draw(const FragmentList& list);
+  void shade_mixed(const FragmentList& list);
   int material_of(std::int32_t id);
   void fetch_ahead(std::int32_t id) const;
-  void fill(std::span<const Point> points, std::span<const std::uint32_t> numbers);
-  void fill(std::span<const PointRow> rows, std::span<const std::uint32_t> numbers);
-  void find_vertices(const PointList& list, std::size_t first);
-  void fill(const PointList& list, std::size_t first, std::size_t count);
+  void fill(std::span<const Fragment> points, std::span<const std::uint32_t> numbers);
+  void fill(std::span<const FragmentSpan> rows, std::span<const std::uint32_t> numbers);
+  void find_vertices(const FragmentList& list, std::size_t first);
+  void fill(const FragmentList& list, std::size_t first, std::size_t count);
   void put_triangle(std::size_t i, std::int32_t id);
   void interpolate();
   const TriangleFacing& know_clipped(std::int32_t id);
   void put_planes(std::size_t i, const BarycentricPlanes& planes);
-  static_assert(Batch::groups <= 32);  // a bit each
-  std::int32_t is_front(std::size_t told, const TriangleFacing& facing) const;
+  static_assert(FragmentBatch::groups <= 32);  // a bit each
+  std::int32_t is_front(std::size_t leader, const TriangleFacing& facing) const;
   int interpolate_clipped_rows(int group, float spacing);
   void interpolate_clipped(std::size_t group, float spacing);
   void weigh_ends();
 
   const ProjectedDraws& projected_;
-  const PointShader& shader_;
+  const FragmentShader& shader_;
   const InterpolateKernels& interpolate_;
   const Target& target_;
   const bool has_ends_;          ///< some draw has lines or points
@@ -120,23 +120,23 @@ class PointBatcher {
   int one_material_ = 0;                         ///< of a list of one
   Known known_;
   KnownClipped known_clipped_;
-  PointShader::VertexMemory vertex_memory_;  ///< of the list's draw
-  Batch batches_[2];
-  Batch *batch_ = &batches_[0], *next_ = &batches_[1];  ///< of a list the next one's vertices are known
-  BatchCorners corners_{};
-  ScreenVertex found_corners_[3][Batch::room];  ///< of draws whose screen vertices are not there
+  FragmentShader::VertexMemory vertex_memory_;  ///< of the list's draw
+  FragmentBatch batches_[2];
+  FragmentBatch *batch_ = &batches_[0], *next_ = &batches_[1];  ///< of a list the next one's vertices are known
+  BatchTriangles corners_{};
+  ScreenVertex found_corners_[3][FragmentBatch::padded_capacity];  ///< of draws whose screen vertices are not there
   ClippedGroup clipped_{};
-  Shaded shaded_batch_;
-  std::vector<Point> mixed_;     ///< a list of several draws
-  std::vector<Shaded> unmixed_;  ///< its colours in its order, a batch's capacity each
+  FragmentOutputs shaded_batch_;
+  std::vector<Fragment> mixed_;           ///< a list of several draws
+  std::vector<FragmentOutputs> unmixed_;  ///< its colours in its order, a batch's capacity each
 };
 
 template <class Use>
-void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
+void FragmentBatcher::shade(std::span<const FragmentSpan> rows, Use use) {
   const auto order = order_by_material(rows);
-  shaded_ += rows.size() * Batch::group;
+  shaded_ += rows.size() * FragmentBatch::group;
   for (std::size_t first = 0; first < rows.size();) {
-    const std::size_t count = same_material(order, first, Batch::capacity / Batch::group);
+    const std::size_t count = same_material(order, first, FragmentBatch::capacity / FragmentBatch::group);
     const auto numbers = order.subspan(first, count);
     fill(rows, numbers);
     shader_.shade(*batch_, {}, shaded_batch_);
@@ -146,8 +146,8 @@ void PointBatcher::shade(std::span<const PointRow> rows, Use use) {
 }
 
 template <class Use>
-void PointBatcher::shade(const PointList& list, Use use) {
-  constexpr std::size_t capacity = Batch::capacity;
+void FragmentBatcher::shade(const FragmentList& list, Use use) {
+  constexpr std::size_t capacity = FragmentBatch::capacity;
   const auto total = static_cast<std::size_t>(list.count);
   shaded_ += total;
   if (are_of_one_draw(list)) {
@@ -166,11 +166,11 @@ void PointBatcher::shade(const PointList& list, Use use) {
 }
 
 template <class Use>
-void PointBatcher::shade_in_order(std::span<const PointRow> rows, Use use) {
-  constexpr std::size_t most = Batch::capacity / Batch::group;
+void FragmentBatcher::shade_in_order(std::span<const FragmentSpan> rows, Use use) {
+  constexpr std::size_t most = FragmentBatch::capacity / FragmentBatch::group;
   number_up_to(rows.size());
   material_.clear();
-  shaded_ += rows.size() * Batch::group;
+  shaded_ += rows.size() * FragmentBatch::group;
   for (std::size_t first = 0; first < rows.size();) {
     one_material_ = material_of(rows[first].id);
     std::size_t count = 1;

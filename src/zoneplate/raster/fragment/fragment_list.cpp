@@ -15,7 +15,7 @@ SamplePosition place_of(const OwnerRow& row, std::uint32_t samples) {
   return mean_place(sum);
 }
 
-void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t samples, PointList& out) {
+void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t samples, FragmentList& out) {
   const SamplePosition place = place_of(row, samples);
   const int i = out.count++;
   out.x[i] = row.x + lane * 256 + place.x;
@@ -25,12 +25,12 @@ void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t 
 }
 
 /// By first samples, and of those by pixels.
-void list(const OwnerRow& row, PointList& out) {
+void list(const OwnerRow& row, FragmentList& out) {
   for (int s = 0; s < row.sample_count; ++s)
-    for (std::int32_t lane = 0; lane < Batch::group; ++lane) {
+    for (std::int32_t lane = 0; lane < FragmentBatch::group; ++lane) {
       const auto id_of = [&](int sample) { return row.id[sample * tile_pixels + lane]; };
       const std::int32_t id = id_of(s);
-      if ((row.wanted >> lane & 1) == 0 || id == no_triangle) continue;
+      if ((row.wanted >> lane & 1) == 0 || id == no_primitive) continue;
       if (row.is_per_sample) {
         put(row, lane, id, 1u << s, out);
         continue;
@@ -41,9 +41,9 @@ void list(const OwnerRow& row, PointList& out) {
     }
 }
 
-void add(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
+void add(const FragmentOutputs& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
   for (int i = 0; i < count; ++i) {
-    float* const to = sum + 4 * PointList::pixel(at[i]);
+    float* const to = sum + 4 * FragmentList::pixel(at[i]);
     to[0] += color.r[i] * weight[i], to[1] += color.g[i] * weight[i];
     to[2] += color.b[i] * weight[i], to[3] += color.a[i] * weight[i];
   }
@@ -58,6 +58,6 @@ void divide(const float* sum, float weight, Linear8& out) {
 
 }  // namespace
 
-const PointListKernels point_list_kernels = {.list = list, .add = add, .divide = divide};
+const FragmentListKernels fragment_list_kernels = {.list = list, .add = add, .divide = divide};
 
 }  // namespace zoneplate::scalar

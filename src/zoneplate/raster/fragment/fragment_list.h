@@ -11,10 +11,10 @@ namespace zoneplate {
 
 /// Surface points of one tile that are to be shaded, structure of arrays; those of a pixel in the order of their first
 /// samples, those of eight neighbouring pixels of a row not far from each other.
-struct PointList {
+struct FragmentList {
   static constexpr int most_samples = 16;
   static constexpr int enough = 1024;  ///< points that are worth being shaded together
-  static constexpr int row_room = Batch::group * (most_samples + 1);
+  static constexpr int row_room = FragmentBatch::group * (most_samples + 1);
   static constexpr int capacity = enough + row_room;
 
   int count = 0;
@@ -29,7 +29,7 @@ struct PointList {
 /// The owners of eight neighbouring pixels of a row.
 struct OwnerRow {
   const std::int32_t* id;  ///< of the first pixel's sample 0; the other samples' planes follow tile_pixels on
-  int sample_count;        ///< at most PointList::most_samples
+  int sample_count;        ///< at most FragmentList::most_samples
   const std::int32_t *first_place, *more_places;  ///< of the samples, as in ShadedPlaces
   std::uint32_t pixel;                            ///< the first, within the tile
   std::int32_t x, y;                              ///< its top-left corner, 1/256 pixel
@@ -37,21 +37,22 @@ struct OwnerRow {
   bool is_per_sample;                             ///< every sample is a point of its own, in the order of the samples
 };
 
-struct PointListKernels {
+struct FragmentListKernels {
   /// Adds one point for each triangle that owns samples of a pixel: at the pixel's centre if it owns all of them, else
   /// where their ShadedPlaces say. Requires  room for row_room.
-  void (*list)(const OwnerRow& row, PointList& out);
+  void (*list)(const OwnerRow& row, FragmentList& out);
   /// sum of the pixel of at[i] += color[i] × weight[i], one after the other; four floats a pixel.
-  void (*add)(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum);
+  void (*add)(const FragmentOutputs& color, const std::uint32_t* at, const float* weight, int count, float* sum);
   /// out = sum / weight, of eight pixels.
   void (*divide)(const float* sum, float weight, Linear8& out);
 
-  static const PointListKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
+  static const FragmentListKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
+      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const PointListKernels point_list_kernels;
+extern const FragmentListKernels fragment_list_kernels;
 }
-inline const PointListKernels& point_list_kernels(Isa isa) { return pick(isa, scalar::point_list_kernels); }
+inline const FragmentListKernels& fragment_list_kernels(Isa isa) { return pick(isa, scalar::fragment_list_kernels); }
 
 }  // namespace zoneplate

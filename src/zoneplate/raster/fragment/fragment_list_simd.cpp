@@ -34,11 +34,11 @@ HWY_INLINE VI mean(VI x, VF half, VF inverse) {
 
 /// The bit of each sample.
 struct SampleBits {
-  alignas(64) std::int32_t bit[PointList::most_samples][lanes];
+  alignas(64) std::int32_t bit[FragmentList::most_samples][lanes];
 };
 constexpr SampleBits make_sample_bits() {
   SampleBits b{};
-  for (int s = 0; s < PointList::most_samples; ++s)
+  for (int s = 0; s < FragmentList::most_samples; ++s)
     for (std::int32_t& bit : b.bit[s]) bit = 1 << s;
   return b;
 }
@@ -54,7 +54,7 @@ HWY_INLINE MI wanted_lanes(const OwnerRow& row, int first) {
 }
 
 /// Adds the points of those lanes.
-HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, PointList& out) {
+HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, FragmentList& out) {
   const int count = out.count;
   std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + count;
   if (hn::AllTrue(i32, mask)) {
@@ -84,10 +84,10 @@ class Pixels {
         listed_(hn::VecFromMask(i32, hn::Not(wanted_lanes(row, first)))) {}
 
   /// Lists the owners of sample s where it is the first that they own.
-  HWY_INLINE void list(int s, PointList& out) {
+  HWY_INLINE void list(int s, FragmentList& out) {
     const VI owner = owner_of(s), bit = bit_of(s);
     const MI is_new = hn::Eq(hn::And(listed_, bit), hn::Zero(i32));
-    const MI mask = hn::AndNot(hn::Eq(owner, set(no_triangle)), is_new);
+    const MI mask = hn::AndNot(hn::Eq(owner, set(no_primitive)), is_new);
     if (hn::AllFalse(i32, mask)) return;
     Owned owned{bit, set(first_place_[s])};
     if (!is_per_sample_) {
@@ -105,7 +105,7 @@ class Pixels {
   HWY_INLINE VI owner_of(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
 
   /// Adds those of the mask.
-  HWY_INLINE void put(MI mask, VI owner, const Owned& owned, PointList& out) const {
+  HWY_INLINE void put(MI mask, VI owner, const Owned& owned, FragmentList& out) const {
     const VI centre = set(128);
     const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
     const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
@@ -126,9 +126,9 @@ class Pixels {
 };
 
 /// The one sample of each of a vector's width of pixels, at their centres.
-HWY_INLINE void list_centres(const OwnerRow& row, int first, PointList& out) {
+HWY_INLINE void list_centres(const OwnerRow& row, int first, FragmentList& out) {
   const VI pixel = hn::Iota(i32, first), owner = hn::LoadU(i32, row.id + first);
-  const MI mask = hn::And(hn::Ne(owner, set(no_triangle)), wanted_lanes(row, first));
+  const MI mask = hn::And(hn::Ne(owner, set(no_primitive)), wanted_lanes(row, first));
   if (hn::AllFalse(i32, mask)) return;
   const VI x = hn::Add(set(row.x + 128), hn::ShiftLeft<8>(pixel));
   const VI at = hn::Add(set(static_cast<std::int32_t>(row.pixel) + (1 << 12)), pixel);
@@ -136,10 +136,10 @@ HWY_INLINE void list_centres(const OwnerRow& row, int first, PointList& out) {
 }
 
 // Vectors of fewer than eight lanes keep the order of eight: by first samples, and of those by pixels.
-void list(const OwnerRow& row, PointList& out) {
+void list(const OwnerRow& row, FragmentList& out) {
   if (row.sample_count == 1 && !row.is_per_sample) {
-    for (int first = 0; first < Batch::group; first += lanes) list_centres(row, first, out);
-  } else if constexpr (lanes == Batch::group) {
+    for (int first = 0; first < FragmentBatch::group; first += lanes) list_centres(row, first, out);
+  } else if constexpr (lanes == FragmentBatch::group) {
     Pixels pixels(row, 0);
     for (int s = 0; s < row.sample_count; ++s) pixels.list(s, out);
   } else {
@@ -165,11 +165,11 @@ struct Turned {
 
 HWY_INLINE void add_one(VQ color, float weight, std::uint32_t at, float* sum) {
   const Quad d;
-  float* const to = sum + 4 * PointList::pixel(at);
+  float* const to = sum + 4 * FragmentList::pixel(at);
   hn::StoreU(hn::Add(hn::LoadU(d, to), hn::Mul(color, hn::Set(d, weight))), d, to);
 }
 
-void add(const Shaded& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
+void add(const FragmentOutputs& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
   const Quad d;
   for (int i = 0; i < count; i += 4) {
     const Turned turned(hn::Load(d, color.r + i), hn::Load(d, color.g + i), hn::Load(d, color.b + i),
@@ -196,6 +196,6 @@ void divide(const float* sum, float weight, Linear8& out) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const PointListKernels PointListKernels::HWY_NAMESPACE = {
+const FragmentListKernels FragmentListKernels::HWY_NAMESPACE = {
     .list = HWY_NAMESPACE::list, .add = HWY_NAMESPACE::add, .divide = HWY_NAMESPACE::divide};
 }  // namespace zoneplate

@@ -31,7 +31,7 @@ struct Owners {
       for (std::uint32_t i = 0; i < 8; ++i) {
         const std::uint32_t at = hash(seed, s, i);
         id[s * tile_pixels + i] =
-            at % 9 == 0 ? no_triangle : static_cast<std::int32_t>(1000 + (seed % 3 == 0 ? i : 0) + at / 9 % kinds);
+            at % 9 == 0 ? no_primitive : static_cast<std::int32_t>(1000 + (seed % 3 == 0 ? i : 0) + at / 9 % kinds);
       }
     row = {.id = id.data(),
            .sample_count = samples,
@@ -48,17 +48,17 @@ struct Owners {
 using Found = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::uint32_t>;  ///< x, y, id, at
 
 std::vector<Found> listed(const OwnerRow& row, Isa isa) {
-  const auto list = std::make_unique<PointList>();
-  point_list_kernels(isa).list(row, *list);
+  const auto list = std::make_unique<FragmentList>();
+  fragment_list_kernels(isa).list(row, *list);
   std::vector<Found> out;
   for (int i = 0; i < list->count; ++i) out.emplace_back(list->x[i], list->y[i], list->id[i], list->at[i]);
   // Different pixels' points may come in any order.
-  const auto pixel = [](const Found& f) { return PointList::pixel(std::get<3>(f)); };
+  const auto pixel = [](const Found& f) { return FragmentList::pixel(std::get<3>(f)); };
   std::stable_sort(out.begin(), out.end(), [&](const Found& p, const Found& q) { return pixel(p) < pixel(q); });
   return out;
 }
 
-TEST(PointList, EverySampleThatIsOwnedColoursFromOnePoint) {
+TEST(FragmentList, EverySampleThatIsOwnedColoursFromOnePoint) {
   for (const int samples : {1, 2, 4, 8, 16})
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
       const Owners owners(seed, samples);
@@ -66,7 +66,7 @@ TEST(PointList, EverySampleThatIsOwnedColoursFromOnePoint) {
       std::vector<std::uint32_t> coloured(8);
       std::vector<int> last(8, -1);
       for (const auto& [x, y, id, at] : listed(row, best_isa())) {
-        const std::uint32_t lane = PointList::pixel(at) - row.pixel, own = PointList::samples(at);
+        const std::uint32_t lane = FragmentList::pixel(at) - row.pixel, own = FragmentList::samples(at);
         ASSERT_LT(lane, 8u);
         ASSERT_NE(own, 0u);
         EXPECT_EQ(coloured[lane] & own, 0u);
@@ -90,13 +90,13 @@ TEST(PointList, EverySampleThatIsOwnedColoursFromOnePoint) {
       for (std::size_t lane = 0; lane < 8; ++lane)
         for (int s = 0; s < samples; ++s) {
           const bool is_owned =
-              row.id[static_cast<std::size_t>(s) * tile_pixels + lane] != no_triangle && (row.wanted >> lane & 1) != 0;
+              row.id[static_cast<std::size_t>(s) * tile_pixels + lane] != no_primitive && (row.wanted >> lane & 1) != 0;
           EXPECT_EQ((coloured[lane] >> s & 1) != 0, is_owned) << samples << " samples, seed " << seed;
         }
     }
 }
 
-TEST(PointList, KernelsGiveTheScalarTwinsBits) {
+TEST(FragmentList, KernelsGiveTheScalarTwinsBits) {
   for (const Isa isa : supported_isas())
     for (const int samples : {1, 2, 4, 8, 16})
       for (std::uint32_t seed = 0; seed < 60; ++seed) {
@@ -104,10 +104,10 @@ TEST(PointList, KernelsGiveTheScalarTwinsBits) {
         EXPECT_EQ(listed(owners.row, isa), listed(owners.row, Isa::Scalar)) << name_of(isa);
       }
 
-  static Shaded color;
-  std::uint32_t at[Batch::capacity];
-  float weight[Batch::capacity];
-  for (std::uint32_t i = 0; i < Batch::capacity; ++i) {
+  static FragmentOutputs color;
+  std::uint32_t at[FragmentBatch::capacity];
+  float weight[FragmentBatch::capacity];
+  for (std::uint32_t i = 0; i < FragmentBatch::capacity; ++i) {
     const auto number = [&](std::uint32_t axis) { return unit_float(hash(i, axis)) * 3 - 0.5f; };
     color.r[i] = number(0), color.g[i] = number(1), color.b[i] = number(2), color.a[i] = number(3);
     weight[i] = number(4), at[i] = hash(i, 5) % 8 + (hash(i, 6) % 16 << 12);
@@ -115,12 +115,12 @@ TEST(PointList, KernelsGiveTheScalarTwinsBits) {
   for (const Isa isa : supported_isas())
     for (const int count : {1, 3, 8, 41, 128}) {
       std::vector<float> sum(32, 0.25f), expected = sum;
-      point_list_kernels(isa).add(color, at, weight, count, sum.data());
-      scalar::point_list_kernels.add(color, at, weight, count, expected.data());
+      fragment_list_kernels(isa).add(color, at, weight, count, sum.data());
+      scalar::fragment_list_kernels.add(color, at, weight, count, expected.data());
       EXPECT_EQ(sum, expected) << name_of(isa);
       Linear8 mean, expected_mean;
-      point_list_kernels(isa).divide(sum.data(), 3, mean);
-      scalar::point_list_kernels.divide(expected.data(), 3, expected_mean);
+      fragment_list_kernels(isa).divide(sum.data(), 3, mean);
+      scalar::fragment_list_kernels.divide(expected.data(), 3, expected_mean);
       EXPECT_EQ(mean, expected_mean) << name_of(isa);
       EXPECT_EQ(mean.g[7], sum[29] / 3);
     }

@@ -11,24 +11,25 @@ namespace {
 /// A weight in [0, limit]. Adding +0 makes one of -0 the +0 that every instruction set agrees on.
 float clamped(float b, float limit) { return std::min(std::max(b, 0.0f), limit) + 0.0f; }
 
-std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
+std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, float spacing, FragmentBatch& batch) {
   const float step = 256.0f * spacing;
   std::uint32_t clipped = 0;
   for (int i = 0; i < batch.padded(); ++i) {
-    const int in_group = i % Batch::group, first = i - in_group;
-    if (batch.one_triangle[i / Batch::group]) batch.x[i] = batch.x[first] + 256 * in_group, batch.y[i] = batch.y[first];
-    const std::size_t told = batch.told(static_cast<std::size_t>(i));
+    const int in_group = i % FragmentBatch::group, first = i - in_group;
+    if (batch.is_flat_run[i / FragmentBatch::group])
+      batch.x[i] = batch.x[first] + 256 * in_group, batch.y[i] = batch.y[first];
+    const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
     std::int32_t dx[3], dy[3];
     float inv_w[3];
     for (int k = 0; k < 3; ++k) {
-      const ScreenVertex& v = corners.of(static_cast<std::size_t>(k), told, batch);
+      const ScreenVertex& v = corners.of(static_cast<std::size_t>(k), leader, batch);
       dx[k] = v.x - (batch.x[i] - viewport.width * 128), dy[k] = v.y - (batch.y[i] - viewport.height * 128);
       inv_w[k] = v.inv_w;
-      if (v.needs_clipping()) clipped |= 1u << (i / Batch::group);
+      if (v.needs_clipping()) clipped |= 1u << (i / FragmentBatch::group);
     }
     const bool is_affine = inv_w[0] == inv_w[1] && inv_w[1] == inv_w[2] && inv_w[0] != 0;
     if (is_affine) inv_w[0] = inv_w[1] = inv_w[2] = 1;
-    batch.repeats_slopes[i / Batch::group] = is_affine && told < static_cast<std::size_t>(first);
+    batch.has_uniform_derivatives[i / FragmentBatch::group] = is_affine && leader < static_cast<std::size_t>(first);
     double edge[3];
     float q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
@@ -40,7 +41,7 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
     }
     const double area = (edge[0] + edge[1]) + edge[2];
     const std::int32_t is_clockwise = area > 0 ? 1 : 0;
-    if (told == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == corners.is_mirrored[i] ? 1 : 0;
+    if (leader == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == corners.is_mirrored[i] ? 1 : 0;
     const float sum = is_affine ? static_cast<float>(area) : (q[0] + q[1]) + q[2];
     const float inverse = 1.0f / (sum == 0 ? 1.0f : sum);
     const float b1 = clamped(q[1] * inverse, 1.0f), b2 = clamped(q[2] * inverse, 1.0f - b1);
@@ -54,7 +55,7 @@ std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float 
   return clipped;
 }
 
-/// The weights of the second and the third vertex, and their slopes.
+/// The weights of the second and the third vertex, and their derivatives.
 struct ClippedPoint {
   float b[2], dbdx[2], dbdy[2];
 };
@@ -79,7 +80,7 @@ ClippedPoint interpolate_point(const BarycentricPlanes& t, double px, double py,
 }
 
 void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
-  for (int i = 0; i < Batch::group; ++i) {
+  for (int i = 0; i < FragmentBatch::group; ++i) {
     BarycentricPlanes t;
     for (int k = 0; k < 3; ++k) t.x[k] = g.x[k][i], t.y[k] = g.y[k][i], t.one[k] = g.one[k][i];
     const ClippedPoint p =
@@ -91,7 +92,7 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   }
 }
 
-void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, FragmentBatch& batch,
                               int first, int last) {
   for (int i = first; i < last; ++i) {
     const ClippedPoint p =

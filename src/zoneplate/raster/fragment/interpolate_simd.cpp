@@ -218,8 +218,8 @@ HWY_INLINE void store_slopes(const Weights<V>& w, V by, V g1, V g2, V all, float
 
 /// Points of several triangles, from i on; true if one of these needs clipping.
 template <class D>
-HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, const BatchCorners& corners, Batch& batch,
-                               int i) {
+HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, const BatchTriangles& corners,
+                               FragmentBatch& batch, int i) {
   using V = hn::Vec<D>;
   using Ints = IntsOf<D>;
   const D d;
@@ -239,21 +239,22 @@ HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, co
   if (has_affine) sum = hn::IfThenElse(is_affine, edges.sum, sum);
   const Weights<V> w = store_weights(q[1], q[2], inverse_of(sum), batch.b[0] + i, batch.b[1] + i);
   if (screen.has_slopes) {
-    const auto slope = [&](const Ints(&at)[3], int m, int n, int k)
-                           HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), inv_w[k]); };
-    const auto store = [&](V g0, V g1, V g2, float(&out)[2][Batch::room]) HWY_ATTR {
+    const auto derivative = [&](const Ints(&at)[3], int m, int n, int k)
+                                HWY_ATTR { return hn::Mul(hn::ConvertTo(d, hn::Sub(at[m], at[n])), inv_w[k]); };
+    const auto store = [&](V g0, V g1, V g2, float(&out)[2][FragmentBatch::padded_capacity]) HWY_ATTR {
       V all = hn::Add(hn::Add(g0, g1), g2);
       if (has_affine) all = hn::IfThenZeroElse(is_affine, all);
       store_slopes(w, hn::Mul(w.inverse, hn::Set(d, screen.step)), g1, g2, all, out[0] + i, out[1] + i);
     };
-    store(slope(dy, 1, 2, 0), slope(dy, 2, 0, 1), slope(dy, 0, 1, 2), batch.dbdx);
-    store(slope(dx, 2, 1, 0), slope(dx, 0, 2, 1), slope(dx, 1, 0, 2), batch.dbdy);
+    store(derivative(dy, 1, 2, 0), derivative(dy, 2, 0, 1), derivative(dy, 0, 1, 2), batch.dbdx);
+    store(derivative(dx, 2, 1, 0), derivative(dx, 0, 2, 1), derivative(dx, 1, 0, 2), batch.dbdy);
   }
   const V least = hn::Min(hn::Min(c[0].inv_w, c[1].inv_w), c[2].inv_w);
   return !hn::AllTrue(d, hn::Gt(least, hn::Zero(d)));
 }
 
-/// What the rows of one triangle have in common: E_k = a_k x + (b_k y + c_k), all of it exact, and the slopes of q_k.
+/// What the rows of one triangle have in common: E_k = a_k x + (b_k y + c_k), all of it exact, and the derivatives of
+/// q_k.
 struct RowTriangle {
   double a[3] = {}, b[3] = {}, c[3] = {};
   alignas(64) double way[3][lanes];  ///< a_k × the way from a vector's first pixel to each
@@ -262,7 +263,7 @@ struct RowTriangle {
   std::int32_t is_clockwise = 0;
   bool needs_clipping = false, is_affine = false;
 
-  HWY_INLINE void make(const BatchCorners& corners, int i) {
+  HWY_INLINE void make(const BatchTriangles& corners, int i) {
     const ScreenVertex* const vertex[3] = {corners.vertex[0][i], corners.vertex[1][i], corners.vertex[2][i]};
     needs_clipping = false;
     for (int k = 0; k < 3; ++k) {
@@ -290,21 +291,21 @@ struct RowTriangle {
 };
 
 /// Edge function k at the points from i on of the group that begins at `first`.
-HWY_INLINE F edge_of_row(const RowTriangle& t, int k, Viewport viewport, const Batch& batch, int first, int i) {
+HWY_INLINE F edge_of_row(const RowTriangle& t, int k, Viewport viewport, const FragmentBatch& batch, int first, int i) {
   const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
   const double px = static_cast<double>(batch.x[first] - viewport.width * 128 + (i - first) * 256);
   return (Doubles::all(t.a[k] * px + (t.b[k] * py + t.c[k])) + Doubles::load(t.way[k])).to_floats();
 }
 
 /// The groups from `first` to `last` of an affine triangle.
-HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& screen, Viewport viewport, Batch& batch,
-                                       int first, int last) {
+HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& screen, Viewport viewport,
+                                       FragmentBatch& batch, int first, int last) {
   const FloatTag d;
   const F inverse = hn::Set(d, t.inverse), by = hn::Mul(inverse, hn::Set(FloatTag(), screen.step));
-  const auto slope = [&](float g) HWY_ATTR { return hn::Mul(hn::Set(d, g), by); };
-  const F dx1 = slope(t.gx[1]), dx2 = slope(t.gx[2]), dy1 = slope(t.gy[1]), dy2 = slope(t.gy[2]);
-  for (int group = first; group < last; group += Batch::group)
-    for (int i = group; i < group + Batch::group; i += lanes) {
+  const auto derivative = [&](float g) HWY_ATTR { return hn::Mul(hn::Set(d, g), by); };
+  const F dx1 = derivative(t.gx[1]), dx2 = derivative(t.gx[2]), dy1 = derivative(t.gy[1]), dy2 = derivative(t.gy[2]);
+  for (int group = first; group < last; group += FragmentBatch::group)
+    for (int i = group; i < group + FragmentBatch::group; i += lanes) {
       store_weights(edge_of_row(t, 1, viewport, batch, group, i), edge_of_row(t, 2, viewport, batch, group, i), inverse,
                     batch.b[0] + i, batch.b[1] + i);
       if (!screen.has_slopes) continue;
@@ -313,7 +314,7 @@ HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& scree
     }
 }
 
-/// The slopes of q_1, q_2 and of all three, the same at all points.
+/// The derivatives of q_1, q_2 and of all three, the same at all points.
 struct RunSlopes {
   float gx[2], gy[2], all_x, all_y;
 };
@@ -321,8 +322,8 @@ struct RunSlopes {
 /// Points from i on as long as they are a vector, of those before `last`, from their q_1 and q_2, which stand in b, and
 /// their sum. Gives the point after them.
 template <class Tag>
-HWY_INLINE int finish_vectors(Tag d, const RunSlopes& t, const Screen& screen, const float* sum, Batch& batch, int i,
-                              int last) {
+HWY_INLINE int finish_vectors(Tag d, const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch,
+                              int i, int last) {
   using V = hn::Vec<Tag>;
   constexpr int size = static_cast<int>(hn::MaxLanes(Tag()));
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
@@ -341,26 +342,26 @@ HWY_INLINE int finish_vectors(Tag d, const RunSlopes& t, const Screen& screen, c
 }
 
 /// Points [first, last).
-HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float* sum, Batch& batch, int first,
+HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch, int first,
                            int last) {
   const FloatTag d;
   const hn::CappedTag<float, 16> wide;
   // Vectors of two groups begin at every second.
   constexpr int step = static_cast<int>(hn::MaxLanes(wide));
   int i = first;
-  if (first % step != 0) i = finish_vectors(d, t, screen, sum, batch, i, first + Batch::group);
+  if (first % step != 0) i = finish_vectors(d, t, screen, sum, batch, i, first + FragmentBatch::group);
   i = finish_vectors(wide, t, screen, sum, batch, i, last);
   if (i < last) finish_vectors(d, t, screen, sum, batch, i, last);
 }
 
 /// The same of another. In two steps, because both are long chains of operations that wait for each other.
-HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, Viewport viewport, Batch& batch, int first,
-                                int last) {
+HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, Viewport viewport, FragmentBatch& batch,
+                                int first, int last) {
   const FloatTag d;
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
-  alignas(64) float sum[Batch::room];
-  for (int group = first; group < last; group += Batch::group)
-    for (int i = group; i < group + Batch::group; i += lanes) {
+  alignas(64) float sum[FragmentBatch::padded_capacity];
+  for (int group = first; group < last; group += FragmentBatch::group)
+    for (int i = group; i < group + FragmentBatch::group; i += lanes) {
       F q[3];
       for (int k = 0; k < 3; ++k) q[k] = hn::Mul(edge_of_row(t, k, viewport, batch, group, i), same(t.inv_w[k]));
       hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
@@ -370,12 +371,12 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
 }
 
 /// x and y of all points from those of each group's first.
-HWY_INLINE void spread_places(Batch& batch, int first, int last) {
+HWY_INLINE void spread_places(FragmentBatch& batch, int first, int last) {
   const IntTag d;
   const I steps = hn::Mul(hn::Iota(d, 0), hn::Set(d, 256));
-  for (int group = first; group < last; group += Batch::group) {
+  for (int group = first; group < last; group += FragmentBatch::group) {
     const std::int32_t x = batch.x[group], y = batch.y[group];
-    for (int i = group; i < group + Batch::group; i += lanes) {
+    for (int i = group; i < group + FragmentBatch::group; i += lanes) {
       hn::Store(hn::Add(hn::Set(d, x + (i - group) * 256), steps), d, batch.x + i);
       hn::Store(hn::Set(d, y), d, batch.y + i);
     }
@@ -383,8 +384,8 @@ HWY_INLINE void spread_places(Batch& batch, int first, int last) {
 }
 
 /// The groups from `first` to `last`, of one triangle; true if it needs clipping.
-bool interpolate_rows(const BatchCorners& corners, const Screen& screen, Viewport viewport, Batch& batch, int first,
-                      int last) {
+bool interpolate_rows(const BatchTriangles& corners, const Screen& screen, Viewport viewport, FragmentBatch& batch,
+                      int first, int last) {
   RowTriangle t;
   t.make(corners, first);
   batch.is_front[first] = t.is_clockwise == corners.is_mirrored[first] ? 1 : 0;
@@ -393,16 +394,17 @@ bool interpolate_rows(const BatchCorners& corners, const Screen& screen, Viewpor
   } else if (!t.needs_clipping) {
     interpolate_run(t, screen, viewport, batch, first, last);
   }
-  batch.repeats_slopes[first / Batch::group] = false;
-  for (int g = first / Batch::group + 1; g < last / Batch::group; ++g) batch.repeats_slopes[g] = t.is_affine;
+  batch.has_uniform_derivatives[first / FragmentBatch::group] = false;
+  for (int g = first / FragmentBatch::group + 1; g < last / FragmentBatch::group; ++g)
+    batch.has_uniform_derivatives[g] = t.is_affine;
   spread_places(batch, first, last);
   return t.needs_clipping;
 }
 
 /// Points of several triangles in vectors; true if one of these needs clipping.
 template <class D>
-HWY_INLINE bool interpolate_vectors(const BatchCorners& corners, const Screen& screen, Batch& batch, int first,
-                                    int last) {
+HWY_INLINE bool interpolate_vectors(const BatchTriangles& corners, const Screen& screen, FragmentBatch& batch,
+                                    int first, int last) {
   bool is_clipped = false;
   for (int i = first; i < last; i += lanes_of<D>) {
     Corner<D> c[3];
@@ -416,26 +418,28 @@ HWY_INLINE bool interpolate_vectors(const BatchCorners& corners, const Screen& s
 
 /// The groups from `first` to `last` of points of several triangles, as many as a vector has or one; true if one of
 /// these needs clipping.
-bool interpolate_points(const BatchCorners& corners, const Screen& screen, Batch& batch, int first, int last) {
-  for (int g = first; g < last; ++g) batch.repeats_slopes[g] = false;
+bool interpolate_points(const BatchTriangles& corners, const Screen& screen, FragmentBatch& batch, int first,
+                        int last) {
+  for (int g = first; g < last; ++g) batch.has_uniform_derivatives[g] = false;
   using Wide = hn::CappedTag<float, 16>;
-  const int begin = first * Batch::group, end = last * Batch::group;
-  if (lanes_of < Wide >> Batch::group && end - begin == lanes_of<Wide>)
+  const int begin = first * FragmentBatch::group, end = last * FragmentBatch::group;
+  if (lanes_of < Wide >> FragmentBatch::group && end - begin == lanes_of<Wide>)
     return interpolate_vectors<Wide>(corners, screen, batch, begin, end);
   return interpolate_vectors<FloatTag>(corners, screen, batch, begin, end);
 }
 
-std::uint32_t interpolate(const BatchCorners& corners, Viewport viewport, float spacing, Batch& batch) {
+std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, float spacing, FragmentBatch& batch) {
   const Screen screen(viewport, spacing);
   std::uint32_t clipped = 0;
-  const int groups = batch.padded() / Batch::group;
+  const int groups = batch.padded() / FragmentBatch::group;
   for (int first = 0, g; first < groups; first = g) {
-    g = batch.after_run(first);
+    g = batch.next_run(first);
     bool is_clipped;
-    if (batch.one_triangle[first]) {
-      is_clipped = interpolate_rows(corners, screen, viewport, batch, first * Batch::group, g * Batch::group);
+    if (batch.is_flat_run[first]) {
+      is_clipped =
+          interpolate_rows(corners, screen, viewport, batch, first * FragmentBatch::group, g * FragmentBatch::group);
     } else {
-      if (g < groups && !batch.one_triangle[g]) ++g;
+      if (g < groups && !batch.is_flat_run[g]) ++g;
       is_clipped = interpolate_points(corners, screen, batch, first, g);
     }
     if (is_clipped)
@@ -452,7 +456,7 @@ HWY_INLINE F plane_at(const Doubles& x, const Doubles& y, const Doubles& one, I 
 void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   const IntTag di;
   const Screen screen(viewport, spacing);
-  for (int i = 0; i < Batch::group; i += lanes) {
+  for (int i = 0; i < FragmentBatch::group; i += lanes) {
     const I px = screen.x(di, g.px + i), py = screen.y(di, g.py + i);
     F q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
@@ -469,7 +473,7 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
   }
 }
 
-void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, Batch& batch,
+void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, FragmentBatch& batch,
                               int first, int last) {
   const FloatTag d;
   const IntTag di;
@@ -480,7 +484,7 @@ void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport
     x[k] = Doubles::all(planes.x[k]), y[k] = Doubles::all(planes.y[k]), one[k] = Doubles::all(planes.one[k]);
     gx[k] = static_cast<float>(planes.x[k]), gy[k] = static_cast<float>(planes.y[k]);
   }
-  alignas(64) float sum[Batch::room];
+  alignas(64) float sum[FragmentBatch::padded_capacity];
   for (int i = first; i < last; i += lanes) {
     const I px = screen.x(di, batch.x + i), py = screen.y(di, batch.y + i);
     F q[3];

@@ -35,21 +35,21 @@ class Binner {
         worker_(bins.workers[static_cast<std::size_t>(thread_index())]) {}
 
   void add(std::size_t d, std::int32_t begin, std::int32_t end, const SampleArrays& samples,
-           const FrontKernels& kernels) {
+           const SmallTriangleKernels& kernels) {
     const Draw& draw = projected_.draws[d];
-    FrontRun run = run_of(d, samples);
-    FragmentSink sink{.first_column = bins_.first_column,
-                      .first_row = bins_.first_row,
-                      .columns = bins_.columns,
-                      .last = worker_.fragments.last(),
-                      .owner = &worker_,
-                      .grow = grow};
-    FrontResult result;
-    for (std::int32_t first = begin; first < end; first += FrontRun::capacity) {
+    SmallTriangleRun run = run_of(d, samples);
+    SampleBinWriter sink{.first_column = bins_.first_column,
+                         .first_row = bins_.first_row,
+                         .columns = bins_.columns,
+                         .last = worker_.fragments.last(),
+                         .owner = &worker_,
+                         .grow = grow};
+    SmallTriangleResult result;
+    for (std::int32_t first = begin; first < end; first += SmallTriangleRun::capacity) {
       run.index = draw.index.data() + 3 * static_cast<std::size_t>(first - projected_.first_triangle[d]);
       run.first_id = first;
-      run.count = std::min(FrontRun::capacity, end - first);
-      run.records = rules_.is_flat_depth ? nullptr : worker_.triangles.room(FrontRun::capacity, worker_.arena);
+      run.count = std::min(SmallTriangleRun::capacity, end - first);
+      run.records = rules_.is_flat_depth ? nullptr : worker_.triangles.room(SmallTriangleRun::capacity, worker_.arena);
       kernels.run(run, sink, result);
       worker_.drawn += result.drawn;
       for (std::int32_t i = 0; i < result.kept_count; ++i)
@@ -63,10 +63,10 @@ class Binner {
 
  private:
   /// What the runs of a draw have in common.
-  FrontRun run_of(std::size_t d, const SampleArrays& samples) const {
+  SmallTriangleRun run_of(std::size_t d, const SampleArrays& samples) const {
     const Draw& draw = projected_.draws[d];
-    const bool draws_fragments = draw.surface == Surface::Opaque && !rules_.is_flat_depth;
-    FrontRun run{};
+    const bool draws_fragments = draw.alpha_mode == AlphaMode::Opaque && !rules_.is_flat_depth;
+    SmallTriangleRun run{};
     run.screen = projected_.screen[d].data();
     run.viewport = rules_.viewport;
     run.left = target_.x, run.right = target_.x + target_.width - 1;
@@ -97,7 +97,7 @@ class Binner {
     });
   }
 
-  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile, std::int32_t first_id) {
+  static SampleBin* grow(SampleBinWriter& sink, std::int32_t tile, std::int32_t first_id) {
     auto& worker = *static_cast<Bins::Worker*>(sink.owner);
     return worker.fragments.grow(static_cast<std::size_t>(tile), first_id, worker.arena);
   }
@@ -177,7 +177,7 @@ class Binner {
 
   Bins::TileList& tile_list(const Draw& draw, int column, int row) {
     const int tile = (row - bins_.first_row) * bins_.columns + column - bins_.first_column;
-    return worker_.tiles[static_cast<std::size_t>(tile)][static_cast<std::size_t>(draw.surface)];
+    return worker_.tiles[static_cast<std::size_t>(tile)][static_cast<std::size_t>(draw.alpha_mode)];
   }
 
   const ProjectedDraws& projected_;
@@ -225,7 +225,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
       parts.push_back({d, t, t + std::min(part_size, end - t)});
   }
   const SampleArrays samples(target.samples);
-  const FrontKernels& kernels = front_kernels(isa);
+  const SmallTriangleKernels& kernels = small_triangle_kernels(isa);
   parallel_for(parts.size(), [&](std::size_t i) {
     Binner binner(projected, target, rules, bins);
     growing("triangle bins", [&] { binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels); });

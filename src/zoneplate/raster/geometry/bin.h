@@ -34,7 +34,7 @@ struct Bins {
     Arena arena;
     ArenaArray<Triangle> triangles;
     std::vector<std::array<TileList, 3>> tiles;  ///< by tile and Surface: indices into triangles
-    TileFragments fragments;
+    TileSampleBins fragments;
     std::uint64_t drawn = 0;  ///< triangles that became fragments
 
     /// Empties the lists and makes them for that number of tiles and that target.

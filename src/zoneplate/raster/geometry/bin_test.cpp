@@ -63,18 +63,18 @@ TEST(Arena, MemoryIsOnACacheLineAndKept) {
 }
 
 /// Every surface in the colour of its instance, half transparent where it may be.
-class Plain : public PointShader {
+class Plain : public FragmentShader {
  public:
-  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.count; ++i) {
-      const std::size_t told = batch.told(static_cast<std::size_t>(i));
-      const float v = unit_float(hash(batch.triangle[told], batch.instance[told]));
+      const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
+      const float v = unit_float(hash(batch.triangle[leader], batch.instance[leader]));
       out.r[i] = v, out.g[i] = 0.5f * v, out.b[i] = 0.25f, out.a[i] = 0.5f;
     }
   }
-  float alpha(const Batch& batch, float* out) const override {
+  float alpha(const FragmentBatch& batch, float* out) const override {
     for (int i = 0; i < batch.count; ++i)
-      out[i] = unit_float(hash(batch.triangle[batch.told(static_cast<std::size_t>(i))]));
+      out[i] = unit_float(hash(batch.triangle[batch.leader(static_cast<std::size_t>(i))]));
     return 0.5f;
   }
 };
@@ -99,7 +99,7 @@ TEST(Bins, SharedMemoryLeavesNoTrace) {
           for (std::size_t d = 0; d < 3; ++d) {
             draws[d].clip = clip;
             draws[d].index = std::span(index).subspan(3 * d * triangles, 3 * triangles);
-            draws[d].surface = static_cast<Surface>(d);
+            draws[d].alpha_mode = static_cast<AlphaMode>(d);
             draws[d].instance = static_cast<std::uint32_t>(d);
           }
           LinearImage expected(size, size, Linear{0, 0, 0, 0}), found = expected;

@@ -87,7 +87,7 @@ ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std:
   std::size_t triangles = 0, vertices = 0;
   for (const Draw& draw : draws) {
     triangles += draw.triangles(), vertices += draw.vertices();
-    if (triangles > 0x7ffffffeu) throw Error(Trouble::Failed, "the scene has more than 2147483646 triangles");
+    if (triangles > 0x7ffffffeu) throw Error(ErrorKind::Failed, "the scene has more than 2147483646 triangles");
     out.first_triangle.push_back(static_cast<std::int32_t>(triangles));
   }
   const bool is_few = !kept && vertices <= always_kept;

@@ -11,14 +11,9 @@
 #include "zoneplate/raster/geometry/quads.h"
 #include "zoneplate/raster/geometry/setup.h"
 #include "zoneplate/raster/types/batch.h"
+#include "zoneplate/scene/alpha_mode.h"
 
 namespace zoneplate {
-
-enum class Surface {
-  Opaque,
-  Masked,   ///< there or not, by the shader's alpha
-  Blended,  ///< laid over what is behind it, in exact order
-};
 
 /// Triangles that are drawn with one state: an instance of a mesh.
 ///
@@ -33,7 +28,7 @@ struct Draw {
   /// Lines and points, drawn as two triangles each; null: triangles. `position` and `clip` are not used then.
   const QuadMesh* quads = nullptr;
 
-  Surface surface = Surface::Opaque;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
   bool culls_back_faces = false;
   bool is_mirrored = false;  ///< front faces are clockwise
   int material = 0;
@@ -72,7 +67,7 @@ struct ProjectedDraws {
 /// Numbers the triangles; no screen vertices are there yet. The memory of `reused` serves again.
 ///
 /// `kept`: screen vertices that are kept; none: as many as the draws' meshes have, or 2^22 where that is more.
-/// Errors    Trouble::Failed past 2^31 - 2 triangles.
+/// Errors    ErrorKind::Failed past 2^31 - 2 triangles.
 ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std::optional<std::size_t> kept = {},
                             ProjectedDraws reused = {});
 

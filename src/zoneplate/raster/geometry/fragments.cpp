@@ -6,7 +6,7 @@
 
 namespace zoneplate {
 
-void TileFragments::clear(std::size_t tiles, int samples, bool keeps_hidden) {
+void TileSampleBins::clear(std::size_t tiles, int samples, bool keeps_hidden) {
   last_.assign(tiles, nullptr);
   parts_.assign(tiles, 0);
   limit_.assign(tiles, enough);
@@ -15,17 +15,17 @@ void TileFragments::clear(std::size_t tiles, int samples, bool keeps_hidden) {
   keeps_hidden_ = keeps_hidden;
 }
 
-SampleFragments* TileFragments::grow(std::size_t tile, std::int32_t first_id, Arena& arena) {
+SampleBin* TileSampleBins::grow(std::size_t tile, std::int32_t first_id, Arena& arena) {
   if (parts_[tile] >= limit_[tile] && !keeps_hidden_) drop_hidden(tile, arena);
   return add_part(tile, first_id, arena);
 }
 
-SampleFragments* TileFragments::add_part(std::size_t tile, std::int32_t first_id, Arena& arena) {
-  SampleFragments* part = free_;
+SampleBin* TileSampleBins::add_part(std::size_t tile, std::int32_t first_id, Arena& arena) {
+  SampleBin* part = free_;
   if (part) {
     free_ = part->previous;
   } else {
-    part = reinterpret_cast<SampleFragments*>(arena.take(sizeof(SampleFragments)));
+    part = reinterpret_cast<SampleBin*>(arena.take(sizeof(SampleBin)));
   }
   part->previous = last_[tile];
   part->count = 0;
@@ -35,9 +35,9 @@ SampleFragments* TileFragments::add_part(std::size_t tile, std::int32_t first_id
 }
 
 /// Writes the list anew with the nearest fragment of each sample. The next time is when it is twice as long.
-void TileFragments::drop_hidden(std::size_t tile, Arena& arena) {
+void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
   find_nearest(last_[tile]);
-  while (SampleFragments* const part = last_[tile]) {
+  while (SampleBin* const part = last_[tile]) {
     last_[tile] = part->previous;
     part->previous = free_;
     free_ = part;
@@ -46,9 +46,9 @@ void TileFragments::drop_hidden(std::size_t tile, Arena& arena) {
   // A part holds ids that are not far apart.
   std::sort(nearest_.begin(), nearest_.end(),
             [](const Nearest& p, const Nearest& q) { return p.id != q.id ? p.id < q.id : p.at < q.at; });
-  SampleFragments* part = nullptr;
+  SampleBin* part = nullptr;
   for (const Nearest& n : nearest_) {
-    if (!part || part->count == SampleFragments::capacity || n.id - part->first_id > SampleFragments::most_ids)
+    if (!part || part->count == SampleBin::capacity || n.id - part->first_id > SampleBin::most_ids)
       part = add_part(tile, n.id, arena);
     part->depth[part->count] = n.depth;
     part->what[part->count++] = (static_cast<std::uint32_t>(n.id - part->first_id) << 16) + n.at;
@@ -57,12 +57,12 @@ void TileFragments::drop_hidden(std::size_t tile, Arena& arena) {
 }
 
 /// nearest_: by the order of visibility, the least (-depth, id) of each sample.
-void TileFragments::find_nearest(const SampleFragments* list) {
+void TileSampleBins::find_nearest(const SampleBin* list) {
   number_.assign(static_cast<std::size_t>(samples_) * tile_pixels, 0);
   nearest_.clear();
   for (; list; list = list->previous)
     for (std::int32_t i = 0; i < list->count; ++i) {
-      const Nearest found{list->depth[i], list->id(list->what[i]), SampleFragments::at(list->what[i])};
+      const Nearest found{list->depth[i], list->id(list->what[i]), SampleBin::at(list->what[i])};
       std::uint32_t& number = number_[found.at];
       if (number == 0) {
         nearest_.push_back(found);

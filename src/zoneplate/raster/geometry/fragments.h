@@ -10,17 +10,17 @@ namespace zoneplate {
 
 /// One thread's fragments by tile, in an arena. Where a tile's list has grown long, of each sample only the nearest
 /// stays: a list is at most a few times as long as what is seen of it, however much lies behind.
-class TileFragments {
+class TileSampleBins {
  public:
   /// Empties the lists, whose memory the arena takes back, and makes them for that number of tiles.
   /// `keeps_hidden`: all fragments stay.
   void clear(std::size_t tiles, int samples, bool keeps_hidden);
 
   /// Gives a tile's list a new, empty last part.
-  SampleFragments* grow(std::size_t tile, std::int32_t first_id, Arena& arena);
+  SampleBin* grow(std::size_t tile, std::int32_t first_id, Arena& arena);
 
-  SampleFragments** last() { return last_.data(); }  ///< by tile: the last part of its list, or null
-  SampleFragments* operator[](std::size_t tile) const { return last_[tile]; }
+  SampleBin** last() { return last_.data(); }  ///< by tile: the last part of its list, or null
+  SampleBin* operator[](std::size_t tile) const { return last_[tile]; }
 
   static constexpr std::uint32_t enough = 64;  ///< parts of a list that may hold hidden fragments
 
@@ -30,14 +30,14 @@ class TileFragments {
     std::int32_t id = 0;
     std::uint32_t at = 0;
   };
-  SampleFragments* add_part(std::size_t tile, std::int32_t first_id, Arena& arena);
+  SampleBin* add_part(std::size_t tile, std::int32_t first_id, Arena& arena);
   void drop_hidden(std::size_t tile, Arena& arena);
-  void find_nearest(const SampleFragments* list);
+  void find_nearest(const SampleBin* list);
 
-  std::vector<SampleFragments*> last_;
+  std::vector<SampleBin*> last_;
   std::vector<std::uint32_t> parts_;  ///< by tile: of its list
   std::vector<std::uint32_t> limit_;  ///< by tile: parts at which hidden fragments are dropped
-  SampleFragments* free_ = nullptr;   ///< parts to be used again
+  SampleBin* free_ = nullptr;         ///< parts to be used again
   int samples_ = 0;                   ///< a pixel
   bool keeps_hidden_ = false;
   std::vector<std::uint32_t> number_;  ///< by sample of a tile: of its fragment in nearest_, plus one

@@ -25,12 +25,12 @@ void take(Owners& owners, std::uint32_t at, Owner found) {
 
 struct Filled {
   Arena arena;
-  TileFragments fragments;
+  TileSampleBins fragments;
   Owners owners;
   std::size_t greatest_parts = 0;
   std::size_t parts() const {
     std::size_t count = 0;
-    for (const SampleFragments* p = fragments[1]; p; p = p->previous) ++count;
+    for (const SampleBin* p = fragments[1]; p; p = p->previous) ++count;
     return count;
   }
 };
@@ -43,8 +43,8 @@ void fill(Filled& to, bool keeps_hidden) {
     const auto id = static_cast<std::int32_t>(i * 1500 + hash(i, 1) % 700);
     const std::uint32_t at = hash(i, 2) % 300 * 51;
     const float depth = static_cast<float>(hash(i, 3) % 5000) / 5000;
-    SampleFragments* part = to.fragments.last()[1];
-    if (!part || part->count == SampleFragments::capacity || id - part->first_id > SampleFragments::most_ids)
+    SampleBin* part = to.fragments.last()[1];
+    if (!part || part->count == SampleBin::capacity || id - part->first_id > SampleBin::most_ids)
       part = to.fragments.grow(1, id, to.arena);
     part->depth[part->count] = depth;
     part->what[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
@@ -53,7 +53,7 @@ void fill(Filled& to, bool keeps_hidden) {
   }
 }
 
-TEST(TileFragments, TheNearestStayAndListsStayShort) {
+TEST(TileSampleBins, TheNearestStayAndListsStayShort) {
   Filled short_lists, all;
   fill(short_lists, false);
   fill(all, true);
@@ -61,9 +61,9 @@ TEST(TileFragments, TheNearestStayAndListsStayShort) {
   EXPECT_LE(short_lists.greatest_parts, 700u);  // 300 fragments, all in different parts at worst, twice
   for (const Filled* f : {&short_lists, &all}) {
     Owners found;
-    for (const SampleFragments* p = f->fragments[1]; p; p = p->previous)
+    for (const SampleBin* p = f->fragments[1]; p; p = p->previous)
       for (std::int32_t i = 0; i < p->count; ++i)
-        take(found, SampleFragments::at(p->what[i]), {p->depth[i], p->id(p->what[i])});
+        take(found, SampleBin::at(p->what[i]), {p->depth[i], p->id(p->what[i])});
     EXPECT_EQ(found, f->owners);
   }
 }

@@ -109,18 +109,18 @@ HWY_INLINE void cover_row(const SetUp& t, const Candidates& c, Edges e, VI dead,
 }
 
 /// The last part of a tile's list, with room for so many more fragments of the run's triangles.
-HWY_INLINE SampleFragments* part_with_room(const FrontRun& run, FragmentSink& sink, std::int32_t tile,
-                                           std::int32_t room) {
-  SampleFragments* const part = sink.last[tile];
-  if (part && part->count <= SampleFragments::capacity - room &&
-      static_cast<std::uint32_t>(run.first_id - part->first_id) < 0x10000 - FrontRun::capacity)
+HWY_INLINE SampleBin* part_with_room(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile,
+                                     std::int32_t room) {
+  SampleBin* const part = sink.last[tile];
+  if (part && part->count <= SampleBin::capacity - room &&
+      static_cast<std::uint32_t>(run.first_id - part->first_id) < 0x10000 - SmallTriangleRun::capacity)
     return part;
   return sink.grow(sink, tile, run.first_id);
 }
 
 /// Puts whole vectors into a list's last part, which has room for them.
 struct Append {
-  SampleFragments* part;
+  SampleBin* part;
   VI first;  ///< what is said of fragments at the first candidates
 
   HWY_INLINE void operator()(MI mask, int i, int j, VF z) const {
@@ -133,8 +133,9 @@ struct Append {
 };
 
 /// Puts lanes into the list of a tile. `what`: without the list's first id.
-HWY_INLINE void put_in_tile(const FrontRun& run, FragmentSink& sink, std::int32_t tile, MI mask, VF z, VI what) {
-  SampleFragments* const part = part_with_room(run, sink, tile, lanes);
+HWY_INLINE void put_in_tile(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile, MI mask, VF z,
+                            VI what) {
+  SampleBin* const part = part_with_room(run, sink, tile, lanes);
   const Packing<I> packing(mask);
   const std::int32_t at = part->count;
   packing.store(z, part->depth + at);
@@ -144,18 +145,19 @@ HWY_INLINE void put_in_tile(const FrontRun& run, FragmentSink& sink, std::int32_
 }
 
 /// Puts lanes into the lists of their tiles, as far as these are drawn. `what`: without the list's first id.
-HWY_INLINE void put_by_tile(const FrontRun& run, FragmentSink& sink, MI mask, VI pixel_x, VI pixel_y, VF z, VI what) {
+HWY_INLINE void put_by_tile(const SmallTriangleRun& run, SampleBinWriter& sink, MI mask, VI pixel_x, VI pixel_y, VF z,
+                            VI what) {
   const VI column = hn::ShiftRight<6>(pixel_x), row = hn::ShiftRight<6>(pixel_y);
   const VI beyond = hn::Or(hn::Or(hn::Sub(column, set(run.left >> 6)), hn::Sub(set(run.right >> 6), column)),
                            hn::Or(hn::Sub(row, set(run.top >> 6)), hn::Sub(set(run.bottom >> 6), row)));
   mask = hn::AndNot(hn::MaskFromVec(hn::BroadcastSignBit(beyond)), mask);
   const VI tile =
       hn::Add(hn::Mul(hn::Sub(row, set(sink.first_row)), set(sink.columns)), hn::Sub(column, set(sink.first_column)));
-  const auto in_list = [&](const SampleFragments& part) HWY_ATTR {
+  const auto in_list = [&](const SampleBin& part) HWY_ATTR {
     return hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part.first_id) << 16)));
   };
   if (const std::int32_t first = hn::GetLane(tile); hn::AllTrue(i32, hn::And(mask, hn::Eq(tile, set(first))))) {
-    SampleFragments* const part = part_with_room(run, sink, first, lanes);
+    SampleBin* const part = part_with_room(run, sink, first, lanes);
     const std::int32_t at = part->count;
     hn::StoreU(z, f, part->depth + at);
     hn::StoreU(in_list(*part), i32, reinterpret_cast<std::int32_t*>(part->what) + at);
@@ -180,8 +182,8 @@ HWY_INLINE VI what_at(VI id, VI pixel_x, VI pixel_y) {
 
 /// Puts samples of one kind into the lists of their tiles.
 struct Scatter {
-  const FrontRun& run;
-  FragmentSink& sink;
+  const SmallTriangleRun& run;
+  SampleBinWriter& sink;
   const Candidates& candidates;
   VI id;
   std::int32_t sample;

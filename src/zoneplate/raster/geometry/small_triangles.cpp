@@ -19,7 +19,7 @@ Bounds bounds_of(const ScreenVertex& p, const ScreenVertex& q, const ScreenVerte
           std::max({p.y, q.y, r.y}) + cy};
 }
 
-bool may_cover_a_sample(const Bounds& b, const FrontRun& run) {
+bool may_cover_a_sample(const Bounds& b, const SmallTriangleRun& run) {
   for (int s = 0; s < run.sample_count; ++s) {
     const std::int32_t sx = run.sample_x[s], sy = run.sample_y[s];
     if ((b.low_x - sx + 255) >> 8 <= (b.high_x - sx) >> 8 && (b.low_y - sy + 255) >> 8 <= (b.high_y - sy) >> 8)
@@ -28,22 +28,23 @@ bool may_cover_a_sample(const Bounds& b, const FrontRun& run) {
   return false;
 }
 
-bool is_in_rectangle(const Bounds& b, const FrontRun& run) {
+bool is_in_rectangle(const Bounds& b, const SmallTriangleRun& run) {
   return b.low_x >> 8 <= run.right && b.high_x >> 8 >= run.left && b.low_y >> 8 <= run.bottom &&
          b.high_y >> 8 >= run.top;
 }
 
-void put(const FrontRun& run, FragmentSink& sink, std::int32_t tile, float depth, std::int32_t id, std::uint32_t at) {
-  SampleFragments* part = sink.last[tile];
+void put(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile, float depth, std::int32_t id,
+         std::uint32_t at) {
+  SampleBin* part = sink.last[tile];
   const auto is_full = [&] {
-    return part->count == SampleFragments::capacity || id < part->first_id || id - part->first_id > 0xffff;
+    return part->count == SampleBin::capacity || id < part->first_id || id - part->first_id > 0xffff;
   };
   if (!part || is_full()) part = sink.grow(sink, tile, run.first_id);
   part->depth[part->count] = depth;
   part->what[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
 }
 
-void draw(const Triangle& t, const FrontRun& run, FragmentSink& sink) {
+void draw(const Triangle& t, const SmallTriangleRun& run, SampleBinWriter& sink) {
   SamplePosition samples[TileTriangle::max_samples];
   for (int s = 0; s < run.sample_count; ++s)
     samples[s] = {static_cast<std::uint8_t>(run.sample_x[s]), static_cast<std::uint8_t>(run.sample_y[s])};
@@ -63,7 +64,7 @@ void draw(const Triangle& t, const FrontRun& run, FragmentSink& sink) {
     }
 }
 
-void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) {
+void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result) {
   result.general_count = result.kept_count = 0, result.drawn = 0;
   const SetupRules rules{.viewport = run.viewport, .is_top_left = run.is_top_left};
   for (std::int32_t t = 0; t < run.count; ++t) {
@@ -92,6 +93,6 @@ void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) {
 
 }  // namespace
 
-const FrontKernels front_kernels = {.run = run_front};
+const SmallTriangleKernels small_triangle_kernels = {.run = run_front};
 
 }  // namespace zoneplate::scalar

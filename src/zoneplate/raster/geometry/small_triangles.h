@@ -11,11 +11,11 @@ namespace zoneplate {
 /// Samples of one tile that small triangles cover, in any order; a list of these is what a thread has for a tile.
 ///
 /// Units     what = 65536 (id - first_id) + at, at = 4096 sample + 64 y + x, with the pixel (x, y) within the tile.
-struct SampleFragments {
+struct SampleBin {
   static constexpr int capacity = 510;
   static constexpr int most_samples = 16;
   static constexpr std::int32_t most_ids = 0xffff;  ///< of a part, after its first
-  SampleFragments* previous;
+  SampleBin* previous;
   std::int32_t count;
   std::int32_t first_id;
   float depth[capacity];
@@ -26,16 +26,16 @@ struct SampleFragments {
 };
 
 /// Where the fragments of one thread go: by tile of the picture's grid, the list's last part, or null.
-struct FragmentSink {
+struct SampleBinWriter {
   std::int32_t first_column, first_row, columns;
-  SampleFragments** last;
+  SampleBin** last;
   void* owner;
   /// Gives the list a new, empty last part for triangles from `first_id` on.
-  SampleFragments* (*grow)(FragmentSink& sink, std::int32_t tile, std::int32_t first_id);
+  SampleBin* (*grow)(SampleBinWriter& sink, std::int32_t tile, std::int32_t first_id);
 };
 
 /// A run of consecutive triangles of one draw, and what they are tested against.
-struct FrontRun {
+struct SmallTriangleRun {
   const ScreenVertex* screen;
   const std::uint32_t* index;  ///< three a triangle
   std::int32_t count;          ///< at most `capacity`
@@ -48,7 +48,7 @@ struct FrontRun {
   std::int32_t facing;  ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
   bool is_top_left;     ///< as SetupRules
   /// 1/256 pixel: what is no wider and no higher becomes fragments; at most 2047, -1: none, as it must be where there
-  /// are more samples than SampleFragments::most_samples.
+  /// are more samples than SampleBin::most_samples.
   std::int32_t small_extent;
 
   Triangle* records;  ///< room for those that are kept and not small; null: they are listed, not set up
@@ -57,27 +57,29 @@ struct FrontRun {
 };
 
 /// What became of a run's triangles, as numbers within the run.
-struct FrontResult {
+struct SmallTriangleResult {
   std::int32_t general_count = 0, kept_count = 0;
-  std::uint64_t drawn = 0;                        ///< small triangles that went on to be fragments
-  std::int32_t general[FrontRun::capacity + 16];  ///< need clipping, or are larger than 64 pixels: not yet tested
-  std::int32_t kept[FrontRun::capacity + 16];  ///< face the eye, have a sample in their bounds, are in the rectangle;
-                                               ///< not written where there is room for records
+  std::uint64_t drawn = 0;  ///< small triangles that went on to be fragments
+  std::int32_t
+      general[SmallTriangleRun::capacity + 16];        ///< need clipping, or are larger than 64 pixels: not yet tested
+  std::int32_t kept[SmallTriangleRun::capacity + 16];  ///< face the eye, have a sample in their bounds, are in the
+                                                       ///< rectangle; not written where there is room for records
 };
 
-struct FrontKernels {
+struct SmallTriangleKernels {
   /// Culls a run of triangles, draws the small ones as fragments, sets up or lists the rest, in their order.
   ///
   /// The samples of small triangles and their depths are those of make_tile_triangle and depth_at, bit for bit.
-  void (*run)(const FrontRun& run, FragmentSink& sink, FrontResult& result);
+  void (*run)(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result);
 
-  static const FrontKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
+  static const SmallTriangleKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
+      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
 namespace scalar {
-extern const FrontKernels front_kernels;
+extern const SmallTriangleKernels small_triangle_kernels;
 }
-inline const FrontKernels& front_kernels(Isa isa) { return pick(isa, scalar::front_kernels); }
+inline const SmallTriangleKernels& small_triangle_kernels(Isa isa) { return pick(isa, scalar::small_triangle_kernels); }
 
 inline constexpr std::int32_t large_extent = 16383;  ///< 1/256 pixel; products of two differences stay within 28 bits
 

@@ -9,7 +9,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 /// Of those lanes the ones with a sample of the pattern within bounds of that size.
-HWY_INLINE MI may_cover_a_sample(const Extent& e, VI width, VI height, const FrontRun& run, MI asked) {
+HWY_INLINE MI may_cover_a_sample(const Extent& e, VI width, VI height, const SmallTriangleRun& run, MI asked) {
   MI found = hn::MaskFromVec(hn::Zero(i32));
   for (std::int32_t s = 0; s < run.sample_count; ++s) {
     const MI none =
@@ -21,7 +21,7 @@ HWY_INLINE MI may_cover_a_sample(const Extent& e, VI width, VI height, const Fro
 }
 
 /// Lanes with a pixel of the rectangle within the bounds.
-HWY_INLINE MI meets_rectangle(const Extent& e, const FrontRun& run) {
+HWY_INLINE MI meets_rectangle(const Extent& e, const SmallTriangleRun& run) {
   const VI beside =
       hn::Or(hn::Or(hn::Sub(set(run.right * 256 + 255), e.low_x), hn::Sub(e.high_x, set(run.left * 256))),
              hn::Or(hn::Sub(set(run.bottom * 256 + 255), e.low_y), hn::Sub(e.high_y, set(run.top * 256))));
@@ -31,8 +31,9 @@ HWY_INLINE MI meets_rectangle(const Extent& e, const FrontRun& run) {
 /// The work on one run, a vector of triangles at a time.
 class Front {
  public:
-  Front(const FrontRun& run, FragmentSink& sink, FrontResult& result) : run_(run), sink_(sink), result_(result) {
-    for (std::int32_t s = 0; s < run.sample_count && s < SampleFragments::most_samples; ++s)
+  Front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result)
+      : run_(run), sink_(sink), result_(result) {
+    for (std::int32_t s = 0; s < run.sample_count && s < SampleBin::most_samples; ++s)
       sample_x_[s] = run.sample_x[s], sample_y_[s] = run.sample_y[s];
   }
 
@@ -289,7 +290,7 @@ class Front {
   }
 
   HWY_INLINE Append append_at(const Work& w, const Candidates& n, std::int32_t s, std::int32_t tile, int places) {
-    SampleFragments* const part = part_with_room(run_, sink_, tile, places * lanes);
+    SampleBin* const part = part_with_room(run_, sink_, tile, places * lanes);
     const auto rest = (static_cast<std::uint32_t>(s) << 12) - (static_cast<std::uint32_t>(part->first_id) << 16);
     return {part, hn::Add(what_at(w.c.id, n.pixel_x, n.pixel_y), set(static_cast<std::int32_t>(rest)))};
   }
@@ -315,15 +316,17 @@ class Front {
     return (row - sink_.first_row) * sink_.columns + column - sink_.first_column;
   }
 
-  const FrontRun& run_;
-  FragmentSink& sink_;
-  FrontResult& result_;
-  std::int32_t sample_x_[SampleFragments::most_samples + lanes], sample_y_[SampleFragments::most_samples + lanes];
+  const SmallTriangleRun& run_;
+  SampleBinWriter& sink_;
+  SmallTriangleResult& result_;
+  std::int32_t sample_x_[SampleBin::most_samples + lanes], sample_y_[SampleBin::most_samples + lanes];
   Waiting waiting_;  ///< triangles
   Waiting samples_;  ///< samples that are covered
 };
 
-void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) { Front(run, sink, result).run(); }
+void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result) {
+  Front(run, sink, result).run();
+}
 
 }  // namespace
 
@@ -331,5 +334,5 @@ void run_front(const FrontRun& run, FragmentSink& sink, FrontResult& result) { F
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FrontKernels FrontKernels::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
+const SmallTriangleKernels SmallTriangleKernels::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
 }  // namespace zoneplate

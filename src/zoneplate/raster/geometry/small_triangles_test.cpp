@@ -60,16 +60,15 @@ class Lists {
   std::vector<Found> sorted() const {
     std::vector<Found> out;
     for (std::size_t tile = 0; tile < last_.size(); ++tile)
-      for (const SampleFragments* p = last_[tile]; p; p = p->previous)
+      for (const SampleBin* p = last_[tile]; p; p = p->previous)
         for (std::int32_t i = 0; i < p->count; ++i)
-          out.emplace_back(static_cast<std::int32_t>(tile), SampleFragments::at(p->what[i]), p->id(p->what[i]),
-                           p->depth[i]);
+          out.emplace_back(static_cast<std::int32_t>(tile), SampleBin::at(p->what[i]), p->id(p->what[i]), p->depth[i]);
     std::sort(out.begin(), out.end());
     return out;
   }
 
  private:
-  static SampleFragments* grow(FragmentSink& sink, std::int32_t tile, std::int32_t first_id) {
+  static SampleBin* grow(SampleBinWriter& sink, std::int32_t tile, std::int32_t first_id) {
     auto& lists = *static_cast<Lists*>(sink.owner);
     lists.parts_.emplace_back();
     lists.parts_.back().previous = sink.last[tile];
@@ -77,11 +76,11 @@ class Lists {
     lists.parts_.back().first_id = first_id;
     return sink.last[tile] = &lists.parts_.back();
   }
-  std::deque<SampleFragments> parts_;
-  std::vector<SampleFragments*> last_;
+  std::deque<SampleBin> parts_;
+  std::vector<SampleBin*> last_;
 
  public:
-  FragmentSink sink;
+  SampleBinWriter sink;
 };
 
 struct Outcome {
@@ -126,27 +125,27 @@ Outcome outcome_of(const Soup& soup, const Case& c, Isa isa) {
   const std::int32_t column = c.left / tile_size, row = c.top / tile_size;
   Lists lists(column, row, c.right / tile_size - column + 1, c.bottom / tile_size - row + 1);
   Outcome out;
-  FrontResult result;
-  std::vector<Triangle> records(FrontRun::capacity);
+  SmallTriangleResult result;
+  std::vector<Triangle> records(SmallTriangleRun::capacity);
   const auto triangles = static_cast<std::int32_t>(soup.index.size() / 3);
-  for (std::int32_t first = 0; first < triangles; first += FrontRun::capacity) {
-    const FrontRun run{.screen = soup.screen.data(),
-                       .index = soup.index.data() + 3 * first,
-                       .count = std::min(FrontRun::capacity, triangles - first),
-                       .first_id = first,
-                       .viewport = viewport,
-                       .left = c.left,
-                       .top = c.top,
-                       .right = c.right,
-                       .bottom = c.bottom,
-                       .sample_x = sample_x.data(),
-                       .sample_y = sample_y.data(),
-                       .sample_count = static_cast<std::int32_t>(sample_x.size()),
-                       .facing = c.facing,
-                       .is_top_left = c.is_top_left,
-                       .small_extent = c.small_extent,
-                       .records = c.lists_kept ? nullptr : records.data()};
-    front_kernels(isa).run(run, lists.sink, result);
+  for (std::int32_t first = 0; first < triangles; first += SmallTriangleRun::capacity) {
+    const SmallTriangleRun run{.screen = soup.screen.data(),
+                               .index = soup.index.data() + 3 * first,
+                               .count = std::min(SmallTriangleRun::capacity, triangles - first),
+                               .first_id = first,
+                               .viewport = viewport,
+                               .left = c.left,
+                               .top = c.top,
+                               .right = c.right,
+                               .bottom = c.bottom,
+                               .sample_x = sample_x.data(),
+                               .sample_y = sample_y.data(),
+                               .sample_count = static_cast<std::int32_t>(sample_x.size()),
+                               .facing = c.facing,
+                               .is_top_left = c.is_top_left,
+                               .small_extent = c.small_extent,
+                               .records = c.lists_kept ? nullptr : records.data()};
+    small_triangle_kernels(isa).run(run, lists.sink, result);
     for (std::int32_t i = 0; i < result.general_count; ++i) out.general.push_back(first + result.general[i]);
     for (std::int32_t i = 0; i < result.kept_count; ++i) {
       out.kept.push_back(c.lists_kept ? first + result.kept[i] : records[static_cast<std::size_t>(i)].id);
@@ -275,12 +274,12 @@ TEST(Front, ASheetOfTinyTrianglesCoversEverySampleOnce) {
 }
 
 /// Colours nothing: the samples' owners and depths are looked at.
-class Blank : public PointShader {
+class Blank : public FragmentShader {
  public:
-  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.count; ++i) out.r[i] = out.g[i] = out.b[i] = out.a[i] = 1;
   }
-  float alpha(const Batch&, float*) const override { return 0; }
+  float alpha(const FragmentBatch&, float*) const override { return 0; }
 };
 
 /// Clip positions of triangles from a hundredth of a pixel to beyond the guard band, some across the eye's plane.

@@ -32,7 +32,7 @@ void TileRenderer::layer_tile() {
     blend_blocks(strip, layers);
   }
   if (other_blocks_ == 0) return;
-  visibility_.open_all();
+  visibility_.materialize_all();
   for (int y = 0; y < tile_size; y += 8) layer_strip(std::max(y, top_), std::min(y + 8, bottom_));
 }
 
@@ -47,7 +47,7 @@ void TileRenderer::collect_block_layers() {
   unsorted_layers_.clear();
   block_layers_.clear();
   std::size_t number = 0;
-  for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Blended)]) {
+  for (const Triangle* t : sources_[static_cast<std::size_t>(AlphaMode::Blend)]) {
     if (++number % deadline_stride == 0) check_deadline();
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
     const int n = coverage_.collect_blocks(tile_triangle_, visibility_, nearest, found, other_blocks_);
@@ -67,7 +67,7 @@ void TileRenderer::collect_block_layers() {
 bool TileRenderer::starts_from_rows(std::uint32_t block) const {
   const int y = static_cast<int>(block / 8 * 8), column = static_cast<int>(block % 8);
   bool is_whole = is_whole_row(column) && y >= top_ && y + 8 <= bottom_;
-  for (int i = 0; i < 8; ++i) is_whole = is_whole && row_owner_[(y + i) * 8 + column] != many_triangles;
+  for (int i = 0; i < 8; ++i) is_whole = is_whole && row_primitive_[(y + i) * 8 + column] != mixed_primitives;
   return is_whole;
 }
 
@@ -88,13 +88,13 @@ void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer>
   std::size_t deepest = 0;
   for (std::uint32_t row = 0; row < 64; ++row) strip_layers_[row].clear();
   for (const auto& of_block : layers) deepest = std::max(deepest, of_block.size());
-  PointRow rows[64];
-  Layers8* under[64];
+  FragmentSpan rows[64];
+  TransparentStack8* under[64];
   for (std::size_t layer = 0; layer < deepest; ++layer) {
     std::size_t count = 0;
     for (std::uint32_t column = 0; column < 8; ++column) {
       if (layer >= layers[column].size()) continue;
-      const Point centre = point_at((first_row + column) * 8, layers[column][layer].id, all_samples_);
+      const Fragment centre = point_at((first_row + column) * 8, layers[column][layer].id, all_samples_);
       for (std::uint32_t i = 0; i < 8; ++i) {
         if (!strip_layers_[i * 8 + column].is_open) continue;
         rows[count] = {centre.x, centre.y + 256 * static_cast<std::int32_t>(i), centre.id,
@@ -104,13 +104,13 @@ void TileRenderer::blend_blocks(std::uint32_t strip, std::span<const BlockLayer>
     }
     if (count == 0) break;
     shader_.shade_in_order(std::span(rows).first(count),
-                           [&](const Shaded& color, std::size_t first, std::size_t shaded) {
-                             resolve_.put_rows_under(color, static_cast<int>(shaded), least_, under + first);
+                           [&](const FragmentOutputs& color, std::size_t first, std::size_t shaded) {
+                             resolve_.composite_spans_under(color, static_cast<int>(shaded), least_, under + first);
                            });
   }
   for (std::uint32_t row = 0; row < 64; ++row) {
     if (layers[row % 8].empty()) continue;
-    Linear8 color = row_owner_[first_row + row] == no_triangle ? nothing : base_[first_row + row];
+    Linear8 color = row_primitive_[first_row + row] == no_primitive ? nothing : base_[first_row + row];
     resolve_.over(strip_layers_[row], color);
     resolve_.resolve_samples(color, weights_.data(), pass_samples_, weight_sum_, color_[first_row + row]);
   }
@@ -141,7 +141,7 @@ void TileRenderer::layer_strip(int top, int bottom) {
     has_slow = has_slow || is_slow_row_[row];
     if (!is_slow_row_[row] && last > first) {
       for (; first < last; ++first) {
-        const Point centre = point_at(row * 8, row_layers_[first].id, all_samples_);
+        const Fragment centre = point_at(row * 8, row_layers_[first].id, all_samples_);
         rows_.push_back({centre.x, centre.y, row_layers_[first].id, row * 8});
       }
       blended_rows_.push_back({row, static_cast<std::uint32_t>(rows_.size())});
@@ -157,12 +157,12 @@ void TileRenderer::layer_strip(int top, int bottom) {
 /// others too, or pixels that do not count or start from different surfaces. False if there are more than are held at
 /// once.
 bool TileRenderer::collect_row_layers(int top, int bottom) {
-  RowLayer found[64];
+  SpanLayer found[64];
   std::uint32_t begin[tile_pixels / 8 + 1] = {};
   row_layers_.clear();
   std::fill_n(is_slow_row_ + top * 8, (bottom - top) * 8, std::uint8_t{0});
   std::size_t number = 0;
-  for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Blended)]) {
+  for (const Triangle* t : sources_[static_cast<std::size_t>(AlphaMode::Blend)]) {
     if (++number % deadline_stride == 0) check_deadline();
     if (t->max_y - tile_y_ < top || t->min_y - tile_y_ >= bottom) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
@@ -174,11 +174,11 @@ bool TileRenderer::collect_row_layers(int top, int bottom) {
     if (row_layers_.size() > room_.layer_samples) return false;
   }
   for (int row = top * 8; row < bottom * 8; ++row)
-    if (begin[row + 1] > 0 && (row_owner_[row] == many_triangles || !is_whole_row(row))) is_slow_row_[row] = 1;
+    if (begin[row + 1] > 0 && (row_primitive_[row] == mixed_primitives || !is_whole_row(row))) is_slow_row_[row] = 1;
 
   for (std::size_t row = 0; row < tile_pixels / 8; ++row) begin[row + 1] += begin[row];
   sorted_row_layers_.resize(row_layers_.size());
-  for (const RowLayer& layer : row_layers_) sorted_row_layers_[begin[layer.row]++] = layer;
+  for (const SpanLayer& layer : row_layers_) sorted_row_layers_[begin[layer.row]++] = layer;
   row_layers_.swap(sorted_row_layers_);
   return true;
 }
@@ -186,7 +186,7 @@ bool TileRenderer::collect_row_layers(int top, int bottom) {
 /// Nearest first; false if two of the layers may change places within the row, or are pieces of one triangle.
 bool TileRenderer::sort_row(std::size_t first, std::size_t last) {
   const auto at = [&](std::size_t i) { return row_layers_.begin() + static_cast<std::ptrdiff_t>(i); };
-  const auto is_nearer = [](const RowLayer& p, const RowLayer& q) { return p.least > q.least; };
+  const auto is_nearer = [](const SpanLayer& p, const SpanLayer& q) { return p.least > q.least; };
   if (!std::is_sorted(at(first), at(last), is_nearer)) std::sort(at(first), at(last), is_nearer);
   for (std::size_t i = first + 1; i < last; ++i)
     if (!(row_layers_[i - 1].least > row_layers_[i].greatest) || row_layers_[i - 1].id == row_layers_[i].id)
@@ -197,15 +197,15 @@ bool TileRenderer::sort_row(std::size_t first, std::size_t last) {
 /// Shades rows_ and puts each row's layers under one another.
 void TileRenderer::blend_rows() {
   static constexpr Linear8 nothing{};
-  Layers8 layers;
+  TransparentStack8 layers;
   std::size_t layer = 0, first_layer = 0, row = 0;
-  shader_.shade_in_order(rows_, [&](const Shaded& color, std::size_t, std::size_t shaded) {
+  shader_.shade_in_order(rows_, [&](const FragmentOutputs& color, std::size_t, std::size_t shaded) {
     for (int i = 0; i < static_cast<int>(shaded); ++i) {
       const BlendedRow& blended = blended_rows_[row];
       if (layer == first_layer) layers.clear();
-      resolve_.put_under(color, i * Batch::group, least_, layers);
+      resolve_.composite_under(color, i * FragmentBatch::group, least_, layers);
       if (++layer < blended.end) continue;
-      Linear8 all = row_owner_[blended.row] == no_triangle ? nothing : base_[blended.row];
+      Linear8 all = row_primitive_[blended.row] == no_primitive ? nothing : base_[blended.row];
       resolve_.over(layers, all);
       resolve_.resolve_samples(all, weights_.data(), pass_samples_, weight_sum_, color_[blended.row]);
       first_layer = layer;
@@ -221,10 +221,10 @@ void TileRenderer::blend_slow_pixel(const PixelLayers& layers) {
   if (layers.empty()) return;
   const std::uint32_t pixel = layers.pixel;
   Linear behind[TileTriangle::max_samples];
-  const std::int32_t owner = row_owner_[pixel / 8];
-  const bool has_points = owner == many_triangles || !is_whole_row(static_cast<int>(pixel / 8));
+  const std::int32_t owner = row_primitive_[pixel / 8];
+  const bool has_points = owner == mixed_primitives || !is_whole_row(static_cast<int>(pixel / 8));
   std::fill_n(behind, pass_samples_,
-              has_points || owner == no_triangle ? Linear{0, 0, 0, 0} : base_[pixel / 8].get(pixel % 8));
+              has_points || owner == no_primitive ? Linear{0, 0, 0, 0} : base_[pixel / 8].get(pixel % 8));
   for (std::size_t p = first_point_[pixel]; p < points_.size() && points_[p].pixel == pixel; ++p)
     for (std::uint64_t left = points_[p].samples; left; left &= left - 1) behind[std::countr_zero(left)] = colors_[p];
   lay_over(layers, behind);

@@ -21,9 +21,9 @@ void TileRenderer::keep_data(std::uint32_t pixel, std::size_t p) {
 void TileRenderer::note_nearest() {
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
     for (std::uint32_t p = first_point_[pixel]; p < first_point_[pixel + 1]; ++p) {
-      const Point& point = points_[p];
+      const Fragment& point = points_[p];
       Nearest& nearest = nearest_[pixel];
-      if (nearest.first_id == no_triangle) nearest.first_id = point.id;
+      if (nearest.first_id == no_primitive) nearest.first_id = point.id;
       if (nearest.first_id == point.id) nearest.first_owns += std::popcount(point.samples);
       for (std::uint64_t left = point.samples; left; left &= left - 1) {
         const int s = std::countr_zero(left);
@@ -45,19 +45,19 @@ void TileRenderer::write_data() {
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel) {
     Nearest& nearest = nearest_[pixel];
     const bool is_whole = nearest.first_owns == static_cast<int>(target_.samples.size());
-    if (nearest.id == no_triangle || !is_whole || nearest.place == SamplePosition{}) continue;
+    if (nearest.id == no_primitive || !is_whole || nearest.place == SamplePosition{}) continue;
     nearest.place = {};
     points_.push_back(point_at(pixel, nearest.id, 0, nearest.place));
   }
   if (shades_data()) shader_.shade(points_, colors_, &data_);
   for (std::size_t p = 0; p < points_.size(); ++p) keep_data(points_[p].pixel, p);
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
-    if (nearest_[pixel].id != no_triangle) write_data(pixel);
+    if (nearest_[pixel].id != no_primitive) write_data(pixel);
 }
 
 void TileRenderer::write_data(std::uint32_t pixel) {
   const Nearest& nearest = nearest_[pixel];
-  const Point point = point_at(pixel, nearest.id, 0, nearest.place);
+  const Fragment point = point_at(pixel, nearest.id, 0, nearest.place);
   const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
   const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
   const auto put = [&](auto* plane, const auto& value) {
@@ -77,7 +77,7 @@ void TileRenderer::write_data(std::uint32_t pixel) {
 
 /// The depth of the triangle's plane at the point: that of the nearest sample if it lies there, as it was tested. A
 /// mean depth is the same everywhere, and a plane that ends at the far plane there stays in front of it.
-float TileRenderer::depth_of(const Point& point, std::size_t draw, const Nearest& nearest) const {
+float TileRenderer::depth_of(const Fragment& point, std::size_t draw, const Nearest& nearest) const {
   if (nearest.place == nearest.sample || setup_.is_flat_depth) return nearest.depth;
   const float depth = depth_at_point(projected_, draw, point.id, point.x, point.y, setup_);
   return depth > 0 ? depth : nearest.depth;

@@ -11,17 +11,17 @@ void TileRenderer::draw_fragments() {
   const auto values = static_cast<std::uint32_t>(pass_samples_ * tile_pixels);
   float* const depth = visibility_.depth;
   std::int32_t* const id = visibility_.id;
-  const bool fills_blocks = opens_most_blocks();
+  const bool fills_blocks = materializes_most_blocks();
   for (const Bins::Worker& worker : bins_.workers)
-    for (const SampleFragments* part = worker.fragments[tile_]; part; part = part->previous) {
-      if (!fills_blocks) open_blocks(*part);
+    for (const SampleBin* part = worker.fragments[tile_]; part; part = part->previous) {
+      if (!fills_blocks) materialize_blocks(*part);
       for (std::int32_t i = 0; i < part->count; ++i) {
         // What comes next was written long ago.
         if (i % 16 == 0 && part->previous) {
           __builtin_prefetch(&part->previous->depth[i]);
           __builtin_prefetch(&part->previous->what[i]);
         }
-        const std::uint32_t at = SampleFragments::at(part->what[i]) - first;
+        const std::uint32_t at = SampleBin::at(part->what[i]) - first;
         if (at >= values) continue;  // of another pass
         const float z = part->depth[i];
         const std::int32_t t = part->id(part->what[i]);
@@ -33,22 +33,22 @@ void TileRenderer::draw_fragments() {
 }
 
 /// Opens all blocks where there are so many fragments that most would be.
-bool TileRenderer::opens_most_blocks() {
+bool TileRenderer::materializes_most_blocks() {
   constexpr std::int32_t enough = 2048;
   std::int32_t count = 0;
   for (const Bins::Worker& worker : bins_.workers)
-    for (const SampleFragments* part = worker.fragments[tile_]; part && count < enough; part = part->previous)
+    for (const SampleBin* part = worker.fragments[tile_]; part && count < enough; part = part->previous)
       count += part->count;
   if (count < enough) return false;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
-    if (block_owner_[block] == no_triangle) visibility_.open_block(block);
-    block_owner_[block] = many_triangles;
+    if (block_primitive_[block] == no_primitive) visibility_.materialize_block(block);
+    block_primitive_[block] = mixed_primitives;
   }
   return true;
 }
 
 /// The blocks of these samples may have several owners then.
-void TileRenderer::open_blocks(const SampleFragments& part) {
+void TileRenderer::materialize_blocks(const SampleBin& part) {
   std::uint64_t touched = 0;
   for (std::int32_t i = 0; i < part.count; ++i) {
     const std::uint32_t at = part.what[i];
@@ -56,8 +56,8 @@ void TileRenderer::open_blocks(const SampleFragments& part) {
   }
   for (; touched; touched &= touched - 1) {
     const int block = std::countr_zero(touched);
-    if (visibility_.block_owner[block] == no_triangle) visibility_.open_block(block);
-    visibility_.block_owner[block] = many_triangles;
+    if (visibility_.block_primitive[block] == no_primitive) visibility_.materialize_block(block);
+    visibility_.block_primitive[block] = mixed_primitives;
   }
 }
 

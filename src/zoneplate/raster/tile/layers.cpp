@@ -1,4 +1,5 @@
-// Layers of a tile: masked surfaces, which are there or not by their alpha, and blended ones, in their exact order.
+// TransparentStack of a tile: masked surfaces, which are there or not by their alpha, and blended ones, in their exact
+// order.
 #include <algorithm>
 #include <bit>
 
@@ -10,9 +11,9 @@ namespace zoneplate {
 
 /// layers_: of the surface's triangles from number `first` on over the region, as many as fit; gives the number of the
 /// first triangle that is left. `rows`, if not null, tells which rows of 8 pixels count.
-std::size_t TileRenderer::collect_layers(Surface surface, std::size_t first, const TileRegion& region,
+std::size_t TileRenderer::collect_layers(AlphaMode alpha_mode, std::size_t first, const TileRegion& region,
                                          const std::uint8_t* rows, const TileVisibility& visibility) {
-  const std::vector<const Triangle*>& triangles = sources_[static_cast<std::size_t>(surface)];
+  const std::vector<const Triangle*>& triangles = sources_[static_cast<std::size_t>(alpha_mode)];
   layers_.clear();
   layer_depths_.clear();
   fragments_.resize(tile_pixels);
@@ -25,7 +26,7 @@ std::size_t TileRenderer::collect_layers(Surface surface, std::size_t first, con
     if (!make_triangle_in(t, region)) continue;
     const int count = coverage_.collect(tile_triangle_, visibility, fragments_.data());
     for (int i = 0; i < count; ++i) {
-      const Fragment& f = fragments_[static_cast<std::size_t>(i)];
+      const CoveredPixel& f = fragments_[static_cast<std::size_t>(i)];
       const int x = static_cast<int>(f.pixel % tile_size), y = static_cast<int>(f.pixel / tile_size);
       if (!region.contains(x, y) || !is_wanted(x, y) || (rows && !rows[f.pixel / 8])) continue;
       layers_.push_back({f.samples, f.pixel, t.id, static_cast<std::uint32_t>(layer_depths_.size())});
@@ -99,16 +100,16 @@ void TileRenderer::test_alpha() {
 
 /// Part by part where there are many; each part's triangles are tested against what was there before the first.
 void TileRenderer::draw_masked() {
-  const std::size_t triangles = sources_[static_cast<std::size_t>(Surface::Masked)].size();
+  const std::size_t triangles = sources_[static_cast<std::size_t>(AlphaMode::Mask)].size();
   if (triangles == 0) return;
   const TileRegion drawn{left_, top_, right_, bottom_};
-  visibility_.open_all();
-  std::size_t next = collect_layers(Surface::Masked, 0, drawn, nullptr, visibility_);
+  visibility_.materialize_all();
+  std::size_t next = collect_layers(AlphaMode::Mask, 0, drawn, nullptr, visibility_);
   if (next == triangles) return draw_masked_layers();
   const TileVisibility before = copy_visibility();
   draw_masked_layers();
   while (next < triangles) {
-    next = collect_layers(Surface::Masked, next, drawn, nullptr, before);
+    next = collect_layers(AlphaMode::Mask, next, drawn, nullptr, before);
     draw_masked_layers();
   }
 }
@@ -130,7 +131,8 @@ void TileRenderer::draw_masked_layers() {
       const float z = layer_depths_[d];
       if (!(alpha_samples_[point] >> s & 1)) continue;
       if (z > visibility_.depth[at] || (z == visibility_.depth[at] && layer.id < visibility_.id[at])) {
-        visibility_.open_block(static_cast<int>(layer.pixel / (8 * tile_size) * 8 + layer.pixel % tile_size / 8));
+        visibility_.materialize_block(
+            static_cast<int>(layer.pixel / (8 * tile_size) * 8 + layer.pixel % tile_size / 8));
         visibility_.depth[at] = z;
         visibility_.id[at] = layer.id;
       }
@@ -142,9 +144,9 @@ void TileRenderer::draw_masked_layers() {
 /// held at once is halved, down to a pixel, whose layers are then found from near to far.
 void TileRenderer::blend(const TileRegion& region, const std::uint8_t* rows, BlendPixel blend_pixel) {
   if (region.top >= region.bottom || region.left >= region.right) return;
-  const std::size_t triangles = sources_[static_cast<std::size_t>(Surface::Blended)].size();
+  const std::size_t triangles = sources_[static_cast<std::size_t>(AlphaMode::Blend)].size();
   const bool is_pixel = region.bottom - region.top == 1 && region.right - region.left == 1;
-  if (collect_layers(Surface::Blended, 0, region, rows, visibility_) == triangles) {
+  if (collect_layers(AlphaMode::Blend, 0, region, rows, visibility_) == triangles) {
     blend_collected(region, blend_pixel);
   } else if (is_pixel) {
     (this->*blend_pixel)({static_cast<std::uint32_t>(region.top * tile_size + region.left), 0, 0, true});
@@ -215,11 +217,11 @@ void TileRenderer::add_layers(std::size_t first, std::size_t last, Linear* behin
     }
     std::sort(overs_.begin(), overs_.end(),
               [](const Over& p, const Over& q) { return p.depth != q.depth ? p.depth > q.depth : p.id < q.id; });
-    Layers layers;
+    TransparentStack layers;
     for (std::size_t i = 0; i < overs_.size() && layers.transmittance > least_; ++i) {
       const bool again = has_pieces && std::any_of(overs_.begin(), overs_.begin() + static_cast<std::ptrdiff_t>(i),
                                                    [&](const Over& o) { return o.id == overs_[i].id; });
-      if (!again) layers.put_under(overs_[i].color, least_);
+      if (!again) layers.composite_under(overs_[i].color, least_);
     }
     if (!overs_.empty()) behind[s] = layers.over(behind[s]);
   }

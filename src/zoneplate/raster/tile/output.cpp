@@ -16,7 +16,7 @@ void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) 
   if (target_.sample_depth) (*target_.sample_depth)[s](x, y) = visibility_.depth[at];
   if (target_.sample_triangle)
     (*target_.sample_triangle)[s](x, y) =
-        visibility_.id[at] == no_triangle ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
+        visibility_.id[at] == no_primitive ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
 }
 
 /// The colour of some samples of a pixel.
@@ -28,7 +28,7 @@ void TileRenderer::store_color(std::uint32_t pixel, std::uint64_t samples, Linea
 }
 
 /// The colours of one sample of eight pixels of a row.
-void TileRenderer::store_row(std::uint32_t pixel, int sample, const Shaded& color, int first) {
+void TileRenderer::store_row(std::uint32_t pixel, int sample, const FragmentOutputs& color, int first) {
   const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
   const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
   Linear8 same;

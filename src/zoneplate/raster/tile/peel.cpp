@@ -1,4 +1,5 @@
-// Layers of one pixel that has more of them than a thread holds at once: found from near to far, so many at a time.
+// TransparentStack of one pixel that has more of them than a thread holds at once: found from near to far, so many at a
+// time.
 //
 // Source: depth peeling, Everitt, Interactive Order-Independent Transparency, 2001; several layers a pass: Bavoil and
 // Myers, Order Independent Transparency with Dual Depth Peeling, 2008.
@@ -12,7 +13,7 @@ namespace zoneplate {
 
 /// Lays the layers of one sample over `behind`; the layers, their order and their colours are those of `add_layers`.
 void TileRenderer::peel_layers(std::uint32_t pixel, int sample, Linear& behind) {
-  Layers layers;
+  TransparentStack layers;
   Peel last{std::numeric_limits<float>::infinity(), -1, 0};
   bool has_any = false;
   while (layers.transmittance > least_) {
@@ -24,7 +25,7 @@ void TileRenderer::peel_layers(std::uint32_t pixel, int sample, Linear& behind) 
       layer_points_.push_back(target_.is_per_sample ? point_at(pixel, layer.id, std::uint64_t{1} << sample)
                                                     : point_at(pixel, layer.id, layer.samples));
     shader_.shade(layer_points_, layer_colors_, nullptr);
-    for (const Linear& color : layer_colors_) layers.put_under(color, least_);
+    for (const Linear& color : layer_colors_) layers.composite_under(color, least_);
     last = peeled_.back();
   }
   if (has_any) behind = layers.over(behind);
@@ -32,7 +33,7 @@ void TileRenderer::peel_layers(std::uint32_t pixel, int sample, Linear& behind) 
 
 /// peeled_: the nearest layers of a sample behind `last`, at most as many as are held at once, in their order.
 void TileRenderer::find_next_layers(std::uint32_t pixel, int sample, const Peel& last) {
-  const std::vector<const Triangle*>& triangles = sources_[static_cast<std::size_t>(Surface::Blended)];
+  const std::vector<const Triangle*>& triangles = sources_[static_cast<std::size_t>(AlphaMode::Blend)];
   const std::size_t most = std::max<std::size_t>(room_.layer_samples, 1);
   const auto nearest_stay = [&] {
     if (peeled_.size() <= most) return;
@@ -60,7 +61,7 @@ TileRenderer::Peel TileRenderer::layer_of(std::span<const Triangle* const> piece
     if (!make_triangle_in(*piece, {x, y, x + 1, y + 1})) continue;
     const int count = coverage_.collect(tile_triangle_, visibility_, fragments_.data());
     for (int i = 0; i < count; ++i) {
-      const Fragment& f = fragments_[static_cast<std::size_t>(i)];
+      const CoveredPixel& f = fragments_[static_cast<std::size_t>(i)];
       if (f.pixel != pixel) continue;
       layer.samples |= f.samples;
       if (f.samples >> sample & 1) layer.depth = std::max(layer.depth, depth_at(tile_triangle_, sample, x, y));

@@ -11,12 +11,13 @@ constexpr int most_known_samples = 8;  ///< of whose sets the weights are found 
 
 }  // namespace
 
-bool TileRenderer::lists_points() const { return !has_layers() && pass_samples_ <= PointList::most_samples; }
+bool TileRenderer::lists_points() const { return !has_layers() && pass_samples_ <= FragmentList::most_samples; }
 
 /// What is said of the rows of a block from column x on; of the first of them so far.
 OwnerRow TileRenderer::owner_row_at(int x, int y) const {
   const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
-  const int first = std::clamp(left_ - x, 0, Batch::group), last = std::clamp(right_ - x, first, Batch::group);
+  const int first = std::clamp(left_ - x, 0, FragmentBatch::group),
+            last = std::clamp(right_ - x, first, FragmentBatch::group);
   return {.id = visibility_.id + pixel,
           .sample_count = pass_samples_,
           .first_place = places_.first.data() + first_sample_,
@@ -32,20 +33,20 @@ OwnerRow TileRenderer::owner_row_at(int x, int y) const {
 void TileRenderer::list_row(const OwnerRow& row) {
   point_lists_.list(row, list_);
   listed_rows_.push_back(row.pixel);
-  if (list_.count >= PointList::enough) shade_list();
+  if (list_.count >= FragmentList::enough) shade_list();
 }
 
 /// Shades what is listed, and gives its rows their colours.
 void TileRenderer::shade_list() {
   // Where each pixel is one point, rows follow each other.
   const bool are_whole_rows =
-      pass_samples_ == 1 && static_cast<std::size_t>(list_.count) == Batch::group * listed_rows_.size();
+      pass_samples_ == 1 && static_cast<std::size_t>(list_.count) == FragmentBatch::group * listed_rows_.size();
   if (are_whole_rows) {
-    shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
-      Linear8* row[Batch::groups];
-      for (std::size_t i = 0; i < count; i += Batch::group)
-        row[i / Batch::group] = &color_[PointList::pixel(list_.at[first + i]) / 8];
-      resolve_.resolve(colors, 0, static_cast<int>(count) / Batch::group, weight_sum_, row);
+    shader_.shade(list_, [&](const FragmentOutputs& colors, std::size_t first, std::size_t count) {
+      Linear8* row[FragmentBatch::groups];
+      for (std::size_t i = 0; i < count; i += FragmentBatch::group)
+        row[i / FragmentBatch::group] = &color_[FragmentList::pixel(list_.at[first + i]) / 8];
+      resolve_.resolve(colors, 0, static_cast<int>(count) / FragmentBatch::group, weight_sum_, row);
       store_listed(colors, first, count);
     });
   } else {
@@ -57,14 +58,15 @@ void TileRenderer::shade_list() {
 
 void TileRenderer::sum_list() {
   list_sums_.resize(tile_pixels);
-  for (const std::uint32_t pixel : listed_rows_) std::fill_n(&list_sums_[pixel], Batch::group, Linear{0, 0, 0, 0});
-  shader_.shade(list_, [&](const Shaded& colors, std::size_t first, std::size_t count) {
+  for (const std::uint32_t pixel : listed_rows_)
+    std::fill_n(&list_sums_[pixel], FragmentBatch::group, Linear{0, 0, 0, 0});
+  shader_.shade(list_, [&](const FragmentOutputs& colors, std::size_t first, std::size_t count) {
     const std::uint32_t* const at = list_.at + first;
-    float weight[Batch::capacity];
+    float weight[FragmentBatch::capacity];
     if (const float* const known = samples_weight_.data(); pass_samples_ <= most_known_samples)
-      for (std::size_t i = 0; i < count; ++i) weight[i] = known[PointList::samples(at[i])];
+      for (std::size_t i = 0; i < count; ++i) weight[i] = known[FragmentList::samples(at[i])];
     else
-      for (std::size_t i = 0; i < count; ++i) weight[i] = weight_of(PointList::samples(at[i]));
+      for (std::size_t i = 0; i < count; ++i) weight[i] = weight_of(FragmentList::samples(at[i]));
     point_lists_.add(colors, at, weight, static_cast<int>(count), &list_sums_[0].r);
     store_listed(colors, first, count);
   });
@@ -73,11 +75,12 @@ void TileRenderer::sum_list() {
 }
 
 /// The samples of listed points, where they are wanted.
-void TileRenderer::store_listed(const Shaded& colors, std::size_t first, std::size_t count) {
+void TileRenderer::store_listed(const FragmentOutputs& colors, std::size_t first, std::size_t count) {
   if (!target_.sample_color) return;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t at = list_.at[first + i];
-    store_color(PointList::pixel(at), PointList::samples(at), {colors.r[i], colors.g[i], colors.b[i], colors.a[i]});
+    store_color(FragmentList::pixel(at), FragmentList::samples(at),
+                {colors.r[i], colors.g[i], colors.b[i], colors.a[i]});
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace zoneplate {
 
-RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
+RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader, const RasterRules& rules,
                        const Target& target, RasterMemory* memory) {
   RasterCounts counts;
   const Stopwatch geometry;

@@ -45,7 +45,7 @@ struct RasterCounts {
 /// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
 ///           Carpenter, The A-buffer, SIGGRAPH 1984.
 /// A `memory` that was used for an earlier frame saves the system's work of finding new pages.
-RasterCounts rasterize(std::span<const Draw> draws, const PointShader& shader, const RasterRules& rules,
+RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader, const RasterRules& rules,
                        const Target& target, RasterMemory* memory = nullptr);
 
 }  // namespace zoneplate

@@ -15,12 +15,12 @@ namespace zoneplate {
 namespace {
 
 /// Colours points by their instance; alpha from a table. Keeps what interpolation gave it, for the tests of it.
-class Flat : public PointShader {
+class Flat : public FragmentShader {
  public:
   explicit Flat(std::vector<Linear> colors) : colors_(std::move(colors)) {}
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.count; ++i) {
-      const Linear& c = colors_[batch.instance[batch.told(static_cast<std::size_t>(i))]];
+      const Linear& c = colors_[batch.instance[batch.leader(static_cast<std::size_t>(i))]];
       out.r[i] = c.r * c.a, out.g[i] = c.g * c.a, out.b[i] = c.b * c.a, out.a[i] = c.a;
       if (wanted.uv) out.uv[0][i] = batch.b[0][i], out.uv[1][i] = batch.b[1][i];
       for (int k = 0; k < 2; ++k) {
@@ -29,8 +29,8 @@ class Flat : public PointShader {
       }
     }
   }
-  float alpha(const Batch& batch, float* out) const override {
-    for (int i = 0; i < batch.count; ++i) out[i] = colors_[batch.instance[batch.told(static_cast<std::size_t>(i))]].a;
+  float alpha(const FragmentBatch& batch, float* out) const override {
+    for (int i = 0; i < batch.count; ++i) out[i] = colors_[batch.instance[batch.leader(static_cast<std::size_t>(i))]].a;
     return 0.5f;
   }
 
@@ -38,24 +38,24 @@ class Flat : public PointShader {
   std::vector<Linear> colors_;
 };
 
-constexpr std::array<std::uint32_t, 3> one_triangle = {0, 1, 2};
+constexpr std::array<std::uint32_t, 3> is_flat_run = {0, 1, 2};
 
 /// Triangles in normalized device coordinates, one draw each.
 std::vector<Draw> draws_of(const std::vector<std::array<float4, 3>>& triangles, std::span<const std::size_t> order,
-                           Surface surface) {
+                           AlphaMode alpha_mode) {
   std::vector<Draw> out;
   for (const std::size_t t : order) {
     Draw d;
     d.clip = triangles[t];
-    d.index = one_triangle;
-    d.surface = surface;
+    d.index = is_flat_run;
+    d.alpha_mode = alpha_mode;
     d.instance = static_cast<std::uint32_t>(t);
     out.push_back(d);
   }
   return out;
 }
 
-LinearImage picture(std::span<const Draw> draws, const PointShader& shader, const SamplePattern& samples,
+LinearImage picture(std::span<const Draw> draws, const FragmentShader& shader, const SamplePattern& samples,
                     const RasterRules& rules = {}, int size = 96, bool is_per_sample = false) {
   LinearImage out(size, size, Linear{0, 0, 0, 0});
   Target target;
@@ -81,12 +81,12 @@ std::vector<std::array<float4, 3>> four_triangles() {
 TEST(Rasterize, OrderOfDrawingDoesNotMatter) {
   const auto triangles = four_triangles();
   const Flat shader(four_colors);
-  for (const Surface surface : {Surface::Opaque, Surface::Masked, Surface::Blended})
+  for (const AlphaMode alpha_mode : {AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend})
     for (const SamplePattern& pattern : {standard_pattern(1), standard_pattern(4), grid_pattern(4)}) {
       std::vector<std::size_t> order = {0, 1, 2, 3};
-      const LinearImage first = picture(draws_of(triangles, order, surface), shader, pattern);
+      const LinearImage first = picture(draws_of(triangles, order, alpha_mode), shader, pattern);
       while (std::next_permutation(order.begin(), order.end()))
-        ASSERT_EQ(picture(draws_of(triangles, order, surface), shader, pattern), first);
+        ASSERT_EQ(picture(draws_of(triangles, order, alpha_mode), shader, pattern), first);
     }
 }
 
@@ -97,9 +97,9 @@ TEST(Rasterize, LayersOfFullSquaresBlendByHand) {
   std::vector<std::array<float4, 3>> triangles;
   for (const float z : depth) triangles.push_back({{{-4, -4, z, 1}, {4, -4, z, 1}, {0, 8, z, 1}}});
   for (const std::array<std::size_t, 4>& order : {std::array<std::size_t, 4>{3, 1, 0, 2}, {0, 1, 2, 3}, {2, 3, 1, 0}}) {
-    std::vector<Draw> draws = draws_of(triangles, order, Surface::Blended);
+    std::vector<Draw> draws = draws_of(triangles, order, AlphaMode::Blend);
     for (Draw& d : draws)
-      if (d.instance == 0) d.surface = Surface::Opaque;
+      if (d.instance == 0) d.alpha_mode = AlphaMode::Opaque;
     const LinearImage image = picture(draws, Flat(colors), standard_pattern(4));
     // ((1·½ + ½·(1,0,0))·¾ + ¼·(0,1,0))·¼ + ¾·(0,0,1), every step exact in binary.
     for (const Linear& c : image.values()) ASSERT_EQ(c, (Linear{0.1875f, 0.15625f, 0.84375f, 1}));
@@ -150,7 +150,7 @@ struct Crowd {
       draw.position = position;
       draw.clip_from_object = projection;
       draw.index = std::span<const std::uint32_t>(index).subspan(d * 300, 300);
-      draw.surface = static_cast<Surface>(d % 3);
+      draw.alpha_mode = static_cast<AlphaMode>(d % 3);
       draw.culls_back_faces = d % 2;
       draw.instance = d;
       draw.material = static_cast<int>(d);
@@ -222,7 +222,7 @@ TEST(Rasterize, ClosedSurfaceHasAsManyFrontAsBackFacesAtEverySample) {
     d.position = position;
     d.index = index;
     d.clip_from_object = perspective(0.9f, 1, 0.1f, 10);
-    d.surface = Surface::Blended;
+    d.alpha_mode = AlphaMode::Blend;
     d.culls_back_faces = true;
     d.is_mirrored = mirrored;
     return picture(std::span(&d, 1), Flat({{1, 1, 1, 0.5f}}), standard_pattern(8), {}, 160, true);
@@ -241,8 +241,8 @@ TEST(Rasterize, PiecesOfAClippedTriangleCountOnce) {
       t[k] = {number(3 * k) * 40, number(3 * k + 1) * (i % 2 ? 1.0f : 0.05f), 0.05f, number(3 * k + 2) * 2};
     Draw d;
     d.clip = t;
-    d.index = one_triangle;
-    d.surface = Surface::Blended;
+    d.index = is_flat_run;
+    d.alpha_mode = AlphaMode::Blend;
     const LinearImage once = picture(std::span(&d, 1), Flat({{1, 1, 1, 0.5f}}), standard_pattern(1));
     for (const Linear& c : once.values()) ASSERT_TRUE(c.a == 0 || c.a == 0.5f) << c.a << " of triangle " << i;
   }
@@ -255,7 +255,7 @@ TEST(Rasterize, AttributesAndTheirSlopesAreThoseOfTheTiltedPlane) {
     const std::array<float3, 3> position = {{{-9, -1, near_z}, {11, -1, near_z}, {0.5f, -1, -40}}};
     Draw d;
     d.position = position;
-    d.index = one_triangle;
+    d.index = is_flat_run;
     d.clip_from_object = perspective(1.2f, 1, 0.1f, 100);
     const int size = 128;
     LinearImage color(size, size, Linear{0, 0, 0, 0});
@@ -315,7 +315,7 @@ TEST(Rasterize, PainterFailsOnACircleOfTrianglesThatTheZBufferGetsRight) {
   }
   const std::vector<std::size_t> order = {0, 1, 2};
   const Flat shader({{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}});
-  const auto draws = draws_of(triangles, order, Surface::Opaque);
+  const auto draws = draws_of(triangles, order, AlphaMode::Opaque);
   const LinearImage right = picture(draws, shader, standard_pattern(1), {}, 240);
   const LinearImage painted = picture(draws, shader, standard_pattern(1), {.is_painter = true}, 240);
   EXPECT_NE(right, painted);

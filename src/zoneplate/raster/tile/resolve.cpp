@@ -4,19 +4,19 @@
 
 namespace zoneplate {
 
-void Layers::put_under(const Linear& layer, float least) {
+void TransparentStack::composite_under(const Linear& layer, float least) {
   if (!(transmittance > least)) return;
   r = r + layer.r * transmittance, g = g + layer.g * transmittance, b = b + layer.b * transmittance;
   transmittance = transmittance * (1 - layer.a);
 }
 
-Linear Layers::over(const Linear& behind) const {
+Linear TransparentStack::over(const Linear& behind) const {
   if (!(transmittance > 0)) return {r, g, b, 1};
   return {r + behind.r * transmittance, g + behind.g * transmittance, b + behind.b * transmittance,
           1 - (1 - behind.a) * transmittance};
 }
 
-void Layers8::clear() {
+void TransparentStack8::clear() {
   for (float* const channel : {r, g, b}) std::fill_n(channel, size, 0.0f);
   std::fill_n(transmittance, size, 1.0f);
   is_open = true;
@@ -27,37 +27,37 @@ namespace {
 
 constexpr auto size = Linear8::size;
 
-Linear at(const Shaded& color, int first, std::size_t i) {
+Linear at(const FragmentOutputs& color, int first, std::size_t i) {
   const std::size_t p = static_cast<std::size_t>(first) + i;
   return {color.r[p], color.g[p], color.b[p], color.a[p]};
 }
 Linear divided(Linear c, float weight) { return {c.r / weight, c.g / weight, c.b / weight, c.a / weight}; }
 
-void resolve(const Shaded& color, int first, int rows, float weight, Linear8* const* out) {
-  for (int row = 0; row < rows; ++row, first += Batch::group)
+void resolve(const FragmentOutputs& color, int first, int rows, float weight, Linear8* const* out) {
+  for (int row = 0; row < rows; ++row, first += FragmentBatch::group)
     for (std::size_t i = 0; i < size; ++i)
       out[row]->set(i, divided(Linear{0, 0, 0, 0} + at(color, first, i) * weight, weight));
 }
 
-Layers get(const Layers8& layers, std::size_t i) {
+TransparentStack get(const TransparentStack8& layers, std::size_t i) {
   return {layers.r[i], layers.g[i], layers.b[i], layers.transmittance[i]};
 }
 
-void put_under(const Shaded& color, int first, float least, Layers8& layers) {
+void composite_under(const FragmentOutputs& color, int first, float least, TransparentStack8& layers) {
   layers.is_open = false;
   for (std::size_t i = 0; i < size; ++i) {
-    Layers l = get(layers, i);
-    l.put_under(at(color, first, i), least);
+    TransparentStack l = get(layers, i);
+    l.composite_under(at(color, first, i), least);
     layers.r[i] = l.r, layers.g[i] = l.g, layers.b[i] = l.b, layers.transmittance[i] = l.transmittance;
     layers.is_open = layers.is_open || l.transmittance > least;
   }
 }
 
-void put_rows_under(const Shaded& color, int rows, float least, Layers8* const* layers) {
-  for (int row = 0; row < rows; ++row) put_under(color, row * Batch::group, least, *layers[row]);
+void composite_spans_under(const FragmentOutputs& color, int rows, float least, TransparentStack8* const* layers) {
+  for (int row = 0; row < rows; ++row) composite_under(color, row * FragmentBatch::group, least, *layers[row]);
 }
 
-void over(const Layers8& layers, Linear8& behind) {
+void over(const TransparentStack8& layers, Linear8& behind) {
   for (std::size_t i = 0; i < size; ++i) behind.set(i, get(layers, i).over(behind.get(i)));
 }
 
@@ -69,7 +69,7 @@ void resolve_samples(const Linear8& color, const float* weights, int samples, fl
   }
 }
 
-void add(const Shaded& color, int first, float weight, Linear8& sum) {
+void add(const FragmentOutputs& color, int first, float weight, Linear8& sum) {
   for (std::size_t i = 0; i < size; ++i) sum.set(i, sum.get(i) + at(color, first, i) * weight);
 }
 
@@ -84,8 +84,8 @@ void put(const Linear8& color, Linear* out) {
 }  // namespace
 
 const ResolveKernels resolve_kernels = {.resolve = resolve,
-                                        .put_under = put_under,
-                                        .put_rows_under = put_rows_under,
+                                        .composite_under = composite_under,
+                                        .composite_spans_under = composite_spans_under,
                                         .over = over,
                                         .resolve_samples = resolve_samples,
                                         .add = add,

@@ -6,18 +6,19 @@
 
 namespace zoneplate {
 
-/// Layers of a pixel put under one another, the nearest first: what they show, and how much of what is behind them is
-/// seen through them.
+/// TransparentStack of a pixel put under one another, the nearest first: what they show, and how much of what is behind
+/// them is seen through them.
 ///
-/// Exact     in float, as written. Layers behind a transmittance of `least_transmittance` or less are left out, and
+/// Exact     in float, as written. TransparentStack behind a transmittance of `least_transmittance` or less are left
+/// out, and
 ///           need not be shaded.
 /// Source    Porter and Duff, Compositing Digital Images, 1984: over, from the front.
-struct Layers {
+struct TransparentStack {
   float r = 0, g = 0, b = 0;
   float transmittance = 1;
 
   /// colour += layer × transmittance; transmittance ×= 1 - alpha. Nothing, if the transmittance is not above `least`.
-  void put_under(const Linear& layer, float least);
+  void composite_under(const Linear& layer, float least);
   /// The layers over what is behind all of them. The whole is opaque if that is.
   Linear over(const Linear& behind) const;
 };
@@ -28,7 +29,7 @@ struct Layers {
 inline float least_transmittance(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
 
 /// The same for eight pixels of a row.
-struct alignas(64) Layers8 {
+struct alignas(64) TransparentStack8 {
   static constexpr int size = Linear8::size;
   float r[size], g[size], b[size], transmittance[size];
   bool is_open;  ///< further layers count at one of the pixels at least
@@ -41,17 +42,17 @@ struct alignas(64) Layers8 {
 /// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
 struct ResolveKernels {
   /// out = (0 + color × weight) / weight: one surface owns all samples. Of rows whose points follow each other.
-  void (*resolve)(const Shaded& color, int first, int rows, float weight, Linear8* const* out);
-  /// Layers::put_under for eight points.
-  void (*put_under)(const Shaded& color, int first, float least, Layers8& layers);
+  void (*resolve)(const FragmentOutputs& color, int first, int rows, float weight, Linear8* const* out);
+  /// TransparentStack::composite_under for eight points.
+  void (*composite_under)(const FragmentOutputs& color, int first, float least, TransparentStack8& layers);
   /// The same for rows whose points follow each other from the first on.
-  void (*put_rows_under)(const Shaded& color, int rows, float least, Layers8* const* layers);
-  /// Layers::over.
-  void (*over)(const Layers8& layers, Linear8& behind);
+  void (*composite_spans_under)(const FragmentOutputs& color, int rows, float least, TransparentStack8* const* layers);
+  /// TransparentStack::over.
+  void (*over)(const TransparentStack8& layers, Linear8& behind);
   /// out = ((0 + color × weights[0]) + color × weights[1] + ...) / weight_sum.
   void (*resolve_samples)(const Linear8& color, const float* weights, int samples, float weight_sum, Linear8& out);
   /// sum += color × weight.
-  void (*add)(const Shaded& color, int first, float weight, Linear8& sum);
+  void (*add)(const FragmentOutputs& color, int first, float weight, Linear8& sum);
   /// out = sum / weight.
   void (*divide)(const Linear8& sum, float weight, Linear8& out);
   /// The pixels one by one.

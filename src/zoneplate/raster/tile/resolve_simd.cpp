@@ -15,7 +15,7 @@ constexpr D d;
 
 /// What step gives of each channel's vectors.
 template <class Step>
-HWY_INLINE void each_channel(const Shaded& color, int first, Linear8& out, Step step) {
+HWY_INLINE void each_channel(const FragmentOutputs& color, int first, Linear8& out, Step step) {
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
     const std::size_t p = static_cast<std::size_t>(first) + i;
     step(hn::Load(d, color.r + p), out.r + i, i), step(hn::Load(d, color.g + p), out.g + i, i);
@@ -45,11 +45,11 @@ struct Mean {
   HWY_INLINE V operator()(V sum) const { return is_one ? sum : hn::Div(sum, weight); }
 };
 
-void resolve(const Shaded& color, int first, int rows, float weight, Linear8* const* out) {
+void resolve(const FragmentOutputs& color, int first, int rows, float weight, Linear8* const* out) {
   const V zero = hn::Zero(d), w = hn::Set(d, weight);
   const auto each_row = [&](auto mean) HWY_ATTR {
     for (int row = 0; row < rows; ++row)
-      each_channel(color, first + row * Batch::group, *out[row],
+      each_channel(color, first + row * FragmentBatch::group, *out[row],
                    [&](V c, float* to, std::size_t) HWY_ATTR { hn::Store(mean(c), d, to); });
   };
   // What a power of two multiplies and divides is as before.
@@ -62,7 +62,8 @@ HWY_INLINE V laid_over(V front, hn::Mask<D> is_open, V behind, V transmittance) 
   return hn::IfThenElse(is_open, hn::Add(front, hn::Mul(behind, transmittance)), front);
 }
 
-HWY_INLINE void put_row_under(const Shaded& color, int first, float least_transmittance, Layers8& layers) {
+HWY_INLINE void put_row_under(const FragmentOutputs& color, int first, float least_transmittance,
+                              TransparentStack8& layers) {
   const V least = hn::Set(d, least_transmittance), one = hn::Set(d, 1.0f);
   layers.is_open = false;
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
@@ -80,15 +81,15 @@ HWY_INLINE void put_row_under(const Shaded& color, int first, float least_transm
   }
 }
 
-void put_under(const Shaded& color, int first, float least, Layers8& layers) {
+void composite_under(const FragmentOutputs& color, int first, float least, TransparentStack8& layers) {
   put_row_under(color, first, least, layers);
 }
 
-void put_rows_under(const Shaded& color, int rows, float least, Layers8* const* layers) {
-  for (int row = 0; row < rows; ++row) put_row_under(color, row * Batch::group, least, *layers[row]);
+void composite_spans_under(const FragmentOutputs& color, int rows, float least, TransparentStack8* const* layers) {
+  for (int row = 0; row < rows; ++row) put_row_under(color, row * FragmentBatch::group, least, *layers[row]);
 }
 
-void over(const Layers8& layers, Linear8& behind) {
+void over(const TransparentStack8& layers, Linear8& behind) {
   const V one = hn::Set(d, 1.0f);
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
     const V t = hn::Load(d, layers.transmittance + i);
@@ -111,7 +112,7 @@ void resolve_samples(const Linear8& color, const float* weights, int samples, fl
   });
 }
 
-void add(const Shaded& color, int first, float weight, Linear8& sum) {
+void add(const FragmentOutputs& color, int first, float weight, Linear8& sum) {
   const V w = hn::Set(d, weight);
   each_channel(color, first, sum, [&](V c, float* to, std::size_t) HWY_ATTR {
     hn::Store(hn::Add(hn::Load(d, to), hn::Mul(c, w)), d, to);
@@ -145,8 +146,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
 const ResolveKernels ResolveKernels::HWY_NAMESPACE = {.resolve = HWY_NAMESPACE::resolve,
-                                                      .put_under = HWY_NAMESPACE::put_under,
-                                                      .put_rows_under = HWY_NAMESPACE::put_rows_under,
+                                                      .composite_under = HWY_NAMESPACE::composite_under,
+                                                      .composite_spans_under = HWY_NAMESPACE::composite_spans_under,
                                                       .over = HWY_NAMESPACE::over,
                                                       .resolve_samples = HWY_NAMESPACE::resolve_samples,
                                                       .add = HWY_NAMESPACE::add,

@@ -21,13 +21,13 @@ T* aligned(std::vector<T>& storage) {
 
 }  // namespace
 
-TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader,
+TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, const FragmentShader& shader,
                            const RasterRules& rules, const Target& target)
     : projected_(projected),
       bins_(bins),
       coverage_(coverage_kernels(rules.isa)),
       resolve_(resolve_kernels(rules.isa)),
-      point_lists_(point_list_kernels(rules.isa)),
+      point_lists_(fragment_list_kernels(rules.isa)),
       target_(target),
       setup_(rules.setup(target.viewport)),
       room_(rules.room),
@@ -49,8 +49,8 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
   visibility_ = {.sample_count = 0,
                  .depth = aligned(depth_storage_),
                  .id = aligned(id_storage_),
-                 .block_far = block_far_,
-                 .block_owner = block_owner_};
+                 .block_min_depth = block_min_depth_,
+                 .block_primitive = block_primitive_};
   color_.resize(tile_pixels / 8);
 }
 
@@ -103,7 +103,7 @@ void TileRenderer::gather(std::size_t tile) {
     for (const Bins::Worker& worker : bins_.workers)
       for (const std::uint32_t t : worker.tiles[tile][surface]) list.push_back(&worker.triangles[t]);
   }
-  sort_nearest_first(sources_[static_cast<std::size_t>(Surface::Opaque)]);
+  sort_nearest_first(sources_[static_cast<std::size_t>(AlphaMode::Opaque)]);
 }
 
 // So that what is hidden is rejected by whole blocks; any order gives the same picture, and a coarse one will do.
@@ -124,7 +124,7 @@ void TileRenderer::sort_nearest_first(std::vector<const Triangle*>& list) {
 
 bool TileRenderer::wants_color_alone() const {
   const bool has_passes = target_.is_per_sample && target_.samples.size() > samples_per_pass;
-  return !target_.wants_data() && !target_.coverage && !target_.where && !target_.sample_triangle && !has_passes;
+  return !target_.wants_data() && !target_.coverage && !target_.pixel_mask && !target_.sample_triangle && !has_passes;
 }
 
 bool TileRenderer::is_plain() const {
@@ -166,10 +166,10 @@ void TileRenderer::render_plain() {
 void TileRenderer::find_rows() {
   rows_.clear();
   points_.clear();
-  coverage_.find_owners(visibility_, row_owner_);
+  coverage_.find_owners(visibility_, row_primitive_);
   for (int block = 0; block < TileVisibility::blocks; ++block) {
-    const std::int32_t owner = block_owner_[block];
-    const bool is_one = owner != many_triangles && owner != no_triangle;
+    const std::int32_t owner = block_primitive_[block];
+    const bool is_one = owner != mixed_primitives && owner != no_primitive;
     if (is_one && is_whole_row(block % 8) && !target_.is_per_sample) {
       add_block_of_rows(block, owner);
     } else {
@@ -178,7 +178,7 @@ void TileRenderer::find_rows() {
   }
 }
 
-PointRow TileRenderer::row_at(std::uint32_t pixel, std::int32_t id) const {
+FragmentSpan TileRenderer::row_at(std::uint32_t pixel, std::int32_t id) const {
   const auto x = static_cast<std::int32_t>(pixel % tile_size), y = static_cast<std::int32_t>(pixel / tile_size);
   return {(tile_x_ + x) * 256 + 128, (tile_y_ + y) * 256 + 128, id, pixel};
 }
@@ -186,7 +186,7 @@ PointRow TileRenderer::row_at(std::uint32_t pixel, std::int32_t id) const {
 /// The rows of a block that one triangle owns: not looked at one by one.
 void TileRenderer::add_block_of_rows(int block, std::int32_t id) {
   const int first = std::max(block / 8 * 8, top_), last = std::min(block / 8 * 8 + 8, bottom_);
-  PointRow row = row_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
+  FragmentSpan row = row_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
   const std::size_t count = rows_.size();
   rows_.resize(count + static_cast<std::size_t>(last - first));
   for (std::size_t i = count; i < rows_.size(); ++i, row.y += 256, row.pixel += tile_size) rows_[i] = row;
@@ -200,9 +200,9 @@ void TileRenderer::find_rows_of(int block) {
   if (row.wanted == 0) return;
   for (int y = first; y < last; ++y, row.id += tile_size, row.pixel += tile_size, row.y += 256) {
     const std::uint32_t pixel = row.pixel;
-    const std::int32_t owner = row_owner_[pixel / 8];
-    const bool is_row = owner != many_triangles && is_whole;
-    if (owner == no_triangle) {
+    const std::int32_t owner = row_primitive_[pixel / 8];
+    const bool is_row = owner != mixed_primitives && is_whole;
+    if (owner == no_primitive) {
       color_[pixel / 8] = nothing;
     } else if (is_row && target_.is_per_sample) {
       add_row_of_samples(pixel, owner);
@@ -221,16 +221,16 @@ void TileRenderer::find_rows_of(int block) {
 void TileRenderer::add_row_of_samples(std::uint32_t pixel, std::int32_t id) {
   sum_[pixel / 8] = {};
   for (int s = 0; s < pass_samples_; ++s) {
-    const Point at = point_at(pixel, id, std::uint64_t{1} << s);
+    const Fragment at = point_at(pixel, id, std::uint64_t{1} << s);
     rows_.push_back({at.x, at.y, id, pixel});
   }
 }
 
 void TileRenderer::shade_rows() {
   if (!target_.is_per_sample) {
-    shader_.shade(rows_, [&](std::span<const std::uint32_t> numbers, const Shaded& color) {
+    shader_.shade(rows_, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
       const auto resolve = [&](float weight, std::vector<Linear8>& to) {
-        Linear8* out[Batch::groups];
+        Linear8* out[FragmentBatch::groups];
         for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = &to[rows_[numbers[i]].pixel / 8];
         resolve_.resolve(color, 0, static_cast<int>(numbers.size()), weight, out);
       };
@@ -239,17 +239,17 @@ void TileRenderer::shade_rows() {
       if (!target_.sample_color) return;
       for (std::size_t i = 0; i < numbers.size(); ++i)
         for (int s = 0; s < pass_samples_; ++s)
-          store_row(rows_[numbers[i]].pixel, s, color, static_cast<int>(i) * Batch::group);
+          store_row(rows_[numbers[i]].pixel, s, color, static_cast<int>(i) * FragmentBatch::group);
     });
     return;
   }
   // A row's samples follow one another, and those of one material keep their order.
   const auto samples = static_cast<std::size_t>(pass_samples_);
   std::size_t s = 0;
-  shader_.shade(rows_, [&](std::span<const std::uint32_t> numbers, const Shaded& color) {
+  shader_.shade(rows_, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::uint32_t pixel = rows_[numbers[i]].pixel;
-      const int first = static_cast<int>(i) * Batch::group;
+      const int first = static_cast<int>(i) * FragmentBatch::group;
       resolve_.add(color, first, weights_[s], sum_[pixel / 8]);
       if (target_.sample_color) store_row(pixel, static_cast<int>(s), color, first);
       s = s + 1 == samples ? 0 : s + 1;
@@ -264,7 +264,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
   if (pass_samples_ == 1 || target_.is_per_sample) {
     for (int s = 0; s < pass_samples_; ++s) {
       const std::int32_t id = visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel];
-      if (id != no_triangle) points_.push_back(point_at(pixel, id, std::uint64_t{1} << s));
+      if (id != no_primitive) points_.push_back(point_at(pixel, id, std::uint64_t{1} << s));
     }
     return;
   }
@@ -277,7 +277,7 @@ void TileRenderer::add_pixel(std::uint32_t pixel) {
       if (visibility_.id[static_cast<std::size_t>(s) * tile_pixels + pixel] == id) owned |= std::uint64_t{1} << s;
     }
     left &= ~owned;
-    if (id != no_triangle) points_.push_back(point_at(pixel, id, owned));
+    if (id != no_primitive) points_.push_back(point_at(pixel, id, owned));
   }
 }
 
@@ -307,7 +307,7 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
   draw_opaque();
   draw_masked();
   times_.visibility += watch_.lap_ms();
-  visibility_.open_all();
+  visibility_.materialize_all();
   find_points();
   shader_.shade(points_, colors_, shades_data() ? &data_ : nullptr);
   times_.shading += watch_.lap_ms();
@@ -319,10 +319,10 @@ void TileRenderer::render_pass(int first_sample, int sample_count) {
 void TileRenderer::draw_opaque() {
   visibility_.clear();
   for (int block = 0; block < TileVisibility::blocks; ++block)
-    if (!is_drawn(block)) block_far_[block] = std::numeric_limits<float>::infinity();
+    if (!is_drawn(block)) block_min_depth_[block] = std::numeric_limits<float>::infinity();
   float tile_far = 0;  // no sample of the tile is below it
   std::size_t number = 0;
-  for (const Triangle* t : sources_[static_cast<std::size_t>(Surface::Opaque)]) {
+  for (const Triangle* t : sources_[static_cast<std::size_t>(AlphaMode::Opaque)]) {
     if (++number % deadline_stride == 0) check_deadline();
     if (t->z_high < tile_far) continue;
     make_tile_triangle(*t, target_.samples.data() + first_sample_, pass_samples_, tile_x_, tile_y_, tile_triangle_);
@@ -330,24 +330,25 @@ void TileRenderer::draw_opaque() {
     const bool has_risen = coverage_.draw(tile_triangle_, visibility_);
     const bool is_large = tile_triangle_.last_x - tile_triangle_.first_x >= tile_size / 2 &&
                           tile_triangle_.last_y - tile_triangle_.first_y >= tile_size / 2;
-    if (has_risen && is_large) tile_far = *std::min_element(std::begin(block_far_), std::end(block_far_));
+    if (has_risen && is_large) tile_far = *std::min_element(std::begin(block_min_depth_), std::end(block_min_depth_));
   }
   draw_fragments();
 }
 
-Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
+Fragment TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
   const bool is_centre = samples == all_samples_ && !target_.is_per_sample;
   return point_at(pixel, id, samples, is_centre ? SamplePosition{} : places_.of(samples, first_sample_));
 }
 
-Point TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const {
+Fragment TileRenderer::point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples,
+                                SamplePosition place) const {
   const std::int32_t x = (tile_x_ + static_cast<std::int32_t>(pixel % tile_size)) * 256;
   const std::int32_t y = (tile_y_ + static_cast<std::int32_t>(pixel / tile_size)) * 256;
   return {x + place.x, y + place.y, id, pixel, samples};
 }
 
 void TileRenderer::add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
-                              std::vector<Point>& points) const {
+                              std::vector<Fragment>& points) const {
   if (!is_each_sample) return points.push_back(point_at(pixel, id, samples));
   for (std::uint64_t left = samples; left; left &= left - 1) {
     const auto s = static_cast<std::size_t>(first_sample_ + std::countr_zero(left));
@@ -367,7 +368,7 @@ void TileRenderer::find_points() {
 }
 
 void TileRenderer::accumulate() {
-  if (!sources_[static_cast<std::size_t>(Surface::Blended)].empty() || target_.stores_samples()) {
+  if (!sources_[static_cast<std::size_t>(AlphaMode::Blend)].empty() || target_.stores_samples()) {
     // In strips, so that the list of layers stays small however deep they lie.
     constexpr int strip = 8;
     for (int y = 0; y < tile_size; y += strip)

@@ -23,8 +23,8 @@ namespace zoneplate {
 /// is taken in sample order, so that the passes leave no trace.
 class TileRenderer {
  public:
-  TileRenderer(const ProjectedDraws& projected, const Bins& bins, const PointShader& shader, const RasterRules& rules,
-               const Target& target);
+  TileRenderer(const ProjectedDraws& projected, const Bins& bins, const FragmentShader& shader,
+               const RasterRules& rules, const Target& target);
 
   /// Renders the tile with that number in the bins and writes its pixels to the target.
   void render(std::size_t tile);
@@ -75,11 +75,11 @@ class TileRenderer {
   /// A pixel's nearest surface so far, over all passes: what the data planes show.
   struct Nearest {
     float depth = 0;  ///< at the nearest of its samples
-    std::int32_t id = no_triangle;
-    SamplePosition sample;                ///< that one
-    SamplePosition place;                 ///< where the surface was shaded for it
-    std::int32_t first_id = no_triangle;  ///< the owner of the pixel's first sample that has one
-    int first_owns = 0;                   ///< samples
+    std::int32_t id = no_primitive;
+    SamplePosition sample;                 ///< that one
+    SamplePosition place;                  ///< where the surface was shaded for it
+    std::int32_t first_id = no_primitive;  ///< the owner of the pixel's first sample that has one
+    int first_owns = 0;                    ///< samples
   };
 
   void gather(std::size_t tile);
@@ -88,8 +88,8 @@ class TileRenderer {
   void render_pass(int first_sample, int sample_count);
   void draw_opaque();
   void draw_fragments();
-  bool opens_most_blocks();
-  void open_blocks(const SampleFragments& part);
+  bool materializes_most_blocks();
+  void materialize_blocks(const SampleBin& part);
   void draw_masked();
   void draw_masked_layers();
   TileVisibility copy_visibility();
@@ -104,7 +104,7 @@ class TileRenderer {
   void find_rows();
   void find_rows_of(int block);
   void add_block_of_rows(int block, std::int32_t id);
-  PointRow row_at(std::uint32_t pixel, std::int32_t id) const;
+  FragmentSpan row_at(std::uint32_t pixel, std::int32_t id) const;
   void shade_rows();
   void add_row_of_samples(std::uint32_t pixel, std::int32_t id);
   void add_pixel(std::uint32_t pixel);
@@ -114,7 +114,7 @@ class TileRenderer {
   void list_row(const OwnerRow& row);
   void shade_list();
   void sum_list();
-  void store_listed(const Shaded& colors, std::size_t first, std::size_t count);
+  void store_listed(const FragmentOutputs& colors, std::size_t first, std::size_t count);
   void find_weights();
   float weight_of(std::uint32_t samples) const;
   void find_first_points();
@@ -142,12 +142,12 @@ class TileRenderer {
   void peel_layers(std::uint32_t pixel, int sample, Linear& behind);
   void find_next_layers(std::uint32_t pixel, int sample, const Peel& last);
   Peel layer_of(std::span<const Triangle* const> pieces, std::uint32_t pixel, int sample);
-  std::size_t collect_layers(Surface surface, std::size_t first, const TileRegion& region, const std::uint8_t* rows,
-                             const TileVisibility& visibility);
+  std::size_t collect_layers(AlphaMode alpha_mode, std::size_t first, const TileRegion& region,
+                             const std::uint8_t* rows, const TileVisibility& visibility);
   bool make_triangle_in(const Triangle& triangle, const TileRegion& region);
   void find_layer_points(bool is_each_sample);
   void add_points(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_each_sample,
-                  std::vector<Point>& points) const;
+                  std::vector<Fragment>& points) const;
   void accumulate();
   void add_surfaces(std::uint32_t pixel);
   bool shades_data() const { return target_.normal || target_.uv || target_.albedo; }
@@ -155,15 +155,15 @@ class TileRenderer {
   void keep_data(std::uint32_t pixel, std::size_t p);
   void write_data();
   void write_data(std::uint32_t pixel);
-  float depth_of(const Point& point, std::size_t draw, const Nearest& nearest) const;
+  float depth_of(const Fragment& point, std::size_t draw, const Nearest& nearest) const;
   void store_samples(std::uint32_t pixel, int sample, Linear color);
   void store_color(std::uint32_t pixel, std::uint64_t samples, Linear color);
-  void store_row(std::uint32_t pixel, int sample, const Shaded& color, int first);
+  void store_row(std::uint32_t pixel, int sample, const FragmentOutputs& color, int first);
   void finish();
 
   bool is_wanted(int x, int y) const {
     return x >= left_ && x < right_ && y >= top_ && y < bottom_ &&
-           (!target_.where || (*target_.where)(tile_x_ + x - target_.x, tile_y_ + y - target_.y));
+           (!target_.pixel_mask || (*target_.pixel_mask)(tile_x_ + x - target_.x, tile_y_ + y - target_.y));
   }
   Linear mean_of(Linear sum) const {
     return {sum.r / weight_sum_, sum.g / weight_sum_, sum.b / weight_sum_, sum.a / weight_sum_};
@@ -171,29 +171,29 @@ class TileRenderer {
   void add_to_sum(std::uint32_t pixel, Linear color) {
     sum_[pixel / 8].set(pixel % 8, sum_[pixel / 8].get(pixel % 8) + color);
   }
-  /// True if all eight pixels are to be drawn; rows as in `row_owner_`, or as columns of blocks.
+  /// True if all eight pixels are to be drawn; rows as in `row_primitive_`, or as columns of blocks.
   bool is_whole_row(int row) const { return row % 8 * 8 >= left_ && row % 8 * 8 + 8 <= right_; }
   bool is_drawn(int block) const {
     const int x = block % 8 * 8, y = block / 8 * 8;
     return x < right_ && x + 8 > left_ && y < bottom_ && y + 8 > top_;
   }
-  bool has_layers() const { return !sources_[static_cast<std::size_t>(Surface::Blended)].empty(); }
-  Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
-  Point point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const;
+  bool has_layers() const { return !sources_[static_cast<std::size_t>(AlphaMode::Blend)].empty(); }
+  Fragment point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const;
+  Fragment point_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, SamplePosition place) const;
 
   const ProjectedDraws& projected_;
   const Bins& bins_;
   const CoverageKernels& coverage_;
   const ResolveKernels& resolve_;
-  const PointListKernels& point_lists_;
+  const FragmentListKernels& point_lists_;
   const Target& target_;
   const SetupRules setup_;
   const RasterRoom room_;
   const float least_;  ///< transmittance down to which further layers count
   const ShadedPlaces places_;
-  PointBatcher shader_;
+  FragmentBatcher shader_;
   AlphaDigits digits_;
-  PointBatcher digit_batcher_;
+  FragmentBatcher digit_batcher_;
 
   StageTimes times_;
   Stopwatch watch_;
@@ -208,28 +208,28 @@ class TileRenderer {
 
   std::vector<float> depth_storage_;
   std::vector<std::int32_t> id_storage_;
-  alignas(64) float block_far_[TileVisibility::blocks];
-  std::int32_t block_owner_[TileVisibility::blocks];
+  alignas(64) float block_min_depth_[TileVisibility::blocks];
+  std::int32_t block_primitive_[TileVisibility::blocks];
   TileVisibility visibility_;
-  std::int32_t row_owner_[tile_pixels / 8];
+  std::int32_t row_primitive_[tile_pixels / 8];
 
-  std::vector<PointRow> rows_;
+  std::vector<FragmentSpan> rows_;
 
-  PointList list_;
+  FragmentList list_;
   std::vector<float> samples_weight_;       ///< by set of samples, a bit each
   std::vector<std::uint32_t> listed_rows_;  ///< by their first pixels
   std::vector<Linear> list_sums_;           ///< by pixel: what its listed points add up to
 
-  std::vector<Point> points_;
+  std::vector<Fragment> points_;
   std::vector<std::uint32_t> first_point_;  ///< by pixel, and the total at the end
   std::vector<Linear> colors_;
-  PointData data_;        ///< of points_
-  PointData pixel_data_;  ///< of the nearest surface, by pixel
+  FragmentData data_;        ///< of points_
+  FragmentData pixel_data_;  ///< of the nearest surface, by pixel
 
-  std::vector<Fragment> fragments_;
+  std::vector<CoveredPixel> fragments_;
   std::vector<Layer> layers_;
   std::vector<float> layer_depths_;
-  std::vector<Point> layer_points_;
+  std::vector<Fragment> layer_points_;
   std::vector<std::uint32_t> point_of_layer_;
   std::vector<std::uint8_t> is_there_;
   std::vector<std::uint64_t> alpha_samples_;  ///< by point: the samples where alpha lets it be
@@ -239,12 +239,12 @@ class TileRenderer {
   std::vector<float> copied_depth_;  ///< of copy_visibility
   std::vector<std::int32_t> copied_id_;
 
-  std::vector<RowLayer> row_layers_, sorted_row_layers_;
+  std::vector<SpanLayer> row_layers_, sorted_row_layers_;
   std::uint8_t is_slow_row_[tile_pixels / 8];
   std::vector<BlendedRow> blended_rows_;
   std::vector<BlockLayer> block_layers_, unsorted_layers_;
-  Layers8 strip_layers_[64];        ///< by rows of a strip of blocks
-  std::uint64_t other_blocks_ = 0;  ///< a bit for each block whose layers go by rows or pixels
+  TransparentStack8 strip_layers_[64];  ///< by rows of a strip of blocks
+  std::uint64_t other_blocks_ = 0;      ///< a bit for each block whose layers go by rows or pixels
 
   std::vector<Linear8> sum_;    ///< by eight pixels: weighted sum of samples
   std::vector<Linear8> color_;  ///< by eight pixels: their mean

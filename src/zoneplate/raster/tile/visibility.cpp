@@ -7,7 +7,7 @@ void TileRenderer::render_visibility() {
   begin_pass(0, static_cast<int>(target_.samples.size()));
   draw_opaque();
   draw_masked();
-  visibility_.open_all();
+  visibility_.materialize_all();
   times_.visibility += watch_.lap_ms();
   for (int s = 0; s < pass_samples_; ++s)
     for (int y = top_; y < bottom_; ++y)
@@ -18,7 +18,7 @@ void TileRenderer::render_visibility() {
         const int column = tile_x_ + x - target_.x, row = tile_y_ + y - target_.y;
         const std::int32_t id = visibility_.id[at];
         (*target_.sample_triangle)[sample](column, row) =
-            id == no_triangle ? Target::no_id : static_cast<std::uint32_t>(id);
+            id == no_primitive ? Target::no_id : static_cast<std::uint32_t>(id);
         if (target_.sample_depth) (*target_.sample_depth)[sample](column, row) = visibility_.depth[at];
       }
   times_.output += watch_.lap_ms();

@@ -9,19 +9,19 @@
 namespace zoneplate {
 
 /// Gives colour to surface points, a batch at a time. Called from many threads at once.
-class PointShader {
+class FragmentShader {
  public:
-  virtual ~PointShader() = default;
-  struct Wanted {
+  virtual ~FragmentShader() = default;
+  struct OutputMask {
     bool normal = false, uv = false, albedo = false;
   };
-  virtual void shade(const Batch& batch, Wanted wanted, Shaded& out) const = 0;
+  virtual void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const = 0;
   /// Alpha of masked surfaces' points, and the cutoff at and above which such a point is there.
-  virtual float alpha(const Batch& batch, float* out) const = 0;
+  virtual float alpha(const FragmentBatch& batch, float* out) const = 0;
   /// What no channel of any surface's colour, premultiplied, is above; it bounds how many layers are shaded.
   virtual float brightest() const { return std::numeric_limits<float>::infinity(); }
   /// Whether a material's batches need dbdx and dbdy.
-  virtual bool wants_slopes([[maybe_unused]] int material) const { return true; }
+  virtual bool needs_derivatives([[maybe_unused]] int material) const { return true; }
   /// Where shading reads of an instance's vertices: vertex v at first + v × stride, so that it may be asked for before
   /// it is needed; null: nowhere.
   struct VertexMemory {

@@ -13,9 +13,9 @@ namespace zoneplate {
 namespace {
 
 /// Gives every point of a triangle another colour and alpha, so that a point that lies elsewhere is noticed.
-class Noisy : public PointShader {
+class Noisy : public FragmentShader {
  public:
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.count; ++i) {
       const auto at = [&](std::uint32_t channel) { return noise(batch, i, channel); };
       out.a[i] = at(3);
@@ -27,14 +27,14 @@ class Noisy : public PointShader {
       }
     }
   }
-  float alpha(const Batch& batch, float* out) const override {
+  float alpha(const FragmentBatch& batch, float* out) const override {
     for (int i = 0; i < batch.count; ++i) out[i] = noise(batch, i, 3);
     return 0.5f;
   }
 
  private:
-  static float noise(const Batch& batch, int i, std::uint32_t channel) {
-    const std::uint32_t triangle = batch.triangle[batch.told(static_cast<std::size_t>(i))];
+  static float noise(const FragmentBatch& batch, int i, std::uint32_t channel) {
+    const std::uint32_t triangle = batch.triangle[batch.leader(static_cast<std::size_t>(i))];
     return unit_float(
         hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]), 4 * triangle + channel));
   }
@@ -70,7 +70,7 @@ struct Layered {
       draw.clip_from_object = perspective(1.0f, 1.0f, 0.1f, 50.0f);
       draw.index = d < draw_count ? all.subspan(d * 3 * scattered, 3 * scattered)
                                   : all.subspan((draw_count * scattered + (d - draw_count) * sheets) * 3, 3 * sheets);
-      draw.surface = d == draw_count ? Surface::Blended : static_cast<Surface>(d % 3);
+      draw.alpha_mode = d == draw_count ? AlphaMode::Blend : static_cast<AlphaMode>(d % 3);
       draw.culls_back_faces = d % 4 == 1;
       draw.instance = d;
       draw.material = static_cast<int>(d % 3);

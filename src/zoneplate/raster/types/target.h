@@ -18,7 +18,7 @@ struct Target {
   Viewport viewport;                        ///< the whole picture
   int x = 0, y = 0, width = 0, height = 0;  ///< the rectangle that is drawn, in the picture's pixels
 
-  const Plane<std::uint8_t>* where = nullptr;  ///< pixels that are not 0 here are drawn; null: all
+  const Plane<std::uint8_t>* pixel_mask = nullptr;  ///< pixels that are not 0 here are drawn; null: all
 
   SamplePattern samples;
   std::vector<float> weights;          ///< one a sample; empty: all equal
@@ -30,7 +30,7 @@ struct Target {
 
   LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
   Rgba8Image* shown = nullptr;   ///< the same as `presenter` shows it; both or neither
-  const Presenter* presenter = nullptr;
+  const DisplayTransform* presenter = nullptr;
 
   // Of each pixel one point of the surface that owns its nearest sample: the pixel's centre if it owns all samples,
   // else where it is shaded for that one: at the place that `centroid` gives, or at the sample if every sample is

@@ -65,10 +65,10 @@ void apply(const BuiltinMaker& maker, std::string_view setting, std::vector<std:
       return;
     }
     const std::string kind = p.decimals == 0 ? "whole number" : fmt::format("number of {} decimals", p.decimals);
-    throw Error(Trouble::Usage, fmt::format("scene {}: {} is '{}', wants a {} from {} to {}", maker.name, p.name, value,
-                                            kind, shown(p.low, p.decimals), shown(p.high, p.decimals)));
+    throw Error(ErrorKind::Usage, fmt::format("scene {}: {} is '{}', wants a {} from {} to {}", maker.name, p.name,
+                                              value, kind, shown(p.low, p.decimals), shown(p.high, p.decimals)));
   }
-  throw Error(Trouble::Usage,
+  throw Error(ErrorKind::Usage,
               fmt::format("scene {}: unknown parameter '{}'; it has {}", maker.name, name, list_of(maker.params)));
 }
 

@@ -30,7 +30,7 @@ bool check_builtin_scene(const std::string& text);
 
 /// Makes the scene of a text such as `teapot` or `sphere:triangles=1000`; nothing if no built-in scene has that name.
 ///
-/// Errors    Trouble::Usage naming an unknown parameter or a value out of range.
+/// Errors    ErrorKind::Usage naming an unknown parameter or a value out of range.
 std::optional<Scene> make_builtin_scene(const std::string& text);
 
 }  // namespace zoneplate

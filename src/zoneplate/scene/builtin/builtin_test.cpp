@@ -25,7 +25,7 @@ std::string message_of(const std::string& text) {
   try {
     make_builtin_scene(text);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), Trouble::Usage);
+    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
     return error.what();
   }
   return "no error";

@@ -49,7 +49,7 @@ template <class F>
 }
 
 /// max(r · v, 0)^exponent; not cut where the light is below the horizon.
-/// Source: Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975.
+/// Source: Phong, ShadingUniforms for Computer Generated Pictures, CACM 18(6), 1975.
 template <class F>
 [[gnu::always_inline]] inline F phong(Vector<F> n, Vector<F> l, Vector<F> v, Exponent exponent) {
   return power(max(phong_cosine(n, l, v), F(0.0f)), exponent);

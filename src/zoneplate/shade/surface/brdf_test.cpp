@@ -54,10 +54,10 @@ TEST(Brdf, TheMicrofacetsAreaFacesTheNormalOnce) {
       const double x = (i + 0.5) / steps;
       const double tangent2 = alpha * alpha * x / (1 - x);
       const double cosine = 1 / std::sqrt(1 + tangent2);
-      const double slope = alpha * alpha / ((1 - x) * (1 - x));
+      const double derivative = alpha * alpha / ((1 - x) * (1 - x));
       const V h = direction(cosine, 0.3);
       // dω = π cos³ · 2 … with d(cos²) = -cos⁴ d(tan²): cos dω = π cos⁴ d(tan²).
-      sum += ggx<F>(cosine, cross(up, h), alpha).v * pi * std::pow(cosine, 4) * slope / steps;
+      sum += ggx<F>(cosine, cross(up, h), alpha).v * pi * std::pow(cosine, 4) * derivative / steps;
     }
     EXPECT_NEAR(sum, 1, 1e-6);
   }

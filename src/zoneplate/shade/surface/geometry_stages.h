@@ -33,17 +33,18 @@ template <class F>
 struct Linear {
   F first, second, third;
 
-  [[gnu::always_inline]] F at(const Batch& batch, int i) const { return first + along(batch.b, i); }
+  [[gnu::always_inline]] F at(const FragmentBatch& batch, int i) const { return first + along(batch.b, i); }
   /// Its change, with that of the weights.
-  [[gnu::always_inline]] F along(const float (&change)[2][Batch::room], int i) const {
+  [[gnu::always_inline]] F along(const float (&change)[2][FragmentBatch::padded_capacity], int i) const {
     return second * F::load(change[0] + i) + third * F::load(change[1] + i);
   }
 };
 
 /// Float c of a quad at points [i, end).
 template <class F>
-[[gnu::always_inline]] inline void store_float(const Batch& batch, const Linear<F>& a, const Interpolation::Quad& quad,
-                                               int c, int i, int end, Points& p) {
+[[gnu::always_inline]] inline void store_float(const FragmentBatch& batch, const Linear<F>& a,
+                                               const Interpolation::Quad& quad, int c, int i, int end,
+                                               ShadingState& p) {
   float* const value = quad.value[c].of(p);
   if (quad.dx[c].is_none()) {
     for (int k = i; k < end; k += F::lanes) a.at(batch, k).store(value + k);
@@ -57,25 +58,26 @@ template <class F>
   }
 }
 
-/// The same of one triangle, with slopes that are those of point i everywhere: told of in its group only.
+/// The same of one triangle, with derivatives that are those of point i everywhere: told of in its group only.
 template <class F>
-[[gnu::always_inline]] inline void store_affine_float(const Batch& batch, const Linear<F>& a,
+[[gnu::always_inline]] inline void store_affine_float(const FragmentBatch& batch, const Linear<F>& a,
                                                       const Interpolation::Quad& quad, int c, int i, int end,
-                                                      Points& p) {
-  store_float(batch, a, quad, c, i, i + Batch::group, p);
+                                                      ShadingState& p) {
+  store_float(batch, a, quad, c, i, i + FragmentBatch::group, p);
   float* const value = quad.value[c].of(p);
-  for (int k = i + Batch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
+  for (int k = i + FragmentBatch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
 }
 
 /// A quad at points [i, end), of one triangle.
 template <class F>
-[[gnu::always_inline]] inline void interpolate_run(const Batch& batch, const Corners& corners,
-                                                   const Interpolation::Quad& quad, int i, int end, Points& p) {
-  const std::size_t told = batch.told(static_cast<std::size_t>(i));
-  const float* const v0 = corners.record[0][told] + quad.place;
-  const float* const v1 = corners.record[1][told] + quad.place;
-  const float* const v2 = corners.record[2][told] + quad.place;
-  const bool repeats_slopes = i + Batch::group < end && batch.repeats_slopes[i / Batch::group + 1];
+[[gnu::always_inline]] inline void interpolate_run(const FragmentBatch& batch, const TriangleVertices& corners,
+                                                   const Interpolation::Quad& quad, int i, int end, ShadingState& p) {
+  const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
+  const float* const v0 = corners.record[0][leader] + quad.place;
+  const float* const v1 = corners.record[1][leader] + quad.place;
+  const float* const v2 = corners.record[2][leader] + quad.place;
+  const bool has_uniform_derivatives =
+      i + FragmentBatch::group < end && batch.has_uniform_derivatives[i / FragmentBatch::group + 1];
   for (int c = 0; c < 4; ++c) {
     if (quad.value[c].is_none()) continue;
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
@@ -86,7 +88,7 @@ template <class F>
       continue;
     }
     const Linear<F> line{F(v0[c]), F(second), F(third)};
-    if (repeats_slopes && !quad.dx[c].is_none()) {
+    if (has_uniform_derivatives && !quad.dx[c].is_none()) {
       store_affine_float(batch, line, quad, c, i, end, p);
     } else {
       store_float(batch, line, quad, c, i, end, p);
@@ -96,8 +98,8 @@ template <class F>
 
 /// All quads of a vector of points of any triangles.
 template <class F, class Records>
-[[gnu::always_inline]] inline void interpolate_points(const Batch& batch, const Records& records,
-                                                      const Interpolation& what, int i, Points& p) {
+[[gnu::always_inline]] inline void interpolate_points(const FragmentBatch& batch, const Records& records,
+                                                      const Interpolation& what, int i, ShadingState& p) {
   for (int n = 0; n < what.quads; ++n) {
     const Interpolation::Quad& quad = what.quad[n];
     F v[3][4];
@@ -109,11 +111,11 @@ template <class F, class Records>
 }
 
 template <class F, class Records>
-[[gnu::always_inline]] inline void interpolate_all(const Batch& batch, const Corners& corners, const Records& records,
-                                                   const Interpolation& what, Points& p) {
+[[gnu::always_inline]] inline void interpolate_all(const FragmentBatch& batch, const TriangleVertices& corners,
+                                                   const Records& records, const Interpolation& what, ShadingState& p) {
   for (int i = 0; i < p.count;) {
-    if (batch.one_triangle[i / Batch::group]) {
-      const int end = batch.run_end[i / Batch::group] * Batch::group;
+    if (batch.is_flat_run[i / FragmentBatch::group]) {
+      const int end = batch.run_end[i / FragmentBatch::group] * FragmentBatch::group;
       for (int n = 0; n < what.quads; ++n) interpolate_run<F>(batch, corners, what.quad[n], i, end, p);
       i = end;
     } else {
@@ -124,20 +126,22 @@ template <class F, class Records>
 }
 
 template <class F>
-void interpolate(const Batch& batch, const Corners& corners, const Interpolation& what, Points& p) {
+void interpolate(const FragmentBatch& batch, const TriangleVertices& corners, const Interpolation& what,
+                 ShadingState& p) {
   if (corners.first != nullptr)
     return interpolate_all<F>(batch, corners, RecordsByVertex{batch, corners.first, corners.stride}, what, p);
   interpolate_all<F>(batch, corners, RecordsByPoint{corners}, what, p);
 }
 
 template <class F>
-void map_coordinates(const CoordinateMap& map, const Batch& batch, const Points& p, int set, Coordinates& out) {
+void map_coordinates(const CoordinateMap& map, const FragmentBatch& batch, const ShadingState& p, int set,
+                     Coordinates& out) {
   const F m0(map.m[0]), m1(map.m[1]), m2(map.m[2]), m3(map.m[3]), m4(map.m[4]), m5(map.m[5]);
   for (int i = 0; i < p.count; i += F::lanes) {
     const F u = F::load(p.uv[set][0] + i), v = F::load(p.uv[set][1] + i);
     (u * m0 + v * m1 + m2).store(out.uv[0] + i);
     (u * m3 + v * m4 + m5).store(out.uv[1] + i);
-    if (batch.repeats_slopes[i / Batch::group]) continue;
+    if (batch.has_uniform_derivatives[i / FragmentBatch::group]) continue;
     const F ux = F::load(p.uv_dx[set][0] + i), vx = F::load(p.uv_dx[set][1] + i);
     (ux * m0 + vx * m1).store(out.dx[0] + i);
     (ux * m3 + vx * m4).store(out.dx[1] + i);
@@ -149,22 +153,22 @@ void map_coordinates(const CoordinateMap& map, const Batch& batch, const Points&
 
 /// One number of each point's placement: `first` is that of placement 0.
 template <class F>
-[[gnu::always_inline]] inline F placed(const Batch& batch, const Corners& corners, const float* first, int i) {
+[[gnu::always_inline]] inline F placed(const FragmentBatch& batch, const TriangleVertices& corners, const float* first,
+                                       int i) {
   using Int = typename F::Int;
-  constexpr std::int32_t stride = sizeof(Placement) / sizeof(float);
-  const int group = i / Batch::group;
+  constexpr std::int32_t stride = sizeof(InstanceTransform) / sizeof(float);
+  const int group = i / FragmentBatch::group;
   if (corners.one_instance[group])
-    return F(
-        first[std::ptrdiff_t{stride} *
-              static_cast<std::ptrdiff_t>(batch.instance[batch.told(static_cast<std::size_t>(group) * Batch::group)])]);
+    return F(first[std::ptrdiff_t{stride} * static_cast<std::ptrdiff_t>(batch.instance[batch.leader(
+                                                static_cast<std::size_t>(group) * FragmentBatch::group)])]);
   const auto* instance = reinterpret_cast<const std::int32_t*>(batch.instance);
   return F::gather(first, Int::load(instance + i) * Int(stride));
 }
 
 /// x column 0 + y column 1 + z column 2 of the 3 × 3 matrices that begin at `first`.
 template <class F>
-[[gnu::always_inline]] inline Vector<F> turned(const Batch& batch, const Corners& corners, const float* first,
-                                               Vector<F> v, int i) {
+[[gnu::always_inline]] inline Vector<F> turned(const FragmentBatch& batch, const TriangleVertices& corners,
+                                               const float* first, Vector<F> v, int i) {
   const auto element = [&](int e) { return placed<F>(batch, corners, first + e, i); };
   const Vector<F> x{element(0), element(1), element(2)};
   const Vector<F> y{element(3), element(4), element(5)};
@@ -173,7 +177,8 @@ template <class F>
 }
 
 template <class F>
-void place_positions(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
+void place_positions(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
+                     ShadingState& p) {
   const float* world = placements->world_from_object;
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto element = [&](int e) { return placed<F>(batch, corners, world + e, i); };
@@ -183,13 +188,15 @@ void place_positions(const Batch& batch, const Corners& corners, const Placement
 }
 
 template <class F>
-void place_normals(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
+void place_normals(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
+                   ShadingState& p) {
   for (int i = 0; i < p.count; i += F::lanes)
     turned(batch, corners, placements->normal, Vector<F>::load(p.normal, i), i).store(p.normal, i);
 }
 
 template <class F>
-void place_tangents(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
+void place_tangents(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
+                    ShadingState& p) {
   for (int i = 0; i < p.count; i += F::lanes) {
     turned(batch, corners, placements->world_from_object, Vector<F>::load(p.tangent, i), i).store(p.tangent, i);
     const F handedness = placed<F>(batch, corners, &placements->handedness, i);
@@ -199,43 +206,45 @@ void place_tangents(const Batch& batch, const Corners& corners, const Placement*
 
 /// 1 for front faces, -1 for back faces.
 template <class F>
-[[gnu::always_inline]] inline F facing(const Batch& batch, int i) {
+[[gnu::always_inline]] inline F facing(const FragmentBatch& batch, int i) {
   using Int = typename F::Int;
-  const int group = i / Batch::group;
-  if (batch.one_triangle[group]) return F(batch.is_front[batch.told(static_cast<std::size_t>(i))] > 0 ? 1.0f : -1.0f);
+  const int group = i / FragmentBatch::group;
+  if (batch.is_flat_run[group]) return F(batch.is_front[batch.leader(static_cast<std::size_t>(i))] > 0 ? 1.0f : -1.0f);
   return select(Int::load(batch.is_front + i) > Int(0), F(1.0f), F(-1.0f));
 }
 
 /// True if the normal is the same all over the triangle that is told of at a point.
-inline bool is_flat(const Corners& corners, std::size_t told) {
-  const float *const v0 = corners.record[0][told], *const v1 = corners.record[1][told];
-  const float* const v2 = corners.record[2][told];
+inline bool is_flat(const TriangleVertices& corners, std::size_t leader) {
+  const float *const v0 = corners.record[0][leader], *const v1 = corners.record[1][leader];
+  const float* const v2 = corners.record[2][leader];
   bool is_same = true;
   for (int c = 0; c < 3; ++c) is_same = is_same && v1[c] == v0[c] && v2[c] == v0[c];
   return is_same;
 }
 
 template <class F>
-void find_normals(const Batch& batch, const Corners& corners, const Placement* placements, Points& p) {
+void find_normals(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
+                  ShadingState& p) {
   for (int i = 0; i < p.count;) {
-    const int group = i / Batch::group;
+    const int group = i / FragmentBatch::group;
     Vector<F> n = Vector<F>::load(p.normal, i);
-    const bool keeps =
-        corners.one_instance[group] &&
-        placements[batch.instance[batch.told(static_cast<std::size_t>(group) * Batch::group)]].keeps_normals != 0;
+    const bool keeps = corners.one_instance[group] &&
+                       placements[batch.instance[batch.leader(static_cast<std::size_t>(group) * FragmentBatch::group)]]
+                               .keeps_normals != 0;
     if (!keeps) n = turned(batch, corners, placements->normal, n, i);
     // Adding +0 leaves no trace of which way was taken.
     const Vector<F> normal = normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i);
     normal.store(p.normal, i);
     i += F::lanes;
-    if (batch.one_triangle[group] && batch.told_group[group] == group &&
-        is_flat(corners, static_cast<std::size_t>(group) * Batch::group))
-      for (const int end = batch.run_end[group] * Batch::group; i < end; i += F::lanes) normal.store(p.normal, i);
+    if (batch.is_flat_run[group] && batch.run_begin[group] == group &&
+        is_flat(corners, static_cast<std::size_t>(group) * FragmentBatch::group))
+      for (const int end = batch.run_end[group] * FragmentBatch::group; i < end; i += F::lanes)
+        normal.store(p.normal, i);
   }
 }
 
 template <class F>
-void bend_normals(const Batch& batch, const float* const texel[4], float scale, Points& p) {
+void bend_normals(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& p) {
   const F two(2.0f), one(1.0f);
   for (int i = 0; i < p.count; i += F::lanes) {
     const Vector<F> n = normalize(Vector<F>::load(p.normal, i));
@@ -267,7 +276,7 @@ struct Viewer {
         ray_dy(Vector<F>::all(v.ray_dy)) {}
 
   /// The way to the viewer, of any length.
-  [[gnu::always_inline]] Vector<F> way(const Batch& batch, const Points& p, int i) const {
+  [[gnu::always_inline]] Vector<F> way(const FragmentBatch& batch, const ShadingState& p, int i) const {
     using Int = typename F::Int;
     if (is_orthographic) return towards;
     if (!has_rays) return eye - Vector<F>::load(p.position, i);
@@ -275,13 +284,13 @@ struct Viewer {
     return ray + ray_dx * x + ray_dy * y;
   }
   /// The direction to the viewer.
-  [[gnu::always_inline]] Vector<F> direction(const Batch& batch, const Points& p, int i) const {
+  [[gnu::always_inline]] Vector<F> direction(const FragmentBatch& batch, const ShadingState& p, int i) const {
     return is_orthographic ? towards : normalize(way(batch, p, i));
   }
 };
 
 template <class F>
-void default_normals(const Viewpoint& viewpoint, const Batch& batch, Points& p) {
+void default_normals(const Viewpoint& viewpoint, const FragmentBatch& batch, ShadingState& p) {
   const Viewer<F> viewer(viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i);

@@ -29,7 +29,7 @@ struct AnyIllumination {
   int lights;
   static constexpr bool has_sun_only = false;
   bool has_occlusion, has_emissive, has_emissive_texture, has_bare_meshes, is_blended;
-  explicit AnyIllumination(const Illumination& s)
+  explicit AnyIllumination(const ShadingUniforms& s)
       : lights(s.lights),
         has_occlusion(s.has_occlusion),
         has_emissive(s.has_emissive),
@@ -38,7 +38,7 @@ struct AnyIllumination {
         is_blended(s.is_blended) {}
 };
 
-inline bool is_plain(const Illumination& s) {
+inline bool is_plain(const ShadingUniforms& s) {
   return s.lights == 1 && s.light[0].is_directional && !s.has_occlusion && !s.has_emissive && !s.has_emissive_texture &&
          !s.has_bare_meshes && !s.is_blended;
 }
@@ -51,7 +51,8 @@ struct Arriving {
 };
 
 template <class F>
-[[gnu::always_inline]] inline Arriving<F> arriving(const PreparedLight& light, bool is_sun, const Points& p, int i) {
+[[gnu::always_inline]] inline Arriving<F> arriving(const PreparedLight& light, bool is_sun, const ShadingState& p,
+                                                   int i) {
   const auto radiance = Vector<F>::all(light.radiance);
   if (is_sun || light.is_directional) return {Vector<F>::all(light.towards), radiance};
   const Vector<F> path = Vector<F>::all(light.position) - Vector<F>::load(p.position, i);
@@ -63,7 +64,8 @@ template <class F>
 
 /// Colour × alpha, colour clamped to [0, brightest_color].
 template <class F>
-[[gnu::always_inline]] inline void store_color(Vector<F> color, bool is_blended, const Points& p, Shaded& out, int i) {
+[[gnu::always_inline]] inline void store_color(Vector<F> color, bool is_blended, const ShadingState& p,
+                                               FragmentOutputs& out, int i) {
   const F low(0.0f), high(brightest_color);
   Vector<F> shown{min(max(color.x, low), high), min(max(color.y, low), high), min(max(color.z, low), high)};
   const F alpha = is_blended ? F::load(p.base[3] + i) : F(1.0f);
@@ -74,8 +76,8 @@ template <class F>
 
 /// What comes after the reflected light: emission, points that are not lit, alpha.
 template <class F, class Kind>
-[[gnu::always_inline]] inline void finish(const Illumination& s, const Kind& kind, const Points& p, Vector<F> sum,
-                                          Vector<F> base, Shaded& out, int i) {
+[[gnu::always_inline]] inline void finish(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
+                                          Vector<F> sum, Vector<F> base, FragmentOutputs& out, int i) {
   if (kind.has_emissive_texture) {
     sum = sum + Vector<F>::load(p.emissive, i);
   } else if (kind.has_emissive) {
@@ -87,7 +89,7 @@ template <class F, class Kind>
 
 /// What comes from all sides, less what is occluded.
 template <class F, class Kind>
-[[gnu::always_inline]] inline Vector<F> unoccluded(const Kind& kind, const Points& p, Vector<F> light, int i) {
+[[gnu::always_inline]] inline Vector<F> unoccluded(const Kind& kind, const ShadingState& p, Vector<F> light, int i) {
   return kind.has_occlusion ? light * F::load(p.occlusion + i) : light;
 }
 
@@ -104,14 +106,14 @@ template <class F>
 
 /// What of a batch's points a light needs.
 struct Cosines {
-  alignas(64) float diffuse[Batch::room];
-  alignas(64) float highlight[Batch::room];  ///< the cosine's power
+  alignas(64) float diffuse[FragmentBatch::padded_capacity];
+  alignas(64) float highlight[FragmentBatch::padded_capacity];  ///< the cosine's power
 };
 
 /// The cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in shade/surface/brdf.h.
 template <class F, Highlight highlight>
-[[gnu::always_inline]] inline void find_cosines(const Illumination& s, const PreparedLight& of, bool is_sun,
-                                                const Batch& batch, const Points& p, Cosines& out) {
+[[gnu::always_inline]] inline void find_cosines(const ShadingUniforms& s, const PreparedLight& of, bool is_sun,
+                                                const FragmentBatch& batch, const ShadingState& p, Cosines& out) {
   const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), l = arriving<F>(of, is_sun, p, i).from;
@@ -148,7 +150,7 @@ template <class F, Highlight highlight>
 [[gnu::always_inline]] inline void raise_cosines(const Exponent& exponent, Cosines& cosines, int count) {
   constexpr int vectors = 8 / F::lanes < 2 ? 2 : 8 / F::lanes;
   constexpr int step = vectors * F::lanes;
-  static_assert(Points::capacity % step == 0);
+  static_assert(ShadingState::capacity % step == 0);
   if (count % step != 0) std::fill_n(cosines.highlight + count, step - count % step, 0.0f);
   for (int i = 0; i < count; i += step) {
     const Several<F, vectors> x([&](int k) { return F::load(cosines.highlight + i + k * F::lanes); });
@@ -164,7 +166,7 @@ struct Gathered {
 };
 
 template <class F, Highlight highlight>
-[[gnu::always_inline]] inline Gathered<F> gather(const PreparedLight& of, bool is_sun, const Points& p,
+[[gnu::always_inline]] inline Gathered<F> gather(const PreparedLight& of, bool is_sun, const ShadingState& p,
                                                  const Cosines& cosines, int i) {
   const Vector<F> radiance = arriving<F>(of, is_sun, p, i).radiance;
   if constexpr (highlight == Highlight::None) return {radiance * F::load(cosines.diffuse + i), zeros<F>()};
@@ -173,8 +175,8 @@ template <class F, Highlight highlight>
 
 /// The colour under the light that was gathered.
 template <class F, Highlight highlight, class Kind>
-[[gnu::always_inline]] inline void show_gathered(const Illumination& s, const Kind& kind, const Points& p,
-                                                 const Gathered<F>& light, Shaded& out, int i) {
+[[gnu::always_inline]] inline void show_gathered(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
+                                                 const Gathered<F>& light, FragmentOutputs& out, int i) {
   const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
   Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
   if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * light.specular;
@@ -183,14 +185,15 @@ template <class F, Highlight highlight, class Kind>
 
 /// `s` is a copy, and so is each light: what stands in them is read once, not again after each store.
 template <class F, Highlight highlight, class Kind>
-void light_phong(const Illumination s, const Kind& kind, const Batch& batch, const Points& p, Shaded& out) {
+void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch& batch, const ShadingState& p,
+                 FragmentOutputs& out) {
   if (kind.lights == 0) {
     for (int i = 0; i < p.count; i += F::lanes)
       show_gathered<F, highlight>(s, kind, p, {zeros<F>(), zeros<F>()}, out, i);
     return;
   }
   Cosines cosines;
-  alignas(64) Points::Array diffuse[3], specular[3];
+  alignas(64) ShadingState::Array diffuse[3], specular[3];
   for (int k = 0; k < kind.lights; ++k) {
     const PreparedLight light = s.light[k];
     find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
@@ -211,20 +214,20 @@ void light_phong(const Illumination s, const Kind& kind, const Batch& batch, con
 }
 
 template <class F, Highlight highlight>
-void light_phong(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   if (is_plain(s)) return light_phong<F, highlight>(s, PlainIllumination(), batch, p, out);
   light_phong<F, highlight>(s, AnyIllumination(s), batch, p, out);
 }
 
 template <class F>
-void light_phong(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   if (!s.has_specular) return light_phong<F, Highlight::None>(s, batch, p, out);
   if (s.is_phong) return light_phong<F, Highlight::Phong>(s, batch, p, out);
   light_phong<F, Highlight::BlinnPhong>(s, batch, p, out);
 }
 
 template <class F, bool has_texture>
-void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   const auto environment = Vector<F>::all(s.environment);
   const AnyIllumination kind(s);
   const Viewer<F> viewer(s.viewpoint);
@@ -250,13 +253,13 @@ void light_metallic(const Illumination& s, const Batch& batch, const Points& p, 
 }
 
 template <class F>
-void light_metallic(const Illumination& s, const Batch& batch, const Points& p, Shaded& out) {
+void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   if (s.has_material_texture) return light_metallic<F, true>(s, batch, p, out);
   light_metallic<F, false>(s, batch, p, out);
 }
 
 template <class F>
-void unlit(bool is_blended, const Points& p, Shaded& out) {
+void unlit(bool is_blended, const ShadingState& p, FragmentOutputs& out) {
   for (int i = 0; i < p.count; i += F::lanes) store_color(Vector<F>::load(p.base, i), is_blended, p, out, i);
 }
 

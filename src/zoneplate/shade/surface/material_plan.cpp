@@ -54,7 +54,7 @@ void copy_factors(const Material& m, MaterialPlan& plan) {
 
 /// Diffuse and ambient light are gathered before they meet the base colour, which is cheapest; the ambient term is
 /// ambient × light × what base colour there would be with a factor of 1.
-void plan_ambient(const Material& m, const Surroundings& s, MaterialPlan& plan) {
+void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) {
   constexpr float least_divisor = 0x1p-32f;
   if (m.model != ShadingModel::BlinnPhong && m.model != ShadingModel::Phong) return;
   const float ambient[3] = {m.ambient.x, m.ambient.y, m.ambient.z};
@@ -83,7 +83,7 @@ void find_slots(const Material& m, const TextureSet& textures, int anisotropy, M
 }
 
 /// Which stages are needed, given the lights and textures there are.
-void decide(const Scene& scene, const Surroundings& s, const Material& m, MaterialPlan& plan) {
+void decide(const Scene& scene, const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   const bool is_metallic = m.model == ShadingModel::MetallicRoughness;
   const bool has_lights = !scene.lights.empty();
   const bool has_places = std::any_of(scene.lights.begin(), scene.lights.end(),
@@ -138,7 +138,7 @@ void TextureSet::find_uses(const Scene& scene) {
     for (const NamedUse& named : uses_of(material)) {
       if (named.use->image < 0) continue;
       const TextureImage& image = scene.images.at(static_cast<std::size_t>(named.use->image));
-      if (image.pixels.empty()) throw Error(Trouble::Input, "texture " + image.name + ": has no texels");
+      if (image.pixels.empty()) throw Error(ErrorKind::Input, "texture " + image.name + ": has no texels");
       textures_[key_of(named.use->image, named.meaning)] = nullptr;
     }
 }
@@ -165,7 +165,7 @@ bool share_taps(const TextureSlot& a, const TextureSlot& b) {
          a.map == b.map;
 }
 
-std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures) {
+std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures) {
   std::vector<MaterialPlan> plans(scene.materials.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     copy_factors(scene.materials[i], plans[i]);

@@ -20,7 +20,7 @@ class TextureSet {
  public:
   /// Makes the levels of what the materials use, one image after the other. With `raw_colors` the codes of colours are
   /// values; light stays light.
-  /// Errors    Trouble::Input where an image that is used is empty; OutOfMemory("texture levels").
+  /// Errors    ErrorKind::Input where an image that is used is empty; OutOfMemory("texture levels").
   TextureSet(const Scene& scene, bool raw_colors);
   /// The same, and takes the images with it: each is freed as soon as its texels are in the levels, those that no
   /// material uses are freed at once. Afterwards all images of the scene are empty: only this set can texture it.
@@ -43,7 +43,7 @@ class TextureSet {
 /// One texture of a material. `texture` null: absent.
 struct TextureSlot {
   const Texture* texture = nullptr;
-  Filtering filtering;
+  SamplerState filtering;
   CoordinateMap map;
   bool is_mapped = false;  ///< the map is not the identity
   int uv_set = 0;
@@ -84,6 +84,6 @@ struct MaterialPlan {
 };
 
 /// The plans of a scene's materials, by material.
-std::vector<MaterialPlan> make_plans(const Scene& scene, const Surroundings& surroundings, const TextureSet& textures);
+std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures);
 
 }  // namespace zoneplate

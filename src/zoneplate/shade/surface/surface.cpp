@@ -14,7 +14,7 @@
 namespace zoneplate {
 namespace {
 
-Viewpoint make_viewpoint(const Surroundings& s) {
+Viewpoint make_viewpoint(const ViewUniforms& s) {
   const float3 back = normalize(-s.view_direction, {0, 0, 1});
   Viewpoint v{{s.eye.x, s.eye.y, s.eye.z}, {back.x, back.y, back.z}, s.is_orthographic, s.rays.has_value()};
   if (!s.rays) return v;
@@ -30,10 +30,10 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
 }
 
 /// A material under the scene's lights, which stay where they are.
-Illumination make_illumination(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
-                               const Viewpoint& viewpoint, float3 environment) {
+ShadingUniforms make_illumination(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
+                                  const Viewpoint& viewpoint, float3 environment) {
   const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
-  Illumination s;
+  ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
   s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
   s.has_occlusion = plan.occlusion.texture != nullptr;
@@ -54,12 +54,12 @@ Illumination make_illumination(const MaterialPlan& plan, const std::vector<Prepa
 }  // namespace
 
 struct SurfaceShader::Data {
-  Data(const Scene& scene_in, const Surroundings& surroundings_in, const TextureSet* textures_in,
-       const VertexRecords* records_in)
+  Data(const Scene& scene_in, const ViewUniforms& surroundings_in, const TextureSet* textures_in,
+       const InterleavedVertices* records_in)
       : scene(scene_in),
         surroundings(surroundings_in),
         own_textures(textures_in ? nullptr : std::make_unique<TextureSet>(scene_in, surroundings_in.raw_colors)),
-        own_records(records_in ? nullptr : std::make_unique<VertexRecords>(scene_in)),
+        own_records(records_in ? nullptr : std::make_unique<InterleavedVertices>(scene_in)),
         records(records_in ? *records_in : *own_records),
         plans(make_plans(scene_in, surroundings_in, textures_in ? *textures_in : *own_textures)),
         placements(make_placements(scene_in.instances)),
@@ -86,37 +86,37 @@ struct SurfaceShader::Data {
   }
 
   const Scene& scene;
-  const Surroundings surroundings;
+  const ViewUniforms surroundings;
   const std::unique_ptr<TextureSet> own_textures;
-  const std::unique_ptr<VertexRecords> own_records;
-  const VertexRecords& records;
+  const std::unique_ptr<InterleavedVertices> own_records;
+  const InterleavedVertices& records;
   const std::vector<MaterialPlan> plans;
-  const std::vector<Placement> placements;
+  const std::vector<InstanceTransform> placements;
   const std::vector<PreparedLight> lights;
   const Viewpoint viewpoint;
   const SurfaceKernels& kernels;
   const FilteringKernels& filtering;
-  std::vector<Illumination> illuminations;  ///< by material
-  std::vector<Needs> needs_of_color;        ///< by material
+  std::vector<ShadingUniforms> illuminations;  ///< by material
+  std::vector<Needs> needs_of_color;           ///< by material
 
-  struct Walk;
+  struct BatchShading;
 };
 
 /// One batch on its way through the stages of its material's plan.
-struct SurfaceShader::Data::Walk {
+struct SurfaceShader::Data::BatchShading {
   const Data& d;
   const MaterialPlan& plan;
-  const Batch& batch;
+  const FragmentBatch& batch;
   const SurfaceKernels& kernels = d.kernels;
-  Points p;
-  Corners corners;
+  ShadingState p;
+  TriangleVertices corners;
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot for which `taps` stands
-  alignas(64) float texel_values[4][Batch::room];
+  alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
-  Walk(const Data& data, const Batch& of)
+  BatchShading(const Data& data, const FragmentBatch& of)
       : d(data), plan(data.plans[static_cast<std::size_t>(of.material)]), batch(of) {
     p.count = batch.padded();
   }
@@ -130,11 +130,11 @@ struct SurfaceShader::Data::Walk {
   void add_own_ambient();
   void find_occlusion();
   void find_metallic();
-  void light(Shaded& out);
+  void light(FragmentOutputs& out);
 };
 
 /// Vertices to points: positions and tangents in world space, normals as the mesh has them.
-void SurfaceShader::Data::Walk::interpolate(const Needs& needs) {
+void SurfaceShader::Data::BatchShading::interpolate(const Needs& needs) {
   const Attributes& attributes = needs.attributes;
   find_corners(d.records, batch, corners);
   if (needs.interpolation.quads > 0) kernels.interpolate(batch, corners, needs.interpolation, p);
@@ -145,18 +145,24 @@ void SurfaceShader::Data::Walk::interpolate(const Needs& needs) {
 }
 
 /// Where a slot's texture is looked up.
-Footprint SurfaceShader::Data::Walk::footprint(const TextureSlot& slot) {
+Footprint SurfaceShader::Data::BatchShading::footprint(const TextureSlot& slot) {
   const auto s = slot.uv_set;
   if (!slot.is_mapped) {
-    return {p.uv[s][0], p.uv[s][1], p.uv_dx[s][0], p.uv_dx[s][1], p.uv_dy[s][0], p.uv_dy[s][1], batch.repeats_slopes};
+    return {p.uv[s][0],
+            p.uv[s][1],
+            p.uv_dx[s][0],
+            p.uv_dx[s][1],
+            p.uv_dy[s][0],
+            p.uv_dy[s][1],
+            batch.has_uniform_derivatives};
   }
   kernels.map_coordinates(slot.map, batch, p, s, coordinates);
   const Coordinates& c = coordinates;
-  return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.repeats_slopes};
+  return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.has_uniform_derivatives};
 }
 
 /// The slot's texture at the points. Slots of one size and one sampler share their taps.
-void SurfaceShader::Data::Walk::sample(const TextureSlot& slot, float* const out[4]) {
+void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* const out[4]) {
   if (slot.filtering.anisotropy > 1)
     return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, footprint(slot), out, p.count);
   if (taps_of == nullptr || !share_taps(*taps_of, slot)) {
@@ -167,7 +173,7 @@ void SurfaceShader::Data::Walk::sample(const TextureSlot& slot, float* const out
 }
 
 /// Factor × texture × vertex colour.
-void SurfaceShader::Data::Walk::find_base() {
+void SurfaceShader::Data::BatchShading::find_base() {
   const bool is_textured = plan.base_color.texture != nullptr;
   float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
   if (is_textured) sample(plan.base_color, base);
@@ -184,21 +190,21 @@ void SurfaceShader::Data::Walk::find_base() {
   if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
-void SurfaceShader::Data::Walk::find_normals() {
+void SurfaceShader::Data::BatchShading::find_normals() {
   if (plan.normal.texture == nullptr) return kernels.find_normals(batch, corners, d.placements.data(), p);
   kernels.place_normals(batch, corners, d.placements.data(), p);
   sample(plan.normal, texel);
   kernels.bend_normals(batch, texel, plan.normal_scale, p);
 }
 
-void SurfaceShader::Data::Walk::find_emissive() {
+void SurfaceShader::Data::BatchShading::find_emissive() {
   if (plan.emissive.texture == nullptr) return;
   sample(plan.emissive, texel);
   for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
 }
 
 /// The ambient term of channels whose base colour has next to no factor: the surface seems to emit it.
-void SurfaceShader::Data::Walk::add_own_ambient() {
+void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
   const bool is_textured = plan.base_color.texture != nullptr, is_occluded = plan.occlusion.texture != nullptr;
   if (is_textured) sample(plan.base_color, texel);
@@ -215,13 +221,13 @@ void SurfaceShader::Data::Walk::add_own_ambient() {
 }
 
 /// 1 + strength (texture - 1).
-void SurfaceShader::Data::Walk::find_occlusion() {
+void SurfaceShader::Data::BatchShading::find_occlusion() {
   if (plan.occlusion.texture == nullptr) return;
   sample(plan.occlusion, texel);
   kernels.scale(p.occlusion, texel[0], plan.occlusion_strength, 1 - plan.occlusion_strength, p.count);
 }
 
-void SurfaceShader::Data::Walk::find_metallic() {
+void SurfaceShader::Data::BatchShading::find_metallic() {
   if (plan.metallic_roughness.texture == nullptr) return;
   sample(plan.metallic_roughness, texel);
   kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
@@ -229,7 +235,7 @@ void SurfaceShader::Data::Walk::find_metallic() {
 }
 
 /// Base colour and normal to the colour that is seen.
-void SurfaceShader::Data::Walk::light(Shaded& out) {
+void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   find_occlusion();
   find_emissive();
   add_own_ambient();
@@ -237,7 +243,7 @@ void SurfaceShader::Data::Walk::light(Shaded& out) {
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
 
-  const Illumination& what = d.illuminations[static_cast<std::size_t>(batch.material)];
+  const ShadingUniforms& what = d.illuminations[static_cast<std::size_t>(batch.material)];
   if (is_metallic) {
     kernels.light_metallic(what, batch, p, out);
   } else {
@@ -245,18 +251,18 @@ void SurfaceShader::Data::Walk::light(Shaded& out) {
   }
 }
 
-SurfaceShader::SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures,
-                             const VertexRecords* records)
+SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet* textures,
+                             const InterleavedVertices* records)
     : data_(std::make_unique<Data>(scene, surroundings, textures, records)),
       brightest_(brightest_point(data_->plans, data_->lights, surroundings.environment)) {}
 
 SurfaceShader::~SurfaceShader() = default;
 
-void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const {
+void SurfaceShader::shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const {
   if (batch.count == 0) return;
-  Data::Walk walk(*data_, batch);
+  Data::BatchShading walk(*data_, batch);
   const MaterialPlan& plan = walk.plan;
-  Points& p = walk.p;
+  ShadingState& p = walk.p;
 
   // What was asked for beside the colour may need more of the vertices.
   const Data::Needs* needs = &data_->needs_of_color[static_cast<std::size_t>(batch.material)];
@@ -291,7 +297,7 @@ void SurfaceShader::shade(const Batch& batch, Wanted wanted, Shaded& out) const 
   }
 }
 
-bool SurfaceShader::wants_slopes(int material) const {
+bool SurfaceShader::needs_derivatives(int material) const {
   const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
   return a.uv[0] || a.uv[1];
 }
@@ -300,9 +306,9 @@ std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int 
   return {data_->records.of_instance(instance), static_cast<std::size_t>(data_->records.layout(material).floats)};
 }
 
-void SurfaceShader::alpha(const Batch& batch, float* out) const {
+void SurfaceShader::alpha(const FragmentBatch& batch, float* out) const {
   if (batch.count == 0) return;
-  Data::Walk walk(*data_, batch);
+  Data::BatchShading walk(*data_, batch);
   Attributes attributes;
   attributes.color = walk.plan.attributes.color;
   if (walk.plan.base_color.texture != nullptr) attributes.uv[walk.plan.base_color.uv_set] = true;

@@ -10,15 +10,15 @@
 namespace zoneplate {
 
 class TextureSet;
-class VertexRecords;
+class InterleavedVertices;
 
-/// The way from a pixel to the viewer: first + x dx + y dy, of any length; x, y as in Batch.
+/// The way from a pixel to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
 struct PixelRays {
   float3 first, dx, dy;
 };
 
 /// What the whole picture has in common for shading.
-struct Surroundings {
+struct ViewUniforms {
   float3 eye{0, 0, 0};              ///< camera position, world space
   float3 view_direction{0, 0, -1};  ///< the way an orthographic camera looks
   bool is_orthographic = false;
@@ -37,27 +37,27 @@ struct Surroundings {
 class SurfaceShader {
  public:
   /// `textures`, `records`: those of the scene, made before; null: made here.
-  SurfaceShader(const Scene& scene, const Surroundings& surroundings, const TextureSet* textures = nullptr,
-                const VertexRecords* records = nullptr);
+  SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet* textures = nullptr,
+                const InterleavedVertices* records = nullptr);
   ~SurfaceShader();
   SurfaceShader(const SurfaceShader&) = delete;
   SurfaceShader& operator=(const SurfaceShader&) = delete;
 
-  struct Wanted {
+  struct OutputMask {
     bool normal = false, uv = false, albedo = false;
   };
 
   /// Colours of a batch; opaque surfaces have a = 1, masked ones too.
-  void shade(const Batch& batch, Wanted wanted, Shaded& out) const;
+  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const;
 
   /// Alpha of a batch (base colour factor, texture and vertex colour), the same bits as `shade` works with.
-  void alpha(const Batch& batch, float* out) const;
+  void alpha(const FragmentBatch& batch, float* out) const;
 
   /// What no channel of any colour is above.
   float brightest() const { return brightest_; }
 
   /// Whether a material's batches need dbdx and dbdy.
-  bool wants_slopes(int material) const;
+  bool needs_derivatives(int material) const;
 
   /// What shading reads of an instance's first vertex; the other vertices follow.
   std::span<const float> vertex_record(std::uint32_t instance, int material) const;

@@ -16,7 +16,7 @@ struct Viewpoint {
 };
 
 /// A material under a scene's lights. What has a texture is read from the points.
-struct Illumination {
+struct ShadingUniforms {
   const PreparedLight* light = nullptr;
   int lights = 0;
   Viewpoint viewpoint;
@@ -44,15 +44,16 @@ struct CoordinateMap {
 };
 
 /// A use of texture coordinates and their derivatives: u, v; du/dx, dv/dx; du/dy, dv/dy. The derivatives of groups that
-/// repeat their slopes (Batch) are not set.
+/// repeat their derivatives (FragmentBatch) are not set.
 struct Coordinates {
-  alignas(64) float uv[2][Batch::room], dx[2][Batch::room], dy[2][Batch::room];
+  alignas(64) float uv[2][FragmentBatch::padded_capacity], dx[2][FragmentBatch::padded_capacity],
+      dy[2][FragmentBatch::padded_capacity];
 };
 
 /// The stages between the vertices and the colour; each acts on all of a batch's points, entry by entry.
 ///
-/// Requires  counts are multiples of 8, at most Points::capacity; arrays have room up to the next multiple of
-///           Batch::most_lanes.
+/// Requires  counts are multiples of 8, at most ShadingState::capacity; arrays have room up to the next multiple of
+///           FragmentBatch::max_lanes.
 struct SurfaceKernels {
   // Arithmetic on single arrays: out = in × factor + offset; values ×= by; out = value; values clamped to [0, 1].
   void (*scale)(float* out, const float* in, float factor, float offset, int count);
@@ -60,31 +61,39 @@ struct SurfaceKernels {
   void (*fill)(float* out, float value, int count);
   void (*saturate)(float* values, int count);
 
-  // Changes of coordinates are left out where the batch repeats its slopes.
+  // Changes of coordinates are left out where the batch repeats its derivatives.
   /// value = a0 + ((a1 - a0) b1 + (a2 - a0) b2), and the same without the first term with dbdx and dbdy.
-  void (*interpolate)(const Batch& batch, const Corners& corners, const Interpolation& what, Points& points);
-  void (*map_coordinates)(const CoordinateMap& map, const Batch& batch, const Points& points, int set,
+  void (*interpolate)(const FragmentBatch& batch, const TriangleVertices& corners, const Interpolation& what,
+                      ShadingState& points);
+  void (*map_coordinates)(const CoordinateMap& map, const FragmentBatch& batch, const ShadingState& points, int set,
                           Coordinates& out);
 
   // From object to world space, by each point's own placement; normals and tangents are not normalised.
-  void (*place_positions)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
-  void (*place_normals)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
-  void (*place_tangents)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
+  void (*place_positions)(const FragmentBatch& batch, const TriangleVertices& corners,
+                          const InstanceTransform* placements, ShadingState& points);
+  void (*place_normals)(const FragmentBatch& batch, const TriangleVertices& corners,
+                        const InstanceTransform* placements, ShadingState& points);
+  void (*place_tangents)(const FragmentBatch& batch, const TriangleVertices& corners,
+                         const InstanceTransform* placements, ShadingState& points);
 
   /// From interpolated to shading normals: placed, normalised, those of back faces turned round.
-  void (*find_normals)(const Batch& batch, const Corners& corners, const Placement* placements, Points& points);
+  void (*find_normals)(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
+                       ShadingState& points);
   /// The same for placed ones, bent by a normal map: n = T x + B y + N z with (x, y, z) = 2 texel - 1, x and y × scale,
-  /// and B = (N × T) × the sign of tangent.w. Points without a tangent keep their normal. Source: glTF 2.0, 3.9.3.
-  void (*bend_normals)(const Batch& batch, const float* const texel[4], float scale, Points& points);
-  /// Points without a normal get the direction to the viewer.
-  void (*default_normals)(const Viewpoint& viewpoint, const Batch& batch, Points& points);
+  /// and B = (N × T) × the sign of tangent.w. ShadingState without a tangent keep their normal. Source:
+  /// glTF 2.0, 3.9.3.
+  void (*bend_normals)(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& points);
+  /// ShadingState without a normal get the direction to the viewer.
+  void (*default_normals)(const Viewpoint& viewpoint, const FragmentBatch& batch, ShadingState& points);
 
   // From the material to the colour: × alpha where it is blended, clamped to [0, 1e9] and so always finite.
   /// base (ambient × occlusion + diffuse) + specular colour × specular + emissive.
-  void (*light_phong)(const Illumination& what, const Batch& batch, const Points& points, Shaded& out);
+  void (*light_phong)(const ShadingUniforms& what, const FragmentBatch& batch, const ShadingState& points,
+                      FragmentOutputs& out);
   /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.
-  void (*light_metallic)(const Illumination& what, const Batch& batch, const Points& points, Shaded& out);
-  void (*unlit)(bool is_blended, const Points& points, Shaded& out);
+  void (*light_metallic)(const ShadingUniforms& what, const FragmentBatch& batch, const ShadingState& points,
+                         FragmentOutputs& out);
+  void (*unlit)(bool is_blended, const ShadingState& points, FragmentOutputs& out);
 
   static const SurfaceKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };

@@ -20,16 +20,16 @@ const SurfaceKernels& kernels(Isa isa) { return pick(isa, scalar::surface_kernel
 
 /// Everything the stages touch, filled with numbers: mostly usual ones, some zeros, some large.
 struct Bench {
-  Batch batch;
-  Corners corners;
-  Points points;
+  FragmentBatch batch;
+  TriangleVertices corners;
+  ShadingState points;
   Coordinates coordinates;
-  Shaded shaded;
-  Placement placements[5];
-  float texel[4][Points::capacity];
-  float records[Batch::capacity][24];
+  FragmentOutputs shaded;
+  InstanceTransform placements[5];
+  float texel[4][ShadingState::capacity];
+  float records[FragmentBatch::capacity][24];
   PreparedLight lights[4];
-  Illumination light;
+  ShadingUniforms light;
 
   explicit Bench(int count) {
     std::memset(static_cast<void*>(this), 0, sizeof *this);
@@ -46,36 +46,38 @@ struct Bench {
       ++key;
     };
     fill(batch.b), fill(batch.dbdx), fill(batch.dbdy), fill(records), fill(placements), fill(texel);
-    Points& p = points;
+    ShadingState& p = points;
     fill(p.position), fill(p.normal), fill(p.tangent), fill(p.color), fill(p.uv), fill(p.uv_dx), fill(p.uv_dy);
     fill(p.is_lit), fill(p.base), fill(p.metallic), fill(p.roughness), fill(p.occlusion);
     fill(p.emissive);
-    for (std::uint32_t i = 0; i < Batch::capacity; ++i) {
+    for (std::uint32_t i = 0; i < FragmentBatch::capacity; ++i) {
       batch.is_front[i] = static_cast<std::int32_t>(hash(i) & 1);
       batch.instance[i] = i / 8 % 3 == 0 ? hash(i, 1) % 5 : hash(i / 8) % 5;
     }
-    for (std::uint32_t i = 0; i < Batch::capacity; ++i) {
+    for (std::uint32_t i = 0; i < FragmentBatch::capacity; ++i) {
       batch.x[i] = static_cast<std::int32_t>(hash(i, 2) % 400000),
       batch.y[i] = static_cast<std::int32_t>(hash(i, 3) % 300000);
-      for (std::uint32_t k = 0; k < 3; ++k) corners.record[k][i] = records[hash(i, 4 + k) % Batch::capacity];
+      for (std::uint32_t k = 0; k < 3; ++k) corners.record[k][i] = records[hash(i, 4 + k) % FragmentBatch::capacity];
     }
-    for (int g = 0; g < Batch::groups; ++g) {
-      batch.one_triangle[g] = g % 4 != 3;
-      batch.told_group[g] = static_cast<std::uint8_t>(g % 4 == 3 ? g : g / 4 * 4);
+    for (int g = 0; g < FragmentBatch::groups; ++g) {
+      batch.is_flat_run[g] = g % 4 != 3;
+      batch.run_begin[g] = static_cast<std::uint8_t>(g % 4 == 3 ? g : g / 4 * 4);
       batch.run_end[g] = static_cast<std::uint8_t>(g / 4 * 4 + 3);
-      batch.repeats_slopes[g] = g / 4 % 2 == 1 && (g % 4 == 1 || g % 4 == 2);
-      if (batch.repeats_slopes[g]) repeat_slopes(batch.told_group[g] * Batch::group, g * Batch::group);
-      corners.one_instance[g] = batch.one_triangle[g] || g % 3 != 0;
+      batch.has_uniform_derivatives[g] = g / 4 % 2 == 1 && (g % 4 == 1 || g % 4 == 2);
+      if (batch.has_uniform_derivatives[g])
+        repeat_derivatives(batch.run_begin[g] * FragmentBatch::group, g * FragmentBatch::group);
+      corners.one_instance[g] = batch.is_flat_run[g] || g % 3 != 0;
     }
-    for (Placement& placement : placements) placement.keeps_normals = &placement == placements ? 1 : 0;
+    for (InstanceTransform& placement : placements) placement.keeps_normals = &placement == placements ? 1 : 0;
     make_lights();
   }
 
-  /// Gives the points of the group from `told` on, and of the one from `first` on, one slope.
-  void repeat_slopes(int told, int first) {
-    for (auto* slopes : {&batch.dbdx, &batch.dbdy})
-      for (float(&slope)[Batch::room] : *slopes)
-        for (const int group : {told, first}) std::fill_n(slope + group, Batch::group, slope[told]);
+  /// Gives the points of the group from `told` on, and of the one from `first` on, one derivative.
+  void repeat_derivatives(int leader, int first) {
+    for (auto* derivatives : {&batch.dbdx, &batch.dbdy})
+      for (float(&derivative)[FragmentBatch::padded_capacity] : *derivatives)
+        for (const int group : {leader, first})
+          std::fill_n(derivative + group, FragmentBatch::group, derivative[leader]);
   }
 
   PointsArray array(const float* of) const {
@@ -149,7 +151,7 @@ std::vector<Stage> stages() {
   for (int bits = 0; bits < 64; ++bits) {
     const auto bit = [bits](int k) { return (bits >> k & 1) != 0; };
     const auto light = [bit](B b) {
-      Illumination& s = b.light;
+      ShadingUniforms& s = b.light;
       s.has_specular = bit(0), s.is_phong = s.has_occlusion = bit(1), s.has_emissive_texture = s.is_blended = bit(2);
       s.viewpoint.has_rays = bit(3), s.viewpoint.is_orthographic = bit(4), s.has_material_texture = bit(5);
       s.has_bare_meshes = bit(3) != bit(5), s.exponent = bit(5) ? Exponent{40, 40} : Exponent{17.5f, 0};
@@ -164,18 +166,20 @@ std::vector<Stage> stages() {
 
 /// Sets what stands behind the count within a vector, which means nothing, to 0.
 void clear_rest(Bench& b) {
-  const int first = b.batch.padded(), whole = (first + Batch::most_lanes - 1) / Batch::most_lanes * Batch::most_lanes;
+  const int first = b.batch.padded(),
+            whole = (first + FragmentBatch::max_lanes - 1) / FragmentBatch::max_lanes * FragmentBatch::max_lanes;
   const auto clear = [&](float* arrays, std::size_t bytes) {
-    for (std::size_t a = 0; a < bytes / sizeof(Points::Array); ++a)
-      std::fill(arrays + a * Batch::room + first, arrays + a * Batch::room + whole, 0.0f);
+    for (std::size_t a = 0; a < bytes / sizeof(ShadingState::Array); ++a)
+      std::fill(arrays + a * FragmentBatch::padded_capacity + first,
+                arrays + a * FragmentBatch::padded_capacity + whole, 0.0f);
   };
-  clear(b.points.position[0], sizeof(Points) - offsetof(Points, position));
-  clear(b.shaded.r, sizeof(Shaded)), clear(b.coordinates.uv[0], sizeof(Coordinates));
+  clear(b.points.position[0], sizeof(ShadingState) - offsetof(ShadingState, position));
+  clear(b.shaded.r, sizeof(FragmentOutputs)), clear(b.coordinates.uv[0], sizeof(Coordinates));
 }
 
 TEST(SurfaceKernels, EveryInstructionSetGivesTheSameBits) {
   for (const Stage& stage : stages())
-    for (int count = 0; count <= Batch::capacity; count += count < 16 ? 1 : 28) {
+    for (int count = 0; count <= FragmentBatch::capacity; count += count < 16 ? 1 : 28) {
       const auto expected = std::make_unique<Bench>(count);
       stage.run(kernels(Isa::Scalar), *expected);
       clear_rest(*expected);
@@ -198,11 +202,14 @@ TEST(SurfaceKernels, NothingIsWrittenPastTheCountsVector) {
       stage.run(kernels(isa), *actual);
       const auto* before = reinterpret_cast<const float*>(&untouched->points.position);
       const auto* after = reinterpret_cast<const float*>(&actual->points.position);
-      const std::size_t arrays = (sizeof(Points) - offsetof(Points, position)) / sizeof(Points::Array);
-      const std::size_t end = isa == Isa::Avx512 ? 2 * Batch::most_lanes : 24;
+      const std::size_t arrays =
+          (sizeof(ShadingState) - offsetof(ShadingState, position)) / sizeof(ShadingState::Array);
+      const std::size_t end = isa == Isa::Avx512 ? 2 * FragmentBatch::max_lanes : 24;
       for (std::size_t a = 0; a < arrays; ++a)
-        for (std::size_t i = end; i < Batch::room; ++i)
-          ASSERT_EQ(std::memcmp(before + a * Batch::room + i, after + a * Batch::room + i, sizeof(float)), 0)
+        for (std::size_t i = end; i < FragmentBatch::padded_capacity; ++i)
+          ASSERT_EQ(std::memcmp(before + a * FragmentBatch::padded_capacity + i,
+                                after + a * FragmentBatch::padded_capacity + i, sizeof(float)),
+                    0)
               << stage.name << " " << name_of(isa);
     }
 }

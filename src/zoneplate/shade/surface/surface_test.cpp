@@ -15,7 +15,7 @@ namespace zoneplate {
 namespace {
 
 /// A scene of one triangle with corners (0,0,0), (1,0,0), (0,1,0), that faces +Z, u to the right and v downwards.
-Scene one_triangle() {
+Scene is_flat_run() {
   Scene scene;
   Mesh mesh;
   mesh.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -38,9 +38,9 @@ Light sun(float3 direction, float3 color = {1, 1, 1}) {
 
 Rgba8Image one_texel(Rgba8 value) { return Rgba8Image(1, 1, value); }
 
-/// Points of the scene's triangle, by their barycentric weights.
+/// ShadingState of the scene's triangle, by their barycentric weights.
 struct Hand {
-  Batch batch;
+  FragmentBatch batch;
 
   Hand() { std::memset(static_cast<void*>(&batch), 0, sizeof batch); }
   Hand(std::initializer_list<float3> weights) : Hand() {
@@ -71,24 +71,26 @@ struct Hand {
 };
 
 struct Outcome {
-  Shaded shaded;
+  FragmentOutputs shaded;
   float4 color(std::size_t i = 0) const { return {shaded.r[i], shaded.g[i], shaded.b[i], shaded.a[i]}; }
   float3 normal(std::size_t i = 0) const { return {shaded.normal[0][i], shaded.normal[1][i], shaded.normal[2][i]}; }
 };
 
-std::unique_ptr<Outcome> shade(const Scene& scene, const Surroundings& surroundings, const Hand& hand) {
+std::unique_ptr<Outcome> shade(const Scene& scene, const ViewUniforms& surroundings, const Hand& hand) {
   auto outcome = std::make_unique<Outcome>();
   std::memset(static_cast<void*>(outcome.get()), 0, sizeof *outcome);
-  Shaded& shaded = outcome->shaded;
+  FragmentOutputs& shaded = outcome->shaded;
   SurfaceShader(scene, surroundings).shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
   // What lies behind the points within a vector means nothing.
-  const int end = hand.batch.padded(), whole = (end + Batch::most_lanes - 1) / Batch::most_lanes * Batch::most_lanes;
-  for (std::size_t a = 0; a < sizeof shaded / (Batch::room * sizeof(float)); ++a)
-    std::fill(shaded.r + a * Batch::room + end, shaded.r + a * Batch::room + whole, 0.0f);
+  const int end = hand.batch.padded(),
+            whole = (end + FragmentBatch::max_lanes - 1) / FragmentBatch::max_lanes * FragmentBatch::max_lanes;
+  for (std::size_t a = 0; a < sizeof shaded / (FragmentBatch::padded_capacity * sizeof(float)); ++a)
+    std::fill(shaded.r + a * FragmentBatch::padded_capacity + end,
+              shaded.r + a * FragmentBatch::padded_capacity + whole, 0.0f);
   return outcome;
 }
 
-float4 color_of(const Scene& scene, const Surroundings& surroundings, float3 weights = {0.5f, 0.25f, 0.25f}) {
+float4 color_of(const Scene& scene, const ViewUniforms& surroundings, float3 weights = {0.5f, 0.25f, 0.25f}) {
   return shade(scene, surroundings, Hand{weights})->color();
 }
 
@@ -100,7 +102,7 @@ void expect_near(float4 actual, float4 expected, float tolerance) {
 }
 
 TEST(Surface, UnlitIsTheBaseColour) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::Unlit;
   scene.materials[0].base_color = {0.25f, 0.5f, 2, 0.5f};
   scene.materials[0].emissive = {1, 1, 1};
@@ -109,7 +111,7 @@ TEST(Surface, UnlitIsTheBaseColour) {
 }
 
 TEST(Surface, AlphaModesSayWhatAlphaMeans) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::Unlit;
   scene.materials[0].base_color = {0.5f, 0.25f, 1, 0.5f};
   scene.meshes[0].color.assign(3, float4{1, 1, 1, 0.5f});
@@ -117,14 +119,14 @@ TEST(Surface, AlphaModesSayWhatAlphaMeans) {
     scene.materials[0].alpha_mode = mode;
     const float4 blended{0.125f, 0.0625f, 0.25f, 0.25f}, solid{0.5f, 0.25f, 1, 1};
     EXPECT_EQ(color_of(scene, {}), mode == AlphaMode::Blend ? blended : solid);
-    float alpha[Batch::capacity];
+    float alpha[FragmentBatch::capacity];
     SurfaceShader(scene, {}).alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
     EXPECT_EQ(alpha[0], 0.25f);
   }
 }
 
 TEST(Surface, VertexColoursAreInterpolated) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::Unlit;
   scene.meshes[0].color = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
   EXPECT_EQ(color_of(scene, {}, {0.5f, 0.375f, 0.125f}), (float4{0.5f, 0.375f, 0.125f, 1}));
@@ -136,7 +138,7 @@ double benchmark(double base, double ambient, double nl, double specular, double
 }
 
 TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Material& m = scene.materials[0];
   m.model = ShadingModel::BlinnPhong;
   m.base_color = {0.8f, 0.55f, 0.3f, 1};
@@ -161,7 +163,7 @@ TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
 
 /// A black or nearly black triangle that reflects ambient light.
 Scene ambient_triangle(float diffuse) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Material& m = scene.materials[0];
   m.model = ShadingModel::BlinnPhong;
   m.base_color = {diffuse, diffuse, 0.5f, 1};
@@ -173,7 +175,7 @@ Scene ambient_triangle(float diffuse) {
 TEST(Surface, AmbientLightDoesNotNeedDiffuseReflection) {
   // Light of 2 from all sides; half of it reflected in red, a quarter in green, and the diffuse term is next to
   // nothing.
-  const Surroundings surroundings{.ambient_light = {2, 2, 2}};
+  const ViewUniforms surroundings{.ambient_light = {2, 2, 2}};
   for (const float diffuse : {0.0f, 1e-44f, 1e-38f, 1e-20f, 2e-10f, 2.4e-10f, 1e-6f}) {
     Scene scene = ambient_triangle(diffuse);
     EXPECT_EQ(color_of(scene, {}), (float4{0, 0, 0.125f, 1})) << diffuse;
@@ -186,7 +188,7 @@ TEST(Surface, AmbientLightDoesNotNeedDiffuseReflection) {
 }
 
 TEST(Surface, AmbientLightMeetsTexturesAndVertexColours) {
-  const Surroundings surroundings{.ambient_light = {2, 2, 2}};
+  const ViewUniforms surroundings{.ambient_light = {2, 2, 2}};
   for (const float diffuse : {0.0f, 1e-6f}) {
     Scene scene = ambient_triangle(diffuse);
     scene.images = {{"base", one_texel({255, 0, 255, 255})},
@@ -200,7 +202,7 @@ TEST(Surface, AmbientLightMeetsTexturesAndVertexColours) {
 }
 
 TEST(Surface, EmissionAboveWhiteComesThrough) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].base_color = {0, 0, 0, 1};
   scene.materials[0].emissive = {1, 2, 1};
   scene.materials[0].emissive_texture.image = 0;
@@ -216,7 +218,7 @@ TEST(Surface, EmissionAboveWhiteComesThrough) {
 }
 
 TEST(Surface, SimpleConfigurationsAreExact) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Material& m = scene.materials[0];
   m.model = ShadingModel::BlinnPhong;
   m.base_color = {0.5f, 0.5f, 0.5f, 1};
@@ -237,7 +239,7 @@ TEST(Surface, SimpleConfigurationsAreExact) {
 }
 
 TEST(Surface, PhongReflectsTheLight) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Material& m = scene.materials[0];
   m.model = ShadingModel::Phong;
   m.base_color = {0, 0, 0, 1};
@@ -250,7 +252,7 @@ TEST(Surface, PhongReflectsTheLight) {
 }
 
 TEST(Surface, LightsFadeWithDistance) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::BlinnPhong;
   Light light;
   light.kind = LightKind::Point;
@@ -273,7 +275,7 @@ TEST(Surface, LightsFadeWithDistance) {
 }
 
 TEST(Surface, SpotsHaveAConeAndAPenumbra) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::BlinnPhong;
   Light spot;
   spot.kind = LightKind::Spot;
@@ -289,7 +291,7 @@ TEST(Surface, SpotsHaveAConeAndAPenumbra) {
 }
 
 TEST(Surface, MetallicRoughnessIsGltfsAppendixB) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Material& m = scene.materials[0];
   m.base_color = {0.9f, 0.5f, 0.2f, 1};
   m.metallic = 0.25f, m.roughness = 0.5f;
@@ -315,9 +317,9 @@ TEST(Surface, MetallicRoughnessIsGltfsAppendixB) {
 }
 
 TEST(Surface, AWhiteFurnaceIsWhiteAndOcclusionDarkensIt) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].metallic = 0;
-  const Surroundings furnace{.eye = {0.25f, 0.5f, 3}, .environment = {1, 1, 1}};
+  const ViewUniforms furnace{.eye = {0.25f, 0.5f, 3}, .environment = {1, 1, 1}};
   expect_near(color_of(scene, furnace), {1, 1, 1, 1}, 1e-6f);
   scene.materials[0].metallic = 1, scene.materials[0].roughness = 0.3f;
   expect_near(color_of(scene, furnace), {1, 1, 1, 1}, 1e-6f);
@@ -334,7 +336,7 @@ TEST(Surface, AWhiteFurnaceIsWhiteAndOcclusionDarkensIt) {
 }
 
 TEST(Surface, BackFacesTurnTheirNormals) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::BlinnPhong;
   scene.lights = {sun({0, 0, 1})};
   Hand hand;
@@ -348,7 +350,7 @@ TEST(Surface, BackFacesTurnTheirNormals) {
 }
 
 TEST(Surface, PlacementsTurnScaleAndMirrorNormals) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.meshes[0].normal.assign(3, normalize({1, 0, 1}));
   scene.instances.clear();
   scene.instances.push_back({0, 0, {}});
@@ -365,7 +367,7 @@ TEST(Surface, PlacementsTurnScaleAndMirrorNormals) {
 }
 
 TEST(Surface, NormalMapsBendNormalsInTheImagesDirections) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.images = {{"", one_texel({255, 128, 128, 255})}, {"", one_texel({128, 255, 128, 255})}};
   scene.lights = {sun({0, 0, -1})};
   const Hand hand{{0.5f, 0.25f, 0.25f}};
@@ -386,7 +388,7 @@ TEST(Surface, NormalMapsBendNormalsInTheImagesDirections) {
 }
 
 TEST(Surface, TexturesAreDecodedUnlessRaw) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::Unlit;
   scene.materials[0].base_color = {0.5f, 1, 1, 1};
   scene.images = {{"", one_texel({255, 128, 0, 255})}};
@@ -397,7 +399,7 @@ TEST(Surface, TexturesAreDecodedUnlessRaw) {
 }
 
 TEST(Surface, TextureTransformsScaleThenRotateThenMove) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.images = {{"", one_texel({255, 255, 255, 255})}};
   TextureUse& use = scene.materials[0].base_color_texture;
   use.image = 0;
@@ -413,7 +415,7 @@ TEST(Surface, TextureTransformsScaleThenRotateThenMove) {
 }
 
 TEST(Surface, TheSecondCoordinatesServeTheSlotsThatNameThem) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::Unlit;
   scene.meshes[0].uv1.assign(3, float2{0.75f, 0.5f});
   Rgba8Image halves(2, 1);
@@ -426,7 +428,7 @@ TEST(Surface, TheSecondCoordinatesServeTheSlotsThatNameThem) {
 }
 
 TEST(Surface, EachSlotLooksUpItsOwnTexels) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Material& m = scene.materials[0];
   m.model = ShadingModel::BlinnPhong;
   m.ambient = m.emissive = {1, 1, 1};
@@ -435,7 +437,7 @@ TEST(Surface, EachSlotLooksUpItsOwnTexels) {
   wide(1, 0) = {0, 255, 255, 255};
   scene.images = {{"", halves}, {"", wide}};
   const Sampler nearest{.magnify = TexelFilter::Nearest};
-  const Surroundings surroundings{.ambient_light = {1, 1, 1}};
+  const ViewUniforms surroundings{.ambient_light = {1, 1, 1}};
   m.base_color_texture = {.image = 0, .sampler = nearest};
   const float3 at{0.75f, 0.25f, 0};  // u = 0.25
 
@@ -451,7 +453,7 @@ TEST(Surface, EachSlotLooksUpItsOwnTexels) {
 
 /// Materials that use images 0 and 2 as colours, 0 as data too; nothing uses image 1.
 Scene textured_scene() {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.images = {{"both", one_texel({1, 2, 3, 4})}, {"unused", one_texel({})}, {"color", one_texel({5, 6, 7, 8})}};
   Material& m = scene.materials[0];
   m.base_color_texture.image = 0, m.normal_texture.image = 0, m.emissive_texture.image = 2, m.emissive = {1, 1, 1};
@@ -497,18 +499,18 @@ TEST(TextureSet, TakesTheImagesWithIt) {
 }
 
 TEST(Surface, AlphaStaysBetweenZeroAndOne) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].model = ShadingModel::Unlit;
   scene.materials[0].alpha_mode = AlphaMode::Blend;
   scene.materials[0].base_color = {0.5f, 0.25f, 1, 3};
   EXPECT_EQ(color_of(scene, {}), (float4{0.5f, 0.25f, 1, 1}));
-  float alpha[Batch::capacity];
+  float alpha[FragmentBatch::capacity];
   SurfaceShader(scene, {}).alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
   EXPECT_EQ(alpha[0], 1.0f);
 }
 
 TEST(Surface, MeshesWithoutNormalsAreUnlit) {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   scene.materials[0].base_color = {0.5f, 0.25f, 1, 1};
   Mesh bare = scene.meshes[0];
   bare.normal.clear();
@@ -525,7 +527,7 @@ TEST(Surface, MeshesWithoutNormalsAreUnlit) {
 
 /// A scene with every feature and a batch of points at random.
 Scene everything() {
-  Scene scene = one_triangle();
+  Scene scene = is_flat_run();
   Mesh& mesh = scene.meshes[0];
   mesh.uv1 = {{0.1f, 3}, {-2, 1}, {0.5f, 0.7f}};
   mesh.color = {{1, 0.5f, 1, 0.9f}, {0.3f, 1, 1, 0.2f}, {1, 1, 0.1f, 1}};
@@ -580,7 +582,7 @@ constexpr ShadingModel all_models[] = {ShadingModel::MetallicRoughness, ShadingM
 
 TEST(Surface, EveryInstructionSetGivesTheSameBits) {
   Scene scene = everything();
-  Surroundings surroundings{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}, .ambient_light = {0.2f, 0.2f, 0.2f}};
+  ViewUniforms surroundings{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}, .ambient_light = {0.2f, 0.2f, 0.2f}};
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
     for (const int count : {1, 7, 8, 33, 128}) {
@@ -602,7 +604,7 @@ TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
     const auto outcome = shade(scene, {.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}}, random_points(128));
-    const Shaded& all = outcome->shaded;
+    const FragmentOutputs& all = outcome->shaded;
     for (const float* values : {all.r, all.g, all.b, all.a, all.normal[0], all.normal[1], all.normal[2], all.uv[0],
                                 all.uv[1], all.albedo[0], all.albedo[1], all.albedo[2]})
       for (std::size_t i = 0; i < 128; ++i) {
@@ -616,7 +618,7 @@ TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
 
 TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
   Scene scene = everything();
-  const Surroundings surroundings{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}};
+  const ViewUniforms surroundings{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}};
   const Hand all = random_points(128);
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
@@ -630,7 +632,7 @@ TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
       alone.pad();
       // As eight points of any triangles, and as eight of one that is told of once.
       for (const bool is_shared : {false, true}) {
-        alone.batch.one_triangle[0] = is_shared, alone.batch.run_end[0] = 1;
+        alone.batch.is_flat_run[0] = is_shared, alone.batch.run_end[0] = 1;
         const auto outcome = shade(scene, surroundings, alone);
         ASSERT_EQ(std::memcmp(&together->shaded.r[i], &outcome->shaded.r[0], sizeof(float)), 0) << i;
         ASSERT_EQ(outcome->color(), together->color(i)) << i;
@@ -649,7 +651,7 @@ TEST(Surface, AskingForMoreDoesNotChangeTheColour) {
     const auto full = shade(scene, {.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}}, hand);
     Outcome plain;
     shader.shade(hand.batch, {}, plain.shaded);
-    float alpha[Batch::capacity];
+    float alpha[FragmentBatch::capacity];
     shader.alpha(hand.batch, alpha);
     for (std::size_t i = 0; i < 100; ++i) {
       ASSERT_EQ(plain.color(i), full->color(i));
@@ -670,7 +672,7 @@ TEST(Surface, AllOutputsAreFinite) {
     scene.materials[0].model = model;
     const auto outcome = shade(scene, {.environment = {1, 1, 1}}, random_points(128));
     const auto* numbers = reinterpret_cast<const float*>(&outcome->shaded);
-    for (std::size_t i = 0; i < 7 * Batch::capacity; ++i) ASSERT_TRUE(std::isfinite(numbers[i])) << i;
+    for (std::size_t i = 0; i < 7 * FragmentBatch::capacity; ++i) ASSERT_TRUE(std::isfinite(numbers[i])) << i;
   }
 }
 

@@ -64,7 +64,8 @@ void write_record(const Mesh& mesh, const RecordLayout& layout, std::size_t v, f
 
 }  // namespace
 
-VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene)), meshes_(scene.meshes.size()) {
+InterleavedVertices::InterleavedVertices(const Scene& scene)
+    : layouts_(make_layouts(scene)), meshes_(scene.meshes.size()) {
   constexpr std::size_t vertices_per_range = 8192;
   std::vector<const float*> first(meshes_.size());
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
@@ -80,7 +81,7 @@ VertexRecords::VertexRecords(const Scene& scene) : layouts_(make_layouts(scene))
   for (const Instance& instance : scene.instances) instances_.push_back(first[static_cast<std::size_t>(instance.mesh)]);
 }
 
-void find_corners(const VertexRecords& records, const Batch& batch, Corners& out) {
+void find_corners(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out) {
   const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
   if (batch.one_instance) {
     // Records that stand in one array are found when they are needed.
@@ -97,14 +98,14 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
     }
   };
   std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
-  for (int g = 0; g < batch.padded() / Batch::group; g = batch.after_run(g)) {
-    const std::size_t first = static_cast<std::size_t>(g) * Batch::group;
-    if (batch.one_triangle[g]) {
+  for (int g = 0; g < batch.padded() / FragmentBatch::group; g = batch.next_run(g)) {
+    const std::size_t first = static_cast<std::size_t>(g) * FragmentBatch::group;
+    if (batch.is_flat_run[g]) {
       find(first);
       continue;
     }
     std::uint32_t difference = 0;
-    for (std::size_t i = first; i < first + Batch::group; ++i) {
+    for (std::size_t i = first; i < first + FragmentBatch::group; ++i) {
       find(i);
       difference |= batch.instance[i] ^ batch.instance[first];
     }
@@ -114,16 +115,16 @@ void find_corners(const VertexRecords& records, const Batch& batch, Corners& out
 
 namespace {
 
-/// Array i of those that begin at a member of Points.
+/// Array i of those that begin at a member of ShadingState.
 PointsArray array(std::size_t member, std::size_t i = 0) {
-  return {static_cast<std::int32_t>(member + i * sizeof(Points::Array))};
+  return {static_cast<std::int32_t>(member + i * sizeof(ShadingState::Array))};
 }
 
 }  // namespace
 
 Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes) {
-  constexpr std::size_t position = offsetof(Points, position), normal = offsetof(Points, normal);
-  constexpr std::size_t tangent = offsetof(Points, tangent), color = offsetof(Points, color);
+  constexpr std::size_t position = offsetof(ShadingState, position), normal = offsetof(ShadingState, normal);
+  constexpr std::size_t tangent = offsetof(ShadingState, tangent), color = offsetof(ShadingState, color);
   Interpolation what;
   const auto quad = [&](bool is_wanted, int place) -> Interpolation::Quad* {
     if (!is_wanted || place < 0) return nullptr;
@@ -132,9 +133,9 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
   };
   const auto want_coordinates = [&](Interpolation::Quad& q, std::size_t first, std::size_t set) {
     for (std::size_t c = 0; c < 2; ++c) {
-      q.value[first + c] = array(offsetof(Points, uv), 2 * set + c);
-      q.dx[first + c] = array(offsetof(Points, uv_dx), 2 * set + c);
-      q.dy[first + c] = array(offsetof(Points, uv_dy), 2 * set + c);
+      q.value[first + c] = array(offsetof(ShadingState, uv), 2 * set + c);
+      q.dx[first + c] = array(offsetof(ShadingState, uv_dx), 2 * set + c);
+      q.dy[first + c] = array(offsetof(ShadingState, uv_dy), 2 * set + c);
     }
   };
   if (auto* q = quad(attributes.normal || attributes.position, 0)) {
@@ -154,29 +155,29 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
   return what;
 }
 
-void make_missing_tangents(const Scene& scene, const Batch& batch, int uv_set, Points& p) {
+void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& p) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i) {
-    const std::size_t told = batch.told(i);
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[batch.instance[told]].mesh)];
+    const std::size_t leader = batch.leader(i);
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[batch.instance[leader]].mesh)];
     if (!mesh.tangent.empty()) continue;
     const float4 t =
-        face_tangent(mesh, {{batch.vertex[0][told], batch.vertex[1][told], batch.vertex[2][told]}}, uv_set);
+        face_tangent(mesh, {{batch.vertex[0][leader], batch.vertex[1][leader], batch.vertex[2][leader]}}, uv_set);
     p.tangent[0][i] = t.x, p.tangent[1][i] = t.y, p.tangent[2][i] = t.z, p.tangent[3][i] = t.w;
   }
 }
 
-void mark_lit(const Scene& scene, const Batch& batch, float* is_lit) {
+void mark_lit(const Scene& scene, const FragmentBatch& batch, float* is_lit) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i) {
-    const Instance& instance = scene.instances[batch.instance[batch.told(i)]];
+    const Instance& instance = scene.instances[batch.instance[batch.leader(i)]];
     is_lit[i] = scene.meshes[static_cast<std::size_t>(instance.mesh)].normal.empty() ? 0.0f : 1.0f;
   }
 }
 
-std::vector<Placement> make_placements(std::span<const Instance> instances) {
-  std::vector<Placement> placements;
+std::vector<InstanceTransform> make_placements(std::span<const Instance> instances) {
+  std::vector<InstanceTransform> placements;
   placements.reserve(instances.size());
   for (const Instance& instance : instances) {
-    Placement p{};
+    InstanceTransform p{};
     const float4x4& world = instance.world_from_object;
     const float4x4 normal = normal_matrix(world);
 

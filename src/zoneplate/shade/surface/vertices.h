@@ -28,10 +28,10 @@ struct RecordLayout {
 ///
 /// What a mesh lacks and others of its material have is 0, its colour (1, 1, 1, 1). A record of eight floats lies
 /// within one cache line, and large meshes in large pages: shading reads vertices from anywhere.
-class VertexRecords {
+class InterleavedVertices {
  public:
   /// Made in parallel. A material without a normal map has no tangents.
-  explicit VertexRecords(const Scene& scene);
+  explicit InterleavedVertices(const Scene& scene);
 
   const RecordLayout& layout(int material) const { return layouts_[static_cast<std::size_t>(material)]; }
   const float* of_instance(std::size_t instance) const { return instances_[instance]; }
@@ -43,18 +43,18 @@ class VertexRecords {
 };
 
 /// Finds the records of a batch's corners.
-void find_corners(const VertexRecords& records, const Batch& batch, Corners& out);
+void find_corners(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out);
 
 /// Which float of the records goes where in the points.
 Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes);
 
 /// Gives the points of meshes without tangents the direction of growing u over their triangle (zero where the triangle
 /// has no area in u, v; w: the sign of that area).
-void make_missing_tangents(const Scene& scene, const Batch& batch, int uv_set, Points& points);
+void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& points);
 
 /// 1 for the points of meshes that have normals, else 0.
-void mark_lit(const Scene& scene, const Batch& batch, float* is_lit);
+void mark_lit(const Scene& scene, const FragmentBatch& batch, float* is_lit);
 
-std::vector<Placement> make_placements(std::span<const Instance> instances);
+std::vector<InstanceTransform> make_placements(std::span<const Instance> instances);
 
 }  // namespace zoneplate

@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-Filtering make_filtering(const Sampler& sampler, int anisotropy) {
+SamplerState make_filtering(const Sampler& sampler, int anisotropy) {
   const bool blends = sampler.level == LevelFilter::Linear && sampler.minify == TexelFilter::Linear;
   return {
       .mirror_u = sampler.wrap_u == Wrap::Mirror,
@@ -19,9 +19,9 @@ Filtering make_filtering(const Sampler& sampler, int anisotropy) {
       .clamp_v = sampler.wrap_v == Wrap::Clamp,
       .nearest_magnify = sampler.magnify == TexelFilter::Nearest,
       .nearest_minify = sampler.minify == TexelFilter::Nearest,
-      .has_levels = sampler.level != LevelFilter::None,
-      .blends_levels = sampler.level == LevelFilter::Linear,
-      .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, Filtering::most_anisotropy) : 1};
+      .has_mips = sampler.level != LevelFilter::None,
+      .blends_mips = sampler.level == LevelFilter::Linear,
+      .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, SamplerState::max_anisotropy) : 1};
 }
 
 namespace scalar {
@@ -45,8 +45,8 @@ void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < 4; ++c) {
       std::int32_t value = mix_level(codes, shift, taps, 0, i, c);
-      const std::int32_t blend = taps.blend[Taps::by_fours(i)];
-      if (blend > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), blend);
+      const std::int32_t mip_weight = taps.mip_weight[Taps::by_fours(i)];
+      if (mip_weight > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), mip_weight);
       out[c][i] = static_cast<float>(value) * unit;
     }
 }
@@ -65,9 +65,9 @@ void mix_values(const float* values, const Taps& taps, float* const out[4], int 
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < 4; ++c) {
       const float value = mix_level(values, taps, 0, i, c);
-      const int blend = taps.blend[Taps::by_fours(i)];
-      const float weight = static_cast<float>(blend) * 0x1p-15f;
-      out[c][i] = blend > 0 ? mix(value, mix_level(values, taps, 1, i, c), weight) : value;
+      const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
+      const float weight = static_cast<float>(mip_weight) * 0x1p-15f;
+      out[c][i] = mip_weight > 0 ? mix(value, mix_level(values, taps, 1, i, c), weight) : value;
     }
 }
 
@@ -77,7 +77,8 @@ void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int c
   mix_values(t.values, taps, out, count);
 }
 
-void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
+void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footprint& at, float* const out[4],
+                        int count) {
   zoneplate::sample_anisotropic<Float>(
       t, f, at, out, count, [&](const Taps& taps, float* const probe[4], int n) { mix_taps(t, taps, probe, n); });
 }

@@ -7,47 +7,51 @@ namespace zoneplate {
 struct Sampler;
 struct TextureView;
 
-/// A sampler as kernels see it.
-struct Filtering {
+/// The state of a sampler in the form that kernels read.
+struct SamplerState {
   bool mirror_u = false, clamp_u = false;  ///< neither: repeat
   bool mirror_v = false, clamp_v = false;
   bool nearest_magnify = false, nearest_minify = false;
-  bool has_levels = true, blends_levels = true;
-  std::int32_t anisotropy = 1;  ///< most probes along a footprint, up to most_anisotropy; 1: isotropic
-  static constexpr std::int32_t most_anisotropy = 16;
-  bool operator==(const Filtering&) const = default;
+  bool has_mips = true, blends_mips = true;
+  std::int32_t anisotropy = 1;  ///< maximum number of probes along a footprint, in [1, max_anisotropy]; 1: isotropic
+  static constexpr std::int32_t max_anisotropy = 16;
+  bool operator==(const SamplerState&) const = default;
 };
-/// `anisotropy`: asked for beside the sampler's own; the greater counts. Only samplers that blend levels have any.
-Filtering make_filtering(const Sampler& sampler, int anisotropy = 1);
+/// The state of a sampler. The greater of `anisotropy` and the sampler's own value applies, but only to samplers that
+/// blend mip levels.
+SamplerState make_filtering(const Sampler& sampler, int anisotropy = 1);
 
-/// Where points look into a texture: its coordinates and their change per pixel.
+/// The texture coordinates of fragments, and their screen-space derivatives per pixel.
 struct Footprint {
   const float *u, *v;
   const float *dudx, *dvdx, *dudy, *dvdy;
 
-  /// By group of eight points, or null: the changes of all of its points are those of the point before it, and not
-  /// told.
+  /// One flag for each group of eight fragments, or null. A flag that is set means that all fragments of the group have
+  /// the derivatives of the fragment before it; those entries of the arrays are undefined.
   const bool* repeats = nullptr;
 };
 
-/// The texels that points need, and how to weigh them: of two levels the upper left and the lower left texel of four.
-/// The right ones follow them; what has no weight may lie outside the level. Where no blend weight is above 0 the
-/// second level is not read.
+/// The texels that fragments read, and their weights: of each of two mip levels, the indices of the upper left and the
+/// lower left texel of a block of four. The right texels follow the left ones in memory. A texel without weight may lie
+/// outside the level. Where no mip weight is above 0 the second level is not read.
 ///
 /// Units     weights in 1/32768.
 struct Taps {
   static constexpr int capacity = 256;
   static constexpr int groups = capacity / 8;
-  static constexpr int room = capacity + 16;  ///< as Batch::room
-  alignas(64) std::int32_t upper[2][room], lower[2][room];
-  alignas(64) std::int16_t side[2][2 * room];  ///< weights of the right texels, of the lower texels: by fours
-  alignas(64) std::int16_t blend[2 * room];    ///< weight of the second level, the same twice: by fours
-  alignas(64) float detail[room];              ///< log2 of the footprint, on the way there
+  static constexpr int padded_capacity = capacity + 16;  ///< as FragmentBatch::padded_capacity
+  alignas(64) std::int32_t upper[2][padded_capacity], lower[2][padded_capacity];
+  /// Weights of the right texels and of the lower texels, in the order of by_fours.
+  alignas(64) std::int16_t bilinear_weight[2][2 * padded_capacity];
+  /// Weight of the second level, stored twice, in the order of by_fours.
+  alignas(64) std::int16_t mip_weight[2 * padded_capacity];
+  alignas(64) float lod[padded_capacity];  ///< log2 of the footprint; an intermediate result
 
-  /// Where point i's first number stands among numbers by fours: the first of four points, then their second.
+  /// The index of fragment i's first value in an array of pairs by fours: the first values of four fragments, then
+  /// their second values.
   static constexpr int by_fours(int i) { return i / 4 * 8 + i % 4; }
-  std::int32_t right(int level, int i) const { return side[level][by_fours(i)]; }
-  std::int32_t down(int level, int i) const { return side[level][by_fours(i) + 4]; }
+  std::int32_t right(int level, int i) const { return bilinear_weight[level][by_fours(i)]; }
+  std::int32_t down(int level, int i) const { return bilinear_weight[level][by_fours(i) + 4]; }
 };
 
 /// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity; what stands in a footprint's
@@ -70,7 +74,7 @@ struct Taps {
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
 struct FilteringKernels {
-  void (*find_taps)(const TextureView& texture, const Filtering& filtering, const Footprint& footprint, Taps& out,
+  void (*find_taps)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint, Taps& out,
                     int count);
   void (*mix_taps)(const TextureView& texture, const Taps& taps, float* const out[4], int count);
 
@@ -78,7 +82,7 @@ struct FilteringKernels {
   /// an N-th of its length: N = ceil(longer / shorter), at most `anisotropy` and ceil(longer) in texels of level 0.
   /// Probe i of N lies at i / (N + 1) - 1/2 of the axis.
   /// Source    EXT_texture_filter_anisotropic (but for the last bound, which only spares probes nearer than a texel).
-  void (*sample_anisotropic)(const TextureView& texture, const Filtering& filtering, const Footprint& footprint,
+  void (*sample_anisotropic)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint,
                              float* const out[4], int count);
 
   static const FilteringKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)

@@ -187,7 +187,7 @@ struct Codes15 {
 /// A level of the points of vector n of the eight from i on.
 template <class Codes>
 HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, int n) {
-  const V weights = load_weights(taps.side[level], i, n);
+  const V weights = load_weights(taps.bilinear_weight[level], i, n);
   const Sides sides = codes.sides(taps.upper[level] + i, taps.lower[level] + i, weights, n);
   return Codes::mixed(sides.left, sides.right, spread_weights(weights, spread.right, n));
 }
@@ -198,8 +198,8 @@ HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, i
   const V first = mix_level(codes, taps, 0, i, n);
   const auto positive = [&](V v) HWY_ATTR { return Codes::is_negative ? hn::Neg(v) : v; };
   if (!has_second) return positive(first);
-  const V blend = spread_weights(load_weights(taps.blend, i, n), spread.right, n);
-  return positive(Codes::mixed(first, mix_level(codes, taps, 1, i, n), blend));
+  const V mip_weight = spread_weights(load_weights(taps.mip_weight, i, n), spread.right, n);
+  return positive(Codes::mixed(first, mix_level(codes, taps, 1, i, n), mip_weight));
 }
 
 /// Pairs of channels, each a 32-bit lane, as floats.
@@ -247,7 +247,7 @@ HWY_INLINE void store_channels(const V (&mixed)[vectors], float* const out[4], i
 HWY_INLINE bool blends(const Taps& taps, int i) {
   const hn::CappedTag<std::int16_t, 16> d;
   auto any = hn::Zero(d);
-  for (std::size_t n = 0; n < 16; n += hn::MaxLanes(d)) any = hn::Or(any, hn::Load(d, taps.blend + 2 * i + n));
+  for (std::size_t n = 0; n < 16; n += hn::MaxLanes(d)) any = hn::Or(any, hn::Load(d, taps.mip_weight + 2 * i + n));
   return !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
 }
 
@@ -284,8 +284,8 @@ HWY_INLINE Texel mix_level(const float* values, const Taps& taps, int level, int
 void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
   for (int i = 0; i < count; ++i) {
     Texel mixed = mix_level(values, taps, 0, i);
-    const int blend = taps.blend[Taps::by_fours(i)];
-    if (blend > 0) mixed = mix_texels(mixed, mix_level(values, taps, 1, i), blend);
+    const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
+    if (mip_weight > 0) mixed = mix_texels(mixed, mix_level(values, taps, 1, i), mip_weight);
     alignas(16) float channel[4];
     hn::Store(mixed, Channels4(), channel);
     for (int c = 0; c < 4; ++c) out[c][i] = channel[c];
@@ -298,7 +298,8 @@ void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int c
   mix_values(t.values, taps, out, count);
 }
 
-void sample_anisotropic(const TextureView& t, const Filtering& f, const Footprint& at, float* const out[4], int count) {
+void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footprint& at, float* const out[4],
+                        int count) {
   zoneplate::sample_anisotropic<Float>(t, f, at, out, count,
                                        [&](const Taps& taps, float* const probe[4], int n)
                                            HWY_ATTR { mix_taps(t, taps, probe, n); });

@@ -9,14 +9,14 @@ namespace zoneplate {
 
 /// A texture's level at each point: its size in 1/32768 texel, and how its texels lie.
 template <class F>
-struct LevelPlace {
+struct MipLevel {
   F width, height;
   typename F::Int columns, rows, pitch, offset;
 };
 
 /// The level of all points.
 template <class F, class View>
-[[gnu::always_inline]] inline LevelPlace<F> place_level(const View& t, std::int32_t level) {
+[[gnu::always_inline]] inline MipLevel<F> place_level(const View& t, std::int32_t level) {
   using Int = typename F::Int;
   const std::int32_t w = t.width[level], h = t.height[level];
   const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
@@ -25,7 +25,7 @@ template <class F, class View>
 
 /// The level of each point.
 template <class F, class View>
-[[gnu::always_inline]] inline LevelPlace<F> place_levels(const View& t, typename F::Int level) {
+[[gnu::always_inline]] inline MipLevel<F> place_levels(const View& t, typename F::Int level) {
   using Int = typename F::Int;
   static_assert(View::max_levels == 16);
   const Int w = Int::look_up(t.width, level), h = Int::look_up(t.height, level);
@@ -51,7 +51,7 @@ template <class F>
 struct UsualFiltering {
   static constexpr bool mirror_u = false, clamp_u = false, mirror_v = false, clamp_v = false;
   static constexpr bool nearest_magnify = false, nearest_minify = false;
-  static constexpr bool has_levels = true, blends_levels = true;
+  static constexpr bool has_mips = true, blends_mips = true;
 };
 
 template <class Filter>
@@ -59,9 +59,8 @@ template <class Filter>
   return f.nearest_magnify || f.nearest_minify;
 }
 
-inline bool is_usual(const Filtering& f) {
-  return !f.mirror_u && !f.clamp_u && !f.mirror_v && !f.clamp_v && !may_be_nearest(f) && f.has_levels &&
-         f.blends_levels;
+inline bool is_usual(const SamplerState& f) {
+  return !f.mirror_u && !f.clamp_u && !f.mirror_v && !f.clamp_v && !may_be_nearest(f) && f.has_mips && f.blends_mips;
 }
 
 /// The two texels of an axis around a wrapped coordinate, counted from the border on, and the weight of the second in
@@ -127,32 +126,32 @@ struct TexelFetch {
 template <class F>
 struct Levels {
   typename F::Int first;
-  F blend;  ///< weight of the next one
+  F mip_weight;  ///< weight of the next one
   typename F::Bool is_minified;
 };
 
 template <class F, class Filter>
-[[gnu::always_inline]] inline Levels<F> find_levels(F last_level, const Filter& f, F detail) {
-  const F clamped = min(max(detail, F(0.0f)), last_level);
-  const F fine = f.has_levels ? floor(f.blends_levels ? clamped : clamped + F(0.5f)) : F(0.0f);
-  const F blend = f.has_levels && f.blends_levels ? clamped - fine : F(0.0f);
-  return {truncate(fine), blend, detail > F(0.0f)};
+[[gnu::always_inline]] inline Levels<F> find_levels(F last_level, const Filter& f, F lod) {
+  const F clamped = min(max(lod, F(0.0f)), last_level);
+  const F fine = f.has_mips ? floor(f.blends_mips ? clamped : clamped + F(0.5f)) : F(0.0f);
+  const F mip_weight = f.has_mips && f.blends_mips ? clamped - fine : F(0.0f);
+  return {truncate(fine), mip_weight, lod > F(0.0f)};
 }
 
 /// Where points look: the levels, and how to weigh them.
 template <class F>
 struct Lookup {
   F last_level;
-  LevelPlace<F> place[2];
-  typename F::Int first;  ///< the first level
-  typename F::Int blend;  ///< weight of the second level, in 1/32768
+  MipLevel<F> place[2];
+  typename F::Int first;       ///< the first level
+  typename F::Int mip_weight;  ///< weight of the second level, in 1/32768
   typename F::Bool is_nearest;
 };
 
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void place_lookup(const View& t, const Filter& f, typename F::Int first, Lookup<F>& at) {
   using Int = typename F::Int;
-  const bool has_second = f.has_levels && f.blends_levels;
+  const bool has_second = f.has_mips && f.blends_mips;
   at.first = first;
   if (first.is_uniform()) {
     at.place[0] = place_level<F>(t, first.first());
@@ -166,12 +165,12 @@ template <class F, class View, class Filter>
 /// `at`: of the points before, which mostly look at the same levels; these then need not be known before the texels'
 /// addresses are on their way.
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F detail, Lookup<F>& at) {
+[[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F lod, Lookup<F>& at) {
   using Int = typename F::Int;
-  const Levels<F> levels = find_levels<F>(at.last_level, f, detail);
+  const Levels<F> levels = find_levels<F>(at.last_level, f, lod);
   const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
   if (!levels.first.equals(at.first)) place_lookup(t, f, levels.first, at);
-  at.blend = min(truncate(levels.blend * F(32768.0f) + F(0.5f)), Int(32767));
+  at.mip_weight = min(truncate(levels.mip_weight * F(32768.0f) + F(0.5f)), Int(32767));
   at.is_nearest = select(levels.is_minified, minify, magnify) > F(0.5f);
 }
 
@@ -187,7 +186,7 @@ template <class F, class View, class Filter>
 /// Asks for the lower texels of one or both ends of the points, which mostly are a row.
 template <class F, class Filter>
 [[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedPoint<F>& p,
-                                               const LevelPlace<F>& place, Taps& out, int which, int i) {
+                                               const MipLevel<F>& place, Taps& out, int which, int i) {
   using Int = typename F::Int;
   const bool nearest = may_be_nearest(f), repeats_v = !f.mirror_v && !f.clamp_v;
   const AxisTaps<F> x = axis_taps(p.u, place.width, place.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
@@ -195,7 +194,7 @@ template <class F, class Filter>
   const Int upper = place.offset + y.first * place.pitch + x.first;
   const Int below = repeats_v && !nearest ? place.pitch : select(y.is_same, Int(0), place.pitch);
   upper.store(out.upper[which] + i);
-  x.weight.store_by_fours(y.weight, out.side[which], i);
+  x.weight.store_by_fours(y.weight, out.bilinear_weight[which], i);
   const Int lower = upper + below;
   lower.store(out.lower[which] + i);
   fetch.ask_for(lower.first());
@@ -207,9 +206,9 @@ template <class F, class Filter>
 template <class F, class Filter>
 [[gnu::always_inline]] inline void store_taps(const TexelFetch& fetch, const Filter& f, const Lookup<F>& at, F u, F v,
                                               Taps& out, int i) {
-  at.blend.store_by_fours(at.blend, out.blend, i);
+  at.mip_weight.store_by_fours(at.mip_weight, out.mip_weight, i);
   const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
-  for (int which = 0; which < (f.has_levels && f.blends_levels ? 2 : 1); ++which)
+  for (int which = 0; which < (f.has_mips && f.blends_mips ? 2 : 1); ++which)
     store_level<F>(fetch, f, p, at.place[which], out, which, i);
 }
 
@@ -232,11 +231,11 @@ template <class F, class View, class Filter>
   int told = 0;
   for (int i = 0; i < count; i += step) {
     if (is_known(i)) continue;
-    for (int k = i; k < i + step; k += F::lanes) footprint_level(w, h, at, k).store(out.detail + k);
+    for (int k = i; k < i + step; k += F::lanes) footprint_level(w, h, at, k).store(out.lod + k);
     if constexpr (step == 8) continue;
     for (int k = i; k < i + step; k += 8) {
       if (repeats[k / 8]) {
-        std::copy_n(out.detail + told, 8, out.detail + k);
+        std::copy_n(out.lod + told, 8, out.lod + k);
       } else {
         told = k;
       }
@@ -247,7 +246,7 @@ template <class F, class View, class Filter>
   for (int i = 0; i < count; i += step) {
     const bool is_same = is_known(i);
     for (int k = i; k < i + step; k += F::lanes) {
-      if (!is_same) find_lookup<F>(t, f, F::load(out.detail + k), lookup);
+      if (!is_same) find_lookup<F>(t, f, F::load(out.lod + k), lookup);
       store_taps<F>(fetch, f, lookup, F::load(at.u + k), F::load(at.v + k), out, k);
     }
   }
@@ -255,15 +254,15 @@ template <class F, class View, class Filter>
 
 /// The stage `find_taps` of shade/texture/filtering.h.
 template <class F, class View>
-void find_taps(const View& t, const Filtering& f, const Footprint& footprint, Taps& out, int count) {
+void find_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
   if (is_usual(f)) return find_all_taps<F>(t, UsualFiltering{}, footprint, out, count);
   find_all_taps<F>(t, f, footprint, out, count);
 }
 
 /// Points' longer axes of their footprints, how many probes lie along them, and their level.
 struct Probes {
-  alignas(64) float du[Taps::room], dv[Taps::room];
-  alignas(64) float count[Taps::room], detail[Taps::room];
+  alignas(64) float du[Taps::padded_capacity], dv[Taps::padded_capacity];
+  alignas(64) float count[Taps::padded_capacity], lod[Taps::padded_capacity];
 };
 
 template <class F, class View>
@@ -281,19 +280,19 @@ template <class F, class View>
   const F count = max(wanted, one);
   select(is_wide, ux, uy).store(out.du + i), select(is_wide, vx, vy).store(out.dv + i);
   count.store(out.count + i);
-  (F(0.5f) * coarse_log2(longer / (count * count))).store(out.detail + i);
+  (F(0.5f) * coarse_log2(longer / (count * count))).store(out.lod + i);
 }
 
 /// The same from i on as before i, where all points are alike.
 template <class F>
 [[gnu::always_inline]] inline void repeat_probes(Probes& p, int i) {
-  for (float* const of : {p.du, p.dv, p.count, p.detail}) F::load(of + i - F::lanes).store(of + i);
+  for (float* const of : {p.du, p.dv, p.count, p.lod}) F::load(of + i - F::lanes).store(of + i);
 }
 
 /// Some groups' probes in one list of taps: of a group the first of all points before the second of any, as many as the
 /// point has that has most.
 struct ProbeTaps {
-  static_assert(Taps::capacity >= 8 * Filtering::most_anisotropy);
+  static_assert(Taps::capacity >= 8 * SamplerState::max_anisotropy);
   Taps taps;
   int count = 0;            ///< of taps
   int first = 0, last = 0;  ///< the points
@@ -309,7 +308,7 @@ template <class F, class View, class Filter>
   const TexelFetch fetch(t);
   for (int k = 0; k < 8; k += F::lanes) {
     const int i = out.last + k;
-    find_lookup<F>(t, f, F::load(probes.detail + i), lookup);
+    find_lookup<F>(t, f, F::load(probes.lod + i), lookup);
     const F u = F::load(at.u + i), v = F::load(at.v + i), du = F::load(probes.du + i), dv = F::load(probes.dv + i);
     const F all = F::load(probes.count + i), step = F(1.0f) / (all + F(1.0f));
     for (int n = 0; n < most; ++n) {
@@ -344,7 +343,7 @@ template <class F>
 
 /// The stage `sample_anisotropic` of shade/texture/filtering.h; mix(taps, out, count) mixes the first taps.
 template <class F, class View, class Mix>
-[[gnu::always_inline]] inline void sample_anisotropic(const View& t, const Filtering& f, const Footprint& at,
+[[gnu::always_inline]] inline void sample_anisotropic(const View& t, const SamplerState& f, const Footprint& at,
                                                       float* const out[4], int count, Mix mix) {
   Probes probes;
   for (int i = 0; i < count; i += F::lanes) {
@@ -355,7 +354,7 @@ template <class F, class View, class Mix>
     }
   }
   ProbeTaps taps;
-  alignas(64) float mixed[4][Taps::room];
+  alignas(64) float mixed[4][Taps::padded_capacity];
   float* const means[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
   const float* const from[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
   const bool usual = is_usual(f);

@@ -38,7 +38,7 @@ struct Values {
   alignas(64) float channel[4][capacity] = {};
 };
 
-Values look_up(const Texture& texture, const Filtering& filtering, const Points& points, Isa isa = best_isa()) {
+Values look_up(const Texture& texture, const SamplerState& filtering, const Points& points, Isa isa = best_isa()) {
   static Taps taps;
   Values values;
   float* const out[4] = {values.channel[0], values.channel[1], values.channel[2], values.channel[3]};
@@ -47,7 +47,7 @@ Values look_up(const Texture& texture, const Filtering& filtering, const Points&
   return values;
 }
 
-Values look_along(const Texture& texture, const Filtering& filtering, const Points& points, Isa isa = best_isa()) {
+Values look_along(const Texture& texture, const SamplerState& filtering, const Points& points, Isa isa = best_isa()) {
   Values values;
   float* const out[4] = {values.channel[0], values.channel[1], values.channel[2], values.channel[3]};
   kernels(isa).sample_anisotropic(texture.view(), filtering, points.footprint(), out, points.padded());
@@ -65,7 +65,7 @@ Rgba8Image noise(int width, int height) {
   return image;
 }
 
-TEST(Filtering, BilinearAtATexelsCentreIsThatTexel) {
+TEST(SamplerState, BilinearAtATexelsCentreIsThatTexel) {
   const Rgba8Image image = noise(16, 8);
   const Texture texture(image, TexelMeaning::Values);
   for (int y = 0; y < 8; ++y) {
@@ -79,7 +79,7 @@ TEST(Filtering, BilinearAtATexelsCentreIsThatTexel) {
   }
 }
 
-TEST(Filtering, ZeroAndOneAreExact) {
+TEST(SamplerState, ZeroAndOneAreExact) {
   Rgba8Image image(2, 1);
   image(0, 0) = {0, 255, 0, 255};
   image(1, 0) = {0, 255, 255, 0};
@@ -116,7 +116,7 @@ double bilinear(const Rgba8Image& image, double u, double v, Wrap wrap_u, Wrap w
          (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
 }
 
-TEST(Filtering, EveryWrapModeAgreesWithItsDefinition) {
+TEST(SamplerState, EveryWrapModeAgreesWithItsDefinition) {
   constexpr Wrap modes[] = {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp};
   const int sizes[][2] = {{8, 4}, {5, 3}, {1, 7}};
   for (const auto& size : sizes) {
@@ -140,7 +140,7 @@ TEST(Filtering, EveryWrapModeAgreesWithItsDefinition) {
   }
 }
 
-TEST(Filtering, NearestTakesTheTexelThatHoldsThePoint) {
+TEST(SamplerState, NearestTakesTheTexelThatHoldsThePoint) {
   const Rgba8Image image = noise(8, 4);
   const Texture texture(image, TexelMeaning::Values);
   for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
@@ -184,7 +184,7 @@ double bilinear(const TextureView& view, int level, int channel, double u, doubl
          (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
 }
 
-TEST(Filtering, TrilinearOfFloatsAgreesWithItsDefinition) {
+TEST(SamplerState, TrilinearOfFloatsAgreesWithItsDefinition) {
   const Texture texture(bright_noise(16, 8), TexelMeaning::Color);
   const TextureView& view = texture.view();
   for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
@@ -195,16 +195,16 @@ TEST(Filtering, TrilinearOfFloatsAgreesWithItsDefinition) {
       points.add(static_cast<float>(static_cast<int>(word % 448) - 192) / 64,
                  static_cast<float>(static_cast<int>(word / 448 % 448) - 192) / 64, i % 2 == 0 ? 0.0f : 2.828427f / 16);
     }
-    const Filtering filtering = make_filtering({.wrap_u = wrap, .wrap_v = wrap});
+    const SamplerState filtering = make_filtering({.wrap_u = wrap, .wrap_v = wrap});
     static Taps taps;
     kernels(best_isa()).find_taps(view, filtering, points.footprint(), taps, points.padded());
     const Values values = look_up(texture, filtering, points);
     for (int i = 0; i < points.count; ++i) {
-      const double blend = taps.blend[Taps::by_fours(i)] / 32768.0;
-      EXPECT_NEAR(blend, i % 2 == 0 ? 0 : 0.5, 1e-3);
+      const double mip_weight = taps.mip_weight[Taps::by_fours(i)] / 32768.0;
+      EXPECT_NEAR(mip_weight, i % 2 == 0 ? 0 : 0.5, 1e-3);
       for (int c = 0; c < 4; ++c) {
         const auto at = [&](int level) { return bilinear(view, level, c, points.u[i], points.v[i], wrap, wrap); };
-        const double expected = i % 2 == 0 ? at(0) : at(1) * (1 - blend) + at(2) * blend;
+        const double expected = i % 2 == 0 ? at(0) : at(1) * (1 - mip_weight) + at(2) * mip_weight;
         // Three mixes, each rounded three times, of values up to the greatest of the eight.
         ASSERT_NEAR(values.channel[c][i], expected, 9 * 0x1p-24 * (c == 3 ? 1 : 65536)) << i << " " << c;
       }
@@ -212,7 +212,7 @@ TEST(Filtering, TrilinearOfFloatsAgreesWithItsDefinition) {
   }
 }
 
-TEST(Filtering, ATexelOfGreatLightIsExact) {
+TEST(SamplerState, ATexelOfGreatLightIsExact) {
   Plane<float4> image(4, 4, float4{0.25f, 0, 1, 1});
   image(2, 1) = {1e4f, 1e9f, 3e5f, 0.5f};
   const Texture texture(image, TexelMeaning::Color);
@@ -227,7 +227,7 @@ TEST(Filtering, ATexelOfGreatLightIsExact) {
   }
 }
 
-TEST(Filtering, SixteenBitsGiveMoreThan256Levels) {
+TEST(SamplerState, SixteenBitsGiveMoreThan256Levels) {
   Rgba16Image ramp(1024, 1);
   for (int i = 0; i < 1024; ++i) ramp(i, 0).r = static_cast<std::uint16_t>(20000 + i);
   const Texture texture(ramp, TexelMeaning::Values);
@@ -256,7 +256,7 @@ struct Staircase {
     view.codes8 = codes.data();
   }
   /// The level at which each point looked.
-  std::vector<double> levels(const Filtering& filtering, const Points& points) const {
+  std::vector<double> levels(const SamplerState& filtering, const Points& points) const {
     static Taps taps;
     Values values;
     float* const out[4] = {values.channel[0], values.channel[1], values.channel[2], values.channel[3]};
@@ -268,7 +268,7 @@ struct Staircase {
   }
 };
 
-TEST(Filtering, TheLevelIsLog2OfTheFootprint) {
+TEST(SamplerState, TheLevelIsLog2OfTheFootprint) {
   const Staircase stairs(256, 64);
   Points points;
   std::vector<double> expected;
@@ -284,8 +284,8 @@ TEST(Filtering, TheLevelIsLog2OfTheFootprint) {
     expected.push_back(std::min(8.0, std::max(0.0, std::log2(std::max(x, y)))));
   }
   const auto trilinear = stairs.levels({}, points);
-  const auto nearest = stairs.levels({.blends_levels = false}, points);
-  const auto none = stairs.levels({.has_levels = false, .blends_levels = false}, points);
+  const auto nearest = stairs.levels({.blends_mips = false}, points);
+  const auto none = stairs.levels({.has_mips = false, .blends_mips = false}, points);
   for (int i = 0; i < points.count; ++i) {
     const auto at = static_cast<std::size_t>(i);
     EXPECT_NEAR(trilinear[at], expected[at], 1e-3);  // half a unit of 1/128 code is 1/2048 level
@@ -294,20 +294,20 @@ TEST(Filtering, TheLevelIsLog2OfTheFootprint) {
   }
 }
 
-TEST(Filtering, EachAxisOfTheFootprintCounts) {
+TEST(SamplerState, EachAxisOfTheFootprintCounts) {
   const Staircase stairs(256, 64);
   Points points;
   for (int axis = 0; axis < 4; ++axis) {
     points.add(0.1f, 0.2f);
-    float* const slopes[] = {points.dudx, points.dvdx, points.dudy, points.dvdy};
-    slopes[axis][axis] = axis % 2 == 0 ? 4.0f / 256 : 8.0f / 64;
+    float* const derivatives[] = {points.dudx, points.dvdx, points.dudy, points.dvdy};
+    derivatives[axis][axis] = axis % 2 == 0 ? 4.0f / 256 : 8.0f / 64;
   }
   const auto levels = stairs.levels({}, points);
   const double expected[] = {2, 3, 2, 3};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(levels[i], expected[i], 1e-3);
 }
 
-TEST(Filtering, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
+TEST(SamplerState, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
   const Texture texture(noise(64, 64), TexelMeaning::Values);
   Points points;
   for (std::uint32_t i = 0; i < 128; ++i) {
@@ -318,7 +318,7 @@ TEST(Filtering, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
     points.dudy[at] = 0.08f * random(5), points.dvdy[at] = 0.08f * random(6);
     if (i % 2 == 1) std::swap(points.dudx[at], points.dudy[at]), std::swap(points.dvdx[at], points.dvdy[at]);
   }
-  Filtering filtering;
+  SamplerState filtering;
   filtering.anisotropy = 8;
   const Values along = look_along(texture, filtering, points);
   int with_several = 0;
@@ -345,28 +345,28 @@ TEST(Filtering, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
   EXPECT_GT(with_several, 80);
 }
 
-TEST(Filtering, AnisotropicIsTheSameForRoundFootprints) {
+TEST(SamplerState, AnisotropicIsTheSameForRoundFootprints) {
   const Texture texture(noise(64, 32), TexelMeaning::Color);
   Points points;
   for (int i = 0; i < 64; ++i) {
     points.add(0.013f * static_cast<float>(i), 0.37f);
     points.dudx[i] = 0.04f, points.dvdy[i] = 0.08f;
   }
-  Filtering filtering;
+  SamplerState filtering;
   filtering.anisotropy = 16;
   const Values along = look_along(texture, filtering, points), plain = look_up(texture, {}, points);
   for (int c = 0; c < 4; ++c)
     for (int i = 0; i < points.count; ++i) ASSERT_EQ(along.channel[c][i], plain.channel[c][i]);
 }
 
-TEST(Filtering, MagnifyAndMinifyHaveTheirOwnFilters) {
+TEST(SamplerState, MagnifyAndMinifyHaveTheirOwnFilters) {
   Rgba8Image image(2, 2);
   image(1, 0) = image(1, 1) = {255, 255, 255, 255};
   const Texture texture(image, TexelMeaning::Values);
   Points points;
   points.add(0.375f, 0.5f, 0.25f), points.add(0.375f, 0.5f, 0.75f);
-  const Filtering none{.has_levels = false, .blends_levels = false};
-  Filtering sharp_near = none, sharp_far = none;
+  const SamplerState none{.has_mips = false, .blends_mips = false};
+  SamplerState sharp_near = none, sharp_far = none;
   sharp_near.nearest_magnify = true, sharp_far.nearest_minify = true;
   EXPECT_EQ(look_up(texture, sharp_near, points).channel[0][0], 0.0f);
   EXPECT_EQ(look_up(texture, sharp_near, points).channel[0][1], 0.25f);
@@ -403,8 +403,8 @@ Points wild_points(int count, bool is_sane) {
   return points;
 }
 
-std::vector<Filtering> all_filterings() {
-  std::vector<Filtering> all;
+std::vector<SamplerState> all_filterings() {
+  std::vector<SamplerState> all;
   for (int bits = 0; bits < 256; ++bits) {
     const auto bit = [&](int k) { return ((bits >> k) & 1) != 0; };
     if ((bit(0) && bit(1)) || (bit(2) && bit(3)) || (!bit(6) && bit(7))) continue;
@@ -413,7 +413,7 @@ std::vector<Filtering> all_filterings() {
   return all;
 }
 
-TEST(Filtering, NoPlaceLeavesTheTexture) {
+TEST(SamplerState, NoPlaceLeavesTheTexture) {
   static Taps taps;
   const Points points = wild_points(128, false);
   const int sizes[][2] = {{64, 64}, {13, 5}, {1, 1}};
@@ -421,10 +421,10 @@ TEST(Filtering, NoPlaceLeavesTheTexture) {
     const Texture texture(noise(size[0], size[1]), TexelMeaning::Values);
     const TextureView& view = texture.view();
     const int texels = view.offset[view.levels - 1] + 9 + 2;
-    for (const Filtering& filtering : all_filterings())
+    for (const SamplerState& filtering : all_filterings())
       for (const Isa isa : supported_isas()) {
         kernels(isa).find_taps(view, filtering, points.footprint(), taps, points.padded());
-        for (int l = 0; l < (filtering.blends_levels ? 2 : 1); ++l)
+        for (int l = 0; l < (filtering.blends_mips ? 2 : 1); ++l)
           for (int i = 0; i < points.count; ++i)
             for (const std::int32_t left : {taps.upper[l][i], taps.lower[l][i]}) {
               ASSERT_GE(left, 0);
@@ -436,7 +436,7 @@ TEST(Filtering, NoPlaceLeavesTheTexture) {
   }
 }
 
-TEST(Filtering, OneColourIsOneColourEverywhere) {
+TEST(SamplerState, OneColourIsOneColourEverywhere) {
   const Points points = wild_points(128, true);
   for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
     const Texture textures[] = {Texture(Rgba8Image(37, 16, Rgba8{51, 200, 3, 99}), meaning),
@@ -445,7 +445,7 @@ TEST(Filtering, OneColourIsOneColourEverywhere) {
     Points centre;
     centre.add(0.5f, 0.5f);
     for (const Texture& texture : textures)
-      for (const Filtering& filtering : all_filterings()) {
+      for (const SamplerState& filtering : all_filterings()) {
         const Values one = look_up(texture, filtering, centre), many = look_up(texture, filtering, points);
         for (int c = 0; c < 4; ++c)
           for (int i = 0; i < points.count; ++i) ASSERT_EQ(many.channel[c][i], one.channel[c][0]);
@@ -453,13 +453,13 @@ TEST(Filtering, OneColourIsOneColourEverywhere) {
   }
 }
 
-TEST(Filtering, EveryInstructionSetGivesTheSameBits) {
+TEST(SamplerState, EveryInstructionSetGivesTheSameBits) {
   const Texture textures[] = {Texture(noise(64, 32), TexelMeaning::Color), Texture(noise(19, 44), TexelMeaning::Values),
                               Texture(bright_noise(19, 44), TexelMeaning::Color)};
   const auto filterings = all_filterings();
   for (int count = 0; count <= 128; ++count) {
     const Points points = wild_points(count, false);
-    Filtering filtering = filterings[static_cast<std::size_t>(count) * 7 % filterings.size()];
+    SamplerState filtering = filterings[static_cast<std::size_t>(count) * 7 % filterings.size()];
     filtering.anisotropy = 1 + count % 16;
     for (const Texture& texture : textures) {
       const Values expected = look_up(texture, filtering, points, Isa::Scalar);

@@ -238,7 +238,7 @@ Kernel make_kernel(std::string_view text) {
     }
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
-  throw Error(Trouble::Usage, fmt::format("no kernel '{}'; wants one of {}", spec.name, known));
+  throw Error(ErrorKind::Usage, fmt::format("no kernel '{}'; wants one of {}", spec.name, known));
 }
 
 Kernel stretched(Kernel kernel, double factor) {

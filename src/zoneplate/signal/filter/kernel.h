@@ -40,7 +40,7 @@ std::span<const KernelEntry> kernels();
 
 /// The kernel of a text: `box`, `box:width=3`, `gaussian:sigma=2`, `mitchell:b=0.2,c=0.4`.
 ///
-/// Errors    Trouble::Usage for an unknown name or parameter, or a value out of its range.
+/// Errors    ErrorKind::Usage for an unknown name or parameter, or a value out of its range.
 Kernel make_kernel(std::string_view text);
 
 /// The kernel `factor` times as wide and with the same integral: k(x / factor) / factor.

@@ -37,7 +37,7 @@ FilterShape parse_filter_shape(std::string_view text) {
   if (spec.name == "gaussian") return settle(spec, {}), FilterShape{FilterShape::Kind::Gaussian, 0};
   if (spec.name == "butterworth")
     return {FilterShape::Kind::Butterworth, settle(spec, {{"order", "steepness", 2, 0.5, 50}})[0]};
-  throw Error(Trouble::Usage, fmt::format("no filter shape '{}'; wants ideal, gaussian or butterworth", spec.name));
+  throw Error(ErrorKind::Usage, fmt::format("no filter shape '{}'; wants ideal, gaussian or butterworth", spec.name));
 }
 
 double response(const FrequencyFilter& filter, double f) {

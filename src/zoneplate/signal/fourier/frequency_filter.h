@@ -19,7 +19,7 @@ struct FilterShape {
 
 /// `ideal`, `gaussian`, `butterworth:order=4`.
 ///
-/// Errors    Trouble::Usage for an unknown name or parameter, or a value out of its range.
+/// Errors    ErrorKind::Usage for an unknown name or parameter, or a value out of its range.
 FilterShape parse_filter_shape(std::string_view text);
 
 /// A filter of radial frequency √(fx² + fy²).

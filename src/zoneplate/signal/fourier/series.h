@@ -13,7 +13,7 @@ enum class Wave {
 };
 
 const char* name_of(Wave wave);
-/// Errors    Trouble::Usage for another name than square, sawtooth, triangle.
+/// Errors    ErrorKind::Usage for another name than square, sawtooth, triangle.
 Wave parse_wave(std::string_view name);
 
 double wave_value(Wave wave, double x);

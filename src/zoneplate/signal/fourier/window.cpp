@@ -73,7 +73,7 @@ Window make_window(std::string_view text) {
     if (entry.name == spec.name) return {text_of(spec), entry.make(settle(spec, entry.params))};
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
-  throw Error(Trouble::Usage, fmt::format("no window '{}'; wants one of {}", spec.name, known));
+  throw Error(ErrorKind::Usage, fmt::format("no window '{}'; wants one of {}", spec.name, known));
 }
 
 std::vector<double> sampled(const Window& window, int n) {

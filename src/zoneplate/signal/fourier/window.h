@@ -28,7 +28,7 @@ struct WindowEntry {
 /// none, hann, hamming, blackman, kaiser, tukey.
 std::span<const WindowEntry> windows();
 
-/// Errors    Trouble::Usage for an unknown name or parameter, or a value out of its range.
+/// Errors    ErrorKind::Usage for an unknown name or parameter, or a value out of its range.
 Window make_window(std::string_view text);
 
 /// The window at the centres of n pixels: value((k + ½) / n).

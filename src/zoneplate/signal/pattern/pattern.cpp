@@ -151,7 +151,7 @@ LinearImage make_pattern(std::string_view text) {
     if (entry.name == spec.name) return entry.make(settle(spec, entry.params));
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
-  throw Error(Trouble::Usage, fmt::format("no pattern '{}'; wants one of {}", spec.name, known));
+  throw Error(ErrorKind::Usage, fmt::format("no pattern '{}'; wants one of {}", spec.name, known));
 }
 
 }  // namespace zoneplate

@@ -28,7 +28,7 @@ bool is_pattern(std::string_view text);
 /// Shape     size × size pixels, each the pattern's value at its centre: no filter, as a sampler takes it.
 /// Units     linear light; frequencies in cycles per pixel, angles in degrees, from +x towards +y (down).
 /// Exact     the same bits on every machine.
-/// Errors    Trouble::Usage for an unknown name or parameter, or a value out of its range.
+/// Errors    ErrorKind::Usage for an unknown name or parameter, or a value out of its range.
 LinearImage make_pattern(std::string_view text);
 
 }  // namespace zoneplate

@@ -348,13 +348,13 @@ constexpr Param params[] = {
 class Cmaa2 : public Resolver {
  public:
   explicit Cmaa2(const Cmaa2Options& options) : options_(options) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request;
     request.halo = reach;
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame&) override {
+  DisplayImage post_process(DisplayImage image, const Frame&) override {
     return filter_codes(std::move(image), Mixing::Light, [&](const Rgba8Image& i) { return apply_cmaa2(i, options_); });
   }
 

@@ -66,13 +66,13 @@ constexpr Param params[] = {
 class Ddaa : public Resolver {
  public:
   explicit Ddaa(const DdaaOptions& options) : options_(options) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request;
     request.halo = reach;
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame&) override {
+  DisplayImage post_process(DisplayImage image, const Frame&) override {
     return filter_codes(std::move(image), Mixing::Codes, [&](const Rgba8Image& i) { return apply_ddaa(i, options_); });
   }
 

@@ -194,13 +194,13 @@ namespace {
 
 class Dlaa : public Resolver {
  public:
-  Request ask(int) override {
+  Request request(int) override {
     Request request;
     request.halo = reach;
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame&) override {
+  DisplayImage post_process(DisplayImage image, const Frame&) override {
     return filter_codes(std::move(image), Mixing::Codes, [](const Rgba8Image& i) { return apply_dlaa(i); });
   }
 };

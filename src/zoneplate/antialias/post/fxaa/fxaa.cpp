@@ -268,13 +268,13 @@ FxaaOptions options_of(const Settings& s) {
 class Fxaa : public Resolver {
  public:
   explicit Fxaa(const FxaaOptions& options) : options_(options) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request;
     request.halo = fxaa_reach(options_);
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame&) override {
+  DisplayImage post_process(DisplayImage image, const Frame&) override {
     const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
     return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_fxaa(i, options_); });
   }

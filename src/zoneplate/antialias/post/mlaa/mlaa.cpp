@@ -172,13 +172,13 @@ constexpr Param params[] = {
 class Mlaa : public Resolver {
  public:
   explicit Mlaa(const MlaaOptions& options) : options_(options) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request;
     request.halo = reach_of(options_);
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame&) override {
+  DisplayImage post_process(DisplayImage image, const Frame&) override {
     const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
     return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_mlaa(i, options_); });
   }

@@ -117,15 +117,15 @@ Plane<float> changed(const Plane<T>& from, Change change) {
 class Smaa : public Resolver {
  public:
   Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request;
     request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
     request.planes.object_id = predication_ == Predication::Objects;
     request.halo = smaa_reach(options_);
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     const Plane<float> predicate = predication_buffer(frame);
     const Plane<float>& depth = options_.is_predicated ? predicate : frame.reversed_depth;
     return filter_codes(std::move(image), Mixing::Light,
@@ -162,14 +162,14 @@ Display mean_light(const Display& a, const Display& b) {
 class SmaaS2x : public Resolver {
  public:
   explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request{.samples = standard_pattern(2), .rate = Rate::Surface, .weights = {}, .planes = {}};
     request.planes.samples = true;
     request.halo = smaa_reach(options_);
-    request.works_on_shown = true;
+    request.is_display_referred = true;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     constexpr std::array<int, 4> slots[2] = {{1, 1, 1, 0}, {2, 2, 2, 0}};
     DisplayImage treated[2];
     for (std::size_t s = 0; s < 2; ++s) {
@@ -192,9 +192,9 @@ std::unique_ptr<Resolver> make(const Settings& s) {
   const SmaaOptions options = options_of(s);
   const auto predication = static_cast<Predication>(s.integer("predication"));
   if (options.is_predicated && (options.edges == SmaaOptions::Edges::Depth || s.chosen("mode") == "s2x"))
-    throw Error(Trouble::Usage, "smaa: predication is for luma and color edges of mode=1x");
+    throw Error(ErrorKind::Usage, "smaa: predication is for luma and color edges of mode=1x");
   if (!options.is_predicated && (s.is_given("pthreshold") || s.is_given("pscale") || s.is_given("pstrength")))
-    throw Error(Trouble::Usage, "smaa: pthreshold, pscale and pstrength are predication's: give predication=depth");
+    throw Error(ErrorKind::Usage, "smaa: pthreshold, pscale and pstrength are predication's: give predication=depth");
   if (s.chosen("mode") == "s2x") return std::make_unique<SmaaS2x>(options);
   return std::make_unique<Smaa>(options, predication);
 }

@@ -244,7 +244,7 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
       if (is_behind) frame.depth(x, y) = 10.15f, frame.object_id(x, y) = 8;
     }
   const auto treated = [&](const char* method) {
-    return quantize8(make_resolver(methods(), method)->finish(picture, frame));
+    return quantize8(make_resolver(methods(), method)->post_process(picture, frame));
   };
   const Rgba8Image before = quantize8(picture), plain = treated("smaa");
   const auto changed = [&](const Rgba8Image& after, int first, int last) {
@@ -264,7 +264,7 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
   // 1.5 % are less than a threshold of 2 %.
   EXPECT_EQ(treated("smaa:predication=depth,pthreshold=0.02"), before);
   EXPECT_EQ(treated("smaa:predication=depth,pscale=1,pstrength=0"), plain);
-  const auto asks = [](const char* method) { return make_resolver(methods(), method)->ask(0).planes; };
+  const auto asks = [](const char* method) { return make_resolver(methods(), method)->request(0).planes; };
   EXPECT_TRUE(asks("smaa:predication=depth").depth);
   EXPECT_TRUE(asks("smaa:predication=objects").object_id);
   EXPECT_FALSE(asks("smaa").depth);
@@ -336,7 +336,7 @@ TEST(Smaa, LevelEdgesComeNearTheirArea) {
 /// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's picture to the other's place.
 double error_of_s2x(const Band& band, bool exchanged) {
   const std::unique_ptr<Resolver> resolver = make_resolver(methods(), "smaa:mode=s2x");
-  const Request request = resolver->ask(0);
+  const Request request = resolver->request(0);
   EXPECT_EQ(request.samples, standard_pattern(2));
   Frame frame;
   for (const std::size_t s : {exchanged ? 1u : 0u, exchanged ? 0u : 1u}) {
@@ -349,7 +349,7 @@ double error_of_s2x(const Band& band, bool exchanged) {
     frame.sample_color.push_back(light);
   }
   frame.sample_depth.assign(2, Plane<float>(band.width, band.height));
-  return band.error(quantize8(resolver->finish(DisplayImage(band.width, band.height), frame)));
+  return band.error(quantize8(resolver->post_process(DisplayImage(band.width, band.height), frame)));
 }
 
 TEST(Smaa, TwoSamplesSeeThinBandsAndExchangedPlacesSpoilThem) {

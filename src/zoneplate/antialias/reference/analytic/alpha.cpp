@@ -19,7 +19,7 @@ Line line_through(Place p, Place q) {
 
 }  // namespace
 
-AlphaEdges::AlphaEdges(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target,
+AlphaEdges::AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
                        int grid, float part_footprint, float footprint)
     : grid_(grid),
       coarse_(projected, shader, isa, target, part_footprint),
@@ -37,7 +37,7 @@ std::int32_t AlphaEdges::place(int cell) const {
   return (2 * 256 * cell + count) / (2 * count);
 }
 
-Point AlphaEdges::corner_point(const Asked& a, int column, int row) const {
+Fragment AlphaEdges::corner_point(const Asked& a, int column, int row) const {
   return {a.x + place(a.column * cells + column), a.y + place(a.row * cells + row), a.id, 0, 0};
 }
 
@@ -97,8 +97,8 @@ void AlphaEdges::add_crossing(std::uint32_t edge, std::uint32_t side, int column
   const float low = e.margin[first], high = e.margin[first + (is_upright ? cells + 1 : 1)];
   if (is_there(low) == is_there(high)) return;
   const Asked& a = asked_[e.asked];
-  const Point p = corner_point(a, column, row);
-  const Point q = is_upright ? corner_point(a, column, row + 1) : corner_point(a, column + 1, row);
+  const Fragment p = corner_point(a, column, row);
+  const Fragment q = is_upright ? corner_point(a, column, row + 1) : corner_point(a, column + 1, row);
   const std::int32_t begin = is_upright ? p.y : p.x, end = is_upright ? q.y : q.x;
   crossings_.push_back({edge, side, p, q, low, high, begin, end - begin});
 }
@@ -107,7 +107,7 @@ void AlphaEdges::add_crossing(std::uint32_t edge, std::uint32_t side, int column
 void AlphaEdges::bisect() {
   const auto span = [](const Crossing& c) { return (c.high.x - c.low.x) + (c.high.y - c.low.y); };
   const auto middle = [](const Crossing& c) {
-    Point p = c.low;
+    Fragment p = c.low;
     p.x += (c.high.x - c.low.x) / 2, p.y += (c.high.y - c.low.y) / 2;
     return p;
   };
@@ -120,7 +120,7 @@ void AlphaEdges::bisect() {
     std::size_t next = 0;
     for (Crossing& c : crossings_) {
       if (span(c) <= 1) continue;
-      const Point p = points_[next];
+      const Fragment p = points_[next];
       const float m = margin[next++];
       if (is_there(m) == is_there(c.margin_low))
         c.low = p, c.margin_low = m;

@@ -14,14 +14,14 @@ namespace zoneplate::antialias {
 /// Asks how far the alpha of masked triangles is above their cutoffs, for one footprint.
 class AlphaTester {
  public:
-  AlphaTester(const ProjectedDraws& projected, const PointShader& shader, Isa isa, Target target, float spacing)
+  AlphaTester(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, Target target, float spacing)
       : target_(std::move(target)), shader_(projected, shader, isa, target_) {
     target_.spacing = spacing;
   }
   AlphaTester(const AlphaTester&) = delete;  // the shader looks at this target
 
   /// By point: alpha less the cutoff. The surface is there where that is >= 0.
-  std::span<const float> margins(std::span<const Point> points) {
+  std::span<const float> margins(std::span<const Fragment> points) {
     shader_.find_alpha_margins(points, margins_);
     return margins_;
   }
@@ -29,7 +29,7 @@ class AlphaTester {
 
  private:
   Target target_;
-  PointBatcher shader_;
+  FragmentBatcher shader_;
   std::vector<float> margins_;
 };
 
@@ -49,7 +49,7 @@ class AlphaEdges {
  public:
   static constexpr int cells = 4;  ///< squares along the side of a part
 
-  AlphaEdges(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target, int grid,
+  AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target, int grid,
              float part_footprint, float footprint);
 
   void clear() { asked_.clear(); }
@@ -87,13 +87,13 @@ class AlphaEdges {
   /// A side of a square that alpha's edge crosses, between two places of the lattice.
   struct Crossing {
     std::uint32_t edge, side;
-    Point low, high;  ///< in x or y
+    Fragment low, high;  ///< in x or y
     float margin_low, margin_high;
     std::int32_t begin, length;
   };
 
   std::int32_t place(int cell) const;
-  Point corner_point(const Asked& a, int column, int row) const;
+  Fragment corner_point(const Asked& a, int column, int row) const;
   void find_mixed();
   void find_corners();
   void find_crossings();
@@ -113,7 +113,7 @@ class AlphaEdges {
   std::vector<Asked> asked_;
   std::vector<Edge> edges_;
   std::vector<Crossing> crossings_;
-  std::vector<Point> points_, centres_;
+  std::vector<Fragment> points_, centres_;
 };
 
 template <class There, class Away>

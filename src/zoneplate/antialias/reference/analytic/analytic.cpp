@@ -20,14 +20,14 @@ namespace {
 class Analytic : public Resolver {
  public:
   explicit Analytic(const AnalyticOptions& options) : options_(options) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request{.samples = standard_pattern(8)};
-    request.draw = [options = options_](const Drawing& drawing) { draw_analytic(drawing, options); };
+    request.draw = [options = options_](const CustomDraw& drawing) { draw_analytic(drawing, options); };
     request.estimates_error = true;
-    request.works_on_shown = options_.order == FilterOrder::Display;
+    request.is_display_referred = options_.order == FilterOrder::Display;
     return request;
   }
-  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     return options_.order == FilterOrder::Scene ? image : display_shown_light(light_, frame.display);
   }
   LinearImage resolve(Frame& frame) override {

@@ -205,8 +205,8 @@ TEST(Analytic, BlendedSurfacesAreLaidOverInTheirOrderWhereTheyAre) {
   FlatTriangles scene(8, 8);
   const Linear glass{0.5f, 0, 0, 0.5f}, smoke{0, 0.25f, 0, 0.25f};
   scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 4.5, 0.2f}, {0, 4.5, 0.2f}, blue);
-  scene.add_quad({0, 0, 0.1f}, {8, 0, 0.9f}, {8, 8, 0.9f}, {0, 8, 0.1f}, glass, Surface::Blended);
-  scene.add_quad({0, 0, 0.55f}, {8, 0, 0.55f}, {8, 8, 0.55f}, {0, 8, 0.55f}, smoke, Surface::Blended);
+  scene.add_quad({0, 0, 0.1f}, {8, 0, 0.9f}, {8, 8, 0.9f}, {0, 8, 0.1f}, glass, AlphaMode::Blend);
+  scene.add_quad({0, 0, 0.55f}, {8, 0, 0.55f}, {8, 8, 0.55f}, {0, 8, 0.55f}, smoke, AlphaMode::Blend);
   const LinearImage image = scene.analytic();
   const auto over = [](Linear front, Linear behind) { return front + behind * (1 - front.a); };
   const auto expect_near = [](Linear a, Linear b) {
@@ -228,7 +228,7 @@ TEST(Analytic, BlendedSurfacesAreLaidOverInTheirOrderWhereTheyAre) {
 FlatTriangles masked_over_blue() {
   FlatTriangles scene(8, 8);
   scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 8, 0.2f}, {0, 8, 0.2f}, blue);
-  scene.add_quad({0, 0, 0.6f}, {8, 0, 0.6f}, {8, 4.5, 0.6f}, {0, 4.5, 0.6f}, red, Surface::Masked);
+  scene.add_quad({0, 0, 0.6f}, {8, 0, 0.6f}, {8, 4.5, 0.6f}, {0, 4.5, 0.6f}, red, AlphaMode::Mask);
   return scene;
 }
 /// How much of a pixel of that is red.
@@ -304,7 +304,7 @@ FlatTriangles masked_crowd(int count, int side) {
     for (FlatCorner& p : c)
       p = {snapped(x + random(-3, 3)), snapped(y + random(-3, 3)), static_cast<float>(random(0.1, 0.9))};
     const auto channel = [&] { return static_cast<float>(random(0, 1)); };
-    scene.add(c[0], c[1], c[2], {channel(), channel(), channel(), 1}, Surface::Masked);
+    scene.add(c[0], c[1], c[2], {channel(), channel(), channel(), 1}, AlphaMode::Mask);
   }
   scene.alpha_at = [](std::int32_t x, std::int32_t y, float, std::uint32_t number) {
     const auto dx = static_cast<float>((x + 37 * static_cast<std::int32_t>(number)) % 200 - 100) / 100;
@@ -371,7 +371,7 @@ TEST(Analytic, BlendedCrowdsPastTheLimitsAreSampled) {
   for (int i = 0; i < 2000; ++i) {
     FlatCorner c[3];
     for (FlatCorner& p : c) p = {snapped(random(0, 4)), snapped(random(0, 4)), static_cast<float>(random(0.1, 0.9))};
-    scene.add(c[0], c[1], c[2], {0.1f * static_cast<float>(random(0, 1)), 0.05f, 0.02f, 0.1f}, Surface::Blended);
+    scene.add(c[0], c[1], c[2], {0.1f * static_cast<float>(random(0, 1)), 0.05f, 0.02f, 0.1f}, AlphaMode::Blend);
   }
   Plane<float> error;
   const LinearImage image = scene.analytic({}, Crop{1, 1, 2, 2}, nullptr, &error);
@@ -385,8 +385,8 @@ TEST(Analytic, BlendedCrowdsPastTheLimitsAreSampled) {
 }
 
 TEST(Analytic, LightBehindManyLayersKeepsItsValue) {
-  // Layers of alpha 1/2 before a lamp: 2^-n of it is left, a number that a float holds exactly. Once among polygons,
-  // once among samples, where nine masked triangles that are nowhere make the crowd.
+  // TransparentStack of alpha 1/2 before a lamp: 2^-n of it is left, a number that a float holds exactly. Once among
+  // polygons, once among samples, where nine masked triangles that are nowhere make the crowd.
   for (const int masked : {0, 9})
     for (const int layers : {25, 40, 60})
       for (const float lamp : {1.0f, 1e4f, 1e8f}) {
@@ -395,10 +395,10 @@ TEST(Analytic, LightBehindManyLayersKeepsItsValue) {
         scene.add_quad({0, 0, 0.05f}, {4, 0, 0.05f}, {4, 4, 0.05f}, {0, 4, 0.05f}, {lamp, lamp, lamp, 1});
         for (int i = 0; i < layers; ++i) {
           const float z = 0.1f + 0.01f * static_cast<float>(i);
-          scene.add_quad({0, 0, z}, {4, 0, z}, {4, 4, z}, {0, 4, z}, {0, 0, 0.25f, 0.5f}, Surface::Blended);
+          scene.add_quad({0, 0, z}, {4, 0, z}, {4, 4, z}, {0, 4, z}, {0, 0, 0.25f, 0.5f}, AlphaMode::Blend);
         }
         for (int i = 0; i < masked; ++i)
-          scene.add_quad({0, 0, 0.8f}, {4, 0, 0.8f}, {4, 4, 0.8f}, {0, 4, 0.8f}, red, Surface::Masked);
+          scene.add_quad({0, 0, 0.8f}, {4, 0, 0.8f}, {4, 4, 0.8f}, {0, 4, 0.8f}, red, AlphaMode::Mask);
         const LinearImage image = scene.analytic();
         const double left = std::ldexp(1.0, -layers), expected = lamp * left;
         for (const Linear& c : image.values()) {
@@ -444,7 +444,7 @@ TEST(Analytic, ScenesAgreeWithManySamples) {
     const Camera camera = scene.cameras.empty() ? fit_camera(scene.bounds(), 4.0f / 3, {}) : scene.cameras[0];
     const auto shot = [&](const char* by) {
       const auto resolver = make_resolver(methods(), by);
-      Frame frame = render(scene, camera, resolver->ask(0), options);
+      Frame frame = render(scene, camera, resolver->request(0), options);
       return resolver->resolve(frame);
     };
     const LinearImage exact = shot("analytic:shading=8"), sampled = shot(method);

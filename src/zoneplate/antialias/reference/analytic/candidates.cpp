@@ -68,7 +68,7 @@ void PixelCandidates::find_pixels(std::uint32_t number, const ScreenTriangle& tr
       const double z = depth_at_corner(t, x, y);
       const double greatest = covers ? z + upper : std::min(z + upper, static_cast<double>(t.z_high));
       if (greatest < hidden_below_[pixel]) continue;
-      if (covers && triangle.surface == Surface::Opaque)
+      if (covers && triangle.alpha_mode == AlphaMode::Opaque)
         hidden_below_[pixel] = std::max(hidden_below_[pixel], z + lower);
       found_.push_back({pixel, number, covers, greatest});
     }
@@ -93,7 +93,7 @@ PixelTriangle at_pixel(const ScreenTriangle& triangle, bool covers_pixel, int x,
   out.covers_all = covers_pixel;
   out.is_piece = triangle.is_piece;
   out.id = t.id;
-  out.surface = triangle.surface;
+  out.alpha_mode = triangle.alpha_mode;
   out.zx = t.dzdx * unit, out.zy = t.dzdy * unit;
   out.z = depth_at_corner(t, x, y);
   if (covers_pixel) return out;

@@ -61,7 +61,7 @@ void PixelCells::insert(const PixelTriangle& triangle) {
 bool PixelCells::is_hidden(const ConvexPolygon& polygon, const Cell& cell, const PixelTriangle& triangle) const {
   if (cell.layers == 0) return false;
   const PixelTriangle& last = triangles_[layers_[cell.first_layer + cell.layers - 1]];
-  return last.surface == Surface::Opaque && order_over(polygon, triangle, last) == Order::Behind;
+  return last.alpha_mode == AlphaMode::Opaque && order_over(polygon, triangle, last) == Order::Behind;
 }
 
 void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
@@ -118,14 +118,14 @@ void PixelCells::place(const Piece& piece, const Cell& cell, std::uint32_t numbe
   const PixelTriangle& triangle = triangles_[number];
   if (cell.layers > 1) {
     const PixelTriangle& last = triangles_[layers_[cell.first_layer + cell.layers - 1]];
-    if (last.surface != Surface::Opaque && order_over(piece.polygon, triangle, last) == Order::Behind)
+    if (last.alpha_mode != AlphaMode::Opaque && order_over(piece.polygon, triangle, last) == Order::Behind)
       return store_with(piece.polygon, cell, cell.layers, number);
   }
   for (std::uint32_t at = piece.next_layer; at < cell.layers; ++at) {
     const PixelTriangle& layer = triangles_[layers_[cell.first_layer + at]];
     const Order order = order_over(piece.polygon, triangle, layer);
     if (order == Order::InFront) return store_with(piece.polygon, cell, at, number);
-    const bool is_last = layer.surface == Surface::Opaque;
+    const bool is_last = layer.alpha_mode == AlphaMode::Opaque;
     if (order == Order::Behind) {
       if (is_last) return store(piece.polygon, cell.first_layer, cell.layers);
       continue;
@@ -170,7 +170,7 @@ void PixelCells::store_with(const ConvexPolygon& polygon, const Cell& cell, std:
     return;
   }
   const auto first = static_cast<std::uint32_t>(layers_.size());
-  const std::uint32_t behind = triangles_[number].surface == Surface::Opaque ? 0 : cell.layers - at;
+  const std::uint32_t behind = triangles_[number].alpha_mode == AlphaMode::Opaque ? 0 : cell.layers - at;
   for (std::uint32_t i = 0; i < at; ++i) layers_.push_back(layers_[cell.first_layer + i]);
   layers_.push_back(number);
   for (std::uint32_t i = at; i < at + behind; ++i) layers_.push_back(layers_[cell.first_layer + i]);

@@ -16,16 +16,16 @@ struct PixelTriangle {
   bool is_piece = false;         ///< of a clipped triangle: others may have its id
   double z = 0, zx = 0, zy = 0;  ///< reversed depth at the pixel's top-left corner, and its change per pixel
   std::int32_t id = 0;
-  Surface surface = Surface::Opaque;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
 };
 
 /// What is visible in a pixel, or a convex region of it: convex polygons that fill it without a gap or an overlap, each
 /// with its layers.
 ///
-/// Layers are triangles from near to far, the same order all over the polygon; an opaque one is the last. Masked
-/// triangles are layers like blended ones: whether they are there is asked later. Where triangles pass through each
-/// other polygons are cut along the line of equal depths. Of equal depths the triangle with the lower id is nearer; of
-/// pieces of one triangle (one id) a polygon has one.
+/// TransparentStack are triangles from near to far, the same order all over the polygon; an opaque one is the last.
+/// Masked triangles are layers like blended ones: whether they are there is asked later. Where triangles pass through
+/// each other polygons are cut along the line of equal depths. Of equal depths the triangle with the lower id is
+/// nearer; of pieces of one triangle (one id) a polygon has one.
 ///
 /// Exact     the areas of the polygons sum to the region's within 1e-12; no part is dropped, however small.
 /// Requires  triangles come in an order that does not depend on how they are numbered, if the bits of the polygons are

@@ -17,11 +17,11 @@ struct Corner {
 };
 
 /// A triangle about the unit square as a pixel sees it, corners in any order.
-PixelTriangle make(std::array<Corner, 3> c, std::int32_t id, Surface surface = Surface::Opaque) {
+PixelTriangle make(std::array<Corner, 3> c, std::int32_t id, AlphaMode alpha_mode = AlphaMode::Opaque) {
   const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
   if (area < 0) std::swap(c[1], c[2]);
   PixelTriangle t;
-  t.id = id, t.surface = surface;
+  t.id = id, t.alpha_mode = alpha_mode;
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner p = c[k], q = c[(k + 1) % 3];
     const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
@@ -53,8 +53,8 @@ std::vector<PixelTriangle> soup(std::uint32_t seed, int count, bool has_layers) 
     } else if (kind != 4 || i == 0) {
       for (Corner& p : c) p = {random(-1, 2), random(-1, 2), random(0.1, 0.9)};
     }
-    const Surface surface = !has_layers || random(0, 1) < 0.5 ? Surface::Opaque : Surface::Blended;
-    out.push_back(make(c, i, surface));
+    const AlphaMode alpha_mode = !has_layers || random(0, 1) < 0.5 ? AlphaMode::Opaque : AlphaMode::Blend;
+    out.push_back(make(c, i, alpha_mode));
   }
   return out;
 }
@@ -107,7 +107,7 @@ TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
         is_clear =
             is_clear && (i == 0 || there[i]->zx == there[i - 1]->zx || depth(*there[i - 1]) - depth(*there[i]) > 1e-6);
         expected.push_back(there[i]->id);
-        if (there[i]->surface == Surface::Opaque) break;
+        if (there[i]->alpha_mode == AlphaMode::Opaque) break;
       }
       if (!is_clear) continue;
       ++asked;
@@ -153,7 +153,7 @@ TEST(PixelCells, OfEqualDepthsTheLowerNumberIsSeen) {
     EXPECT_EQ(cells.triangle(cells.layers_of(cells.cells()[0])[0]).id, 3);
   }
   // Pieces of one triangle count once.
-  PixelTriangle piece = make(c, 1, Surface::Blended);
+  PixelTriangle piece = make(c, 1, AlphaMode::Blend);
   piece.is_piece = true;
   const PixelCells pieces = cells_of({piece, piece});
   EXPECT_EQ(pieces.layers_of(pieces.cells()[0]).size(), 1u);
@@ -195,7 +195,7 @@ TEST(PixelRegions, LayersInOneOrderAreNoCrowdAndLinesSideBySideAreQuarteredButTw
     std::vector<PixelTriangle> out;
     for (int i = 0; i < 40; ++i) {
       const double z = 0.9 - 0.01 * i, off = 1e-4 * i;
-      out.push_back(make({Corner{-9, -9 + off, z}, {9, 9 + off, z}, {-9, 9 + off, z}}, i, Surface::Blended));
+      out.push_back(make({Corner{-9, -9 + off, z}, {9, 9 + off, z}, {-9, 9 + off, z}}, i, AlphaMode::Blend));
       out.back().covers_all = !cut;
     }
     return out;
@@ -232,7 +232,7 @@ TEST(PixelRegions, PixelsWithTooManyPolygonsAreGivenUp) {
   for (int i = 0; i < 1000; ++i) {
     std::array<Corner, 3> c{};
     for (Corner& p : c) p = {random(-1, 2), random(-1, 2), random(0.1, 0.9)};
-    triangles.push_back(make(c, i, Surface::Blended));
+    triangles.push_back(make(c, i, AlphaMode::Blend));
   }
   PixelRegions regions;
   EXPECT_FALSE(regions.find(triangles, [](const PixelCells& cells) {

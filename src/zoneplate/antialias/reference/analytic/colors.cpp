@@ -6,7 +6,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-Point point_of(const Fragment& f, std::int32_t id) {
+Fragment point_of(const AreaFragment& f, std::int32_t id) {
   // A sliver too thin for its own area has its centroid anywhere in the pixel.
   const AreaMoments& m = f.moments;
   const auto within = [&](double moment) {
@@ -18,26 +18,26 @@ Point point_of(const Fragment& f, std::int32_t id) {
 
 }  // namespace
 
-FragmentColors::Group::Group(const ProjectedDraws& projected, const PointShader& point_shader, Isa isa, Target of,
-                             float spacing)
+AreaFragmentColors::Group::Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Isa isa,
+                                 Target of, float spacing)
     : target(std::move(of)), shader(projected, point_shader, isa, target) {
   target.spacing = spacing;
 }
 
-FragmentColors::FragmentColors(const ProjectedDraws& projected, const PointShader& shader, Isa isa,
-                               const Target& target, Footprints footprints)
+AreaFragmentColors::AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa,
+                                       const Target& target, Footprints footprints)
     : parts_(projected, shader, isa, target, footprints.part), fine_(projected, shader, isa, target, footprints.fine) {}
 
-void FragmentColors::find(const FragmentTable& table) {
+void AreaFragmentColors::find(const AreaFragmentTable& table) {
   seen_.clear();
   for (Group* group : {&parts_, &fine_}) group->points.clear(), group->place.clear();
   for (std::size_t i = 0; i < table.fragments().size(); ++i) {
-    const Fragment& f = table.fragments()[i];
+    const AreaFragment& f = table.fragments()[i];
     Group& group = f.is_fine ? fine_ : parts_;
     for (const Layer& layer : table.layers_of(f)) {
       group.points.push_back(point_of(f, layer.id));
       group.place.push_back(seen_.size());
-      seen_.push_back({i, layer.surface != Surface::Blended, {}});
+      seen_.push_back({i, layer.alpha_mode != AlphaMode::Blend, {}});
     }
   }
   shade(parts_);
@@ -50,7 +50,7 @@ void FragmentColors::find(const FragmentTable& table) {
   }
 }
 
-void FragmentColors::shade(Group& group) {
+void AreaFragmentColors::shade(Group& group) {
   group.shader.shade(group.points, group.colors, nullptr);
   for (std::size_t i = 0; i < group.points.size(); ++i) seen_[group.place[i]].color = group.colors[i];
 }

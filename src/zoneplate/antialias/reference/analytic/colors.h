@@ -17,12 +17,12 @@ struct Footprints {
 };
 
 /// Gives fragments their colours: shades their layers and lays them over each other from far to near.
-class FragmentColors {
+class AreaFragmentColors {
  public:
-  FragmentColors(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target,
-                 Footprints footprints);
+  AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
+                     Footprints footprints);
 
-  void find(const FragmentTable& table);
+  void find(const AreaFragmentTable& table);
 
   /// Of fragment number i of that table.
   Linear color(std::size_t i) const { return colors_[i]; }
@@ -32,11 +32,11 @@ class FragmentColors {
  private:
   /// Points of one footprint, with the places of their colours among all.
   struct Group {
-    Group(const ProjectedDraws& projected, const PointShader& point_shader, Isa isa, Target of, float spacing);
+    Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Isa isa, Target of, float spacing);
     Group(const Group&) = delete;  // the shader looks at this target
     Target target;
-    PointBatcher shader;
-    std::vector<Point> points;
+    FragmentBatcher shader;
+    std::vector<Fragment> points;
     std::vector<std::size_t> place;
     std::vector<Linear> colors;
   };

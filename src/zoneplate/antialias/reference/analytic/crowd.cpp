@@ -28,7 +28,7 @@ double depth_at(const PixelTriangle& t, Place p) { return (t.z + t.zx * p.x) + t
 
 }  // namespace
 
-CrowdSampler::CrowdSampler(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target,
+CrowdSampler::CrowdSampler(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
                            const PolynomialFilter& filter, int shading, int grid, Footprints footprints)
     : filter_(filter),
       shading_(shading),
@@ -45,7 +45,7 @@ CrowdSampler::CrowdSampler(const ProjectedDraws& projected, const PointShader& s
   });
 }
 
-void CrowdSampler::find(std::span<const PixelTriangle> triangles, int x, int y, const ShownLight* shown) {
+void CrowdSampler::find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* shown) {
   x_ = x, y_ = y;
   triangles_ = triangles, shown_ = shown;
   const auto across = static_cast<std::uint32_t>(x), down = static_cast<std::uint32_t>(y);
@@ -54,7 +54,7 @@ void CrowdSampler::find(std::span<const PixelTriangle> triangles, int x, int y, 
   table_.begin_pixel(x, y);
   sum_.assign(SampleNet::groups * filter_.weight_count(), {});
   covered_ = 0, layers_shaded_ = 0;
-  is_fine_ = std::ranges::any_of(triangles, [](const PixelTriangle& t) { return t.surface == Surface::Masked; });
+  is_fine_ = std::ranges::any_of(triangles, [](const PixelTriangle& t) { return t.alpha_mode == AlphaMode::Mask; });
   members_[0].clear();
   for (std::uint32_t i = 0; i < triangles.size(); ++i) members_[0].push_back({i, triangles[i].covers_all, 0});
   std::size_t count = 0;
@@ -103,7 +103,7 @@ void CrowdSampler::gather(int level, Place centre, double half) {
       }
     if (misses) continue;
     const double z = depth_at(t, centre), change = half * (std::abs(t.zx) + std::abs(t.zy));
-    if (covers && t.surface == Surface::Opaque) hidden_below = std::max(hidden_below, z - change);
+    if (covers && t.alpha_mode == AlphaMode::Opaque) hidden_below = std::max(hidden_below, z - change);
     if (z + change < hidden_below) continue;
     found.push_back({m.number, covers, z + change});
   }
@@ -132,7 +132,7 @@ void CrowdSampler::add_hits(SampleNet::Sample place, std::span<const Member> mem
     const Hit hit{depth_at(t, p), m.number};
     if (has_wall && !is_nearer(hit, wall)) continue;
     if (!m.covers && !is_inside(t, p)) continue;
-    if (t.surface == Surface::Opaque)
+    if (t.alpha_mode == AlphaMode::Opaque)
       wall = hit, has_wall = true;
     else
       hits_.push_back(hit);
@@ -152,7 +152,7 @@ void CrowdSampler::add_hits(SampleNet::Sample place, std::span<const Member> mem
 bool CrowdSampler::advance(Sample& s) {
   for (; s.next < s.hits; ++s.next) {
     const Hit hit = hits_[s.first + s.next];
-    if (triangles_[hit.number].surface == Surface::Masked) return true;
+    if (triangles_[hit.number].alpha_mode == AlphaMode::Mask) return true;
     hits_[s.first + s.seen++] = hit;
   }
   return false;
@@ -195,7 +195,7 @@ void CrowdSampler::store(const Sample& s) {
   layers_.clear();
   for (std::uint32_t i = 0; i < s.seen; ++i) {
     const PixelTriangle& t = triangles_[hits_[s.first + i].number];
-    layers_.push_back({t.id, t.surface});
+    layers_.push_back({t.id, t.alpha_mode});
   }
   const auto square = [&](int count) { return static_cast<int>(s.y * count) * count + static_cast<int>(s.x * count); };
   const std::size_t i = table_.find(static_cast<std::uint32_t>(square(is_fine_ ? grid_ : shading_)), is_fine_, layers_);
@@ -211,8 +211,8 @@ void CrowdSampler::fold() {
   layers_shaded_ += table_.layer_count();
   colors_.find(table_);
   for (std::size_t i = 0; i < table_.fragments().size(); ++i) {
-    const Fragment& f = table_.fragments()[i];
-    if (table_.layers_of(f).back().surface != Surface::Blended) covered_ += f.moments.area;
+    const AreaFragment& f = table_.fragments()[i];
+    if (table_.layers_of(f).back().alpha_mode != AlphaMode::Blend) covered_ += f.moments.area;
     const Linear c = shown_ ? (*shown_)(colors_.color(i)) : colors_.color(i);
     const std::span<const double> w = table_.weights_of(i);
     for (std::size_t k = 0; k < sum_.size(); ++k) {

@@ -35,11 +35,11 @@ class CrowdSampler {
     double r = 0, g = 0, b = 0, a = 0, variance = 0;
   };
 
-  CrowdSampler(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target,
+  CrowdSampler(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
                const PolynomialFilter& filter, int shading, int grid, Footprints footprints);
 
   /// Samples the pixel (x, y).
-  void find(std::span<const PixelTriangle> triangles, int x, int y, const ShownLight* shown);
+  void find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* shown);
 
   /// By pixel around, rows from the top.
   std::span<const Share> shares() const { return shares_; }
@@ -84,7 +84,7 @@ class CrowdSampler {
   const int shading_, grid_;
   const SampleNet net_;
   AlphaTester alpha_;
-  FragmentColors colors_;
+  AreaFragmentColors colors_;
   std::vector<double> density_;  ///< by square of 8 × 8: the filter's mean weight there, for each pixel around
 
   int x_ = 0, y_ = 0;  ///< the pixel at work
@@ -95,14 +95,14 @@ class CrowdSampler {
   std::vector<Hit> hits_;
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> waiting_;  ///< samples whose next hit is masked
-  std::vector<Point> points_;
+  std::vector<Fragment> points_;
   std::vector<Layer> layers_;
-  FragmentTable table_;     ///< weights by group and pixel around
-  std::vector<Share> sum_;  ///< of what was shaded, by group and pixel around
+  AreaFragmentTable table_;  ///< weights by group and pixel around
+  std::vector<Share> sum_;   ///< of what was shaded, by group and pixel around
   std::size_t layers_shaded_ = 0;
   std::vector<Share> shares_;
   double covered_ = 0;
-  const ShownLight* shown_ = nullptr;
+  const DisplayLight* shown_ = nullptr;
   std::uint64_t samples_taken_ = 0;
 };
 

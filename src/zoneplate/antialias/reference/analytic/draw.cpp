@@ -21,19 +21,19 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t enough_fragments = 2048;  // that are shaded together
-constexpr std::size_t many_triangles = 32768;   // of a tile that is not drawn at once
-constexpr std::size_t enough_masked = 8192;     // polygons and alphas that are resolved together
+constexpr std::size_t enough_fragments = 2048;   // that are shaded together
+constexpr std::size_t mixed_primitives = 32768;  // of a tile that is not drawn at once
+constexpr std::size_t enough_masked = 8192;      // polygons and alphas that are resolved together
 
 /// What all tiles look at.
 struct Whole {
-  const Drawing& drawing;
+  const CustomDraw& drawing;
   const ProjectedDraws& projected;
   const TileTriangles& triangles;
   const Target& target;
   const PolynomialFilter& filter;
   const AnalyticOptions& options;
-  std::optional<ShownLight> shown;
+  std::optional<DisplayLight> shown;
 };
 
 /// The part of a tile that is drawn, and the pixels around that count for it.
@@ -111,7 +111,7 @@ class TileIntegrator {
  private:
   /// Of a tile with many triangles only a few rows are at work at a time: that bounds what is stored.
   static int rows_at_once(std::size_t triangles) {
-    return triangles <= many_triangles ? 2 * tile_size : triangles <= 8 * many_triangles ? 8 : 1;
+    return triangles <= mixed_primitives ? 2 * tile_size : triangles <= 8 * mixed_primitives ? 8 : 1;
   }
 
   void draw_rows(std::size_t tile, const PixelRect& rect) {
@@ -130,7 +130,7 @@ class TileIntegrator {
     const auto candidates = candidates_.of_pixel(pixel);
     if (candidates.empty()) return;
     const ScreenTriangle& nearest = triangles_[candidates[0].triangle];
-    if (candidates.size() == 1 && candidates[0].covers_pixel && nearest.surface == Surface::Opaque) {
+    if (candidates.size() == 1 && candidates[0].covers_pixel && nearest.alpha_mode == AlphaMode::Opaque) {
       list_.add_whole(nearest.shape.id, x, y);
     } else {
       here_.clear();
@@ -143,7 +143,7 @@ class TileIntegrator {
 
   /// Adds the pixel's visible polygons; false, and nothing is added, if it is too crowded.
   bool add_polygons(int x, int y) {
-    const auto is_masked = [](const PixelTriangle& t) { return t.surface == Surface::Masked; };
+    const auto is_masked = [](const PixelTriangle& t) { return t.alpha_mode == AlphaMode::Mask; };
     if (std::ranges::count_if(here_, is_masked) > std::ptrdiff_t{MaskedPolygons::most_triangles}) return false;
     list_.begin_pixel(x, y);
     masks_.begin_pixel(x, y);
@@ -160,8 +160,8 @@ class TileIntegrator {
       bool is_masked = false;
       for (const std::uint32_t number : cells.layers_of(cell)) {
         const PixelTriangle& t = cells.triangle(number);
-        layers_.push_back({t.id, t.surface});
-        is_masked = is_masked || t.surface == Surface::Masked;
+        layers_.push_back({t.id, t.alpha_mode});
+        is_masked = is_masked || t.alpha_mode == AlphaMode::Mask;
       }
       if (!is_masked)
         list_.add(cell.polygon, layers_);
@@ -189,7 +189,7 @@ class TileIntegrator {
     const auto masked = masked_list_.fragments();
     std::size_t next = 0;
     for (std::size_t i = 0; i < list_.fragments().size(); ++i) {
-      const Fragment& f = list_.fragments()[i];
+      const AreaFragment& f = list_.fragments()[i];
       for (; next < masked.size() && std::pair(masked[next].y, masked[next].x) < std::pair(f.y, f.x); ++next)
         add(masked_list_, masked_colors_, next);
       add(list_, colors_, i);
@@ -200,9 +200,9 @@ class TileIntegrator {
     masks_.clear();
   }
 
-  void add(const FragmentList& list, const FragmentColors& colors, std::size_t i) {
-    const Fragment& f = list.fragments()[i];
-    if (list.table().layers_of(f).back().surface != Surface::Blended && drawn_.contains(f.x, f.y))
+  void add(const AreaFragmentList& list, const AreaFragmentColors& colors, std::size_t i) {
+    const AreaFragment& f = list.fragments()[i];
+    if (list.table().layers_of(f).back().alpha_mode != AlphaMode::Blend && drawn_.contains(f.x, f.y))
       sum_at(f.x, f.y).covered += f.moments.area;
     const Linear color = whole_.shown ? (*whole_.shown)(colors.color(i)) : colors.color(i);
     const double* weight = list.weights_of(i).data();
@@ -242,8 +242,8 @@ class TileIntegrator {
   }
 
   const Whole& whole_;
-  FragmentList list_, masked_list_;  ///< without and with masked surfaces
-  FragmentColors colors_, masked_colors_;
+  AreaFragmentList list_, masked_list_;  ///< without and with masked surfaces
+  AreaFragmentColors colors_, masked_colors_;
   MaskedPolygons masks_;
   CrowdSampler crowd_;
   std::vector<ScreenTriangle> triangles_;  ///< of the rows at work
@@ -258,7 +258,7 @@ class TileIntegrator {
 
 }  // namespace
 
-void draw_analytic(const Drawing& drawing, const AnalyticOptions& options) {
+void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   const Stopwatch geometry;
   const PolynomialFilter filter(options.filter);
   const Target& target = drawing.target;

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "zoneplate/antialias/post/display_light.h"
-#include "zoneplate/render/drawing.h"
+#include "zoneplate/render/custom_draw.h"
 
 namespace zoneplate::antialias {
 
@@ -28,6 +28,6 @@ struct AnalyticOptions {
 /// Errors    the deadline's (base/deadline.h), checked once a row of pixels and a region; OutOfMemory.
 /// Memory    the screen vertices, the numbers of the triangles in tiles (TileTriangles), and for each thread the
 ///           triangles of one tile, or of a row of its pixels where they are more than 32,768.
-void draw_analytic(const Drawing& drawing, const AnalyticOptions& options);
+void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options);
 
 }  // namespace zoneplate::antialias

@@ -17,21 +17,21 @@ struct FlatCorner {
 };
 
 /// Triangles of one colour each, which pictures of a power of two of pixels a side show exactly where they were put.
-class FlatTriangles : public PointShader {
+class FlatTriangles : public FragmentShader {
  public:
   FlatTriangles(int width, int height) : width_(width), height_(height) {}
 
-  void add(FlatCorner p, FlatCorner q, FlatCorner r, Linear color, Surface surface = Surface::Opaque) {
-    auto& list = lists_[static_cast<std::size_t>(surface)];
+  void add(FlatCorner p, FlatCorner q, FlatCorner r, Linear color, AlphaMode alpha_mode = AlphaMode::Opaque) {
+    auto& list = lists_[static_cast<std::size_t>(alpha_mode)];
     for (const FlatCorner c : {p, q, r})
       list.clip.push_back(
           {static_cast<float>(2 * c.x / width_ - 1), static_cast<float>(1 - 2 * c.y / height_), c.z, 1});
     list.color.push_back(color);
   }
   void add_quad(FlatCorner p, FlatCorner q, FlatCorner r, FlatCorner s, Linear color,
-                Surface surface = Surface::Opaque) {
-    add(p, q, r, color, surface);
-    add(p, r, s, color, surface);
+                AlphaMode alpha_mode = AlphaMode::Opaque) {
+    add(p, q, r, color, alpha_mode);
+    add(p, r, s, color, alpha_mode);
   }
   /// The same triangles of each surface, numbered the other way round.
   FlatTriangles reversed() const {
@@ -49,14 +49,14 @@ class FlatTriangles : public PointShader {
 
   LinearImage analytic(const AnalyticOptions& options = {}, std::optional<Crop> crop = {},
                        Plane<float>* coverage = nullptr, Plane<float>* error = nullptr) const {
-    return with_target(crop, coverage, error, [&](const Drawing& d) { draw_analytic(d, options); });
+    return with_target(crop, coverage, error, [&](const CustomDraw& d) { draw_analytic(d, options); });
   }
   LinearImage converged(const ConvergedOptions& options, Plane<float>* error = nullptr,
                         std::optional<Crop> crop = {}) const {
-    return with_target(crop, nullptr, error, [&](const Drawing& d) { draw_converged(d, options); });
+    return with_target(crop, nullptr, error, [&](const CustomDraw& d) { draw_converged(d, options); });
   }
   LinearImage sampled(const SamplePattern& pattern) const {
-    return with_target({}, nullptr, nullptr, [&](const Drawing& d) {
+    return with_target({}, nullptr, nullptr, [&](const CustomDraw& d) {
       Target target = d.target;
       target.samples = pattern;
       target.is_per_sample = true;
@@ -67,18 +67,18 @@ class FlatTriangles : public PointShader {
   Isa isa = best_isa();
   mutable RasterCounts counts;  ///< of the last picture that `analytic` or `converged` drew
 
-  void shade(const Batch& batch, Wanted, Shaded& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.padded(); ++i) {
-      const std::size_t told = batch.told(static_cast<std::size_t>(i));
-      const Linear c = lists_[batch.instance[told]].color[number_of(batch, told)];
+      const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
+      const Linear c = lists_[batch.instance[leader]].color[number_of(batch, leader)];
       out.r[i] = c.r, out.g[i] = c.g, out.b[i] = c.b, out.a[i] = c.a;
     }
   }
-  float alpha(const Batch& batch, float* out) const override {
+  float alpha(const FragmentBatch& batch, float* out) const override {
     for (int i = 0; i < batch.padded(); ++i)
       out[i] = alpha_at
                    ? alpha_at(batch.x[i], batch.y[i], batch.dbdx[0][i],
-                              static_cast<std::uint32_t>(number_of(batch, batch.told(static_cast<std::size_t>(i)))))
+                              static_cast<std::uint32_t>(number_of(batch, batch.leader(static_cast<std::size_t>(i)))))
                    : 1.0f;
     return 0.5f;
   }
@@ -90,9 +90,9 @@ class FlatTriangles : public PointShader {
   };
 
   /// Triangles are numbered through the lists; three vertices each.
-  std::size_t number_of(const Batch& batch, std::size_t told) const {
-    std::size_t number = batch.triangle[told];
-    for (std::size_t s = 0; s < batch.instance[told]; ++s) number -= lists_[s].clip.size() / 3;
+  std::size_t number_of(const FragmentBatch& batch, std::size_t leader) const {
+    std::size_t number = batch.triangle[leader];
+    for (std::size_t s = 0; s < batch.instance[leader]; ++s) number -= lists_[s].clip.size() / 3;
     return number;
   }
 
@@ -105,7 +105,7 @@ class FlatTriangles : public PointShader {
       Draw d;
       d.clip = lists_[s].clip;
       d.index = index[s];
-      d.surface = static_cast<Surface>(s);
+      d.alpha_mode = static_cast<AlphaMode>(s);
       d.material = static_cast<int>(s);
       d.instance = static_cast<std::uint32_t>(s);
       if (!d.clip.empty()) draws.push_back(d);
@@ -120,7 +120,7 @@ class FlatTriangles : public PointShader {
     if (error) *error = Plane<float>(c.width, c.height);
     const RasterRules rules{.isa = isa};
     counts = {};
-    use(Drawing{draws, *this, rules, target, render_options, error, counts});
+    use(CustomDraw{draws, *this, rules, target, render_options, error, counts});
     return image;
   }
 

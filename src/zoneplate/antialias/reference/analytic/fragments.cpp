@@ -9,26 +9,26 @@ constexpr std::uint32_t hashes = 256;  // of a pixel's fragments
 
 }  // namespace
 
-void FragmentTable::clear() {
+void AreaFragmentTable::clear() {
   fragments_.clear();
   weights_.clear();
   layers_.clear();
 }
 
-void FragmentTable::begin_pixel(int x, int y) {
+void AreaFragmentTable::begin_pixel(int x, int y) {
   x_ = x, y_ = y;
   first_of_pixel_ = fragments_.size(), layers_of_pixel_ = layers_.size();
   head_.assign(hashes, -1);
 }
 
-void FragmentTable::abandon_pixel() {
+void AreaFragmentTable::abandon_pixel() {
   fragments_.resize(first_of_pixel_);
   weights_.resize(first_of_pixel_ * weights_each_);
   layers_.resize(layers_of_pixel_);
   head_.assign(hashes, -1);
 }
 
-void FragmentTable::append(const Fragment& fragment, Layer layer, std::span<const double> weights) {
+void AreaFragmentTable::append(const AreaFragment& fragment, Layer layer, std::span<const double> weights) {
   fragments_.push_back(fragment);
   fragments_.back().first_layer = static_cast<std::uint32_t>(layers_.size());
   fragments_.back().layers = 1;
@@ -36,10 +36,10 @@ void FragmentTable::append(const Fragment& fragment, Layer layer, std::span<cons
   weights_.insert(weights_.end(), weights.begin(), weights.end());
 }
 
-std::size_t FragmentTable::find(std::uint32_t part, bool is_fine, std::span<const Layer> layers) {
+std::size_t AreaFragmentTable::find(std::uint32_t part, bool is_fine, std::span<const Layer> layers) {
   std::int32_t& head = head_[(static_cast<std::uint32_t>(layers[0].id) + part * 31u) % hashes];
   for (std::int32_t i = head; i >= 0; i = next_[static_cast<std::size_t>(i)]) {
-    const Fragment& f = fragments_[static_cast<std::size_t>(i)];
+    const AreaFragment& f = fragments_[static_cast<std::size_t>(i)];
     if (f.part == part && f.is_fine == is_fine && std::ranges::equal(layers_of(f), layers))
       return static_cast<std::size_t>(i);
   }
@@ -54,7 +54,7 @@ std::size_t FragmentTable::find(std::uint32_t part, bool is_fine, std::span<cons
   return added;
 }
 
-FragmentList::FragmentList(const PolynomialFilter& filter, int shading)
+AreaFragmentList::AreaFragmentList(const PolynomialFilter& filter, int shading)
     : filter_(filter), shading_(shading), table_(filter.weight_count()) {
   for_grid(unit_square(), {0, 0}, 1.0 / shading_, shading_, [&](int, int, const ConvexPolygon& part) {
     whole_.push_back(area_moments(part));
@@ -63,25 +63,26 @@ FragmentList::FragmentList(const PolynomialFilter& filter, int shading)
   });
 }
 
-void FragmentList::add_whole(std::int32_t id, int x, int y) {
+void AreaFragmentList::add_whole(std::int32_t id, int x, int y) {
   for (std::size_t i = 0; i < whole_.size(); ++i)
-    table_.append({.x = x, .y = y, .part = static_cast<std::uint32_t>(i), .moments = whole_[i]}, {id, Surface::Opaque},
+    table_.append({.x = x, .y = y, .part = static_cast<std::uint32_t>(i), .moments = whole_[i]},
+                  {id, AlphaMode::Opaque},
                   std::span(whole_weights_).subspan(i * filter_.weight_count(), filter_.weight_count()));
 }
 
-void FragmentList::add(const ConvexPolygon& polygon, std::span<const Layer> layers) {
+void AreaFragmentList::add(const ConvexPolygon& polygon, std::span<const Layer> layers) {
   if (shading_ == 1) return add_part(polygon, 0, false, layers);
   for_grid(polygon, {0, 0}, 1.0 / shading_, shading_, [&](int column, int row, const ConvexPolygon& p) {
     add_part(p, static_cast<std::uint32_t>(row * shading_ + column), false, layers);
   });
 }
 
-void FragmentList::add_fine(const ConvexPolygon& polygon, std::uint32_t part, std::span<const Layer> layers) {
+void AreaFragmentList::add_fine(const ConvexPolygon& polygon, std::uint32_t part, std::span<const Layer> layers) {
   add_part(polygon, part, true, layers);
 }
 
-void FragmentList::add_part(const ConvexPolygon& polygon, std::uint32_t part, bool is_fine,
-                            std::span<const Layer> layers) {
+void AreaFragmentList::add_part(const ConvexPolygon& polygon, std::uint32_t part, bool is_fine,
+                                std::span<const Layer> layers) {
   const std::size_t i = table_.find(part, is_fine, layers);
   const AreaMoments m = area_moments(polygon);
   AreaMoments& sum = table_.fragment(i).moments;

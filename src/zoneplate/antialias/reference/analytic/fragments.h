@@ -12,12 +12,12 @@ namespace zoneplate::antialias {
 /// A layer of a fragment.
 struct Layer {
   std::int32_t id;  ///< triangle
-  Surface surface;
+  AlphaMode alpha_mode;
   bool operator==(const Layer&) const = default;
 };
 
 /// A part of a pixel with one order of layers, shaded at one place: the centroid of its area.
-struct Fragment {
+struct AreaFragment {
   int x = 0, y = 0;                           ///< the pixel
   std::uint32_t part = 0;                     ///< of the pixel's grid, if it is cut by one
   std::uint32_t first_layer = 0, layers = 0;  ///< near to far; one that is not blended is the last
@@ -27,9 +27,9 @@ struct Fragment {
 
 /// Fragments in the order of their pixels, each with so many weights. What of a part of a pixel shows the same layers
 /// is one fragment.
-class FragmentTable {
+class AreaFragmentTable {
  public:
-  explicit FragmentTable(std::size_t weights) : weights_each_(weights) {}
+  explicit AreaFragmentTable(std::size_t weights) : weights_each_(weights) {}
 
   void clear();
   /// What is found from now on is of the pixel (x, y).
@@ -40,12 +40,12 @@ class FragmentTable {
   /// The number of the pixel's fragment of this part with these layers, which is new and empty if there was none.
   std::size_t find(std::uint32_t part, bool is_fine, std::span<const Layer> layers);
   /// Adds a fragment that no later `find` finds.
-  void append(const Fragment& fragment, Layer layer, std::span<const double> weights);
+  void append(const AreaFragment& fragment, Layer layer, std::span<const double> weights);
 
-  std::span<const Fragment> fragments() const { return fragments_; }
+  std::span<const AreaFragment> fragments() const { return fragments_; }
   std::size_t layer_count() const { return layers_.size(); }
-  Fragment& fragment(std::size_t i) { return fragments_[i]; }
-  std::span<const Layer> layers_of(const Fragment& f) const {
+  AreaFragment& fragment(std::size_t i) { return fragments_[i]; }
+  std::span<const Layer> layers_of(const AreaFragment& f) const {
     return std::span(layers_).subspan(f.first_layer, f.layers);
   }
   std::span<const double> weights_of(std::size_t i) const {
@@ -55,7 +55,7 @@ class FragmentTable {
 
  private:
   const std::size_t weights_each_;
-  std::vector<Fragment> fragments_;
+  std::vector<AreaFragment> fragments_;
   std::vector<double> weights_;
   std::vector<Layer> layers_;
   int x_ = 0, y_ = 0;                                     ///< the pixel at work
@@ -67,9 +67,9 @@ class FragmentTable {
 /// Makes fragments of the polygons of pixels, with their filter weights.
 ///
 /// A pixel's polygons are cut by a grid of `shading` × `shading` cells.
-class FragmentList {
+class AreaFragmentList {
  public:
-  FragmentList(const PolynomialFilter& filter, int shading);
+  AreaFragmentList(const PolynomialFilter& filter, int shading);
 
   void clear() { table_.clear(); }
   void begin_pixel(int x, int y) { table_.begin_pixel(x, y); }
@@ -80,8 +80,8 @@ class FragmentList {
   /// A pixel that one opaque triangle covers.
   void add_whole(std::int32_t id, int x, int y);
 
-  const FragmentTable& table() const { return table_; }
-  std::span<const Fragment> fragments() const { return table_.fragments(); }
+  const AreaFragmentTable& table() const { return table_; }
+  std::span<const AreaFragment> fragments() const { return table_.fragments(); }
   /// Of fragment number i: for each pixel around, rows from the top.
   std::span<const double> weights_of(std::size_t i) const { return table_.weights_of(i); }
 
@@ -90,7 +90,7 @@ class FragmentList {
 
   const PolynomialFilter& filter_;
   const int shading_;
-  FragmentTable table_;
+  AreaFragmentTable table_;
   std::vector<AreaMoments> whole_;  ///< of the grid's parts of a whole pixel
   std::vector<double> whole_weights_;
 };

@@ -34,7 +34,7 @@ void MaskedPolygons::abandon_pixel() {
 /// Gives each masked triangle of the pixel a place; false if there are too many.
 bool MaskedPolygons::knows_masked(std::span<const Layer> layers) {
   for (const Layer& layer : layers) {
-    if (layer.surface != Surface::Masked || std::ranges::find(masked_, layer.id) != masked_.end()) continue;
+    if (layer.alpha_mode != AlphaMode::Mask || std::ranges::find(masked_, layer.id) != masked_.end()) continue;
     if (masked_.size() == most_triangles) return false;
     masked_.push_back(layer.id);
     known_answer_.resize(masked_.size() * static_cast<std::size_t>(grid_ * grid_), 0);
@@ -56,7 +56,7 @@ void MaskedPolygons::store(const ConvexPolygon& polygon, std::uint32_t part, std
                      static_cast<std::uint32_t>(layers.size()), static_cast<std::uint32_t>(answers_.size())});
   layers_.insert(layers_.end(), layers.begin(), layers.end());
   for (const Layer& layer : layers)
-    if (layer.surface == Surface::Masked) answers_.push_back(answer_of(layer.id, part));
+    if (layer.alpha_mode == AlphaMode::Mask) answers_.push_back(answer_of(layer.id, part));
 }
 
 std::uint32_t MaskedPolygons::answer_of(std::int32_t id, std::uint32_t part) {
@@ -66,7 +66,7 @@ std::uint32_t MaskedPolygons::answer_of(std::int32_t id, std::uint32_t part) {
   return known - 1;
 }
 
-void MaskedPolygons::resolve(FragmentList& out) {
+void MaskedPolygons::resolve(AreaFragmentList& out) {
   edges_.solve();
   for (std::size_t i = 0; i < stored_.size(); ++i) {
     const Stored& s = stored_[i];
@@ -78,7 +78,7 @@ void MaskedPolygons::resolve(FragmentList& out) {
 
 /// What is seen of a piece behind seen_, from a layer on; `answer` is that of the next masked layer.
 void MaskedPolygons::walk(const Stored& stored, const ConvexPolygon& polygon, std::uint32_t layer, std::uint32_t answer,
-                          FragmentList& out) {
+                          AreaFragmentList& out) {
   if (polygon.count > many_corners) {
     ConvexPolygon first, second;
     halve(polygon, first, second);
@@ -88,7 +88,7 @@ void MaskedPolygons::walk(const Stored& stored, const ConvexPolygon& polygon, st
   const std::size_t in_front = seen_.size();
   for (; layer < stored.layers; ++layer) {
     const Layer& here = layers_[stored.first_layer + layer];
-    if (here.surface == Surface::Masked) break;
+    if (here.alpha_mode == AlphaMode::Mask) break;
     seen_.push_back(here);
   }
   if (layer == stored.layers) {

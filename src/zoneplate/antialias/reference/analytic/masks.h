@@ -15,7 +15,7 @@ class MaskedPolygons {
  public:
   static constexpr std::size_t most_triangles = 8;  ///< masked, in a pixel
 
-  MaskedPolygons(const ProjectedDraws& projected, const PointShader& shader, Isa isa, const Target& target, int grid,
+  MaskedPolygons(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target, int grid,
                  Footprints footprints)
       : grid_(grid), edges_(projected, shader, isa, target, grid, footprints.alpha_part, footprints.alpha) {}
 
@@ -29,7 +29,7 @@ class MaskedPolygons {
   bool add(const ConvexPolygon& polygon, std::span<const Layer> layers);
 
   /// Asks the alphas and adds what is seen to the list, pixel by pixel.
-  void resolve(FragmentList& out);
+  void resolve(AreaFragmentList& out);
 
   std::uint64_t shaded() const { return edges_.shaded(); }
 
@@ -46,7 +46,7 @@ class MaskedPolygons {
   void store(const ConvexPolygon& polygon, std::uint32_t part, std::span<const Layer> layers);
   std::uint32_t answer_of(std::int32_t id, std::uint32_t part);
   void walk(const Stored& stored, const ConvexPolygon& polygon, std::uint32_t layer, std::uint32_t answer,
-            FragmentList& out);
+            AreaFragmentList& out);
 
   const int grid_;
   AlphaEdges edges_;

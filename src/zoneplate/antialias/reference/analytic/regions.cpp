@@ -67,7 +67,7 @@ void PixelRegions::gather(const ConvexPolygon& square, std::size_t level) {
       greatest = i == 0 ? z : std::max(greatest, z);
     }
     const bool is_cover = covers(t, square);
-    if (is_cover && t.surface == Surface::Opaque) hidden_below = std::max(hidden_below, least);
+    if (is_cover && t.alpha_mode == AlphaMode::Opaque) hidden_below = std::max(hidden_below, least);
     found.push_back({m.number, is_cover, least, greatest});
   }
   std::erase_if(found, [&](const Member& m) { return m.greatest_depth < hidden_below; });

@@ -135,7 +135,7 @@ void TileTriangles::make(std::size_t tile, int top, int bottom, std::vector<Scre
       const int centre = rules_.viewport.height * 128;
       if ((std::max({p.y, q.y, r.y}) + centre) >> 8 < top || (std::min({p.y, q.y, r.y}) + centre) >> 8 >= bottom)
         return;
-      out.push_back({make_triangle(p, q, r, id, rules_), projected_.draws[draw].surface, is_piece});
+      out.push_back({make_triangle(p, q, r, id, rules_), projected_.draws[draw].alpha_mode, is_piece});
     });
   }
 }

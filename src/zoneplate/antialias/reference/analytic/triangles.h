@@ -15,7 +15,7 @@ namespace zoneplate::antialias {
 /// A triangle on the screen: the rasterizer's own snapped vertices and depth plane, whether it holds a sample or not.
 struct ScreenTriangle {
   Triangle shape;  ///< every triangle owns its edges: E is the exact doubled area
-  Surface surface = Surface::Opaque;
+  AlphaMode alpha_mode = AlphaMode::Opaque;
   bool is_piece = false;  ///< of a clipped triangle
 };
 

@@ -14,18 +14,18 @@ namespace {
 class Converged : public Resolver {
  public:
   explicit Converged(ConvergedOptions options) : options_(std::move(options)) {}
-  Request ask(int) override {
+  Request request(int) override {
     Request request{.samples = standard_pattern(8)};
-    request.draw = [options = options_](const Drawing& drawing) { draw_converged(drawing, options); };
+    request.draw = [options = options_](const CustomDraw& drawing) { draw_converged(drawing, options); };
     request.estimates_error = true;
-    request.works_on_shown = options_.order == FilterOrder::Display;
+    request.is_display_referred = options_.order == FilterOrder::Display;
     return request;
   }
   LinearImage resolve(Frame& frame) override {
     if (options_.order == FilterOrder::Display) light_ = frame.color;
     return std::move(frame.color);
   }
-  DisplayImage finish(DisplayImage image, const Frame& frame) override {
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     return options_.order == FilterOrder::Scene ? image : display_shown_light(light_, frame.display);
   }
 

@@ -63,7 +63,7 @@ AxisFilter axis_filter(const std::string& name) {
 
 class Strips {
  public:
-  Strips(const Drawing& drawing, const ConvergedOptions& options)
+  Strips(const CustomDraw& drawing, const ConvergedOptions& options)
       : drawing_(drawing), pattern_(scrambled_pattern(options.samples)), filter_(axis_filter(options.filter)) {
     std::vector<std::uint8_t> x, y;
     for (const SamplePosition p : pattern_) x.push_back(p.x), y.push_back(p.y);
@@ -189,11 +189,11 @@ class Strips {
     return static_cast<float>(std::sqrt(greatest / (groups * (groups - 1))));
   }
 
-  const Drawing& drawing_;
+  const CustomDraw& drawing_;
   const SamplePattern pattern_;
   const AxisFilter filter_;
   std::optional<AxisWeights> across_, down_;
-  std::optional<ShownLight> shown_;
+  std::optional<DisplayLight> shown_;
   RasterMemory memory_;
 
   int top_ = 0, height_ = 0;  ///< of the strip, without what is around
@@ -207,6 +207,6 @@ class Strips {
 
 }  // namespace
 
-void draw_converged(const Drawing& drawing, const ConvergedOptions& options) { Strips(drawing, options).draw(); }
+void draw_converged(const CustomDraw& drawing, const ConvergedOptions& options) { Strips(drawing, options).draw(); }
 
 }  // namespace zoneplate::antialias

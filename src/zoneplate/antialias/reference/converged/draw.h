@@ -3,7 +3,7 @@
 #include <string>
 
 #include "zoneplate/antialias/post/display_light.h"
-#include "zoneplate/render/drawing.h"
+#include "zoneplate/render/custom_draw.h"
 
 namespace zoneplate::antialias {
 
@@ -23,6 +23,6 @@ struct ConvergedOptions {
 /// are:
 ///           the share of an upright or level edge is known to 1/512 at best, whatever the number of samples.
 /// Cost      one shaded point a sample; memory does not grow with the samples.
-void draw_converged(const Drawing& drawing, const ConvergedOptions& options);
+void draw_converged(const CustomDraw& drawing, const ConvergedOptions& options);
 
 }  // namespace zoneplate::antialias

@@ -11,9 +11,9 @@ namespace zoneplate {
 ///
 /// It fills `target.color`, and of the other planes only `target.coverage` and `error`, each where it is not null. The
 /// target's samples are those of the data passes and say nothing here.
-struct Drawing {
+struct CustomDraw {
   std::span<const Draw> draws;
-  const PointShader& shader;
+  const FragmentShader& shader;
   const RasterRules& rules;
   const Target& target;
   const RenderOptions& options;

@@ -1,4 +1,4 @@
-#include "zoneplate/render/surfaces.h"
+#include "zoneplate/render/draw_list.h"
 
 #include <algorithm>
 #include <iterator>
@@ -47,12 +47,6 @@ void make_quads(const Scene& scene, const RenderOptions& options, SceneDraws& ou
       out.quads[m] = quads_of(scene.meshes[m], options, out.point_ends[m]);
 }
 
-Surface surface_of(const Material& material) {
-  return material.alpha_mode == AlphaMode::Blend  ? Surface::Blended
-         : material.alpha_mode == AlphaMode::Mask ? Surface::Masked
-                                                  : Surface::Opaque;
-}
-
 }  // namespace
 
 SceneDraws make_draws(const Scene& scene, const float4x4& clip_from_world, const RenderOptions& options) {
@@ -65,7 +59,7 @@ SceneDraws make_draws(const Scene& scene, const float4x4& clip_from_world, const
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
     Draw draw;
-    draw.surface = surface_of(material);
+    draw.alpha_mode = material.alpha_mode;
     draw.material = mesh.material;
     draw.instance = static_cast<std::uint32_t>(i);
     draw.clip_from_object = clip_from_world * instance.world_from_object;
