@@ -67,7 +67,7 @@ has_new_packages() {
   local versions=$root/build/$1/.zoneplate-packages
   [ "$dpkg_status" -nt "$versions" ] || return 1
   package_versions | cmp -s - "$versions" || return 0
-  touch "$versions"
+  touch "$versions" 2>/dev/null # a build that cannot be written to is compared again
   return 1
 }
 

@@ -208,8 +208,8 @@ Syntax make_syntax(MetricsArgs& args) {
        "Options", true, [&](auto& text) { args.map_path = text; }},
       {"--json", "", "As one line of JSON, with every curve measured", "Options", true,
        [&](auto&) { args.wants_json = true; }},
-      {"--threads,-t", "N", "Threads at most; 0 as many as there are cores", "Options", false,
-       [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
+       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 

@@ -31,8 +31,8 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
   return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
           {"--json", "", "The numbers as one line of JSON", group, true, [&](auto&) { args.wants_json = true; }},
-          {"--threads,-t", "N", "Threads at most; 0 as many as there are cores", group, false,
-           [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+          {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group,
+           false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
 }
 
 Option codes_option(SignalArgs& args) {
