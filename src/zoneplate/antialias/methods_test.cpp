@@ -19,7 +19,7 @@ std::string refusal(std::string_view text) {
 }
 
 TEST(Method, TextsMakeRequests) {
-  const auto request = [](std::string_view text) { return make_resolver(antialias::methods(), text)->request(0); };
+  const auto request = [](std::string_view text) { return make_resolver(antialias::methods(), text)->request({}); };
   EXPECT_EQ(request("none").samples.size(), 1u);
   EXPECT_EQ(request("msaa").samples, standard_pattern(4));
   EXPECT_EQ(request("msaa:n=16").samples, standard_pattern(16));
@@ -31,7 +31,7 @@ TEST(Method, TextsMakeRequests) {
 }
 
 TEST(Method, ReferencesDrawForThemselves) {
-  const auto request = [](std::string_view text) { return make_resolver(antialias::methods(), text)->request(0); };
+  const auto request = [](std::string_view text) { return make_resolver(antialias::methods(), text)->request({}); };
   for (const char* text : {"analytic", "analytic:filter=mitchell,shading=4,order=display", "converged",
                            "converged:samples=64,filter=gaussian,order=display"}) {
     EXPECT_TRUE(request(text).draw) << text;

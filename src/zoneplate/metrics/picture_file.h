@@ -17,8 +17,9 @@ Picture load_picture(const std::string& path);
 ///
 /// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr and .pfm files by name, numbers in names as numbers (9 before
 /// 10), nothing of its folders. A name with `####` or `%04d` in its last part: the files that have a number there, in
-/// the numbers' order. Anything else: that file. Errors    ErrorKind::Input where a directory or a pattern names no
-/// picture.
+/// the numbers' order. Anything else: that file.
+///
+/// Errors    ErrorKind::Input where a directory or a pattern names no picture.
 std::vector<std::string> list_pictures(const std::string& operand);
 
 /// True where the names differ by numbers alone: frames of one sequence, not a folder of several pictures.

@@ -53,7 +53,7 @@ Step step_of(float offset) {
 
 class Gbaa : public Resolver {
  public:
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     color_ = {};
     Request request;
     request.halo = 1;

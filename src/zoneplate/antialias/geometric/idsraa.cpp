@@ -78,7 +78,7 @@ class IdSraa : public Resolver {
     pattern_ = {SamplePosition{}};
     for (const SamplePosition p : standard_pattern(samples)) pattern_.push_back(p);
   }
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     color_ = {};
     Request request;
     request.halo = 1;

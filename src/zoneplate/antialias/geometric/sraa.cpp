@@ -134,7 +134,7 @@ class Sraa : public Resolver {
  public:
   Sraa(int samples, Bilateral bilateral) : pattern_(standard_pattern(samples)), bilateral_(bilateral) {}
 
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     color_ = {};
     Request request;
     request.halo = 1;

@@ -22,7 +22,7 @@ class Ssaa : public Resolver {
   Ssaa(SamplePattern pattern, Gathering gathering)
       : pattern_(std::move(pattern)), gathering_(std::move(gathering)), gather_(gathering_) {}
 
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     if (gathering_.is_plain())
       return {.samples = pattern_,
               .rate = Rate::Sample,

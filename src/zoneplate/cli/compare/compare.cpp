@@ -11,6 +11,7 @@
 #include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/render/args.h"
+#include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
@@ -177,18 +178,19 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   View view = args.render.view;
   view.up = args.render.up.value_or(scene.up);
   if (is_builtin_scene(name) && !scene.cameras.empty() && !view.index && !view.position) view.index = 0;
-  RenderOptions render = args.render.options;
-  const Camera camera =
-      choose_camera(scene, view, static_cast<float>(render.width) / static_cast<float>(render.height));
-  render.environment = apply_look(scene, camera, args.render.look);
-  DisplayOptions display = args.render.display;
-  display.background = args.render.background.value_or(float4{0.2f, 0.2f, 0.2f, 1});
-  SceneTrials out = run_trials({scene, camera, render, display}, options, tell);
+  RenderSettings settings{.options = args.render.options};
+  settings.options.display = args.render.display;
+  settings.options.display.background = args.render.background.value_or(default_background);
+  const Camera camera = choose_camera(
+      scene, view, static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height));
+  set_look(args.render, scene);
+  const PreparedScene prepared(std::move(scene), args.render.raw_colors);
+  SceneTrials out = run_trials({prepared, camera, settings}, options, tell);
   out.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))
     out.failure = listed->failure, out.complaint = listed->complaint;
   if (args.render.verbosity != Verbosity::Quiet)
-    for (const std::string& warning : scene.warnings) say_warning(warning);
+    for (const std::string& warning : prepared.scene().warnings) say_warning(warning);
   return out;
 }
 

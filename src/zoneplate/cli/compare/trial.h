@@ -7,7 +7,7 @@
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
 
@@ -23,7 +23,7 @@ struct Trial {
   std::string method;
   Rgba8Image picture;
   std::uint64_t pixels = 0;             ///< of the picture
-  std::vector<double> frame_ms;         ///< of each turn, from the scene in memory to the codes
+  std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the codes
   std::vector<double> processor_ms;     ///< the same on all processors together, which other programs disturb less
   RenderCounts counts;                  ///< of the turn of least time
   std::optional<std::uint64_t> memory;  ///< bytes that the first turn needed more than was there before it
@@ -66,10 +66,9 @@ struct TrialOptions {
 
 /// A scene that is ready to be rendered.
 struct TrialSetup {
-  const Scene& scene;
-  const Camera& camera;
-  RenderOptions options;
-  DisplayOptions display;
+  PreparedScene scene;
+  Camera camera;
+  RenderSettings settings;
 };
 
 /// Renders a scene by every method and by the reference, and judges them. `tell` is called with each method's text

@@ -186,7 +186,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--color-management", "MODE",
        "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
        [&](auto& text) {
-         a.display.raw = a.options.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
+         a.display.raw = a.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
        }},
   };
 }
@@ -221,12 +221,12 @@ std::vector<Option> scene_options(RenderArgs& a) {
        [&](auto& text) {
          constexpr ShadingModel models[] = {ShadingModel::BlinnPhong, ShadingModel::Phong,
                                             ShadingModel::MetallicRoughness, ShadingModel::Unlit};
-         a.look.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
+         a.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
        }},
       {"--light-intensity", "FACTOR", "Multiplies every light; default 1", group, false,
-       [&](auto& text) { a.look.light_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
+       [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--environment", "COLOR", "Light of one colour from all sides, in place of the default lights", group, false,
-       [&](auto& text) { a.look.environment = linear_color(text); }},
+       [&](auto& text) { a.lighting.environment = linear_color(text); }},
       {"--no-cull", "", "Draw the back faces of single-sided materials too", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
       {"--point-size", "PX", "Side of the squares that points are drawn as; default 1", group, false,

@@ -348,7 +348,7 @@ constexpr Param params[] = {
 class Cmaa2 : public Resolver {
  public:
   explicit Cmaa2(const Cmaa2Options& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request;
     request.halo = reach;
     request.is_display_referred = true;

@@ -66,7 +66,7 @@ constexpr Param params[] = {
 class Ddaa : public Resolver {
  public:
   explicit Ddaa(const DdaaOptions& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request;
     request.halo = reach;
     request.is_display_referred = true;

@@ -194,7 +194,7 @@ namespace {
 
 class Dlaa : public Resolver {
  public:
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request;
     request.halo = reach;
     request.is_display_referred = true;

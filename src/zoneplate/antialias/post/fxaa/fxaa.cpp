@@ -268,7 +268,7 @@ FxaaOptions options_of(const Settings& s) {
 class Fxaa : public Resolver {
  public:
   explicit Fxaa(const FxaaOptions& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request;
     request.halo = fxaa_reach(options_);
     request.is_display_referred = true;

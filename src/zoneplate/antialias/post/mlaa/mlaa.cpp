@@ -172,7 +172,7 @@ constexpr Param params[] = {
 class Mlaa : public Resolver {
  public:
   explicit Mlaa(const MlaaOptions& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request;
     request.halo = reach_of(options_);
     request.is_display_referred = true;

@@ -117,7 +117,7 @@ Plane<float> changed(const Plane<T>& from, Change change) {
 class Smaa : public Resolver {
  public:
   Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request;
     request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
     request.planes.object_id = predication_ == Predication::Objects;
@@ -162,7 +162,7 @@ Display mean_light(const Display& a, const Display& b) {
 class SmaaS2x : public Resolver {
  public:
   explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request{.samples = standard_pattern(2), .rate = Rate::Surface, .weights = {}, .planes = {}};
     request.planes.samples = true;
     request.halo = smaa_reach(options_);

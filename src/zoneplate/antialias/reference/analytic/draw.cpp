@@ -273,8 +273,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
 
   const Stopwatch tiles;
   Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
-  if (options.order == FilterOrder::Display)
-    whole.shown.emplace(drawing.options.display ? *drawing.options.display : DisplayOptions{});
+  if (options.order == FilterOrder::Display) whole.shown.emplace(drawing.options.display);
   std::vector<std::unique_ptr<TileIntegrator>> integrators(static_cast<std::size_t>(thread_limit()));
   for (int row = 0; row < triangles.rows();) {
     const auto columns = static_cast<std::size_t>(triangles.columns());
