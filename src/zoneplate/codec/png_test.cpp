@@ -9,7 +9,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/shared_files_for_test.h"
-#include "zoneplate/codec/png_chunk.h"
+#include "zoneplate/codec/png/png_chunk.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/os/file.h"
 
