@@ -25,14 +25,22 @@ double parse_number(std::string_view metric, const Param& param, std::string_vie
   char* end = nullptr;
   const double value = std::strtod(digits.c_str(), &end);
   const bool is_number = !digits.empty() && end == digits.c_str() + digits.size();
-  if (!is_number || !(value >= param.low && value <= param.high)) {
-    throw Error(ErrorKind::Usage, fmt::format("metric {}: {}={}: wants a number from {} to {}", metric, param.name,
-                                              text, param.low, param.high));
+  const bool is_allowed = param.choices.empty() ? value >= param.low && value <= param.high
+                                                : std::ranges::find(param.choices, value) != param.choices.end();
+  if (!is_number || !is_allowed) {
+    throw Error(ErrorKind::Usage, fmt::format("metric {}: {}={}: wants {}{}", metric, param.name, text,
+                                              param.choices.empty() ? "a number from " : "", values_of(param)));
   }
   return value;
 }
 
 }  // namespace
+
+std::string values_of(const Param& param) {
+  if (param.choices.empty()) return fmt::format("{} to {}", param.low, param.high);
+  const auto before_last = param.choices.first(param.choices.size() - 1);
+  return fmt::format("{} or {}", fmt::join(before_last, ", "), param.choices.back());
+}
 
 Settings::Settings(std::string_view metric, std::span<const Param> params, std::string_view text) : params_(params) {
   for (const Param& param : params) values_.push_back(param.value);

@@ -20,11 +20,15 @@ enum class Sizes {
   ReferenceMultiple  ///< the reference is n × n times as large, n = 1, 2, 3, ...
 };
 
-/// One parameter of a metric: a number in [low, high].
+/// One parameter of a metric: a number in [low, high], or one of `choices` where there are any.
 struct Param {
   std::string_view name, meaning;
   double value = 0, low = 0, high = 0;
+  std::span<const double> choices = {};
 };
+
+/// The values of a parameter, for help and errors: "1 to 1000", "601 or 709".
+std::string values_of(const Param& param);
 
 /// The values that a user gave to a metric's parameters, the others at their defaults.
 class Settings {

@@ -58,7 +58,9 @@ struct RenderOptions {
 /// Where time went and how much was done.
 struct RenderCounts {
   double prepare_ms = 0, geometry_ms = 0, tiles_ms = 0;
-  double display_ms = 0;               ///< from the samples to the display-referred picture, outside the tiles
+  double resolve_ms = 0;               ///< the method's resolve, where the tiles have not done it
+  double display_ms = 0;               ///< tone mapping, encoding and quantization outside the tiles
+  double filter_ms = 0;                ///< the method's post-process filter
   StageTimes stages;                   ///< of geometry and tiles
   std::uint64_t vertices = 0;          ///< of all draws
   std::uint64_t triangles = 0;         ///< given

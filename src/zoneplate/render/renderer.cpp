@@ -122,11 +122,16 @@ void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, R
     out.linear = std::move(picture);
     return;
   }
-  const DisplayImage display = method_->post_process(make_display(picture, frame.display), frame);
+  Stopwatch watch;
+  DisplayImage display = make_display(picture, frame.display);
+  out.counts.display_ms += watch.lap_ms();
+  display = method_->post_process(std::move(display), frame);
+  out.counts.filter_ms += watch.lap_ms();
   if (form == ImageForm::Display16)
     out.display16 = quantize16(display);
   else
     out.display = form == ImageForm::Display8Dithered ? quantize8_dithered(display) : quantize8(display);
+  out.counts.display_ms += watch.ms();
 }
 
 /// Keeps what the next frame may look back at.
@@ -151,17 +156,19 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   RenderedImage out;
   Rounds rounds = render_rounds(camera, request, options, out.counts);
   Frame& frame = rounds.frame;
-  const Stopwatch watch;
-  if (request.is_presented)
+  if (request.is_presented) {
     out.display = std::move(frame.shown);
-  else
-    finish(method_->resolve(frame), frame, settings.form, out);
+  } else {
+    const Stopwatch watch;
+    LinearImage linear = method_->resolve(frame);
+    out.counts.resolve_ms = watch.ms();
+    finish(std::move(linear), frame, settings.form, out);
+  }
   out.data = rounds.take_data();
   const bool are_planes_wanted = settings.planes.any();
   end_frame(camera, request, are_planes_wanted, out.data);
   if (!are_planes_wanted) out.data = {};
   if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
-  out.counts.display_ms = watch.ms();
   return out;
 }
 
@@ -178,7 +185,6 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   LinearImage sum;
   Rounds rounds;
   Camera camera;
-  double display_ms = 0;
   for (int i = 0; i < count; ++i) {
     SceneView view = moment(i);
     scene_ = std::move(view.scene), camera = std::move(view.camera);
@@ -192,16 +198,14 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
       std::transform(values.begin(), values.end(), picture.values().begin(), values.begin(),
                      [](const Linear& a, const Linear& b) { return a + b; });
     }
-    display_ms += watch.ms();
+    out.counts.resolve_ms += watch.ms();
   }
-  const Stopwatch watch;
   const float share = 1 / static_cast<float>(count);
   for (Linear& c : sum.values()) c = c * share;
   finish(std::move(sum), rounds.frame, settings.form, out);
   Frame data = rounds.take_data();
   end_frame(camera, request, false, data);
   if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
-  out.counts.display_ms = display_ms + watch.ms();
   return out;
 }
 

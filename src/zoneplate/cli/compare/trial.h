@@ -25,7 +25,7 @@ struct Trial {
   std::uint64_t pixels = 0;             ///< of the picture
   std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the codes
   std::vector<double> processor_ms;     ///< the same on all processors together, which other programs disturb less
-  RenderCounts counts;                  ///< of the first turn
+  RenderCounts counts;                  ///< of the turn of least time
   std::optional<std::uint64_t> memory;  ///< bytes that the first turn needed more than was there before it
   std::vector<metrics::Result> results;
   Plane<float> error_map;  ///< FLIP
@@ -48,7 +48,9 @@ struct SceneTrials {
   std::string reference;           ///< a method's text, or a file
   Rgba8Image reference_picture;
   std::optional<double> reference_ms;  ///< nothing of a file
+  std::optional<double> reference_processor_ms;
   std::uint64_t reference_shaded = 0;
+  int turns = 0;       ///< of each method, where they take no longer than the budget for them
   Place common_worst;  ///< where the methods are worst on average
   std::vector<Trial> trials;
 };

@@ -257,7 +257,7 @@ std::vector<Option> teaching_options(RenderArgs& a) {
 std::vector<Option> run_options(RenderArgs& a) {
   const std::string group = "Running";
   return {
-      {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
+      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
        "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best there is", group, false,

@@ -53,7 +53,7 @@ struct RenderArgs {
   std::vector<const Aov*> aovs;
   LoadOptions load;
   std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
-  int threads = 0;           ///< 0: as many as there are cores
+  int threads = 0;           ///< 0: usable_processors(), base/processors.h
   double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
   bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
   bool wants_json = false;

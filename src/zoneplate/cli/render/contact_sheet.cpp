@@ -130,8 +130,8 @@ Syntax make_syntax(SheetArgs& args) {
                      false, [&](auto&) { args.render.is_sandboxed = true; }},
                     {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust",
                      "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
-                    {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Options", false,
-                     [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
+                    {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
+                     "Options", false, [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 

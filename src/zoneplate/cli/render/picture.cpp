@@ -167,7 +167,8 @@ Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene
   summary.times.insert(summary.times.end(), {{"prepare", image.counts.prepare_ms},
                                              {"geometry", image.counts.geometry_ms},
                                              {"tiles", image.counts.tiles_ms},
-                                             {"display", image.counts.display_ms + watch.ms()}});
+                                             {"display", image.counts.resolve_ms + image.counts.display_ms +
+                                                             image.counts.filter_ms + watch.ms()}});
   return out;
 }
 
