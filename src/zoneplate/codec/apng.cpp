@@ -8,7 +8,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png.h"
-#include "zoneplate/codec/png_chunk.h"
+#include "zoneplate/codec/png/png_chunk.h"
 
 namespace zoneplate {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/codec/deflate.h"
-#include "zoneplate/codec/png_rows.h"
+#include "zoneplate/codec/png/deflate.h"
+#include "zoneplate/codec/png/png_rows.h"
 #include "zoneplate/image/half.h"
 
 namespace zoneplate {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/codec/deflate.h"
-#include "zoneplate/codec/png_chunk.h"
-#include "zoneplate/codec/png_rows.h"
+#include "zoneplate/codec/png/deflate.h"
+#include "zoneplate/codec/png/png_chunk.h"
+#include "zoneplate/codec/png/png_rows.h"
 
 namespace zoneplate {
 namespace {

@@ -27,7 +27,8 @@ class ShaderPoints : public FragmentShader {
  public:
   using Varyings = typename S::Varyings;
   static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);
-  static_assert(std::is_trivially_copyable_v<Varyings> && sizeof(Varyings) % sizeof(float) == 0,
+  static_assert(std::is_trivially_copyable_v<Varyings> && sizeof(Varyings) % sizeof(float) == 0 &&
+                    alignof(Varyings) == alignof(float),
                 "varyings are a struct of floats");
 
   explicit ShaderPoints(const S& shader) : shader_(shader) {}

@@ -1,4 +1,4 @@
-#include "zoneplate/codec/deflate.h"
+#include "zoneplate/codec/png/deflate.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "zoneplate/codec/png_rows.h"
+#include "zoneplate/codec/png/png_rows.h"
 
 #include <hwy/highway.h>
 

@@ -1,0 +1,47 @@
+#include "zoneplate/codec/save.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/jpeg_encode.h"
+#include "zoneplate/codec/pfm.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/codec/webp_still.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate {
+namespace {
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+}  // namespace
+
+void save_image(const std::string& path, const Rgba8Image& image) {
+  const std::string extension = extension_of(path);
+  const bool has_alpha = std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; });
+  if (extension == ".png") return save_bytes(path, encode_png(image, {.has_alpha = has_alpha}));
+  if (extension == ".jpg" || extension == ".jpeg") return save_bytes(path, encode_jpeg(image));
+  if (extension == ".webp") return save_bytes(path, encode_webp(image, has_alpha));
+  throw Error(ErrorKind::Usage, path + ": display-referred images are saved as .png, .jpg, .jpeg or .webp");
+}
+
+void save_image(const std::string& path, const LinearImage& image) {
+  const std::string extension = extension_of(path);
+  if (extension == ".pfm") return save_bytes(path, encode_pfm(image));
+  if (extension != ".exr") throw Error(ErrorKind::Usage, path + ": scene-linear images are saved as .exr or .pfm");
+  const Linear* const first = image.values().data();
+  save_bytes(path, encode_exr(image.width(), image.height(),
+                              {{"R", ExrType::Half, &first->r, nullptr, 4},
+                               {"G", ExrType::Half, &first->g, nullptr, 4},
+                               {"B", ExrType::Half, &first->b, nullptr, 4},
+                               {"A", ExrType::Half, &first->a, nullptr, 4}}));
+}
+
+}  // namespace zoneplate

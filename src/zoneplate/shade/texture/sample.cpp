@@ -1,0 +1,33 @@
+#include "zoneplate/shade/texture/sample.h"
+
+#include <algorithm>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/shade/texture/filtering.h"
+
+namespace zoneplate {
+
+float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 dx, float2 dy) {
+  // Kernels process groups of eight fragments and may read up to the next multiple of 16.
+  constexpr int count = 8, padded = 16;
+  struct Array {
+    alignas(64) float value[padded];
+    explicit Array(float v) { std::fill_n(value, padded, v); }
+  };
+  const Array u(uv.x), v(uv.y), dudx(dx.x), dvdx(dx.y), dudy(dy.x), dvdy(dy.y);
+  const Footprint footprint{u.value, v.value, dudx.value, dvdx.value, dudy.value, dvdy.value};
+  Array red(0), green(0), blue(0), alpha(0);
+  float* const out[4] = {red.value, green.value, blue.value, alpha.value};
+  const SamplerState state = make_filtering(sampler);
+  const FilteringKernels& kernels = scalar::filtering_kernels;
+  if (state.anisotropy > 1) {
+    kernels.sample_anisotropic(texture.view(), state, footprint, out, count);
+  } else {
+    Taps taps;
+    kernels.find_taps(texture.view(), state, footprint, taps, count);
+    kernels.mix_taps(texture.view(), taps, out, count);
+  }
+  return {red.value[0], green.value[0], blue.value[0], alpha.value[0]};
+}
+
+}  // namespace zoneplate

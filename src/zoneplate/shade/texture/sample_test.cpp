@@ -1,0 +1,37 @@
+#include "zoneplate/shade/texture/sample.h"
+
+#include <gtest/gtest.h>
+
+namespace zoneplate {
+namespace {
+
+// Two texels: black and white in sRGB, of which the mean in linear light is ½.
+Texture black_and_white() {
+  Rgba8Image image(2, 1);
+  image(0, 0) = {0, 0, 0, 255};
+  image(1, 0) = {255, 255, 255, 255};
+  return Texture(image, TexelMeaning::Color);
+}
+
+TEST(TextureSample, ATexelCentreGivesTheTexel) {
+  const Texture texture = black_and_white();
+  EXPECT_EQ(sample(texture, {}, {0.25f, 0.5f}, {}, {}), (float4{0, 0, 0, 1}));
+  EXPECT_EQ(sample(texture, {}, {0.75f, 0.5f}, {}, {}), (float4{1, 1, 1, 1}));
+  EXPECT_NEAR(sample(texture, {}, {0.5f, 0.5f}, {}, {}).x, 0.5f, 1e-4f);
+}
+
+TEST(TextureSample, DerivativesChooseTheMipLevel) {
+  // A footprint of the whole texture is filtered by its last level, the mean.
+  const Texture texture = black_and_white();
+  for (const float u : {0.1f, 0.25f, 0.6f}) EXPECT_NEAR(sample(texture, {}, {u, 0.5f}, {1, 0}, {0, 1}).y, 0.5f, 1e-3f);
+}
+
+TEST(TextureSample, AnisotropicProbesKeepTheShortAxis) {
+  // The footprint is long in v, along which the texture is constant: u stays sharp.
+  const Texture texture = black_and_white();
+  const Sampler sampler{.anisotropy = 16};
+  EXPECT_GT(sample(texture, sampler, {0.75f, 0.5f}, {0.01f, 0}, {0, 4}).x, 0.9f);
+}
+
+}  // namespace
+}  // namespace zoneplate
