@@ -180,6 +180,7 @@ void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const TonemapKernels TonemapKernels::HWY_NAMESPACE = {.display_row = HWY_NAMESPACE::display_row,
-                                                      .show_groups = HWY_NAMESPACE::show_groups};
+template <>
+const TonemapKernels PerIsa<TonemapKernels>::HWY_NAMESPACE = {.display_row = HWY_NAMESPACE::display_row,
+                                                              .show_groups = HWY_NAMESPACE::show_groups};
 }  // namespace zoneplate

@@ -44,8 +44,9 @@ void quantize16(const float* values, std::uint16_t* codes, std::size_t n) { quan
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const TransferKernels TransferKernels::HWY_NAMESPACE = {.encode = HWY_NAMESPACE::encode,
-                                                        .decode = HWY_NAMESPACE::decode,
-                                                        .quantize8 = HWY_NAMESPACE::quantize8,
-                                                        .quantize16 = HWY_NAMESPACE::quantize16};
+template <>
+const TransferKernels PerIsa<TransferKernels>::HWY_NAMESPACE = {.encode = HWY_NAMESPACE::encode,
+                                                                .decode = HWY_NAMESPACE::decode,
+                                                                .quantize8 = HWY_NAMESPACE::quantize8,
+                                                                .quantize16 = HWY_NAMESPACE::quantize16};
 }  // namespace zoneplate

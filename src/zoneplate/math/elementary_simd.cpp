@@ -51,5 +51,6 @@ void evaluate(Elementary function, const float* a, const float* b, float* out, s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const ElementaryKernels ElementaryKernels::HWY_NAMESPACE = {.evaluate = HWY_NAMESPACE::evaluate};
+template <>
+const ElementaryKernels PerIsa<ElementaryKernels>::HWY_NAMESPACE = {.evaluate = HWY_NAMESPACE::evaluate};
 }  // namespace zoneplate

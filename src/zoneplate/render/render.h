@@ -50,7 +50,7 @@ struct RenderOptions {
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
-  Isa isa = best_isa();
+  Isa isa = current_isa();
   RasterRoom room;  ///< memory for time; no bit of a picture depends on it
   /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
   /// whose request is local.

@@ -44,9 +44,10 @@ void add(const float* sample, const float* centre, const float* color, const Bil
 
 }  // namespace
 
-const SraaKernels sraa_kernels = {.add = add};
-
 }  // namespace scalar
+
+template <>
+const SraaKernels PerIsa<SraaKernels>::scalar = {.add = scalar::add};
 
 namespace antialias {
 namespace {
@@ -80,7 +81,7 @@ class Reconstruction {
       : color_(color),
         geometry_(geometry),
         scales_(bilateral.scales),
-        kernels_(pick(best_isa(), scalar::sraa_kernels)),
+        kernels_(SraaKernels::of()),
         all_around_(offsets_around({}, 1.5)) {
     for (const SamplePosition sample : pattern) around_.push_back(offsets_around(sample, bilateral.radius));
   }
@@ -179,8 +180,6 @@ constexpr Param params[] = {
 constexpr std::string_view variants[] = {"n=8"};
 
 }  // namespace
-
-Method sraa();
 
 Method sraa() {
   return {.name = "sraa",

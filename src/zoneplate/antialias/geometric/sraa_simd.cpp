@@ -56,5 +56,6 @@ void add(const float* sample, const float* centre, const float* color, const Bil
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SraaKernels SraaKernels::HWY_NAMESPACE = {.add = HWY_NAMESPACE::add};
+template <>
+const SraaKernels PerIsa<SraaKernels>::HWY_NAMESPACE = {.add = HWY_NAMESPACE::add};
 }  // namespace zoneplate

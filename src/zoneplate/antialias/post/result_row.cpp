@@ -11,9 +11,10 @@ void copy(const std::uint8_t* from, std::uint8_t* to, std::size_t n) { std::memc
 
 }  // namespace
 
-const RowKernels row_kernels = {.copy = copy, .stream = copy};
-
 }  // namespace scalar
+
+template <>
+const RowKernels PerIsa<RowKernels>::scalar = {.copy = scalar::copy, .stream = scalar::copy};
 
 namespace antialias {
 namespace {
@@ -23,8 +24,8 @@ constexpr std::size_t least_streamed = 8 << 20;
 
 }  // namespace
 
-ResultRow::ResultRow(const Rgba8Image& from, Rgba8Image& to, Isa isa)
-    : from_(from), to_(to), kernels_(pick(isa, scalar::row_kernels)), values_(static_cast<std::size_t>(from.width())) {
+ResultRow::ResultRow(const Rgba8Image& from, Rgba8Image& to)
+    : from_(from), to_(to), kernels_(RowKernels::of()), values_(static_cast<std::size_t>(from.width())) {
   assert(to.width() == from.width() && to.height() == from.height());
 }
 

@@ -34,5 +34,6 @@ void stream(const std::uint8_t* from, std::uint8_t* to, std::size_t n) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const RowKernels RowKernels::HWY_NAMESPACE = {.copy = HWY_NAMESPACE::copy, .stream = HWY_NAMESPACE::stream};
+template <>
+const RowKernels PerIsa<RowKernels>::HWY_NAMESPACE = {.copy = HWY_NAMESPACE::copy, .stream = HWY_NAMESPACE::stream};
 }  // namespace zoneplate

@@ -36,7 +36,7 @@ class TileHistory {
         target_(target),
         sampled_(sampled),
         slots_(slots),
-        coverage_(coverage_kernels(isa)),
+        coverage_(CoverageKernels::of(isa)),
         count_(static_cast<int>(target.samples.size())),
         all_((1u << target.samples.size()) - 1),
         depth_lines_(target.samples.size() * tile_pixels / std::size(Line<float>{}.values)),
@@ -153,12 +153,9 @@ Plane<std::uint16_t> known_samples(const Bins& bins, const Target& target, const
                                    Isa isa) {
   Plane<std::uint16_t> known(target.width, target.height,
                              static_cast<std::uint16_t>((1u << target.samples.size()) - 1));
-  std::vector<std::unique_ptr<TileHistory>> histories(static_cast<std::size_t>(thread_limit()));
-  parallel_for(bins.tiles(), [&](std::size_t tile) {
-    std::unique_ptr<TileHistory>& mine = histories[static_cast<std::size_t>(thread_index())];
-    if (!mine) mine = std::make_unique<TileHistory>(bins, target, sampled, slots, isa);
-    mine->find(tile, known);
-  });
+  PerThread<TileHistory> histories;
+  parallel_for(bins.tiles(),
+               [&](std::size_t tile) { histories.local(bins, target, sampled, slots, isa).find(tile, known); });
   return known;
 }
 

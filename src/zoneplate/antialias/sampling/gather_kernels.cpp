@@ -52,7 +52,15 @@ void mean(const float* color, const float* weight, bool is_max3, float* out, std
 
 }  // namespace
 
-const GatherKernels gather_kernels = {
-    .weigh_karis = weigh_karis, .map_max3 = map_max3, .premultiply = premultiply, .spread = spread, .mean = mean};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const GatherKernels PerIsa<GatherKernels>::scalar = {.weigh_karis = scalar::weigh_karis,
+                                                     .map_max3 = scalar::map_max3,
+                                                     .premultiply = scalar::premultiply,
+                                                     .spread = scalar::spread,
+                                                     .mean = scalar::mean};
+
+}  // namespace zoneplate

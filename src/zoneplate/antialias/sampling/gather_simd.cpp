@@ -89,9 +89,10 @@ void mean(const float* color, const float* weight, bool is_max3, float* out, std
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const GatherKernels GatherKernels::HWY_NAMESPACE = {.weigh_karis = HWY_NAMESPACE::weigh_karis,
-                                                    .map_max3 = HWY_NAMESPACE::map_max3,
-                                                    .premultiply = HWY_NAMESPACE::premultiply,
-                                                    .spread = HWY_NAMESPACE::spread,
-                                                    .mean = HWY_NAMESPACE::mean};
+template <>
+const GatherKernels PerIsa<GatherKernels>::HWY_NAMESPACE = {.weigh_karis = HWY_NAMESPACE::weigh_karis,
+                                                            .map_max3 = HWY_NAMESPACE::map_max3,
+                                                            .premultiply = HWY_NAMESPACE::premultiply,
+                                                            .spread = HWY_NAMESPACE::spread,
+                                                            .mean = HWY_NAMESPACE::mean};
 }  // namespace zoneplate

@@ -27,8 +27,6 @@ std::vector<float> taps_of(const Gathering& gathering, std::uint8_t offset) {
   return taps;
 }
 
-const GatherKernels& kernels() { return pick(best_isa(), scalar::gather_kernels); }
-
 }  // namespace
 
 /// Samples of a row as they count and what they count, between zeros as far as a filter reaches beyond the picture.
@@ -46,12 +44,12 @@ class SampleRow {
     float* const color = color_.data() + 4 * before_;
     if (weight == SampleWeight::Display) {
       show_light(samples, display, color);
-      return kernels().premultiply(color, width_);
+      return GatherKernels::of().premultiply(color, width_);
     }
     std::copy_n(&samples.data()->r, 4 * width_, color);
-    if (weight == SampleWeight::Max3) kernels().map_max3(color, width_);
+    if (weight == SampleWeight::Max3) GatherKernels::of().map_max3(color, width_);
     if (weight != SampleWeight::Karis) return;
-    kernels().weigh_karis(display.exposure, color, weight_.data() + before_, width_);
+    GatherKernels::of().weigh_karis(display.exposure, color, weight_.data() + before_, width_);
     std::fill(weight_.begin() + static_cast<std::ptrdiff_t>(before_ + width_), weight_.end(), 0.0f);
   }
 
@@ -117,16 +115,16 @@ void SampleGather::spread(const SampleRow& row, const Taps& taps, int y, int fir
     down[at] = taps.down[static_cast<std::size_t>(y - (first + i) + reach)];
   }
   const auto n = static_cast<std::size_t>(width_);
-  kernels().spread(row.color(), 4, taps.across.data(), wide, down.data(), colors.data(), count, 4 * n);
-  kernels().spread(row.weight(), 1, taps.across.data(), wide, down.data(), weights.data(), count, n);
+  GatherKernels::of().spread(row.color(), 4, taps.across.data(), wide, down.data(), colors.data(), count, 4 * n);
+  GatherKernels::of().spread(row.weight(), 1, taps.across.data(), wide, down.data(), weights.data(), count, n);
 }
 
 LinearImage SampleGather::light() const {
   LinearImage out(width_, height_);
   parallel_ranges(static_cast<std::size_t>(height_), rows_of_a_part, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y)
-      kernels().mean(&sum_[4 * y * stride_], &weight_[y * stride_], gathering_.weight == SampleWeight::Max3,
-                     &out.row(static_cast<int>(y)).data()->r, static_cast<std::size_t>(width_));
+      GatherKernels::of().mean(&sum_[4 * y * stride_], &weight_[y * stride_], gathering_.weight == SampleWeight::Max3,
+                               &out.row(static_cast<int>(y)).data()->r, static_cast<std::size_t>(width_));
   });
   return out;
 }

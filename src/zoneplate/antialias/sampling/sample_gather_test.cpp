@@ -143,7 +143,7 @@ std::vector<float> kernel_results(const GatherKernels& kernels, std::size_t n) {
 TEST(SampleGather, KernelsGiveTheScalarTwinsBits) {
   for (const Isa isa : supported_isas())
     for (const std::size_t n : {1u, 2u, 7u, 8u, 9u, 31u, 64u})
-      EXPECT_EQ(kernel_results(pick(isa, scalar::gather_kernels), n), kernel_results(scalar::gather_kernels, n))
+      EXPECT_EQ(kernel_results(GatherKernels::of(isa), n), kernel_results(GatherKernels::scalar, n))
           << name_of(isa) << ", " << n;
 }
 

@@ -159,9 +159,12 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   const std::vector<std::string> names = short_names(syntax.found_operands);
   std::vector<Panel> panels;
   Rendered sheet;
-  with_threads(args.render.threads, [&] {
-    for (std::size_t i = 0; i < names.size(); ++i) panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
-    sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
+  with_isa(args.render.options.isa, [&] {
+    with_threads(args.render.threads, [&] {
+      for (std::size_t i = 0; i < names.size(); ++i)
+        panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
+      sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
+    });
   });
   save_bytes(args.output, encode_picture(sheet, args.output));
 }

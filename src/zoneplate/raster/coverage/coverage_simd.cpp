@@ -370,10 +370,11 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const CoverageKernels CoverageKernels::HWY_NAMESPACE = {.draw = HWY_NAMESPACE::draw,
-                                                        .collect = HWY_NAMESPACE::collect,
-                                                        .collect_rows = HWY_NAMESPACE::collect_rows,
-                                                        .find_nearest = HWY_NAMESPACE::find_nearest,
-                                                        .collect_blocks = HWY_NAMESPACE::collect_blocks,
-                                                        .find_owners = HWY_NAMESPACE::find_owners};
+template <>
+const CoverageKernels PerIsa<CoverageKernels>::HWY_NAMESPACE = {.draw = HWY_NAMESPACE::draw,
+                                                                .collect = HWY_NAMESPACE::collect,
+                                                                .collect_rows = HWY_NAMESPACE::collect_rows,
+                                                                .find_nearest = HWY_NAMESPACE::find_nearest,
+                                                                .collect_blocks = HWY_NAMESPACE::collect_blocks,
+                                                                .find_owners = HWY_NAMESPACE::find_owners};
 }  // namespace zoneplate

@@ -196,6 +196,7 @@ void divide(const float* sum, float weight, Linear8& out) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FragmentListKernels FragmentListKernels::HWY_NAMESPACE = {
+template <>
+const FragmentListKernels PerIsa<FragmentListKernels>::HWY_NAMESPACE = {
     .list = HWY_NAMESPACE::list, .add = HWY_NAMESPACE::add, .divide = HWY_NAMESPACE::divide};
 }  // namespace zoneplate

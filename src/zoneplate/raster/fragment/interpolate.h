@@ -31,7 +31,7 @@ struct ClippedGroup {
 /// change of b_k per `spacing` pixels, but only if `spacing` is not 0. Weights are clamped: no attribute is
 /// extrapolated. Where a triangle's corners have one w, as all have of an orthographic camera, w is left out: the sum
 /// of the q_k = E_k is then the same at all points, and so is the change of b_k.
-struct InterpolateKernels {
+struct InterpolateKernels : PerIsa<InterpolateKernels> {
   /// Fills b, dbdx, dbdy, has_uniform_derivatives and is_front of all padded() entries from the snapped vertices, and x
   /// and y of groups that share their triangle from those of their first points. Gives the groups in which a triangle
   /// needs clipping, a bit each; for its points the result says nothing.
@@ -45,14 +45,6 @@ struct InterpolateKernels {
   /// dbdy.
   void (*interpolate_clipped_rows)(const BarycentricPlanes& planes, Viewport viewport, float spacing,
                                    FragmentBatch& batch, int first, int last);
-
-  static const InterpolateKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
-      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const InterpolateKernels interpolate_kernels;
-}
-inline const InterpolateKernels& interpolate_kernels(Isa isa) { return pick(isa, scalar::interpolate_kernels); }
 
 }  // namespace zoneplate

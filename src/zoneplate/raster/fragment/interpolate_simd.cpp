@@ -502,7 +502,8 @@ void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const InterpolateKernels InterpolateKernels::HWY_NAMESPACE = {
+template <>
+const InterpolateKernels PerIsa<InterpolateKernels>::HWY_NAMESPACE = {
     .interpolate = HWY_NAMESPACE::interpolate,
     .interpolate_clipped = HWY_NAMESPACE::interpolate_clipped,
     .interpolate_clipped_rows = HWY_NAMESPACE::interpolate_clipped_rows};

@@ -225,7 +225,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
       parts.push_back({d, t, t + std::min(part_size, end - t)});
   }
   const SampleArrays samples(target.samples);
-  const SmallTriangleKernels& kernels = small_triangle_kernels(isa);
+  const SmallTriangleKernels& kernels = SmallTriangleKernels::of(isa);
   parallel_for(parts.size(), [&](std::size_t i) {
     Binner binner(projected, target, rules, bins);
     growing("triangle bins", [&] { binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels); });

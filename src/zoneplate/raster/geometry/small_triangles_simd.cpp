@@ -334,5 +334,6 @@ void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangle
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SmallTriangleKernels SmallTriangleKernels::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
+template <>
+const SmallTriangleKernels PerIsa<SmallTriangleKernels>::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
 }  // namespace zoneplate

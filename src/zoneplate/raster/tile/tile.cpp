@@ -25,9 +25,9 @@ TileRenderer::TileRenderer(const ProjectedDraws& projected, const Bins& bins, co
                            const RasterRules& rules, const Target& target)
     : projected_(projected),
       bins_(bins),
-      coverage_(coverage_kernels(rules.isa)),
-      resolve_(resolve_kernels(rules.isa)),
-      point_lists_(fragment_list_kernels(rules.isa)),
+      coverage_(CoverageKernels::of(rules.isa)),
+      resolve_(ResolveKernels::of(rules.isa)),
+      point_lists_(FragmentListKernels::of(rules.isa)),
       target_(target),
       setup_(rules.setup(target.viewport)),
       room_(rules.room),

@@ -12,8 +12,6 @@
 namespace zoneplate {
 namespace {
 
-const RowSumKernels& kernels_of(Isa isa) { return pick(isa, scalar::row_sum_kernels); }
-
 // The floats of a pixel follow one another, so that a row of pixels is a row of channels × width floats.
 template <class T>
 constexpr std::size_t channels = sizeof(T) / sizeof(float);
@@ -42,9 +40,8 @@ Plane<T> direct(const Plane<T>& plane, const Plane<float>& kernel, const Convolv
     for (int j = kernel.height() - 1; j >= 0; --j)
       for (int i = kernel.width() - 1; i >= 0; --i)
         rows.push_back(floats(std::as_const(wide).row(y + j).subspan(static_cast<std::size_t>(i))));
-    kernels_of(options.isa)
-        .wide(rows.data(), 0, weights.data(), weights.size(), floats(out.row(y)),
-              static_cast<std::size_t>(plane.width()) * channels<T>);
+    RowSumKernels::of().wide(rows.data(), 0, weights.data(), weights.size(), floats(out.row(y)),
+                             static_cast<std::size_t>(plane.width()) * channels<T>);
   });
   return out;
 }

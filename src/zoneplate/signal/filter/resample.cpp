@@ -43,7 +43,7 @@ Plane<T> transposed(const Plane<T>& plane) {
 // Along columns: each output row is a weighted sum of input rows.
 template <class T>
 Plane<T> along_columns(const Plane<T>& plane, const Axis& axis, const Kernel& kernel, const ResampleOptions& options) {
-  const RowSumKernels& kernels = pick(options.isa, scalar::row_sum_kernels);
+  const RowSumKernels& kernels = RowSumKernels::of();
   const std::size_t width = static_cast<std::size_t>(plane.width()) * channels<T>;
   const std::vector<float> zeros(width);
   Plane<T> out(plane.width(), axis.size);

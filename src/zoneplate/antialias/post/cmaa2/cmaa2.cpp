@@ -51,9 +51,10 @@ void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_
 
 }  // namespace
 
-const Cmaa2Kernels cmaa2_kernels = {.edge_row = edge_row, .shape_row = shape_row};
-
 }  // namespace scalar
+
+template <>
+const Cmaa2Kernels PerIsa<Cmaa2Kernels>::scalar = {.edge_row = scalar::edge_row, .shape_row = scalar::shape_row};
 
 namespace antialias {
 namespace {
@@ -115,7 +116,7 @@ struct LumaTables {
 /// Finds the shapes around every pixel, and in bit x of a row of `corners` whether there is one.
 Shapes find_shapes(const Rgba8Image& image, const Cmaa2Options& options, Plane<std::uint64_t>& corners) {
   const int width = image.width(), height = image.height();
-  const Cmaa2Kernels& kernels = pick(options.isa, scalar::cmaa2_kernels);
+  const Cmaa2Kernels& kernels = Cmaa2Kernels::of();
   const LumaTables tables;
   const float contrast = options.is_sharp ? sharp.contrast : usual.contrast;
   const auto n = static_cast<std::size_t>(width);
@@ -368,8 +369,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 }
 
 }  // namespace
-
-Method cmaa2();
 
 Method cmaa2() {
   return {.name = "cmaa2",

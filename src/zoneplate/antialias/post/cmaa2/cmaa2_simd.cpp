@@ -59,6 +59,7 @@ void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const Cmaa2Kernels Cmaa2Kernels::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
-                                                  .shape_row = HWY_NAMESPACE::shape_row};
+template <>
+const Cmaa2Kernels PerIsa<Cmaa2Kernels>::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
+                                                          .shape_row = HWY_NAMESPACE::shape_row};
 }  // namespace zoneplate

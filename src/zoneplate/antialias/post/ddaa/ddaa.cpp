@@ -25,14 +25,14 @@ constexpr int reach = DdaaConstants::search + 2;
 
 Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
-  const DdaaKernels& kernels = pick(options.isa, scalar::ddaa_kernels);
+  const DdaaKernels& kernels = DdaaKernels::of();
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
   // Blocks are large, for the power within reach of both is made by each of two.
   constexpr std::size_t rows = 128;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
     RollingRows<float> power(image.width(), image.height(), reach, static_cast<int>(begin));
-    ResultRow result(image, out, options.isa);
+    ResultRow result(image, out);
     std::vector<std::uint8_t> seen(room);
     std::vector<float> taps(4 * room);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
@@ -87,8 +87,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 }
 
 }  // namespace
-
-Method ddaa();
 
 Method ddaa() {
   return {.name = "ddaa",

@@ -220,8 +220,9 @@ void fetch_row(const std::uint8_t* const* rows, const float* taps, const std::ui
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const DdaaKernels DdaaKernels::HWY_NAMESPACE = {.power_row = HWY_NAMESPACE::power_row,
-                                                .seen_row = HWY_NAMESPACE::seen_row,
-                                                .taps_row = HWY_NAMESPACE::taps_row,
-                                                .fetch_row = HWY_NAMESPACE::fetch_row};
+template <>
+const DdaaKernels PerIsa<DdaaKernels>::HWY_NAMESPACE = {.power_row = HWY_NAMESPACE::power_row,
+                                                        .seen_row = HWY_NAMESPACE::seen_row,
+                                                        .taps_row = HWY_NAMESPACE::taps_row,
+                                                        .fetch_row = HWY_NAMESPACE::fetch_row};
 }  // namespace zoneplate

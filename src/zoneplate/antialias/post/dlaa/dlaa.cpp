@@ -129,10 +129,14 @@ void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out,
 
 }  // namespace
 
-const DlaaKernels dlaa_kernels = {
-    .edge_row = edge_row, .sum_row = sum_row, .slide_row = slide_row, .seen_row = seen_row, .blur_row = blur_row};
-
 }  // namespace scalar
+
+template <>
+const DlaaKernels PerIsa<DlaaKernels>::scalar = {.edge_row = scalar::edge_row,
+                                                 .sum_row = scalar::sum_row,
+                                                 .slide_row = scalar::slide_row,
+                                                 .seen_row = scalar::seen_row,
+                                                 .blur_row = scalar::blur_row};
 
 namespace antialias {
 namespace {
@@ -160,9 +164,9 @@ struct Source {
 
 }  // namespace
 
-Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
+Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
   if (image.empty()) return image;
-  const DlaaKernels& kernels = pick(isa, scalar::dlaa_kernels);
+  const DlaaKernels& kernels = DlaaKernels::of();
   const Source source(image, kernels);
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
@@ -170,7 +174,7 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
     // The sums of the edge codes of eight rows above and below move down with the rows.
     std::vector<std::int16_t> level(room), upright(room);
     std::vector<std::uint8_t> seen(room), nothing(room);
-    ResultRow result(image, out, isa);
+    ResultRow result(image, out);
     constexpr int half_blur = Constants::half_blur;
     const int first = static_cast<int>(begin);
     for (int y = first - half_blur; y < first + half_blur; ++y)
@@ -206,8 +210,6 @@ class Dlaa : public Resolver {
 };
 
 }  // namespace
-
-Method dlaa();
 
 Method dlaa() {
   return {.name = "dlaa",

@@ -213,9 +213,10 @@ void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out,
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const DlaaKernels DlaaKernels::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
-                                                .sum_row = HWY_NAMESPACE::sum_row,
-                                                .slide_row = HWY_NAMESPACE::slide_row,
-                                                .seen_row = HWY_NAMESPACE::seen_row,
-                                                .blur_row = HWY_NAMESPACE::blur_row};
+template <>
+const DlaaKernels PerIsa<DlaaKernels>::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
+                                                        .sum_row = HWY_NAMESPACE::sum_row,
+                                                        .slide_row = HWY_NAMESPACE::slide_row,
+                                                        .seen_row = HWY_NAMESPACE::seen_row,
+                                                        .blur_row = HWY_NAMESPACE::blur_row};
 }  // namespace zoneplate

@@ -134,6 +134,7 @@ void mix_row(const FxaaConsoleRows& rows, float sharpness, const std::uint8_t* s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FxaaConsoleKernels FxaaConsoleKernels::HWY_NAMESPACE = {.seen_row = HWY_NAMESPACE::seen_row,
-                                                              .mix_row = HWY_NAMESPACE::mix_row};
+template <>
+const FxaaConsoleKernels PerIsa<FxaaConsoleKernels>::HWY_NAMESPACE = {.seen_row = HWY_NAMESPACE::seen_row,
+                                                                      .mix_row = HWY_NAMESPACE::mix_row};
 }  // namespace zoneplate

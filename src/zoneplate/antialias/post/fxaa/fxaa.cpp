@@ -88,8 +88,7 @@ class Luma {
  public:
   Luma(const Rgba8Image& image, const FxaaOptions& options, int first)
       : image_(image),
-        row_of_(options.is_green_luma ? pick(options.isa, scalar::fxaa_kernels).green_row
-                                      : pick(options.isa, scalar::fxaa_kernels).luma_row),
+        row_of_(options.is_green_luma ? FxaaKernels::of().green_row : FxaaKernels::of().luma_row),
         rows_(image.width(), image.height(), fxaa_reach(options), first) {}
 
   std::ptrdiff_t stride() const { return rows_.stride(); }
@@ -171,11 +170,11 @@ void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& optio
 
 /// The console path: its pixels have no ends to be found.
 Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image out) {
-  const FxaaConsoleKernels& kernels = pick(options.isa, scalar::fxaa_console_kernels);
+  const FxaaConsoleKernels& kernels = FxaaConsoleKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
   const auto threshold = static_cast<float>(options.threshold), least = static_cast<float>(options.least) * 255;
   for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
-    ResultRow result(image, out, options.isa);
+    ResultRow result(image, out);
     std::vector<std::uint8_t> seen((width + 63) / 64 * 64);
     for (int y = begin; y < end; ++y) {
       luma.make_around(y);
@@ -201,7 +200,7 @@ int fxaa_reach(const FxaaOptions& options) {
 
 Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
-  const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels);
+  const FxaaKernels& kernels = FxaaKernels::of();
   Rgba8Image out = sized_like(image, std::move(memory));
   if (options.preset == FxaaOptions::console) return apply_console(image, options, std::move(out));
 
@@ -211,7 +210,7 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
   const auto width = static_cast<std::size_t>(image.width());
   for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
     RowMemory row(image.width());
-    ResultRow result(image, out, options.isa);
+    ResultRow result(image, out);
     for (int y = begin; y < end; ++y) {
       luma.make_around(y);
       kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, row.bits.data(), width);
@@ -286,8 +285,6 @@ class Fxaa : public Resolver {
 constexpr std::string_view variants[] = {"preset=39", "preset=console"};
 
 }  // namespace
-
-Method fxaa();
 
 Method fxaa() {
   return {.name = "fxaa",

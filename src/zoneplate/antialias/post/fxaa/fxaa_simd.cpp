@@ -369,9 +369,10 @@ void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uin
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FxaaKernels FxaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
-                                                .green_row = HWY_NAMESPACE::green_row,
-                                                .contrast_row = HWY_NAMESPACE::contrast_row,
-                                                .ends_row = HWY_NAMESPACE::ends_row,
-                                                .mix_row = HWY_NAMESPACE::mix_row};
+template <>
+const FxaaKernels PerIsa<FxaaKernels>::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
+                                                        .green_row = HWY_NAMESPACE::green_row,
+                                                        .contrast_row = HWY_NAMESPACE::contrast_row,
+                                                        .ends_row = HWY_NAMESPACE::ends_row,
+                                                        .mix_row = HWY_NAMESPACE::mix_row};
 }  // namespace zoneplate

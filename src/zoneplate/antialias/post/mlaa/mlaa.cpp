@@ -48,8 +48,8 @@ EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int bo
   constexpr float white = 255 * 10000;
   const float threshold = std::round(static_cast<float>(options.threshold) * white);
   const auto width = static_cast<std::size_t>(image.width());
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
-  const MlaaKernels& edge_kernels = pick(options.isa, scalar::mlaa_kernels);
+  const SmaaKernels& kernels = SmaaKernels::of();
+  const MlaaKernels& edge_kernels = MlaaKernels::of();
   EdgePlane edges(image.width(), image.height(), border);
   detect_edges<float>(
       edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },
@@ -140,7 +140,7 @@ Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8
     return mixed_pixel(image, x, y, taken, options.mixes_light);
   };
   if (options.kind == MlaaOptions::Kind::Reshetov) {
-    const WeightPlane weights = mlaa_reshetov_weights(image, options.isa);
+    const WeightPlane weights = mlaa_reshetov_weights(image);
     mix_by_weights(
         image, out, [&](int y, WeightRow& row) { row.assign(weights.at(0, y)); }, mix);
     return out;
@@ -196,8 +196,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 constexpr std::string_view variants[] = {"kind=reshetov"};
 
 }  // namespace
-
-Method mlaa();
 
 Method mlaa() {
   return {.name = "mlaa",

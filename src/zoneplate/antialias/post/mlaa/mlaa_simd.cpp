@@ -68,6 +68,7 @@ void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const MlaaKernels MlaaKernels::HWY_NAMESPACE = {.luma_edges = HWY_NAMESPACE::luma_edges,
-                                                .edges_row = HWY_NAMESPACE::edges_row};
+template <>
+const MlaaKernels PerIsa<MlaaKernels>::HWY_NAMESPACE = {.luma_edges = HWY_NAMESPACE::luma_edges,
+                                                        .edges_row = HWY_NAMESPACE::edges_row};
 }  // namespace zoneplate

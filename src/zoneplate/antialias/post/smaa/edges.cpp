@@ -98,13 +98,14 @@ void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const Predicate
 
 }  // namespace
 
-const SmaaKernels smaa_kernels = {.luma_row = luma_row,
-                                  .luma_edges = luma_edges,
-                                  .color_edges = color_edges,
-                                  .predicated_luma_edges = predicated_luma_edges,
-                                  .predicated_color_edges = predicated_color_edges};
-
 }  // namespace scalar
+
+template <>
+const SmaaKernels PerIsa<SmaaKernels>::scalar = {.luma_row = scalar::luma_row,
+                                                 .luma_edges = scalar::luma_edges,
+                                                 .color_edges = scalar::color_edges,
+                                                 .predicated_luma_edges = scalar::predicated_luma_edges,
+                                                 .predicated_color_edges = scalar::predicated_color_edges};
 
 namespace antialias {
 namespace {
@@ -129,7 +130,7 @@ PredicatedThreshold<T> predicated(const SmaaOptions& options, Rounded rounded) {
 }
 
 void detect_luma_edges(const Rgba8Image& image, const SmaaOptions& options, EdgePlane& edges) {
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const SmaaKernels& kernels = SmaaKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
   const auto fill = [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); };
   const auto rounded = [](double threshold) {
@@ -150,7 +151,7 @@ void detect_luma_edges(const Rgba8Image& image, const SmaaOptions& options, Edge
 }
 
 void detect_color_edges(const Rgba8Image& image, const SmaaOptions& options, EdgePlane& edges) {
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const SmaaKernels& kernels = SmaaKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
   const auto fill = [&](int y, std::uint32_t* row) { std::memcpy(row, image.row(y).data(), width * sizeof(Rgba8)); };
   const auto rounded = [](double threshold) { return static_cast<std::uint32_t>(std::ceil(threshold * 255)); };

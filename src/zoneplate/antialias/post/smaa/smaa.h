@@ -5,7 +5,6 @@
 
 #include "zoneplate/antialias/post/edge_rows.h"
 #include "zoneplate/antialias/post/weight_rows.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -25,7 +24,6 @@ struct SmaaOptions {
   std::array<int, 4> slots = {};        ///< of the areas for left edges, top edges and the two diagonals
   bool mixes_light = true;              ///< mix linear light; else codes
   bool is_postprocessing = false;       ///< for tests: the rounded areas and signed corner distances of another program
-  Isa isa = best_isa();
 };
 
 /// The first pass, on codes or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer where

@@ -136,9 +136,11 @@ void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const Predicate
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SmaaKernels SmaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
-                                                .luma_edges = HWY_NAMESPACE::luma_edges,
-                                                .color_edges = HWY_NAMESPACE::color_edges,
-                                                .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,
-                                                .predicated_color_edges = HWY_NAMESPACE::predicated_color_edges};
+template <>
+const SmaaKernels PerIsa<SmaaKernels>::HWY_NAMESPACE = {
+    .luma_row = HWY_NAMESPACE::luma_row,
+    .luma_edges = HWY_NAMESPACE::luma_edges,
+    .color_edges = HWY_NAMESPACE::color_edges,
+    .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,
+    .predicated_color_edges = HWY_NAMESPACE::predicated_color_edges};
 }  // namespace zoneplate

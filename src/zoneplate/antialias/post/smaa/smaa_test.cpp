@@ -222,9 +222,11 @@ TEST(Smaa, PredicationChangesThresholdsAndNothingElse) {
     const Rgba8Image expected = out(0.1, 2, 0.4);
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 3})
-        with_threads(threads, [&] {
-          const SmaaOptions options{.edges = edges, .is_predicated = true, .isa = isa};
-          EXPECT_EQ(apply_smaa(scene.image, &scene.buffer, options), expected) << name_of(isa);
+        with_isa(isa, [&] {
+          with_threads(threads, [&] {
+            const SmaaOptions options{.edges = edges, .is_predicated = true};
+            EXPECT_EQ(apply_smaa(scene.image, &scene.buffer, options), expected) << name_of(isa);
+          });
         });
   }
 }
@@ -275,11 +277,13 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
 TEST(Smaa, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
   for (const Edges edges : {Edges::Luma, Edges::Color}) {
-    const Rgba8Image expected = apply_smaa(image, nullptr, {.edges = edges, .isa = Isa::Scalar});
+    const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_smaa(image, nullptr, {.edges = edges}); });
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 2, 7})
-        with_threads(threads, [&] {
-          EXPECT_EQ(apply_smaa(image, nullptr, {.edges = edges, .isa = isa}), expected) << name_of(isa) << threads;
+        with_isa(isa, [&] {
+          with_threads(threads, [&] {
+            EXPECT_EQ(apply_smaa(image, nullptr, {.edges = edges}), expected) << name_of(isa) << threads;
+          });
         });
   }
 }
@@ -288,9 +292,9 @@ TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
   std::vector<std::uint32_t> codes(4 * 300);
   for (std::uint32_t i = 0; std::uint32_t & c : codes) c = hash(i++) & 0x3f7f3f3f;
   std::vector<float> lumas(codes.size());
-  scalar::smaa_kernels.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), lumas.data(), lumas.size());
+  SmaaKernels::scalar.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), lumas.data(), lumas.size());
   for (const Isa isa : supported_isas()) {
-    const SmaaKernels& kernels = pick(isa, scalar::smaa_kernels);
+    const SmaaKernels& kernels = SmaaKernels::of(isa);
     std::vector<float> row(lumas.size());
     kernels.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), row.data(), row.size());
     EXPECT_EQ(row, lumas);
@@ -299,10 +303,10 @@ TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
     };
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found(n + 1, 9);
-      scalar::smaa_kernels.luma_edges(rows(lumas), 100000, expected.data(), n);
+      SmaaKernels::scalar.luma_edges(rows(lumas), 100000, expected.data(), n);
       kernels.luma_edges(rows(lumas), 100000, found.data(), n);
       ASSERT_EQ(found, expected);
-      scalar::smaa_kernels.color_edges(rows(codes), 26, expected.data(), n);
+      SmaaKernels::scalar.color_edges(rows(codes), 26, expected.data(), n);
       kernels.color_edges(rows(codes), 26, found.data(), n);
       ASSERT_EQ(found, expected);
       const auto crossed = [&](std::vector<std::uint8_t>& edges) {
@@ -310,11 +314,11 @@ TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
           edges[i] = static_cast<std::uint8_t>(hash(static_cast<std::uint32_t>(i)) >> 9 & 3);
       };
       crossed(expected), crossed(found);
-      scalar::smaa_kernels.predicated_luma_edges(rows(lumas), {150000, 70000}, expected.data(), n);
+      SmaaKernels::scalar.predicated_luma_edges(rows(lumas), {150000, 70000}, expected.data(), n);
       kernels.predicated_luma_edges(rows(lumas), {150000, 70000}, found.data(), n);
       ASSERT_EQ(found, expected);
       crossed(expected), crossed(found);
-      scalar::smaa_kernels.predicated_color_edges(rows(codes), {40, 20}, expected.data(), n);
+      SmaaKernels::scalar.predicated_color_edges(rows(codes), {40, 20}, expected.data(), n);
       kernels.predicated_color_edges(rows(codes), {40, 20}, found.data(), n);
       ASSERT_EQ(found, expected);
       if (n == 200) {

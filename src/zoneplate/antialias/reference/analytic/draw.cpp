@@ -275,19 +275,15 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
   if (options.order == FilterOrder::Display)
     whole.shown.emplace(drawing.options.display ? *drawing.options.display : DisplayOptions{});
-  std::vector<std::unique_ptr<TileIntegrator>> integrators(static_cast<std::size_t>(thread_limit()));
+  PerThread<TileIntegrator> integrators;
   for (int row = 0; row < triangles.rows();) {
     const auto columns = static_cast<std::size_t>(triangles.columns());
     const std::size_t first = static_cast<std::size_t>(row) * columns;
     row = triangles.list_rows(row);
-    parallel_for(static_cast<std::size_t>(row) * columns - first, [&](std::size_t tile) {
-      std::unique_ptr<TileIntegrator>& mine = integrators[static_cast<std::size_t>(thread_index())];
-      if (!mine) mine = std::make_unique<TileIntegrator>(whole);
-      mine->draw(first + tile);
-    });
+    parallel_for(static_cast<std::size_t>(row) * columns - first,
+                 [&](std::size_t tile) { integrators.local(whole).draw(first + tile); });
   }
-  for (const auto& integrator : integrators)
-    if (integrator) drawing.counts.shaded += integrator->shaded();
+  integrators.for_each([&](const TileIntegrator& each) { drawing.counts.shaded += each.shaded(); });
   drawing.counts.tiles_ms = tiles.ms();
 }
 
