@@ -173,7 +173,7 @@ std::string catalogue_text() {
   for (const Metric& metric : metrics::metrics()) {
     text +=
         fmt::format("  {}{:<14}{} [{}]\n", metric.is_default ? '*' : ' ', metric.name, metric.summary, metric.source);
-    for (const metrics::Param& param : metric.params) {
+    for (const Param& param : metric.params) {
       text += fmt::format("   {:<14}  {}={}..{} ({:.6g})  {}\n", "", param.name, param.low, param.high, param.value,
                           param.meaning);
     }

@@ -172,8 +172,6 @@ constexpr std::string_view variants[] = {"edges=triangles"};
 
 }  // namespace
 
-Method axial();
-
 Method axial() {
   return {.name = "axial",
           .summary = "one shaded sample a pixel, and 64 samples that tell how far its triangle reaches",

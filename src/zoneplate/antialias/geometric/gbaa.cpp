@@ -94,8 +94,6 @@ class Gbaa : public Resolver {
 
 }  // namespace
 
-Method gbaa();
-
 Method gbaa() {
   return {.name = "gbaa",
           .summary = "one shaded sample a pixel, and the stored distance of its triangle's nearest edge",

@@ -121,8 +121,6 @@ constexpr std::string_view variants[] = {"n=4"};
 
 }  // namespace
 
-Method idsraa();
-
 Method idsraa() {
   return {
       .name = "idsraa",

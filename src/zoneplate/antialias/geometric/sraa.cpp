@@ -172,9 +172,9 @@ constexpr Param params[] = {
     {.name = "depth", .meaning = "weight of depths against normals", .value = 10, .low = 0, .high = 10000},
     {.name = "radius",
      .meaning = "pixels from a sample to the shaded centres that count",
-     .value = 100,
-     .low = 75,
-     .high = 150,
+     .value = 1,
+     .low = 0.75,
+     .high = 1.5,
      .decimals = 2}};
 
 constexpr std::string_view variants[] = {"n=8"};

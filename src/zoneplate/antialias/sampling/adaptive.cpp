@@ -94,8 +94,6 @@ constexpr std::string_view variants[] = {"n=8", "n=4,contrast=100"};
 
 }  // namespace
 
-Method adaptive();
-
 Method adaptive() {
   return {.name = "adaptive",
           .summary = "four samples a pixel, and a grid where they disagree",

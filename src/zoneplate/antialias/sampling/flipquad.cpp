@@ -51,8 +51,6 @@ class FlipQuad : public Resolver {
 
 }  // namespace
 
-Method flipquad();
-
 Method flipquad() {
   return {.name = "flipquad",
           .summary = "four samples on the sides, shared by neighbours",

@@ -91,8 +91,6 @@ constexpr std::string_view variants[] = {"n=2",
 
 }  // namespace
 
-Method msaa();
-
 Method msaa() {
   return {.name = "msaa",
           .summary = "coverage per sample, shading once per surface and pixel",

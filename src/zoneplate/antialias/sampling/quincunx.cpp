@@ -39,8 +39,6 @@ class Quincunx : public Resolver {
 
 }  // namespace
 
-Method quincunx();
-
 Method quincunx() {
   return {.name = "quincunx",
           .summary = "the centre and four corners that pixels share",

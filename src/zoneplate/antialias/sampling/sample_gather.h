@@ -29,7 +29,7 @@ struct Gathering {
 
 /// The parameters `resolve`, `filter` and `radius` of methods that gather samples, and what they say.
 ///
-/// `radius` is the filter's in hundredths of a pixel; 0 leaves it as the kernel has it.
+/// `radius` is the filter's, in pixels; 0 leaves it as the kernel has it.
 /// Errors    ErrorKind::Usage where the radius has no filter.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
@@ -44,7 +44,7 @@ inline constexpr Param radius_param = {.name = "radius",
                                        .meaning = "of the filter, in pixels; 0: its own",
                                        .value = 0,
                                        .low = 0,
-                                       .high = 400,
+                                       .high = 4,
                                        .decimals = 2};
 Gathering gathering_of(std::string_view method, const Settings& settings);
 

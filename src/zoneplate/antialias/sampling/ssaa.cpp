@@ -102,8 +102,6 @@ constexpr std::string_view variants[] = {"n=4",
 
 }  // namespace
 
-Method ssaa();
-
 Method ssaa() {
   return {.name = "ssaa",
           .summary = "shade every sample of a pattern and average them",

@@ -200,7 +200,7 @@ Score score_of_flip(Plane<float> map) {
 }
 
 Metric flip() {
-  static constexpr Param params[] = {{"ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000}};
+  static constexpr Param params[] = {real_param("ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000)};
   return {.name = "flip",
           .summary = "difference seen when the pictures alternate, from a stated distance: mean of the map",
           .source = "Andersson et al. 2020",

@@ -81,12 +81,12 @@ constexpr Param params[] = {
     {.name = "predication", .meaning = "what lowers the threshold where it changes", .value = 0, .names = predications},
     {.name = "pthreshold",
      .meaning = "least change of the logarithm of depth, or of object ids",
-     .value = 10,
+     .value = 0.01,
      .low = 0,
-     .high = 1000,
+     .high = 1,
      .decimals = 3},
-    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 20, .low = 10, .high = 50, .decimals = 1},
-    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 40, .low = 0, .high = 100, .decimals = 2},
+    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 2, .low = 1, .high = 5, .decimals = 1},
+    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 0.4, .low = 0, .high = 1, .decimals = 2},
 };
 
 /// What the predication buffer is made of.
@@ -202,8 +202,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "predication=depth"};
 
 }  // namespace
-
-Method smaa();
 
 Method smaa() {
   return {.name = "smaa",

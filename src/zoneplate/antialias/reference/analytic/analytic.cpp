@@ -70,8 +70,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 }  // namespace
 
-Method analytic();
-
 Method analytic() {
   return {.name = "analytic",
           .summary = "exact coverage by what is visible of each pixel, the reference for edges",

@@ -58,8 +58,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 }  // namespace
 
-Method converged();
-
 Method converged() {
   return {.name = "converged",
           .summary = "very many stratified samples and an estimate of their error, the reference for shading",
