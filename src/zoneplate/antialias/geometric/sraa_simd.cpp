@@ -48,7 +48,7 @@ HWY_INLINE void add_some(D d, const float* sample, const float* centre, const fl
 
 void add(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
          float* weight, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { add_some(d, sample, centre, color, scales, sum, weight, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { add_some(d, sample, centre, color, scales, sum, weight, i); });
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ MeanResponse response_of(const std::vector<PixelWeights>& phases, const std::vec
   for (std::size_t p = 0; p < phases.size(); ++p) {
     double re = 0, im = 0;
     for (std::size_t t = 0; t < phases[p].weights.size(); ++t) {
-      const SinCos wave = sin_cos_pi(2 * f * (phases[p].first + static_cast<int>(t) - centres[p]));
-      re += phases[p].weights[t] * wave.cos, im += phases[p].weights[t] * wave.sin;
+      const SineCosine wave = sin_cos_pi(2 * f * (phases[p].first + static_cast<int>(t) - centres[p]));
+      re += phases[p].weights[t] * wave.cosine, im += phases[p].weights[t] * wave.sine;
     }
     sum.square += re * re + im * im, sum.real += re;
   }

@@ -5,21 +5,13 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/channels.h"
 #include "zoneplate/signal/filter/row_sum.h"
 #include "zoneplate/signal/fourier/fourier.h"
 #include "zoneplate/signal/fourier/fourier_plan.h"
 
 namespace zoneplate {
 namespace {
-
-// The floats of a pixel follow one another, so that a row of pixels is a row of channels × width floats.
-template <class T>
-constexpr std::size_t channels = sizeof(T) / sizeof(float);
-
-float* floats(std::span<float> row) { return row.data(); }
-float* floats(std::span<Linear> row) { return &row.data()->r; }
-const float* floats(std::span<const float> row) { return row.data(); }
-const float* floats(std::span<const Linear> row) { return &row.data()->r; }
 
 // What a kernel reaches on each side: left and top see the taps after the origin.
 Margins margins_of(const Plane<float>& kernel) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/channels.h"
 #include "zoneplate/signal/filter/convolve.h"
 #include "zoneplate/signal/filter/row_sum.h"
 
@@ -25,15 +26,6 @@ constexpr std::size_t least_band = 32;     // rows of one task
 struct alignas(64) StripRow {
   float values[strip_floats] = {};
 };
-
-// The floats of a pixel follow one another, so that a row of pixels is a row of channels × width floats.
-template <class T>
-constexpr std::size_t channels = sizeof(T) / sizeof(float);
-
-float* floats(std::span<float> row) { return row.data(); }
-float* floats(std::span<Linear> row) { return &row.data()->r; }
-const float* floats(std::span<const float> row) { return row.data(); }
-const float* floats(std::span<const Linear> row) { return &row.data()->r; }
 
 template <class T>
 constexpr T nothing = T{};

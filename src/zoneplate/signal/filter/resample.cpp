@@ -6,20 +6,13 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/channels.h"
 #include "zoneplate/signal/filter/row_sum.h"
 #include "zoneplate/signal/fourier/fourier.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate {
 namespace {
-
-template <class T>
-constexpr std::size_t channels = sizeof(T) / sizeof(float);
-
-float* floats(std::span<float> row) { return row.data(); }
-float* floats(std::span<Linear> row) { return &row.data()->r; }
-const float* floats(std::span<const float> row) { return row.data(); }
-const float* floats(std::span<const Linear> row) { return &row.data()->r; }
 
 struct Axis {
   int size = 0;  // of the output
@@ -93,8 +86,8 @@ void move_bins(int in, int out, const Take& take, const Put& put) {
   const int common = std::min(in, out);
   for (int k = -((common - 1) / 2); 2 * k < common; ++k) {
     // e^(2πi k (in/out - 1) / (2 in)) = e^(πi k (in - out) / (in out))
-    const SinCos turn = sin_cos_pi(static_cast<double>(k) * (in - out) / (static_cast<double>(in) * out));
-    put(k < 0 ? k + out : k, take(k < 0 ? k + in : k) * Complex{turn.cos, turn.sin});
+    const SineCosine turn = sin_cos_pi(static_cast<double>(k) * (in - out) / (static_cast<double>(in) * out));
+    put(k < 0 ? k + out : k, take(k < 0 ? k + in : k) * Complex{turn.cosine, turn.sine});
   }
   if (in == out && in % 2 == 0) put(in / 2, take(in / 2));
 }

@@ -45,13 +45,13 @@ LinearImage make_sweep(Params p) {
   const auto period = 16 * static_cast<std::uint64_t>(size_of(p));
   return filled(p, [&](int x, int) {
     const auto odd = static_cast<std::uint64_t>(2 * x + 1);
-    return grey(0.5 + 0.5 * unit_root(odd * odd % period, period).cos);
+    return grey(0.5 + 0.5 * unit_root(odd * odd % period, period).cosine);
   });
 }
 
 LinearImage make_sine(Params p) {
-  const SinCos along = sin_cos_pi(p[2] / 180);
-  const double fx = p[1] * along.cos, fy = p[1] * along.sin;
+  const SineCosine along = sin_cos_pi(p[2] / 180);
+  const double fx = p[1] * along.cosine, fy = p[1] * along.sine;
   return filled(p, [&](int x, int y) { return grey(0.5 + 0.5 * cos_pi(2 * (fx * x + fy * y))); });
 }
 
@@ -87,9 +87,9 @@ LinearImage make_star(Params p) {
 
 LinearImage make_edge(Params p) {
   const double centre = size_of(p) / 2.0;
-  const SinCos along = sin_cos_pi(p[1] / 180);
+  const SineCosine along = sin_cos_pi(p[1] / 180);
   return filled(p, [&](int x, int y) {
-    return grey((x + 0.5 - centre) * along.cos + (y + 0.5 - centre) * along.sin < 0 ? 0.05 : 0.8);
+    return grey((x + 0.5 - centre) * along.cosine + (y + 0.5 - centre) * along.sine < 0 ? 0.05 : 0.8);
   });
 }
 

@@ -1,6 +1,7 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/ddaa/ddaa_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -32,10 +33,7 @@ HWY_INLINE void power_some(D d, const std::uint8_t* rgba, float* power, std::siz
 }
 
 void power_row(const std::uint8_t* rgba, float* power, std::size_t n) {
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(df) <= n; i += hn::Lanes(df)) power_some(df, rgba, power, i);
-  for (; i < n; ++i) power_some(one, rgba, power, i);
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { power_some(d, rgba, power, i); });
 }
 
 void seen_row(const float* power, std::ptrdiff_t stride, float threshold, float least, std::uint8_t* seen,

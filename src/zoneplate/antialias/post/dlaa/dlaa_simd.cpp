@@ -1,6 +1,7 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/dlaa/dlaa_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -42,9 +43,6 @@ HWY_INLINE void store_bytes(D d, hn::Vec<D> v, std::uint8_t* to) {
   hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
 }
 
-using Full = hn::CappedTag<std::int32_t, 8>;
-using One = hn::CappedTag<std::int32_t, 1>;
-
 template <class D>
 HWY_INLINE void edge_some(D d, const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                           std::uint8_t* edges, std::size_t i) {
@@ -64,10 +62,7 @@ HWY_INLINE void edge_some(D d, const std::uint8_t* above, const std::uint8_t* he
 
 void edge_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
               std::size_t n) {
-  const Full full;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) edge_some(full, above, here, below, edges, i);
-  for (; i < n; ++i) edge_some(One(), above, here, below, edges, i);
+  for_lanes<std::int32_t>(n, [&](auto d, std::size_t i) HWY_ATTR { edge_some(d, above, here, below, edges, i); });
 }
 
 using Sums = hn::CappedTag<std::int16_t, 16>;
@@ -109,11 +104,9 @@ HWY_INLINE void seen_some(D d, const std::uint8_t* above, const std::uint8_t* he
 
 void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
               const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
-  const Full full;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full))
-    seen_some(full, above, here, below, level, upright, least_bend, least_sum, seen, i);
-  for (; i < n; ++i) seen_some(One(), above, here, below, level, upright, least_bend, least_sum, seen, i);
+  for_lanes<std::int32_t>(n, [&](auto d, std::size_t i) HWY_ATTR {
+    seen_some(d, above, here, below, level, upright, least_bend, least_sum, seen, i);
+  });
 }
 
 // The four channels of one pixel, and what follows from its luma.

@@ -23,7 +23,7 @@ HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_
 }
 
 void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_some(d, rgba, luma, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_some(d, rgba, luma, i); });
 }
 
 /// The thresholds of the left and top borders of some pixels.
@@ -72,12 +72,12 @@ HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, const Threshol
 }
 
 void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 void predicated_luma_edges(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
                            std::uint8_t* edges, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 /// The greatest difference of the three colours of each pixel.
@@ -114,11 +114,7 @@ HWY_INLINE void color_edges_some(D d, const EdgeRows<std::uint32_t>& rows, const
 template <class Threshold>
 HWY_INLINE void find_color_edges(const EdgeRows<std::uint32_t>& rows, const Threshold& threshold, std::uint8_t* edges,
                                  std::size_t n) {
-  const hn::CappedTag<std::uint32_t, 8> full;
-  const hn::CappedTag<std::uint32_t, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) color_edges_some(full, rows, threshold, edges, i);
-  for (; i < n; ++i) color_edges_some(one, rows, threshold, edges, i);
+  for_lanes<std::uint32_t>(n, [&](auto d, std::size_t i) HWY_ATTR { color_edges_some(d, rows, threshold, edges, i); });
 }
 
 void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n) {
