@@ -38,7 +38,7 @@ double small_cos(double t) {
 }
 
 /// The sine and cosine at angle quadrant · π/2 + t, for |t| <= π/4.
-SineCosine turned(std::uint64_t quadrant, double t) { return turned(quadrant, {small_sin(t), small_cos(t)}); }
+SineCosine turned(std::uint64_t quadrant, double t) { return turned(quadrant, SineCosine{small_sin(t), small_cos(t)}); }
 
 constexpr double ln2_high = 0x1.62e42fefa0000p-1;  // ln 2 to 33 bits, so that k · ln2_high is exact
 constexpr double ln2_low = 0x1.cf79abc9e3b39p-40;

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {

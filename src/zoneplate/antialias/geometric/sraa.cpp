@@ -16,9 +16,9 @@
 #include <optional>
 #include <span>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/geometric/color_then_data.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/math/elementary.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -131,38 +131,26 @@ class Reconstruction {
   std::vector<std::vector<Offset>> around_;  ///< by sample of the pattern
 };
 
-class Sraa : public Resolver {
+class Sraa : public ColorThenData {
  public:
   Sraa(int samples, Bilateral bilateral) : pattern_(standard_pattern(samples)), bilateral_(bilateral) {}
 
-  Request request(int) override {
-    color_ = {};
-    Request request;
-    request.halo = 1;
-    return request;
-  }
-  /// The picture first, then the geometry.
-  std::optional<Request> refine(Frame& frame) override {
-    if (!color_.empty()) return std::nullopt;
-    color_ = std::move(frame.color);
+ private:
+  Request data_request() const override {
     Request request;
     request.content = Content::Geometry;
     request.samples.insert(request.samples.end(), pattern_.begin(), pattern_.end());
-    request.halo = 1;
     return request;
   }
-  LinearImage resolve(Frame& frame) override {
-    if (color_.empty()) return std::move(frame.color);
-    const Reconstruction reconstruction(color_, frame.sample_geometry, pattern_, bilateral_);
-    LinearImage out(color_.width(), color_.height(), Linear{0, 0, 0, 0});
+  LinearImage combined(const LinearImage& color, const Frame& data) const override {
+    const Reconstruction reconstruction(color, data.sample_geometry, pattern_, bilateral_);
+    LinearImage out(color.width(), color.height(), Linear{0, 0, 0, 0});
     for_rows(out.height(), [&](int y) { reconstruction.row(y, out.row(y)); });
     return out;
   }
 
- private:
   SamplePattern pattern_;
   Bilateral bilateral_;
-  LinearImage color_;
 };
 
 constexpr int counts[] = {2, 4, 8, 16};

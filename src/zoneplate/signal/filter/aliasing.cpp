@@ -57,7 +57,7 @@ Plane<float> zone_plate(int size) {
       // r² in quarters of a pixel is an integer: the angle is reduced without error.
       const std::int64_t dx = 2 * x + 1 - size, dy = 2 * y + 1 - size;
       const auto turns = static_cast<std::uint64_t>((dx * dx + dy * dy) % (8 * std::int64_t{size}));
-      out(x, y) = static_cast<float>(0.5 + 0.5 * unit_root(turns, 8 * static_cast<std::uint64_t>(size)).cos);
+      out(x, y) = static_cast<float>(0.5 + 0.5 * unit_root(turns, 8 * static_cast<std::uint64_t>(size)).cosine);
     }
   return out;
 }

@@ -9,12 +9,12 @@
 #include <array>
 #include <vector>
 
-#include "zoneplate/antialias/post/codes.h"
 #include "zoneplate/antialias/post/ddaa/ddaa_kernels.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/antialias/post/rolling_rows.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -63,27 +63,11 @@ constexpr Param params[] = {
     {.name = "strength", .meaning = "of the blur along edges", .value = 3, .low = 0, .high = 9},
 };
 
-class Ddaa : public Resolver {
- public:
-  explicit Ddaa(const DdaaOptions& options) : options_(options) {}
-  Request request(int) override {
-    Request request;
-    request.halo = reach;
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    return filter_codes(std::move(image), Mixing::Codes, [&](const Rgba8Image& i) { return apply_ddaa(i, options_); });
-  }
-
- private:
-  DdaaOptions options_;
-};
-
 std::unique_ptr<Resolver> make(const Settings& s) {
   const Threshold& t = thresholds[s.integer("threshold")];
-  return std::make_unique<Ddaa>(
-      DdaaOptions{.threshold = t.share, .least = t.least, .strength = static_cast<float>(s.integer("strength"))});
+  const DdaaOptions options{
+      .threshold = t.share, .least = t.least, .strength = static_cast<float>(s.integer("strength"))};
+  return make_post_process(reach, Mixing::Encoded, [options](const Rgba8Image& i) { return apply_ddaa(i, options); });
 }
 
 }  // namespace

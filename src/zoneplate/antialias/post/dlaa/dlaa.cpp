@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "zoneplate/antialias/post/bordered.h"
-#include "zoneplate/antialias/post/codes.h"
 #include "zoneplate/antialias/post/dlaa/dlaa_kernels.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/math/vec.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -194,28 +194,13 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
   return out;
 }
 
-namespace {
-
-class Dlaa : public Resolver {
- public:
-  Request request(int) override {
-    Request request;
-    request.halo = reach;
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    return filter_codes(std::move(image), Mixing::Codes, [](const Rgba8Image& i) { return apply_dlaa(i); });
-  }
-};
-
-}  // namespace
-
 Method dlaa() {
   return {.name = "dlaa",
           .summary = "short and long blurs along edges, without a search",
           .source = "Andreev 2011",
-          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Dlaa>(); },
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> {
+            return make_post_process(reach, Mixing::Encoded, [](const Rgba8Image& i) { return apply_dlaa(i); });
+          },
           .is_specification_only = true};
 }
 

@@ -17,13 +17,13 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/fxaa/console_kernels.h"
 #include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/antialias/post/rolling_rows.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace antialias {
@@ -164,7 +164,7 @@ void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& optio
     const int x = static_cast<int>(i), side = row.flags[i] & FxaaEnds::second_side ? 1 : -1;
     const bool is_level = row.flags[i] & FxaaEnds::level;
     const Rgba8 there = pixel_at(image, x + (is_level ? 0 : side), y + (is_level ? side : 0));
-    out[i] = mixed_light(image(x, y), there, row.shift[i]);
+    out[i] = mix_linear(image(x, y), there, row.shift[i]);
   });
 }
 
@@ -264,23 +264,11 @@ FxaaOptions options_of(const Settings& s) {
   return o;
 }
 
-class Fxaa : public Resolver {
- public:
-  explicit Fxaa(const FxaaOptions& options) : options_(options) {}
-  Request request(int) override {
-    Request request;
-    request.halo = fxaa_reach(options_);
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
-    return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_fxaa(i, options_); });
-  }
-
- private:
-  FxaaOptions options_;
-};
+std::unique_ptr<Resolver> make(const Settings& s) {
+  const FxaaOptions options = options_of(s);
+  return make_post_process(fxaa_reach(options), options.mixes_light ? Mixing::Linear : Mixing::Encoded,
+                           [options](const Rgba8Image& i) { return apply_fxaa(i, options); });
+}
 
 constexpr std::string_view variants[] = {"preset=39", "preset=console"};
 
@@ -291,7 +279,7 @@ Method fxaa() {
           .summary = "one fetch across each edge, as far as its ends are near",
           .source = "Lottes 2011, FXAA 3.11",
           .params = params,
-          .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<Fxaa>(options_of(s)); },
+          .make = make,
           .variants = variants};
 }
 

@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {

@@ -9,7 +9,7 @@
 namespace zoneplate {
 
 struct MlaaKernels : PerIsa<MlaaKernels> {
-  /// Bit 0 of `edges`: left, bit 1: top: where luma (SmaaKernels::luma_row) differs by `threshold` at least and by half
+  /// Bit 0 of `edges`: left, bit 1: top: where luma (RowKernels::luma) differs by `threshold` at least and by half
   /// of the greatest of the pixel's four differences.
   void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
   /// Where red, green or blue of a pixel differ by `least` at least from those before it (bit 0 of `edges`; never at

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/mlaa/mlaa.h"
 #include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
 
@@ -187,7 +187,7 @@ class Lines {
     EdgeWeights& w = *(is_horizontal_ ? weights_.at(i, j) : weights_.at(j, i));
     std::uint8_t& weight = is_horizontal_ ? (side == Side::Below ? w.from_above : w.to_above)
                                           : (side == Side::Below ? w.from_left : w.to_left);
-    weight = static_cast<std::uint8_t>(std::min(255, weight + rounded_code(255 * area)));
+    weight = static_cast<std::uint8_t>(std::min(255, weight + round_unorm8(255 * area)));
   }
 
   const Rgba8Image& image_;

@@ -1,9 +1,9 @@
-#include "zoneplate/antialias/sampling/gather_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate_kernels.h"
 
 namespace zoneplate::scalar {
 namespace {
 
-using Kernels = GatherKernels;
+using Kernels = AccumulateKernels;
 
 float greater(float a, float b) { return a > b ? a : b; }
 
@@ -57,10 +57,10 @@ void mean(const float* color, const float* weight, bool is_max3, float* out, std
 namespace zoneplate {
 
 template <>
-const GatherKernels PerIsa<GatherKernels>::scalar = {.weigh_karis = scalar::weigh_karis,
-                                                     .map_max3 = scalar::map_max3,
-                                                     .premultiply = scalar::premultiply,
-                                                     .spread = scalar::spread,
-                                                     .mean = scalar::mean};
+const AccumulateKernels PerIsa<AccumulateKernels>::scalar = {.weigh_karis = scalar::weigh_karis,
+                                                             .map_max3 = scalar::map_max3,
+                                                             .premultiply = scalar::premultiply,
+                                                             .spread = scalar::spread,
+                                                             .mean = scalar::mean};
 
 }  // namespace zoneplate

@@ -15,8 +15,6 @@ struct PredicatedThreshold {
 };
 
 struct SmaaKernels : PerIsa<SmaaKernels> {
-  /// 2126 R + 7152 G + 722 B, exactly, of n pixels of four codes.
-  void (*luma_row)(const std::uint8_t* rgba, float* luma, std::size_t n);
   /// Bit 0 of `edges`: left, bit 1: top, by luma; with local contrast adaptation.
   void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
   /// The same by the greatest difference of red, green and blue codes.

@@ -1,30 +1,12 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/edges_simd.h"
-#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Every product and sum is a whole number below 2^24, so that floats are exact.
-template <class D>
-HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_t i) {
-  const hn::RebindToSigned<D> di;
-  const hn::Repartition<std::uint8_t, D> bytes;
-  const auto pixels = hn::BitCast(di, hn::LoadU(bytes, rgba + 4 * i));
-  const auto mask = hn::Set(di, 255);
-  const auto r = hn::ConvertTo(d, hn::And(pixels, mask));
-  const auto g = hn::ConvertTo(d, hn::And(hn::ShiftRight<8>(pixels), mask));
-  const auto b = hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(pixels), mask));
-  const auto rg = hn::Add(hn::Mul(r, hn::Set(d, 2126.0f)), hn::Mul(g, hn::Set(d, 7152.0f)));
-  hn::StoreU(hn::Add(rg, hn::Mul(b, hn::Set(d, 722.0f))), d, luma + i);
-}
-
-void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
-  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_some(d, rgba, luma, i); });
-}
 
 /// The thresholds of the left and top borders of some pixels.
 template <class V>
@@ -134,7 +116,6 @@ HWY_AFTER_NAMESPACE();
 namespace zoneplate {
 template <>
 const SmaaKernels PerIsa<SmaaKernels>::HWY_NAMESPACE = {
-    .luma_row = HWY_NAMESPACE::luma_row,
     .luma_edges = HWY_NAMESPACE::luma_edges,
     .color_edges = HWY_NAMESPACE::color_edges,
     .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,

@@ -7,7 +7,7 @@
 namespace zoneplate {
 
 /// Where eight lanes' room is said, arrays are read and written in whole vectors: up to seven pixels after the n-th.
-struct GatherKernels : PerIsa<GatherKernels> {
+struct AccumulateKernels : PerIsa<AccumulateKernels> {
   /// Weighs n pixels of four floats by 1 / (1 + luma × exposure); `weight` gets the weights. Eight lanes' room.
   void (*weigh_karis)(float exposure, float* color, float* weight, std::size_t n);
   /// Maps the light of n pixels by c / (1 + max(c)); alpha stays. Eight lanes' room.

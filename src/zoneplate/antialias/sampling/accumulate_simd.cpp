@@ -1,13 +1,13 @@
 #include <hwy/highway.h>
 
-#include "zoneplate/antialias/sampling/gather_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Kernels = GatherKernels;
+using Kernels = AccumulateKernels;
 using Floats = hn::CappedTag<float, 8>;
 using V = hn::Vec<Floats>;
 constexpr Floats f32;
@@ -90,9 +90,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
 template <>
-const GatherKernels PerIsa<GatherKernels>::HWY_NAMESPACE = {.weigh_karis = HWY_NAMESPACE::weigh_karis,
-                                                            .map_max3 = HWY_NAMESPACE::map_max3,
-                                                            .premultiply = HWY_NAMESPACE::premultiply,
-                                                            .spread = HWY_NAMESPACE::spread,
-                                                            .mean = HWY_NAMESPACE::mean};
+const AccumulateKernels PerIsa<AccumulateKernels>::HWY_NAMESPACE = {.weigh_karis = HWY_NAMESPACE::weigh_karis,
+                                                                    .map_max3 = HWY_NAMESPACE::map_max3,
+                                                                    .premultiply = HWY_NAMESPACE::premultiply,
+                                                                    .spread = HWY_NAMESPACE::spread,
+                                                                    .mean = HWY_NAMESPACE::mean};
 }  // namespace zoneplate
