@@ -26,8 +26,8 @@ class ScenePoints : public FragmentShader {
   ScenePoints(const Scene& scene, const ViewUniforms& surroundings, const RenderOptions& options)
       : scene_(scene), surfaces_(scene, surroundings, options.textures, options.records) {}
 
-  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
-    surfaces_.shade(batch, {.normal = wanted.normal, .uv = wanted.uv, .albedo = wanted.albedo}, out);
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    surfaces_.shade(batch, outputs, out);
   }
   float alpha(const FragmentBatch& batch, float* out) const override {
     surfaces_.alpha(batch, out);

@@ -316,23 +316,34 @@ void FragmentBatcher::weigh_ends() {
   }
 }
 
-void FragmentBatcher::shade(std::span<const Fragment> points, std::vector<Linear>& colors, FragmentData* data) {
-  shaded_ += points.size();
-  colors.resize(points.size());
-  const FragmentShader::OutputMask wanted{
-      .normal = data && target_.normal, .uv = data && target_.uv, .albedo = data && target_.albedo};
-  if (wanted.normal) data->normal.resize(points.size());
-  if (wanted.uv) data->uv.resize(points.size());
-  if (wanted.albedo) data->albedo.resize(points.size());
-  for_batches(points, [&](std::span<const std::uint32_t> numbers) {
-    shader_.shade(*batch_, wanted, shaded_batch_);
+void FragmentBatcher::shade(std::span<const Fragment> fragments, std::vector<Linear>& colors, FragmentData* data) {
+  shade_outputs(fragments, &colors, data);
+}
+
+void FragmentBatcher::shade_data(std::span<const Fragment> fragments, FragmentData& data) {
+  shade_outputs(fragments, nullptr, &data);
+}
+
+void FragmentBatcher::shade_outputs(std::span<const Fragment> fragments, std::vector<Linear>* colors,
+                                    FragmentData* data) {
+  shaded_ += fragments.size();
+  const OutputMask outputs{.color = colors != nullptr,
+                           .normal = data && target_.normal,
+                           .uv = data && target_.uv,
+                           .albedo = data && target_.albedo};
+  if (outputs.color) colors->resize(fragments.size());
+  if (outputs.normal) data->normal.resize(fragments.size());
+  if (outputs.uv) data->uv.resize(fragments.size());
+  if (outputs.albedo) data->albedo.resize(fragments.size());
+  for_batches(fragments, [&](std::span<const std::uint32_t> numbers) {
+    shader_.shade(*batch_, outputs, shaded_batch_);
     const FragmentOutputs& s = shaded_batch_;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const std::uint32_t at = numbers[i];
-      colors[at] = {s.r[i], s.g[i], s.b[i], s.a[i]};
-      if (wanted.normal) data->normal[at] = {s.normal[0][i], s.normal[1][i], s.normal[2][i]};
-      if (wanted.uv) data->uv[at] = {s.uv[0][i], s.uv[1][i]};
-      if (wanted.albedo) data->albedo[at] = {s.albedo[0][i], s.albedo[1][i], s.albedo[2][i]};
+      if (outputs.color) (*colors)[at] = {s.r[i], s.g[i], s.b[i], s.a[i]};
+      if (outputs.normal) data->normal[at] = {s.normal[0][i], s.normal[1][i], s.normal[2][i]};
+      if (outputs.uv) data->uv[at] = {s.uv[0][i], s.uv[1][i]};
+      if (outputs.albedo) data->albedo[at] = {s.albedo[0][i], s.albedo[1][i], s.albedo[2][i]};
     }
   });
 }

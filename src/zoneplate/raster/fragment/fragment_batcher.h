@@ -42,8 +42,10 @@ class FragmentBatcher {
   FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target);
   FragmentBatcher(const FragmentBatcher&) = delete;  // it points into itself
 
-  /// The colours of the points, in their order; fills `data` with what the target has planes for, if it is not null.
-  void shade(std::span<const Fragment> points, std::vector<Linear>& colors, FragmentData* data);
+  /// The colours of the fragments, in their order. `data`, if not null, gets what the target has planes for.
+  void shade(std::span<const Fragment> fragments, std::vector<Linear>& colors, FragmentData* data);
+  /// The data alone: materials and lights are not evaluated.
+  void shade_data(std::span<const Fragment> fragments, FragmentData& data);
 
   /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
   /// colours follow each other in `shaded`.
@@ -82,6 +84,7 @@ class FragmentBatcher {
     TriangleFacing facing;
   };
 
+  void shade_outputs(std::span<const Fragment> fragments, std::vector<Linear>* colors, FragmentData* data);
   template <class T>
   std::span<const std::uint32_t> order_by_material(std::span<const T> list);
   std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;

@@ -1,100 +1,100 @@
-// The last steps of a tile: samples and the resolved colour, written to the target.
+#include "zoneplate/raster/tile/output.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-#include "zoneplate/raster/tile/tile.h"
-
 namespace zoneplate {
+namespace {
 
-void TileRenderer::store_samples(std::uint32_t pixel, int sample, Linear color) {
-  const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
-  const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
-  const auto s = static_cast<std::size_t>(first_sample_ + sample);
-  const std::size_t at = static_cast<std::size_t>(sample) * tile_pixels + pixel;
-  if (target_.sample_color) (*target_.sample_color)[s](x, y) = color;
-  if (target_.sample_depth) (*target_.sample_depth)[s](x, y) = visibility_.depth[at];
-  if (target_.sample_triangle)
-    (*target_.sample_triangle)[s](x, y) =
-        visibility_.id[at] == no_primitive ? Target::no_id : static_cast<std::uint32_t>(visibility_.id[at]);
+/// Calls make(first, count, out) for whole spans of a line, and for the spans at its ends, of which a part is written.
+template <class Pixel, class Make>
+void write_line(const TileJob& job, Plane<Pixel>& plane, int y, Make make) {
+  const int left = job.drawn.left, right = job.drawn.right;
+  Pixel* const out = &plane(job.x + left - job.setup.target.x, job.y + y - job.setup.target.y);  // pixel `left`
+  const int whole = (left + 7) / 8, end = right / 8;
+  if (whole < end) make(whole, end - whole, out + (whole * 8 - left));
+  const auto write_part = [&](int span) {
+    Pixel part[8];
+    make(span, 1, part);
+    const int from = std::max(left, span * 8), to = std::min(right, span * 8 + 8);
+    std::copy(part + (from - span * 8), part + (to - span * 8), out + (from - left));
+  };
+  if (left % 8 != 0) write_part(left / 8);
+  if (right % 8 != 0 && (right / 8 != left / 8 || left % 8 == 0)) write_part(right / 8);
 }
 
-/// The colour of some samples of a pixel.
-void TileRenderer::store_color(std::uint32_t pixel, std::uint64_t samples, Linear color) {
-  const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
-  const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
-  for (; samples; samples &= samples - 1)
-    (*target_.sample_color)[static_cast<std::size_t>(first_sample_ + std::countr_zero(samples))](x, y) = color;
-}
+}  // namespace
 
-/// The colours of one sample of eight pixels of a row.
-void TileRenderer::store_row(std::uint32_t pixel, int sample, const FragmentOutputs& color, int first) {
-  const int x = tile_x_ + static_cast<int>(pixel % tile_size) - target_.x;
-  const int y = tile_y_ + static_cast<int>(pixel / tile_size) - target_.y;
-  Linear8 same;
-  Linear8* const out = &same;
-  resolve_.resolve(color, first, 1, 1, &out);
-  resolve_.put(same, &(*target_.sample_color)[static_cast<std::size_t>(first_sample_ + sample)](x, y));
-}
-
-void TileRenderer::write_colors() {
-  for (int y = top_; y < bottom_; ++y) {
-    const Linear8* const row = &color_[static_cast<std::size_t>(y * 8)];
-    if (target_.color)
-      write_row<Linear>(*target_.color, y, [&](int first, int count, Linear* out) {
-        for (int i = 0; i < count; ++i) resolve_.put(row[first + i], out + i * 8);
+void write_colors(const TileJob& job, const std::vector<Linear8>& color) {
+  const Target& target = job.setup.target;
+  for (int y = job.drawn.top; y < job.drawn.bottom; ++y) {
+    const Linear8* const line = &color[static_cast<std::size_t>(y * 8)];
+    if (target.color)
+      write_line<Linear>(job, *target.color, y, [&](int first, int count, Linear* out) {
+        for (int i = 0; i < count; ++i) job.setup.resolve.put(line[first + i], out + i * 8);
       });
-    if (target_.shown)
-      write_row<Rgba8>(*target_.shown, y, [&](int first, int count, Rgba8* out) {
-        target_.presenter->present({row + first, static_cast<std::size_t>(count)}, out);
+    if (target.shown)
+      write_line<Rgba8>(job, *target.shown, y, [&](int first, int count, Rgba8* out) {
+        target.presenter->present({line + first, static_cast<std::size_t>(count)}, out);
       });
   }
 }
 
-/// make(first, count, out) writes whole groups of eight pixels; of those at the edges only a part is wanted.
-template <class Pixel, class Make>
-void TileRenderer::write_row(Plane<Pixel>& plane, int y, Make make) {
-  Pixel* const out = &plane(tile_x_ + left_ - target_.x, tile_y_ + y - target_.y);  // pixel left_
-  const int whole = (left_ + 7) / 8, end = right_ / 8;
-  if (whole < end) make(whole, end - whole, out + (whole * 8 - left_));
-  const auto put_part = [&](int group) {
-    Pixel part[8];
-    make(group, 1, part);
-    const int from = std::max(left_, group * 8), to = std::min(right_, group * 8 + 8);
-    std::copy(part + (from - group * 8), part + (to - group * 8), out + (from - left_));
-  };
-  if (left_ % 8 != 0) put_part(left_ / 8);
-  if (right_ % 8 != 0 && (right_ / 8 != left_ / 8 || left_ % 8 == 0)) put_part(right_ / 8);
+void write_coverage(const TileJob& job, const std::vector<float>& coverage) {
+  const auto samples = static_cast<float>(job.setup.samples());
+  for (int y = job.drawn.top; y < job.drawn.bottom; ++y)
+    for (int x = job.drawn.left; x < job.drawn.right; ++x) {
+      const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
+      (*job.setup.target.coverage)(job.target_x(pixel), job.target_y(pixel)) = coverage[pixel] / samples;
+    }
 }
 
-/// Shows an empty tile, and those on its right as far as they are empty: memory likes long rows.
-void TileRenderer::write_background(std::size_t tile) {
-  if (!target_.shown) return;
-  const auto columns = static_cast<std::size_t>(bins_.columns);
-  if (tile % columns != 0 && bins_.is_empty(tile - 1)) return;
+void write_background(const TileSetup& setup, std::size_t tile) {
+  const Target& target = setup.target;
+  const Bins& bins = setup.bins;
+  if (!target.shown) return;
+  const auto columns = static_cast<std::size_t>(bins.columns);
+  if (tile % columns != 0 && bins.is_empty(tile - 1)) return;
   std::size_t end = tile + 1;
-  while (end % columns != 0 && bins_.is_empty(end)) ++end;
+  while (end % columns != 0 && bins.is_empty(end)) ++end;
 
-  const auto at = [](int first, std::size_t number) { return (first + static_cast<int>(number)) * tile_size; };
-  const int left = std::max(at(bins_.first_column, tile % columns), target_.x);
-  const int right = std::min(at(bins_.first_column, tile % columns + (end - tile)), target_.x + target_.width);
-  const int y = at(bins_.first_row, tile / columns);
-  const int top = std::max(y, target_.y), bottom = std::min(y + tile_size, target_.y + target_.height);
-  const auto row = [&](int of) { return &(*target_.shown)(left - target_.x, of - target_.y); };
+  const auto pixels = [](int first, std::size_t tiles) { return (first + static_cast<int>(tiles)) * tile_size; };
+  const int left = std::max(pixels(bins.first_column, tile % columns), target.x);
+  const int right = std::min(pixels(bins.first_column, tile % columns + (end - tile)), target.x + target.width);
+  const int y = pixels(bins.first_row, tile / columns);
+  const int top = std::max(y, target.y), bottom = std::min(y + tile_size, target.y + target.height);
+  const auto line = [&](int of) { return &(*target.shown)(left - target.x, of - target.y); };
   const auto count = static_cast<std::size_t>(right - left);
-  std::fill_n(row(top), count, target_.presenter->background());
-  for (int of = top + 1; of < bottom; ++of) std::memcpy(row(of), row(top), count * sizeof(Rgba8));
+  std::fill_n(line(top), count, target.presenter->background());
+  for (int of = top + 1; of < bottom; ++of) std::memcpy(line(of), line(top), count * sizeof(Rgba8));
 }
 
-void TileRenderer::finish() {
-  for (std::size_t i = 0; i < sum_.size(); ++i) resolve_.divide(sum_[i], weight_sum_, color_[i]);
-  write_colors();
-  write_data();
-  if (!target_.coverage) return;
-  for (int y = top_; y < bottom_; ++y)
-    for (int x = left_; x < right_; ++x)
-      (*target_.coverage)(tile_x_ + x - target_.x, tile_y_ + y - target_.y) =
-          covered_[static_cast<std::size_t>(y * tile_size + x)] / static_cast<float>(target_.samples.size());
+void store_sample(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel, int sample, Linear color) {
+  const Target& target = job.setup.target;
+  const int x = job.target_x(pixel), y = job.target_y(pixel);
+  const auto s = static_cast<std::size_t>(job.pass.first + sample);
+  const std::size_t at = static_cast<std::size_t>(sample) * tile_pixels + pixel;
+  if (target.sample_color) (*target.sample_color)[s](x, y) = color;
+  if (target.sample_depth) (*target.sample_depth)[s](x, y) = visibility.depth[at];
+  if (target.sample_triangle)
+    (*target.sample_triangle)[s](x, y) =
+        visibility.id[at] == no_primitive ? Target::no_id : static_cast<std::uint32_t>(visibility.id[at]);
+}
+
+void store_color(const TileJob& job, std::uint32_t pixel, std::uint64_t samples, Linear color) {
+  const int x = job.target_x(pixel), y = job.target_y(pixel);
+  std::vector<LinearImage>& planes = *job.setup.target.sample_color;
+  for (; samples; samples &= samples - 1)
+    planes[static_cast<std::size_t>(job.pass.first + std::countr_zero(samples))](x, y) = color;
+}
+
+void store_span(const TileJob& job, std::uint32_t pixel, int sample, const FragmentOutputs& color, int first) {
+  Linear8 same;
+  Linear8* const out = &same;
+  job.setup.resolve.resolve(color, first, 1, 1, &out);
+  LinearImage& plane = (*job.setup.target.sample_color)[static_cast<std::size_t>(job.pass.first + sample)];
+  job.setup.resolve.put(same, &plane(job.target_x(pixel), job.target_y(pixel)));
 }
 
 }  // namespace zoneplate

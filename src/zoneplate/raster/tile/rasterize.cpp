@@ -34,18 +34,18 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
   counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
   counts.set_up = bins.set_up;
 
-  // A thread keeps its tile buffers from tile to tile.
   const Stopwatch tiles;
-  std::vector<std::unique_ptr<TileRenderer>> renderers(static_cast<std::size_t>(thread_limit()));
+  const TileSetup tile_setup(projected, bins, shader, rules, target);
+  std::vector<std::unique_ptr<TileBuffers>> buffers(static_cast<std::size_t>(thread_limit()));
   parallel_for(bins.tiles(), [&](std::size_t tile) {
-    std::unique_ptr<TileRenderer>& mine = renderers[static_cast<std::size_t>(thread_index())];
+    std::unique_ptr<TileBuffers>& mine = buffers[static_cast<std::size_t>(thread_index())];
     growing("tile buffers", [&] {
-      if (!mine) mine = std::make_unique<TileRenderer>(projected, bins, shader, rules, target);
-      mine->render(tile);
+      if (!mine) mine = std::make_unique<TileBuffers>(tile_setup);
+      render_tile(tile, *mine);
     });
   });
-  for (const auto& renderer : renderers)
-    if (renderer) counts.shaded += renderer->shaded(), counts.stages += renderer->times();
+  for (const auto& used : buffers)
+    if (used) counts.shaded += used->batcher.shaded(), counts.stages += used->times;
   counts.tiles_ms = tiles.ms();
   return counts;
 }

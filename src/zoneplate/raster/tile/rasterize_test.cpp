@@ -38,7 +38,7 @@ class Flat : public FragmentShader {
   std::vector<Linear> colors_;
 };
 
-constexpr std::array<std::uint32_t, 3> is_flat_run = {0, 1, 2};
+constexpr std::array<std::uint32_t, 3> triangle_index = {0, 1, 2};
 
 /// Triangles in normalized device coordinates, one draw each.
 std::vector<Draw> draws_of(const std::vector<std::array<float4, 3>>& triangles, std::span<const std::size_t> order,
@@ -47,7 +47,7 @@ std::vector<Draw> draws_of(const std::vector<std::array<float4, 3>>& triangles, 
   for (const std::size_t t : order) {
     Draw d;
     d.clip = triangles[t];
-    d.index = is_flat_run;
+    d.index = triangle_index;
     d.alpha_mode = alpha_mode;
     d.instance = static_cast<std::uint32_t>(t);
     out.push_back(d);
@@ -241,7 +241,7 @@ TEST(Rasterize, PiecesOfAClippedTriangleCountOnce) {
       t[k] = {number(3 * k) * 40, number(3 * k + 1) * (i % 2 ? 1.0f : 0.05f), 0.05f, number(3 * k + 2) * 2};
     Draw d;
     d.clip = t;
-    d.index = is_flat_run;
+    d.index = triangle_index;
     d.alpha_mode = AlphaMode::Blend;
     const LinearImage once = picture(std::span(&d, 1), Flat({{1, 1, 1, 0.5f}}), standard_pattern(1));
     for (const Linear& c : once.values()) ASSERT_TRUE(c.a == 0 || c.a == 0.5f) << c.a << " of triangle " << i;
@@ -255,7 +255,7 @@ TEST(Rasterize, AttributesAndTheirSlopesAreThoseOfTheTiltedPlane) {
     const std::array<float3, 3> position = {{{-9, -1, near_z}, {11, -1, near_z}, {0.5f, -1, -40}}};
     Draw d;
     d.position = position;
-    d.index = is_flat_run;
+    d.index = triangle_index;
     d.clip_from_object = perspective(1.2f, 1, 0.1f, 100);
     const int size = 128;
     LinearImage color(size, size, Linear{0, 0, 0, 0});

@@ -70,6 +70,12 @@ struct FragmentBatch {
   int next_run(int first) const { return is_flat_run[first] ? run_end[first] : first + 1; }
 };
 
+/// Which results of shading are required.
+struct OutputMask {
+  bool color = true;  ///< false: materials and lights are not evaluated
+  bool normal = false, uv = false, albedo = false;
+};
+
 /// The results of shading a batch. Colour is linear and premultiplied; the other arrays are filled where OutputMask
 /// requires them.
 struct FragmentOutputs {

@@ -258,40 +258,39 @@ SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& surrounding
 
 SurfaceShader::~SurfaceShader() = default;
 
-void SurfaceShader::shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const {
+void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const {
   if (batch.count == 0) return;
   Data::BatchShading walk(*data_, batch);
   const MaterialPlan& plan = walk.plan;
   ShadingState& p = walk.p;
 
-  // What was asked for beside the colour may need more of the vertices.
+  // Data besides the colour may need more vertex attributes.
   const Data::Needs* needs = &data_->needs_of_color[static_cast<std::size_t>(batch.material)];
   Data::Needs more;
-  if (wanted.normal || wanted.uv) {
+  if (outputs.normal || outputs.uv) {
     Attributes attributes = plan.attributes;
-    if (wanted.normal) attributes.normal = true;
-    if (wanted.uv) attributes.uv[plan.base_color.uv_set] = true;
-    more = data_->make_needs(batch.material, attributes, plan.needs_viewer || (wanted.normal && plan.has_bare_meshes));
+    if (outputs.normal) attributes.normal = true;
+    if (outputs.uv) attributes.uv[plan.base_color.uv_set] = true;
+    more = data_->make_needs(batch.material, attributes, plan.needs_viewer || (outputs.normal && plan.has_bare_meshes));
     needs = &more;
   }
 
   walk.interpolate(*needs);
   walk.find_base();
   if (needs->attributes.normal) walk.find_normals();
-  if (plan.is_lit) {
+  if (outputs.color && plan.is_lit)
     walk.light(out);
-  } else {
+  else if (outputs.color)
     walk.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
-  }
 
   const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
-  if (wanted.normal) {
+  if (outputs.normal) {
     if (plan.has_bare_meshes) walk.kernels.default_normals(data_->viewpoint, batch, p);
     for (int c = 0; c < 3; ++c) copy(p.normal[c], out.normal[c]);
   }
-  if (wanted.albedo)
+  if (outputs.albedo)
     for (int c = 0; c < 3; ++c) copy(p.base[c], out.albedo[c]);
-  if (wanted.uv) {
+  if (outputs.uv) {
     const Footprint at = walk.footprint(plan.base_color);
     copy(at.u, out.uv[0]), copy(at.v, out.uv[1]);
   }

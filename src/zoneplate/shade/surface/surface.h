@@ -43,12 +43,8 @@ class SurfaceShader {
   SurfaceShader(const SurfaceShader&) = delete;
   SurfaceShader& operator=(const SurfaceShader&) = delete;
 
-  struct OutputMask {
-    bool normal = false, uv = false, albedo = false;
-  };
-
-  /// Colours of a batch; opaque surfaces have a = 1, masked ones too.
-  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const;
+  /// Shades a batch. Opaque and alpha-tested surfaces have a = 1.
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const;
 
   /// Alpha of a batch (base colour factor, texture and vertex colour), the same bits as `shade` works with.
   void alpha(const FragmentBatch& batch, float* out) const;

@@ -1,0 +1,125 @@
+#include <algorithm>
+
+#include "zoneplate/base/deadline.h"
+#include "zoneplate/raster/tile/composite.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr Linear8 transparent_black{};
+
+/// Whether all of the block is drawn, and each of its spans shows one opaque surface or none.
+bool consists_of_spans(const TileJob& job, const OpaqueFragments& opaque, std::uint32_t block) {
+  const int y = static_cast<int>(block / 8 * 8), column = static_cast<int>(block % 8);
+  bool is_whole = job.is_whole_column(column) && y >= job.drawn.top && y + 8 <= job.drawn.bottom;
+  for (int i = 0; i < 8; ++i) is_whole = is_whole && opaque.span_primitive[(y + i) * 8 + column] != mixed_primitives;
+  return is_whole;
+}
+
+/// Sorts nearest first; false if two of the layers may change places within the block, or are pieces of one triangle.
+bool sort_block(std::span<BlockLayer> layers) {
+  const auto is_nearer = [](const BlockLayer& p, const BlockLayer& q) { return p.least > q.least; };
+  if (!std::is_sorted(layers.begin(), layers.end(), is_nearer)) std::sort(layers.begin(), layers.end(), is_nearer);
+  for (std::size_t i = 1; i < layers.size(); ++i)
+    if (!(layers[i - 1].least > layers[i].greatest) || layers[i - 1].id == layers[i].id) return false;
+  return true;
+}
+
+}  // namespace
+
+std::uint64_t BlockCompositor::composite(const TileJob& job, const TileVisibility& visibility, FragmentBatcher& batcher,
+                                         const OpaqueFragments& opaque, TileColors& colors) {
+  collect(job, visibility);
+  std::size_t first = 0;
+  for (std::uint32_t strip = 0; strip < TileVisibility::blocks; strip += 8) {
+    std::span<const BlockLayer> layers[8];
+    for (std::uint32_t column = 0; column < 8; ++column) {
+      const std::uint32_t block = strip + column;
+      std::size_t last = first;
+      while (last < layers_.size() && layers_[last].block == block) ++last;
+      const std::span<BlockLayer> all(layers_.data() + first, last - first);
+      first = last;
+      if (all.empty()) continue;
+      const bool is_other = other_blocks_ >> block & 1;
+      if (!is_other && consists_of_spans(job, opaque, block) && sort_block(all)) {
+        layers[column] = all;
+      } else {
+        other_blocks_ |= std::uint64_t{1} << block;
+      }
+    }
+    composite_strip(job, batcher, opaque, strip, layers, colors);
+  }
+  return other_blocks_;
+}
+
+/// layers_, and other_blocks_: those where a triangle covers or wins only a part, or all blocks where there are more
+/// layers than may be stored.
+void BlockCompositor::collect(const TileJob& job, const TileVisibility& visibility) {
+  const CoverageKernels& coverage = job.setup.coverage;
+  float nearest[TileVisibility::blocks];
+  BlockLayer found[TileVisibility::blocks];
+  std::uint32_t begin[TileVisibility::blocks + 1] = {};
+  coverage.find_nearest(visibility, nearest);
+  other_blocks_ = 0;
+  unsorted_.clear();
+  layers_.clear();
+  std::size_t number = 0;
+  TileTriangle triangle;
+  for (const Triangle* t : job.triangles_of(AlphaMode::Blend)) {
+    if (++number % deadline_stride == 0) check_deadline();
+    job.make_triangle(*t, triangle);
+    const int n = coverage.collect_blocks(triangle, visibility, nearest, found, other_blocks_);
+    for (int i = 0; i < n; ++i) ++begin[found[i].block + 1];
+    unsorted_.insert(unsorted_.end(), found, found + n);
+    if (unsorted_.size() > job.setup.room.layer_samples) {
+      other_blocks_ = ~std::uint64_t{0};
+      return;
+    }
+  }
+  for (std::size_t block = 0; block < TileVisibility::blocks; ++block) begin[block + 1] += begin[block];
+  layers_.resize(unsorted_.size());
+  for (const BlockLayer& layer : unsorted_) layers_[begin[layer.block]++] = layer;
+}
+
+/// Composites the eight blocks of a strip, whose first one is `strip`. `layers` are those of each block, none of blocks
+/// that this route does not draw. A span through which nothing more is visible is not shaded any further.
+void BlockCompositor::composite_strip(const TileJob& job, FragmentBatcher& batcher, const OpaqueFragments& opaque,
+                                      std::uint32_t strip, std::span<const BlockLayer> (&layers)[8],
+                                      TileColors& colors) {
+  const ResolveKernels& kernels = job.setup.resolve;
+  const float least = job.setup.min_transmittance;
+  const std::uint32_t first_span = strip * 8;
+  std::size_t deepest = 0;
+  for (TransparentStack8& stack : stacks_) stack.clear();
+  for (const auto& of_block : layers) deepest = std::max(deepest, of_block.size());
+  FragmentSpan spans[64];
+  TransparentStack8* stack_of[64];
+  for (std::size_t layer = 0; layer < deepest; ++layer) {
+    std::size_t count = 0;
+    for (std::uint32_t column = 0; column < 8; ++column) {
+      if (layer >= layers[column].size()) continue;
+      const Fragment centre = job.fragment_at((first_span + column) * 8, layers[column][layer].id, job.pass.all);
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        if (!stacks_[i * 8 + column].is_open) continue;
+        spans[count] = {centre.x, centre.y + 256 * static_cast<std::int32_t>(i), centre.id,
+                        centre.pixel + i * tile_size};
+        stack_of[count++] = &stacks_[i * 8 + column];
+      }
+    }
+    if (count == 0) break;
+    batcher.shade_in_order(std::span(spans).first(count),
+                           [&](const FragmentOutputs& color, std::size_t first, std::size_t shaded) {
+                             kernels.composite_spans_under(color, static_cast<int>(shaded), least, stack_of + first);
+                           });
+  }
+  for (std::uint32_t span = 0; span < 64; ++span) {
+    if (layers[span % 8].empty()) continue;
+    Linear8 color =
+        opaque.span_primitive[first_span + span] == no_primitive ? transparent_black : colors.base[first_span + span];
+    kernels.over(stacks_[span], color);
+    kernels.resolve_samples(color, job.setup.weights.data(), job.pass.count, job.setup.weight_sum,
+                            colors.color[first_span + span]);
+  }
+}
+
+}  // namespace zoneplate

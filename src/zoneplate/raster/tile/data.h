@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/raster/tile/opaque.h"
+
+namespace zoneplate {
+
+/// The nearest opaque or alpha-tested surface of a pixel, over all passes so far.
+struct NearestSurface {
+  float depth = 0;  ///< reversed, at the nearest of its samples
+  std::int32_t id = no_primitive;
+  SamplePosition sample;                 ///< the nearest sample
+  SamplePosition position;               ///< where the surface is shaded that owns this sample
+  std::int32_t first_id = no_primitive;  ///< the owner of the pixel's first covered sample
+  int first_owns = 0;                    ///< the number of samples that first_id owns
+};
+
+/// What the target's data planes get: of each pixel one point of its nearest surface (render/frame.h).
+struct TileData {
+  std::vector<NearestSurface> nearest;  ///< by pixel
+  FragmentData shaded;                  ///< of the fragments of a pass
+  FragmentData pixels;                  ///< of the nearest surfaces, by pixel
+  std::vector<Fragment> fragments;      ///< scratch memory of write_data
+};
+
+/// Updates `nearest` by the fragments of a pass, in the order of visibility. `is_shaded`: `shaded` holds their data.
+void find_nearest_surfaces(const TileJob& job, const TileVisibility& visibility, const OpaqueFragments& opaque,
+                           bool is_shaded, TileData& data);
+
+/// Writes the data planes from `nearest`. A surface that owns all samples of a pixel is taken at the pixel's centre.
+/// Fragments are shaded only where the target stores normals, texture coordinates or albedo, and only those whose data
+/// the passes have not shaded: `is_shaded` as in find_nearest_surfaces.
+void write_data(const TileJob& job, FragmentBatcher& batcher, bool is_shaded, TileData& data);
+
+}  // namespace zoneplate
