@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "zoneplate/base/aligned_array.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {
@@ -35,18 +36,13 @@ bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, bool is_
 
 struct Buffers {
   explicit Buffers(int samples)
-      : z(static_cast<std::size_t>(samples) * tile_pixels + 16),
-        id(static_cast<std::size_t>(samples) * tile_pixels + 16) {
+      : z(static_cast<std::size_t>(samples) * tile_pixels), id(static_cast<std::size_t>(samples) * tile_pixels) {
     visibility = {
-        .sample_count = samples, .depth = align(z), .id = align(id), .block_min_depth = far, .block_primitive = owner};
+        .sample_count = samples, .depth = z.data(), .id = id.data(), .block_min_depth = far, .block_primitive = owner};
     visibility.clear();
   }
-  template <class T>
-  static T* align(std::vector<T>& v) {
-    return v.data() + (64 - reinterpret_cast<std::uintptr_t>(v.data()) % 64) % 64 / sizeof(T);
-  }
-  std::vector<float> z;
-  std::vector<std::int32_t> id;
+  AlignedArray<float> z;
+  AlignedArray<std::int32_t> id;
   float far[TileVisibility::blocks];
   std::int32_t owner[TileVisibility::blocks];
   TileVisibility visibility;
