@@ -13,14 +13,11 @@
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
-namespace {
 
 /// Kernels that do nothing but name the set of their table.
 struct NamedKernels : PerIsa<NamedKernels> {
   Isa isa;
 };
-
-}  // namespace
 
 template <>
 const NamedKernels PerIsa<NamedKernels>::scalar = {.isa = Isa::Scalar};

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <optional>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
-#include "zoneplate/cli/stage.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
@@ -42,19 +40,18 @@ Rgba8Image blank(const SheetArgs& args) {
 
 // In the item's process: the model's picture, as RGBA codes.
 std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
-  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), render.method);
-  std::optional<Stage> stage;
-  within_import_time(render.input, render.load.limits, [&] { stage.emplace(load_scene(render.input, render.load)); });
+  Scene scene;
+  within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
-  render.view.up = render.up.value_or(stage->scene().up);
-  if (is_builtin_scene(render.input) && !stage->scene().cameras.empty()) render.view.index = 0;
+  render.view.up = render.up.value_or(scene.up);
+  if (is_builtin_scene(render.input) && !scene.cameras.empty()) render.view.index = 0;
   const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
-  const Camera camera = choose_camera(stage->scene(), render.view, aspect);
-  render.options.environment = stage->light(camera, render.look);
-  Summary summary;
-  const Rendered picture = render_picture(render, stage->scene(), camera, *resolver, "", summary);
-  const auto* first = reinterpret_cast<const std::uint8_t*>(picture.image.values().data());
-  return {first, first + picture.image.values().size_bytes()};
+  const Camera camera = choose_camera(scene, render.view, aspect);
+  set_look(render, scene);
+  Renderer renderer(PreparedScene(std::move(scene)), make_resolver(antialias::methods(), render.method));
+  const Rgba8Image picture = renderer.render(camera, settings_of(render, "")).display;
+  const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());
+  return {first, first + picture.values().size_bytes()};
 }
 
 // A model's picture; where it has none, what stands in the way of it.
@@ -133,8 +130,8 @@ Syntax make_syntax(SheetArgs& args) {
                      false, [&](auto&) { args.render.is_sandboxed = true; }},
                     {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust",
                      "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
-                    {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Options", false,
-                     [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
+                    {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
+                     "Options", false, [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 
@@ -159,12 +156,9 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   const std::vector<std::string> names = short_names(syntax.found_operands);
   std::vector<Panel> panels;
   Rendered sheet;
-  with_isa(args.render.options.isa, [&] {
-    with_threads(args.render.threads, [&] {
-      for (std::size_t i = 0; i < names.size(); ++i)
-        panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
-      sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
-    });
+  with_threads(args.render.threads, [&] {
+    for (std::size_t i = 0; i < names.size(); ++i) panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
+    sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
   });
   save_bytes(args.output, encode_picture(sheet, args.output));
 }
