@@ -5,6 +5,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/default_lights.h"
@@ -21,11 +22,11 @@ inline Rgba8Image scene_codes(const std::string& name, int width, int height) {
   RenderOptions options;
   options.width = width, options.height = height;
   if (scene.lights.empty()) {
-    scene.lights = default_lights(camera);
-    options.environment = {default_environment, default_environment, default_environment};
+    scene.lights = default_lights();
+    scene.environment.color = {default_environment, default_environment, default_environment};
   }
-  return quantize8(
-      make_display(render(scene, camera, Request{}, options).color, {.background = {0.2f, 0.2f, 0.2f, 1}}));
+  return quantize8(make_display(render(PreparedScene(std::move(scene)), camera, Request{}, options).color,
+                                {.background = {0.2f, 0.2f, 0.2f, 1}}));
 }
 
 }  // namespace zoneplate

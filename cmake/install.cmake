@@ -4,7 +4,9 @@ include(CMakePackageConfigHelpers)
 install(TARGETS zoneplate EXPORT ZoneplateTargets)
 install(TARGETS zoneplate_program)
 install(DIRECTORY src/zoneplate ${generated}/zoneplate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "commit.h" EXCLUDE PATTERN "sonames.h" EXCLUDE)
+
+install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Zoneplate)
 install(EXPORT ZoneplateTargets NAMESPACE Zoneplate:: DESTINATION ${package_directory})

@@ -2,6 +2,8 @@
 #
 # Everything is said on stderr; a step that fails shows its own output and ends the script with exit code 1.
 
+dpkg_status=/var/lib/dpkg/status # written by every installation
+
 say() { echo "$program: $*" >&2; }
 
 # Runs a command and shows its output, on stderr, only if it fails.
@@ -53,13 +55,30 @@ install_packages() {
   }
 }
 
+# The versions of the packages that the build compiles and links, a line each: the program contains their code.
+package_versions() {
+  dpkg-query -W -f '${Package} ${Version}\n' $(wanted_packages build) libbrotli-dev 'libstdc++-*-dev' 2>/dev/null |
+    LC_ALL=C sort
+}
+
+# True if build/PRESET was made with other versions of its packages. The versions are compared only after an
+# installation: dpkg-query takes longer than a small picture.
+has_new_packages() {
+  local versions=$root/build/$1/.zoneplate-packages
+  [ "$dpkg_status" -nt "$versions" ] || return 1
+  package_versions | cmp -s - "$versions" || return 0
+  touch "$versions" 2>/dev/null # a build that cannot be written to is compared again
+  return 1
+}
+
 # True if build/PRESET is not there or older than anything it is made from.
 is_stale() {
   local stamp=$root/build/$1/.zoneplate-built
   [ -e "$stamp" ] || return 0
   local inputs=(src cmake CMakeLists.txt CMakePresets.json packages.txt)
   [ "$1" = release ] || inputs+=(tests fuzz)
-  [ -n "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ]
+  [ -z "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ] || return 0
+  has_new_packages "$1"
 }
 
 # build PRESET PURPOSE...: installs what is missing and brings build/PRESET up to date, if it is not.
@@ -73,6 +92,10 @@ build() {
     is_stale "$preset" || exit 0
     install_packages "$@"
     touch "$directory/.zoneplate-started" # what is saved during the build counts as newer than it
+    # Files of a package have the dates of its maker: nothing else says that what they went into is old.
+    if [ -e "$directory/.zoneplate-built" ] && has_new_packages "$preset"; then
+      run_quietly cmake --build "$directory" --target clean || exit 1
+    fi
     say "building into build/$preset ($(nproc) jobs; a few minutes the first time)"
     cd "$root" && run_quietly cmake --preset "$preset" || exit 1
     if [ -t 2 ]; then
@@ -80,6 +103,7 @@ build() {
     else
       run_quietly cmake --build "$directory" --parallel "$(nproc)" || exit 1
     fi
+    package_versions >"$directory/.zoneplate-packages"
     mv "$directory/.zoneplate-started" "$directory/.zoneplate-built"
   ) 9>"$directory/.zoneplate-lock" || { say "could not be built"; exit 1; }
 }

@@ -43,6 +43,13 @@ endforeach()
 add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
          -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
 
+# When the wrapper scripts build again.
+add_test(NAME setup COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/setup_test.sh ${CMAKE_CURRENT_SOURCE_DIR})
+
+if(NOT ZONEPLATE_SANITIZED)
+  add_test(NAME hardening COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/hardening.sh $<TARGET_FILE:zoneplate_program>)
+endif()
+
 # Kernels for newer processors must not reach programs on older ones through shared inline functions.
 if(NOT ZONEPLATE_SANITIZED AND simd_sources)
   list(TRANSFORM isas REPLACE "(.+)" "$<TARGET_OBJECTS:zoneplate_\\1>" OUTPUT_VARIABLE objects)

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/formats/import/image_file.h"
 
 namespace {
@@ -37,6 +38,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Bytes bytes(data, data + size);
   if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "png") put_checksums_right(bytes);
   try {
+    if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "pfm") {
+      zoneplate::decode_pfm(bytes, "image", max_pixels);  // no texture is one
+      return 0;
+    }
     const auto stated = zoneplate::find_image_size(bytes);
     if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "exr") return 0;
     const zoneplate::TexelImage image = zoneplate::decode_image(bytes, "image", max_pixels);

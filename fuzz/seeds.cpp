@@ -4,6 +4,7 @@
 
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/formats/gltf/gltf.h"
@@ -100,6 +101,8 @@ void write_light(const std::string& root) {
   // Each channel of a row by itself: a run of ten, of six and four others, ...
   const Bytes run = {2, 2, 0, 10, 138, 77, 134, 5, 4, 1, 2, 3, 4, 10, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 138, 129};
   write(root + "/hdr", "new.hdr", radiance("", "-Y 1 +X 10", run));
+  write(root + "/pfm", "color.pfm", encode_pfm(LinearImage(3, 2, {1, 0.5f, -2, 1})));
+  write(root + "/pfm", "grey.pfm", encode_pfm(Plane<float>(2, 3, 7)));
   const std::vector<float> values(12, 0.5f);
   write(root + "/exr", "light.exr",
         encode_exr(4, 3, {{"R", ExrType::Half, values.data()}, {"Z", ExrType::Float, values.data()}},

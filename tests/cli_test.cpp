@@ -112,6 +112,18 @@ TEST_F(Cli, VersionTellsInstructionSetAndCompiler) {
   EXPECT_EQ(result.code, 0);
   EXPECT_TRUE(result.out.starts_with("zoneplate 0.")) << result.out;
   EXPECT_NE(result.out.find(")\n"), std::string::npos);
+  // The commit, the licence and what it is linked with, as bug reports and security notices refer to them.
+  EXPECT_NE(result.out.find("\ncommit "), std::string::npos);
+  EXPECT_NE(result.out.find("\nlicence Apache-2.0\n"), std::string::npos);
+  EXPECT_NE(result.out.find("\nUses Jimenez's MLAA. Copyright (C) 2010 "),
+            std::string::npos);  // as its licence demands
+  for (const char* library : {"libpng ", "zlib ", "libjpeg-turbo ", "libwebp ", "FreeType ", "Draco ", "libseccomp ",
+                              "fmt ", "Highway ", "JSON for Modern C++ ", "CLI11 "}) {
+    const std::size_t at = result.out.find(library);
+    ASSERT_NE(at, std::string::npos) << library;
+    const char digit = result.out[at + std::string_view(library).size()];
+    EXPECT_TRUE(digit >= '0' && digit <= '9') << library << digit;
+  }
 }
 
 TEST_F(Cli, WritesAPictureAndNothingElse) {

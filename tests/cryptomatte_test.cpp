@@ -7,6 +7,7 @@
 #include <map>
 
 #include "zoneplate/formats/load.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 
 namespace zoneplate {
@@ -56,7 +57,7 @@ Frame frame_of(const Scene& scene) {
       .half_height = 5,
       .near = 1,
       .far = 10};
-  return render(scene, camera, {.samples = standard_pattern(4), .planes = {.sample_triangles = true}},
+  return render(PreparedScene(scene), camera, {.samples = standard_pattern(4), .planes = {.sample_triangles = true}},
                 {.width = 10, .height = 10});
 }
 
@@ -91,9 +92,9 @@ TEST(Cryptomatte, AttributesNameAllThings) {
 TEST(Cryptomatte, SharesAddUpToTheCoverage) {
   const Scene scene = load_scene("teapot:divisions=6");
   const Camera camera = fit_camera(scene.bounds(), 1, {});
-  const Frame frame =
-      render(scene, camera, {.samples = standard_pattern(8), .planes = {.coverage = true, .sample_triangles = true}},
-             {.width = 90, .height = 90});
+  const Frame frame = render(PreparedScene(scene), camera,
+                             {.samples = standard_pattern(8), .planes = {.coverage = true, .sample_triangles = true}},
+                             {.width = 90, .height = 90});
   for (const MatteKind kind : {MatteKind::Object, MatteKind::Material}) {
     const Cryptomatte matte = make_cryptomatte(frame, scene, kind);
     for (std::size_t i = 0; i < frame.coverage.values().size(); ++i) {

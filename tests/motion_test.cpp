@@ -9,6 +9,7 @@
 #include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/render/prepared_scene.h"
 
 namespace zoneplate {
 namespace {
@@ -22,8 +23,8 @@ struct Look {
   Camera camera;
   RenderOptions options{.width = 600, .height = 440, .cull_back_faces = false};
 
-  Moment moment() const { return {&scene, camera}; }
-  Frame frame() const { return render(scene, camera, {.planes = followed}, options); }
+  Moment moment() const { return {std::make_shared<const Scene>(scene), camera}; }
+  Frame frame() const { return render(PreparedScene(scene), camera, {.planes = followed}, options); }
 };
 
 // Gives every vertex a name: two coordinates of where it was at the first moment, as texture coordinates.
@@ -66,7 +67,7 @@ Followed follow(Look now, Look last) {
   for (const int k : {0, 1}) {
     name_vertices(now.scene, first, k == 1);
     name_vertices(last.scene, first, k == 1);
-    now.options.last = &before;
+    now.options.last = before;
     now_frame[k] = now.frame();
     last_frame[k] = last.frame();
   }
@@ -145,9 +146,9 @@ TEST(Motion, SignsAndUnits) {
   after.instances[0].world_from_object = translation({1, 0, 0});
   const Camera camera{
       .world_from_camera = translation({0, 0, 5}), .is_orthographic = true, .half_height = 2.5f, .near = 1, .far = 10};
-  const Moment last{&before, camera}, next{&after, camera};
-  const RenderOptions options{.width = 120, .height = 100, .last = &last, .next = &next};
-  const Frame frame = render(scene, camera, {.planes = followed}, options);
+  const Moment last{std::make_shared<const Scene>(before), camera}, next{std::make_shared<const Scene>(after), camera};
+  const RenderOptions options{.width = 120, .height = 100, .last = last, .next = next};
+  const Frame frame = render(PreparedScene(scene), camera, {.planes = followed}, options);
   EXPECT_NEAR(frame.motion(60, 50).x, 5, 1e-5f);
   EXPECT_NEAR(frame.motion(60, 50).y, 2, 1e-5f);
   EXPECT_NEAR(frame.flow(60, 50).x, 20, 1e-5f);
@@ -169,9 +170,9 @@ TEST(Motion, ACropAndSamplesOffTheCentreHaveTheSamePoints) {
   const Scene scene = load_scene("teapot:divisions=6");
   Look look{scene, camera_of(scene)};
   const Request request{.samples = standard_pattern(8), .planes = followed};
-  const Frame whole = render(scene, look.camera, request, look.options);
+  const Frame whole = render(PreparedScene(scene), look.camera, request, look.options);
   look.options.crop = Crop{200, 120, 90, 80};
-  const Frame part = render(scene, look.camera, request, look.options);
+  const Frame part = render(PreparedScene(scene), look.camera, request, look.options);
   const float4x4 clip_from_world = look.camera.clip_from_camera(300.0f / 220) * inverse(look.camera.world_from_camera);
   int edges = 0;
   for (int y = 0; y < 80; ++y)

@@ -13,6 +13,7 @@
 #include "zoneplate/formats/load.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 
 namespace zoneplate {
@@ -61,8 +62,8 @@ Frame drawn(const GltfMaker& model, const Pinhole& pinhole, int width, int heigh
       .vertical_fov = static_cast<float>(pinhole.fov),
       .near = 0.1f,
       .far = 100};
-  const Request request = make_resolver(antialias::methods(), "none")->request(0);
-  return render(scene, camera, request, {.width = width, .height = height, .cull_back_faces = false});
+  const Request request = make_resolver(antialias::methods(), "none")->request({});
+  return render(PreparedScene(scene), camera, request, {.width = width, .height = height, .cull_back_faces = false});
 }
 
 /// A ball of 200 × 100 quads about a place, given by its node's translation.
@@ -162,8 +163,9 @@ TEST_P(SharedOutlines, AgreeWithOtherRenderers) {
                       .vertical_fov = 0.7853982f,
                       .near = 0.1f,
                       .far = 100};
-  const Request request = make_resolver(antialias::methods(), "msaa:n=16")->request(0);
-  const Frame frame = render(scene, camera, request, {.width = scenario.width, .height = scenario.height});
+  const Request request = make_resolver(antialias::methods(), "msaa:n=16")->request({});
+  const Frame frame =
+      render(PreparedScene(scene), camera, request, {.width = scenario.width, .height = scenario.height});
 
   int count = 0;
   for (const auto& entry : fs::directory_iterator(pictures)) {

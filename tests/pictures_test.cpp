@@ -10,7 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/default_lights.h"
 
@@ -19,19 +19,26 @@ namespace {
 
 /// A picture of a built-in scene with its own camera, or else the whole of it, lit if it has no lights.
 struct Shot {
-  Scene scene;
+  PreparedScene scene;
   Camera camera;
   RenderOptions options;
-  explicit Shot(const std::string& name, int width = 96, int height = 72) : scene(*make_builtin_scene(name)) {
+  explicit Shot(const std::string& name, int width = 96, int height = 72) : scene(lit(name)) {
     options.width = width, options.height = height;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    camera = scene.cameras.empty() ? fit_camera(scene.bounds(), aspect, {}) : scene.cameras[0];
-    if (!scene.lights.empty()) return;
-    scene.lights = default_lights(camera);
-    options.environment = {default_environment, default_environment, default_environment};
+    const Scene& s = scene.scene();
+    camera = s.cameras.empty() ? fit_camera(s.bounds(), aspect, {}) : s.cameras[0];
   }
+  static PreparedScene lit(const std::string& name) {
+    Scene scene = *make_builtin_scene(name);
+    if (scene.lights.empty()) {
+      scene.lights = default_lights();
+      scene.environment.color = {default_environment, default_environment, default_environment};
+    }
+    return PreparedScene(std::move(scene));
+  }
+  /// The first round of the method.
   Frame frame(const std::string& method, Planes planes = {}) const {
-    Request request = make_resolver(antialias::methods(), method)->request(0);
+    Request request = make_resolver(antialias::methods(), method)->request({});
     request.planes = planes;
     return render(scene, camera, request, options);
   }
@@ -142,8 +149,9 @@ TEST(Pictures, ShownPicturesHaveTheirBitsForAnyThreadsAndInstructionSet) {
         shot.options.isa = isa;
         Rgba8Image picture;
         with_threads(threads, [&] {
-          const auto resolver = make_resolver(antialias::methods(), g.method);
-          picture = render_picture(shot.scene, shot.camera, *resolver, shot.options, display_of(g.look));
+          Renderer renderer(shot.scene, make_resolver(antialias::methods(), g.method));
+          shot.options.display = display_of(g.look);
+          picture = renderer.render(shot.camera, {.options = shot.options}).display;
         });
         ASSERT_EQ(picture.width(), g.width);
         EXPECT_EQ(hash_of(picture), g.hash) << g.scene << ", " << g.method << ", " << name_of(isa) << ", " << threads
@@ -182,8 +190,10 @@ TEST(Pictures, WhatTilesShowIsTheDisplayedColour) {
         DisplayOptions{.is_transparent = true, .background = {0, 0, 0, 1}}}) {
     Shot shot("cyclic", 150, 130);
     const Rgba8Image expected = quantize8(make_display(shot.frame("msaa:n=4").color, display));
-    shot.options.shown = &display;
-    const Frame frame = shot.frame("msaa:n=4");
+    Request request = make_resolver(antialias::methods(), "msaa:n=4")->request({});
+    request.is_presented = true;
+    shot.options.display = display;
+    const Frame frame = render(shot.scene, shot.camera, request, shot.options);
     EXPECT_TRUE(frame.color.empty());
     EXPECT_EQ(frame.shown, expected);
   }
@@ -338,7 +348,7 @@ Scene one_mesh(Topology topology, std::vector<float3> position) {
 double area_of(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   const Request request{.samples = grid_pattern(16), .rate = Rate::Sample};
   double area = 0;
-  const Frame frame = render(scene, camera, request, options);
+  const Frame frame = render(PreparedScene(scene), camera, request, options);
   for (const Linear& c : frame.color.values()) area += static_cast<double>(c.a);
   return area;
 }

@@ -20,10 +20,8 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/os/file.h"
-#include "zoneplate/raster/tile/rasterize.h"
-#include "zoneplate/render/render.h"
+#include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate::peers {
 namespace {
@@ -86,23 +84,20 @@ void compare(const Case& c, int samples, double budget_ms, const std::string& pi
   Times theirs{};
   if (is_drawn_by_mesa) theirs = time_frames(budget_ms, [&] { mesa.frame(); });
 
-  const std::unique_ptr<Resolver> method =
-      make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples));
-  const DisplayOptions display{.background = {c.background.x, c.background.y, c.background.z, 1}, .raw = true};
-  const TextureSet textures(scene, true);
-  RasterMemory memory;
-  RenderOptions options{.width = work.width, .height = work.height, .raw_colors = true};
-  const InterleavedVertices records(scene);
-  options.shown = &display, options.textures = &textures, options.records = &records, options.memory = &memory;
-  Frame frame;
-  const Times ours =
-      time_frames(budget_ms, [&] { frame = render(scene, scene.cameras.front(), method->request(0), options); });
+  Renderer renderer(PreparedScene(scene, true),
+                    make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples)));
+  const RenderSettings settings{
+      .options = {.width = work.width,
+                  .height = work.height,
+                  .display = {.background = {c.background.x, c.background.y, c.background.z, 1}, .raw = true}}};
+  RenderedImage image;
+  const Times ours = time_frames(budget_ms, [&] { image = renderer.render(scene.cameras.front(), settings); });
 
   const auto ms = [](Times t) { return fmt::format("{:8.1f} {:8.1f}", t.least, t.median); };
   fmt::print("{:<15}{}x  {}  {}  ", c.scene, samples, is_drawn_by_mesa ? ms(theirs) : fmt::format("{:>17}", "-"),
              ms(ours));
   if (is_drawn_by_mesa) {
-    const Distance d = distance(mesa.picture(), frame.shown);
+    const Distance d = distance(mesa.picture(), image.display);
     fmt::print("{:6.1f} {:6.1f}   {:.4f} {:3}", theirs.least / ours.least, theirs.median / ours.median, d.mean, d.most);
   }
   fmt::print("\n");
@@ -110,7 +105,7 @@ void compare(const Case& c, int samples, double budget_ms, const std::string& pi
   if (pictures.empty()) return;
   const std::string name = fmt::format("{}/{}-{}x", pictures, c.scene, samples);
   if (is_drawn_by_mesa) save_bytes(name + "-mesa.png", encode_png(mesa.picture(), {.has_alpha = false}));
-  save_bytes(name + "-zoneplate.png", encode_png(frame.shown, {.has_alpha = false}));
+  save_bytes(name + "-zoneplate.png", encode_png(image.display, {.has_alpha = false}));
 }
 
 /// One thread means one processor: Mesa's main thread would use a second one.

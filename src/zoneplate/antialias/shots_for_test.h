@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate::antialias {
@@ -13,10 +13,10 @@ namespace zoneplate::antialias {
 /// A scene seen by its own camera and resolved by a method, before tone mapping.
 inline LinearImage shot(const Scene& scene, const std::string& method,
                         RenderOptions options = {.width = 160, .height = 120}, RenderCounts* counts = nullptr) {
-  const std::unique_ptr<Resolver> resolver = make_resolver(methods(), method);
-  Frame frame =
-      render_rounds(scene, scene.cameras.at(0), *resolver, resolver->request(0), options, DisplayOptions{}, counts);
-  return resolver->resolve(frame);
+  Renderer renderer(PreparedScene(scene), make_resolver(methods(), method));
+  RenderedImage image = renderer.render(scene.cameras.at(0), {.options = options, .form = ImageForm::Linear});
+  if (counts) *counts = image.counts;
+  return std::move(image.linear);
 }
 
 /// The mean of the greens' distances.

@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/isa.h"
+#include "zoneplate/base/processors.h"
 
 namespace zoneplate {
 namespace {
@@ -187,7 +188,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, const std::function<v
 
 void with_threads(int threads, const std::function<void()>& body) {
   // More threads than cores are given where they are asked for.
-  Team team(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  Team team(threads > 0 ? threads : usable_processors());
   struct Return {
     Place outer;
     ~Return() { place = outer; }
@@ -198,8 +199,6 @@ void with_threads(int threads, const std::function<void()>& body) {
 
 int thread_index() { return place.index; }
 
-int thread_limit() {
-  return place.team ? place.team->limit() : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int thread_limit() { return place.team ? place.team->limit() : usable_processors(); }
 
 }  // namespace zoneplate

@@ -19,7 +19,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 /// The ranges are the same for every number of threads: [0, grain), [grain, 2 grain), ...
 void parallel_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
-/// Runs `body` with `threads` threads at most (0: as many as the machine has cores it may use).
+/// Runs `body` with `threads` threads at most (0: usable_processors(), base/processors.h).
 ///
 /// Cost      the threads are started by the first loop that has work for them and end with `body`; a loop outside of
 ///           every `with_threads` has threads of its own.

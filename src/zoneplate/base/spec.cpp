@@ -40,24 +40,32 @@ std::optional<std::int64_t> parse_decimals(std::string_view text, int decimals) 
   return parse_whole<std::int64_t>(digits);
 }
 
+/// "a, b or c".
+template <class List>
+std::string alternatives(const List& list) {
+  if (list.size() < 2) return fmt::format("{}", fmt::join(list, ""));
+  return fmt::format("{} or {}", fmt::join(list.first(list.size() - 1), ", "), list.back());
+}
+
 [[noreturn]] void refuse_value(const std::string& owner, const Param& param, std::string_view value) {
-  std::string wanted;
-  if (!param.names.empty())
-    wanted = fmt::format("one of {}", fmt::join(param.names, ", "));
-  else if (!param.choices.empty())
-    wanted = fmt::format("one of {}", fmt::join(param.choices, ", "));
-  else
-    wanted = fmt::format("a {} from {} to {}",
-                         param.decimals == 0  ? "whole number"
-                         : param.decimals > 0 ? fmt::format("number of {} decimals", param.decimals)
-                                              : "number",
-                         param.low, param.high);
+  std::string kind;
+  if (param.names.empty() && param.choices.empty())
+    kind = param.decimals == 0  ? "a whole number from "
+           : param.decimals > 0 ? fmt::format("a number of {} decimals from ", param.decimals)
+                                : "a number from ";
   const std::string_view near = closest(value, param.names);
-  throw Error(ErrorKind::Usage, fmt::format("{}: {} is '{}', wants {}{}", owner, param.name, value, wanted,
-                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  throw Error(ErrorKind::Usage,
+              fmt::format("{}: {} is '{}', wants {}{}{}", owner, param.name, value, kind, values_of(param),
+                          near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 }  // namespace
+
+std::string values_of(const Param& param) {
+  if (!param.names.empty()) return alternatives(param.names);
+  if (!param.choices.empty()) return alternatives(param.choices);
+  return fmt::format("{} to {}", param.low, param.high);
+}
 
 Settings::Settings(std::span<const Param> params) : params_(params) {
   for (const Param& param : params) {

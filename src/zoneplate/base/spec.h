@@ -28,6 +28,9 @@ constexpr Param real_param(std::string_view name, std::string_view meaning, doub
   return {.name = name, .meaning = meaning, .value = value, .low = low, .high = high, .decimals = Param::real};
 }
 
+/// The values that a parameter takes, for help and messages: "1 to 1000", "2, 4 or 8".
+std::string values_of(const Param& param);
+
 /// The values of parameters: those that a text gives, and the defaults of the others.
 ///
 /// Requires  the parameters outlive it.

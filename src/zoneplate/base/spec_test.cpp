@@ -75,9 +75,9 @@ TEST(Spec, MessagesNameWhatWasFoundWhatIsWantedAndTheClosest) {
   EXPECT_EQ(refusal("copy:"), "filter copy: unknown parameter ''; it has none");
   EXPECT_EQ(refusal("blur:n=2,"), "filter blur: unknown parameter ''; it has sigma, radius, n, pattern, turn");
   EXPECT_EQ(refusal("blur:n=2,n=4"), "filter blur: n is given twice");
-  EXPECT_EQ(refusal("blur:n=3"), "filter blur: n is '3', wants one of 2, 4, 8");
+  EXPECT_EQ(refusal("blur:n=3"), "filter blur: n is '3', wants 2, 4 or 8");
   EXPECT_EQ(refusal("blur:pattern=sobl"),
-            "filter blur: pattern is 'sobl', wants one of grid, halton, sobol; did you mean 'sobol'?");
+            "filter blur: pattern is 'sobl', wants grid, halton or sobol; did you mean 'sobol'?");
   EXPECT_EQ(refusal("blur:radius=1.5"), "filter blur: radius is '1.5', wants a whole number from 1 to 8");
   EXPECT_EQ(refusal("blur:radius=9"), "filter blur: radius is '9', wants a whole number from 1 to 8");
   EXPECT_EQ(refusal("blur:radius"), "filter blur: radius is '', wants a whole number from 1 to 8");

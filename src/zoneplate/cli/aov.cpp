@@ -174,101 +174,47 @@ std::vector<std::uint8_t> error_picture(const Frame& frame, const Scene&) {
                             .text = {{"greatest", fmt::format("{}", greatest)}, {"rms", fmt::format("{}", rms)}}});
 }
 
-template <Plane<float> Frame::*plane>
-void add_value(const Frame& frame, DataChannels& out, std::string name) {
-  out.list.push_back({std::move(name), ExrType::Float, (frame.*plane).values().data()});
-}
+struct Encoder {
+  std::string_view name;
+  std::vector<std::uint8_t> (*encode)(const Frame&, const Scene&);
+};
 
-// A channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z.
-void add_vector(const float* first, std::string_view letters, ExrType type, std::string_view layer, DataChannels& out) {
-  for (std::size_t i = 0; i < letters.size(); ++i)
-    out.list.push_back({fmt::format("{}{}", layer, letters[i]), type, first + i, nullptr, letters.size()});
-}
-
-template <Plane<std::uint32_t> Frame::*ids>
-void add_ids(const Frame& frame, DataChannels& out, std::string name) {
-  out.list.push_back({std::move(name), ExrType::Number, nullptr, (frame.*ids).values().data()});
-}
-
-template <MatteKind kind>
-void add_matte(const Frame& frame, const Scene& scene, DataChannels& out) {
-  Cryptomatte matte = make_cryptomatte(frame, scene, kind);
-  for (std::size_t i = 0; i < matte.ranks.size(); ++i) {
-    const Plane<float4>& plane = out.made.emplace_back(std::move(matte.ranks[i]));
-    add_vector(&plane.values().data()->x, "RGBA", ExrType::Float, fmt::format("{}{:02}.", matte.layer, i), out);
-  }
-  out.attributes.insert(out.attributes.end(), matte.attributes.begin(), matte.attributes.end());
-}
-
-void add_depth(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::depth>(frame, out, "Z"); }
-void add_normal(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.normal.values().data()->x, "XYZ", ExrType::Float, "N.", out);
-}
-void add_position(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.position.values().data()->x, "XYZ", ExrType::Float, "P.", out);
-}
-void add_albedo(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.albedo.values().data()->x, "RGB", ExrType::Half, "albedo.", out);
-}
-void add_uv(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.uv.values().data()->x, "UV", ExrType::Float, "UV.", out);
-}
-void add_motion(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.motion.values().data()->x, "XY", ExrType::Float, "motion.", out);
-  out.attributes.emplace_back("motion",
-                              "pixels, +x right, +y down: position now minus position in the last frame, no jitter");
-}
-void add_flow(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.flow.values().data()->x, "XY", ExrType::Float, "flow.", out);
-  out.attributes.emplace_back("flow",
-                              "pixels, +x right, +y down: position in the next frame minus position now, no jitter");
-}
-void add_object_id(const Frame& frame, const Scene&, DataChannels& out) {
-  add_ids<&Frame::object_id>(frame, out, "objectId");
-}
-void add_material_id(const Frame& frame, const Scene&, DataChannels& out) {
-  add_ids<&Frame::material_id>(frame, out, "materialId");
-}
-void add_primitive_id(const Frame& frame, const Scene&, DataChannels& out) {
-  add_ids<&Frame::primitive_id>(frame, out, "primId");
-}
-void add_coverage(const Frame& frame, const Scene&, DataChannels& out) {
-  add_value<&Frame::coverage>(frame, out, "coverage");
-}
-void add_error(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::error>(frame, out, "error"); }
-
-constexpr Aov all[] = {
-    {"depth", "distance along the view axis, near black, far white", &Planes::depth, depth_picture, add_depth},
-    {"normal", "world-space normal as colour", &Planes::normal, normal_picture, add_normal},
-    {"position", "world-space position as colour", &Planes::position, position_picture, add_position},
-    {"albedo", "base colour without light", &Planes::albedo, albedo_picture, add_albedo},
-    {"uv", "texture coordinates as red and green", &Planes::uv, uv_picture, add_uv},
-    {"motion", "way on the screen since the last frame: direction as hue, length as saturation", &Planes::motion,
-     motion_picture<&Frame::motion>, add_motion},
-    {"flow", "the same to the next frame", &Planes::flow, motion_picture<&Frame::flow>, add_flow},
-    {"object-id", "a false colour for each object", &Planes::object_id, id_picture<&Frame::object_id>, add_object_id},
-    {"material-id", "a false colour for each material", &Planes::material_id, id_picture<&Frame::material_id>,
-     add_material_id},
-    {"primitive-id", "a false colour for each triangle of a mesh", &Planes::primitive_id,
-     id_picture<&Frame::primitive_id>, add_primitive_id},
-    {"crypto-object", "Cryptomatte of objects by name", &Planes::sample_triangles, matte_picture<MatteKind::Object>,
-     add_matte<MatteKind::Object>},
-    {"crypto-material", "Cryptomatte of materials by name", &Planes::sample_triangles,
-     matte_picture<MatteKind::Material>, add_matte<MatteKind::Material>},
-    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, coverage_picture, add_coverage},
-    {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, error_picture,
-     add_error}};
+constexpr Encoder encoders[] = {{"depth", depth_picture},
+                                {"normal", normal_picture},
+                                {"position", position_picture},
+                                {"albedo", albedo_picture},
+                                {"uv", uv_picture},
+                                {"motion", motion_picture<&Frame::motion>},
+                                {"flow", motion_picture<&Frame::flow>},
+                                {"object-id", id_picture<&Frame::object_id>},
+                                {"material-id", id_picture<&Frame::material_id>},
+                                {"primitive-id", id_picture<&Frame::primitive_id>},
+                                {"crypto-object", matte_picture<MatteKind::Object>},
+                                {"crypto-material", matte_picture<MatteKind::Material>},
+                                {"coverage", coverage_picture},
+                                {"error", error_picture}};
 
 }  // namespace
 
-std::span<const Aov> aovs() { return all; }
+std::vector<std::uint8_t> encode_data_png(const Aov& aov, const Frame& frame, const Scene& scene) {
+  return std::ranges::find(encoders, aov.name, &Encoder::name)->encode(frame, scene);
+}
+
+void add_exr_channels(const DataChannels& data, std::vector<ExrChannel>& out) {
+  for (const DataChannel& c : data.list) {
+    const ExrType type = c.precision == ChannelPrecision::Number ? ExrType::Number
+                         : c.precision == ChannelPrecision::Half ? ExrType::Half
+                                                                 : ExrType::Float;
+    out.push_back({c.name, type, c.value, c.number, c.step});
+  }
+}
 
 std::optional<std::vector<std::uint8_t>> encode_data_pfm(const Aov& aov, const Frame& frame, const Scene& scene) {
   DataChannels channels;
   aov.add_channels(frame, scene, channels);
   if (channels.list.size() > 3) return std::nullopt;
   const auto value = [&](std::size_t channel, std::size_t pixel) {
-    const ExrChannel& c = channels.list[channel];
+    const DataChannel& c = channels.list[channel];
     return c.value ? c.value[pixel * c.step] : static_cast<float>(c.number[pixel * c.step]);
   };
   const int width = frame.depth.width(), height = frame.depth.height();

@@ -1,34 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "zoneplate/codec/exr_encode.h"
-#include "zoneplate/render/frame.h"
-#include "zoneplate/scene/scene.h"
+#include "zoneplate/render/aov.h"
 
 namespace zoneplate::cli {
 
-/// Data passes as channels of a file: views of a frame, and of what had to be made from it.
-struct DataChannels {
-  std::vector<ExrChannel> list;
-  ExrAttributes attributes;
-  std::deque<Plane<float4>> made;
-};
-
-/// A data pass: a picture beside the colour, or channels in one file with it.
-struct Aov {
-  std::string_view name, meaning;
-  bool Planes::*plane;                                              ///< the plane of the frame that it needs
-  std::vector<std::uint8_t> (*encode)(const Frame&, const Scene&);  ///< as PNG
-  void (*add_channels)(const Frame&, const Scene&, DataChannels&);
-};
-
-/// All of them.
+/// A data pass as a PNG picture.
 ///
 /// depth        16-bit grey: code 0 is the nearest and 65534 the farthest distance seen, linear between; 65535 is
 ///              nothing. The distances are in the tEXt chunks "near" and "far".
@@ -45,7 +26,10 @@ struct Aov {
 /// coverage     16-bit grey: share of the pixel's samples that a surface owns.
 /// error        16-bit grey: estimated standard error of the colour, white being the greatest of the picture; that and
 ///              the root mean square, in light, are in the tEXt chunks "greatest" and "rms".
-std::span<const Aov> aovs();
+std::vector<std::uint8_t> encode_data_png(const Aov& aov, const Frame& frame, const Scene& scene);
+
+/// The channels as those of an OpenEXR file.
+void add_exr_channels(const DataChannels& data, std::vector<ExrChannel>& out);
 
 /// The values themselves as a portable float map, of passes with at most three channels; nothing for others.
 std::optional<std::vector<std::uint8_t>> encode_data_pfm(const Aov& aov, const Frame& frame, const Scene& scene);

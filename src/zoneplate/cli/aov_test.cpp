@@ -52,7 +52,9 @@ const Aov& aov_of(std::string_view name) {
   return aovs()[0];
 }
 
-PngImage picture(std::string_view name) { return decode_png(aov_of(name).encode(frame(), scene()), std::string(name)); }
+PngImage picture(std::string_view name) {
+  return decode_png(encode_data_png(aov_of(name), frame(), scene()), std::string(name));
+}
 
 constexpr Rgba8 nothing{0, 0, 0, 0};
 
@@ -65,7 +67,7 @@ TEST(Aov, DepthIsLinearFromTheNearestToTheFarthestSeen) {
 }
 
 TEST(Aov, DepthTellsItsDistances) {
-  const std::vector<std::uint8_t> bytes = aovs()[0].encode(frame(), {});
+  const std::vector<std::uint8_t> bytes = encode_data_png(aovs()[0], frame(), {});
   const std::string text(bytes.begin(), bytes.end());
   EXPECT_NE(text.find(std::string("tEXtnear\0002", 10)), std::string::npos);
   EXPECT_NE(text.find(std::string("tEXtfar\0006", 9)), std::string::npos);
@@ -94,12 +96,12 @@ TEST(Aov, WhatIsNotFiniteHasAColourToo) {
   Frame odd = frame();
   constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   odd.uv(0, 0) = {nan, 0.25f}, odd.uv(1, 0) = {infinity, -infinity};
-  const PngImage uv = decode_png(aov_of("uv").encode(odd, scene()), "uv");
+  const PngImage uv = decode_png(encode_data_png(aov_of("uv"), odd, scene()), "uv");
   EXPECT_EQ(uv.pixels(0, 0), (Rgba8{0, 64, 0, 255}));
   EXPECT_EQ(uv.pixels(1, 0), (Rgba8{0, 0, 0, 255}));
   for (const float2 step : {float2{infinity, 0}, float2{0, -infinity}, float2{nan, 1}, float2{infinity, nan}}) {
     odd.motion(1, 0) = step;
-    const PngImage motion = decode_png(aov_of("motion").encode(odd, scene()), "motion");
+    const PngImage motion = decode_png(encode_data_png(aov_of("motion"), odd, scene()), "motion");
     EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // the longest that is finite
     EXPECT_EQ(motion.pixels(1, 0), (Rgba8{0, 0, 0, 255}));
   }
@@ -149,7 +151,7 @@ TEST(Aov, ChannelsAreNamedAsPipelinesExpectThem) {
   for (const Aov& aov : aovs()) {
     DataChannels channels;
     aov.add_channels(f, s, channels);
-    for (const ExrChannel& c : channels.list) names += c.name + ' ';
+    for (const DataChannel& c : channels.list) names += c.name + ' ';
   }
   EXPECT_EQ(names,
             "Z N.X N.Y N.Z P.X P.Y P.Z albedo.R albedo.G albedo.B UV.U UV.V motion.X motion.Y flow.X flow.Y objectId "
@@ -198,7 +200,7 @@ TEST(Aov, ErrorIsShownAgainstTheGreatestAndTellsIt) {
   EXPECT_EQ(png.pixels16(0, 0).r, 65535);
   EXPECT_EQ(png.pixels16(1, 0).r, 32768);
   EXPECT_EQ(png.pixels16(2, 0).r, 0);
-  const std::vector<std::uint8_t> bytes = aovs().back().encode(frame(), {});
+  const std::vector<std::uint8_t> bytes = encode_data_png(aovs().back(), frame(), {});
   EXPECT_NE(std::string(bytes.begin(), bytes.end()).find(std::string("tEXtgreatest\0000.003", 18)), std::string::npos);
 }
 

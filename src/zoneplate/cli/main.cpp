@@ -11,13 +11,12 @@
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/cli/version.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/version.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -57,15 +56,6 @@ std::string overview() {
          "  zoneplate list methods\n"
          "\n"
          "More: zoneplate VERB -h (short), zoneplate VERB --help (everything), zoneplate --version\n";
-}
-
-std::string version_text() {
-#if defined(__clang__)
-  const std::string compiler = fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
-#else
-  const std::string compiler = fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
-#endif
-  return fmt::format("zoneplate {} ({}, {})\n", version, name_of(best_isa()), compiler);
 }
 
 // A first word that is no verb is the input of render, unless it can only be a misspelt verb.
@@ -162,6 +152,9 @@ int main(int argc, char** argv) {
   } catch (const cli::PartialFailure& failure) {
     cli::say_error(failure.what());
     return 5;
+  } catch (const cli::Difference& difference) {
+    cli::say_note(difference.what());
+    return 1;
   } catch (const std::bad_alloc&) {
     cli::say_error("out of memory");
     return 1;

@@ -143,16 +143,16 @@ Json json_of(const Comparison& comparison, const std::string& reference, const s
                       {"metrics", std::move(rows)}};
 }
 
-/// What was not reached, for people; empty where all is well. Without bounds, pictures have to be the same.
+/// The verdict where the pictures differ or a metric misses its threshold; else empty.
 std::string shortfall(const Comparison& comparison, const std::vector<Bound>& bounds) {
   if (bounds.empty()) return comparison.are_same ? "" : "the pictures differ";
   std::string text;
   for (const Bound& bound : bounds) {
     for (const Result& result : comparison.results) {
       if (result.metric != bound.metric || metrics::is_as_good(*bound.metric, result.value, bound.value)) continue;
-      text +=
-          fmt::format("{}{} is {}, wants {} or {}", text.empty() ? "" : "; ", bound.metric->name, shown(result.value),
-                      shown(bound.value), bound.metric->better == metrics::Better::Lower ? "less" : "more");
+      text += fmt::format("{}{} is {}, the threshold is {} or {}", text.empty() ? "" : "; ", bound.metric->name,
+                          shown(result.value), shown(bound.value),
+                          bound.metric->better == metrics::Better::Lower ? "less" : "more");
     }
   }
   return text;
@@ -174,7 +174,7 @@ std::string catalogue_text() {
     text +=
         fmt::format("  {}{:<14}{} [{}]\n", metric.is_default ? '*' : ' ', metric.name, metric.summary, metric.source);
     for (const Param& param : metric.params) {
-      text += fmt::format("   {:<14}  {}={}..{} ({:.6g})  {}\n", "", param.name, param.low, param.high, param.value,
+      text += fmt::format("   {:<14}  {}={} (default {:.6g})  {}\n", "", param.name, values_of(param), param.value,
                           param.meaning);
     }
   }
@@ -191,22 +191,25 @@ Syntax make_syntax(MetricsArgs& args) {
                     "  zoneplate metrics frames/a.####.png frames/b.####.png --metric psnr,flicker --json\n"
                     "  zoneplate metrics golden/ made/ --metric ssim --threshold 0.98\n",
                 .notes =
-                    "Operands are PNG, JPEG, HDR or EXR files, directories (paired by name) or sequences\n"
-                    "(name.####.png, name.%04d.png). Exit code 0: the pictures are the same, or reach every threshold; "
-                    "1: they do\n"
-                    "not; 2: trouble.\n\n" +
+                    "Operands are PNG, JPEG, WebP, HDR, EXR or PFM files, directories (paired by name) or sequences\n"
+                    "(name.####.png, name.%04d.png).\n"
+                    "\n"
+                    "Exit codes, as those of diff and cmp:\n"
+                    "  0  without --threshold: the pictures are the same; with it: every metric reaches its threshold\n"
+                    "  1  without --threshold: the pictures differ; with it: a metric misses its threshold\n"
+                    "  2  an error: the pictures were not compared\n\n" +
                     catalogue_text()};
   syntax.options = {
       {"--metric", "NAME,...", "Metrics to measure, each NAME or NAME:PARAMETER=VALUE", "Options", true,
        [&](auto& text) { args.metric_names = text; }},
-      {"--threshold", "VALUE", "What the metric has to reach; of several as psnr=40,ssim=0.98", "Options", true,
-       [&](auto& text) { args.threshold = text; }},
+      {"--threshold", "VALUE", "The value that the metric has to reach; of several as psnr=40,ssim=0.98", "Options",
+       true, [&](auto& text) { args.threshold = text; }},
       {"--map", "FILE", "Write the error map of the first metric that has one (of the worst picture), as PNG",
        "Options", true, [&](auto& text) { args.map_path = text; }},
       {"--json", "", "As one line of JSON, with every curve measured", "Options", true,
        [&](auto&) { args.wants_json = true; }},
-      {"--threads,-t", "N", "Threads at most; 0 as many as there are cores", "Options", false,
-       [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
+       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 
@@ -239,17 +242,17 @@ void run(std::span<const std::string> arguments) {
   if (!args.map_path.empty()) save_map(args.map_path, comparison);
   const std::string missing = shortfall(comparison, bounds);
   print(args.wants_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));
-  if (!missing.empty()) throw Error(ErrorKind::Failed, missing);
+  if (!missing.empty()) throw Difference(missing);
 }
 
 }  // namespace
 
 void run_metrics(std::span<const std::string> arguments) {
-  // Scripts tell "worse" from "trouble" by 1 and 2, as with diff and cmp: no other code leaves this verb.
+  // As those of diff and cmp: 1 for a difference, 2 for any error.
   try {
     run(arguments);
   } catch (const Error& error) {
-    throw Error(error.trouble() == ErrorKind::Failed ? ErrorKind::Failed : ErrorKind::Usage, error.what());
+    throw Error(ErrorKind::Usage, error.what());
   }
 }
 

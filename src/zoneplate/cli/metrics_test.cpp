@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "zoneplate/codec/png.h"
@@ -71,15 +73,40 @@ TEST_F(MetricsVerb, DifferentPicturesAnswerOne) {
   EXPECT_TRUE(contains(answer.out, "1 picture, 16 × 16\n")) << answer.out;
   EXPECT_TRUE(contains(answer.out, "mse")) << answer.out;
   EXPECT_TRUE(contains(answer.out, "0.04 ")) << answer.out;
-  EXPECT_TRUE(contains(answer.out, "the pictures differ")) << answer.out;
+  EXPECT_TRUE(answer.out.ends_with("\nzoneplate: the pictures differ\n")) << answer.out;
+  EXPECT_FALSE(contains(answer.out, "error")) << answer.out;
 }
 
 TEST_F(MetricsVerb, ThresholdsDecide) {
   EXPECT_EQ(run("black.png grey.png --metric psnr --threshold 13.9").code, 0);
-  EXPECT_EQ(run("black.png grey.png --metric psnr --threshold 14").code, 1);
+  const Answer below = run("black.png grey.png --metric psnr --threshold 14");
+  EXPECT_EQ(below.code, 1);
+  EXPECT_TRUE(below.out.ends_with("\nzoneplate: psnr is 13.9794, the threshold is 14 or more\n")) << below.out;
   EXPECT_EQ(run("black.png grey.png --metric mse,mae --threshold mse=0.05,mae=0.2").code, 1);  // 51 / 255 > 0.2
   EXPECT_EQ(run("black.png grey.png --metric mse,mae --threshold mse=0.05,mae=0.21").code, 0);
   EXPECT_EQ(run("grey.png grey.png --metric psnr --threshold inf").code, 0);
+}
+
+TEST_F(MetricsVerb, ReadsEveryFormatThatRenderWrites) {
+  for (const char* name : {"a.png", "a.webp", "a.jpg", "a.pfm", "a.exr"}) {
+    const std::string command = "'" ZONEPLATE_PROGRAM "' render triangles --size 32x32 -o '" + at(name) + "' 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(run(std::string("a.png ") + name + " --metric psnr --threshold 30").code, 0) << name;
+  }
+  EXPECT_EQ(run("a.png a.webp").code, 0);
+}
+
+TEST_F(MetricsVerb, LumaAndWindowsAreParameters) {
+  save_bytes(at("red.png"), encode_png(Rgba8Image(16, 16, {255, 0, 0, 255})));
+  save_bytes(at("none.png"), encode_png(Rgba8Image(16, 16, {0, 0, 0, 255})));
+  const auto psnr = [&](const std::string& parameter) {
+    const std::string text = run("none.png red.png --json --metric psnr_luma" + parameter).out;
+    return parsed_json(text.substr(0, text.find('\n')))["metrics"]["psnr_luma"]["value"].get<double>();
+  };
+  EXPECT_NEAR(psnr(""), -20 * std::log10(0.2126), 1e-6);
+  EXPECT_NEAR(psnr(":rec=601"), -20 * std::log10(0.299), 1e-6);
+  EXPECT_TRUE(contains(run("none.png red.png --metric psnr_luma:rec=650").out, "rec is '650', wants 601 or 709"));
+  EXPECT_TRUE(contains(run("none.png red.png --metric ssim:window=7.5").out, "window is '7.5', wants 0, 2, 3"));
 }
 
 TEST_F(MetricsVerb, TroubleIsTwo) {

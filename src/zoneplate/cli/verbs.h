@@ -12,6 +12,12 @@ class PartialFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A comparison that ran without an error found a difference: exit code 1, and one line on stderr that is no error.
+class Difference : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // The verbs of the command. Each takes the arguments after its name, writes its result to stdout or files, and throws
 // zoneplate::Error where it cannot.
 

@@ -1,7 +1,5 @@
 #include "zoneplate/codec/apng.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cstring>
@@ -10,6 +8,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/png_chunk.h"
 
 namespace zoneplate {
 namespace {
@@ -19,9 +18,6 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t signature_size = 8;
 constexpr std::size_t chunk_frame = 12;  // length, name and checksum around a chunk's data
 
-void put32(Bytes& out, std::uint32_t value) {
-  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
-}
 void put16(Bytes& out, int value) {
   for (const int shift : {8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
@@ -30,14 +26,6 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes) {
   std::uint32_t word = 0;
   for (const std::uint8_t b : bytes.first(4)) word = word << 8 | b;
   return word;
-}
-
-void put_chunk(Bytes& out, std::string_view name, const Bytes& data) {
-  put32(out, static_cast<std::uint32_t>(data.size()));
-  const std::size_t first = out.size();
-  out.insert(out.end(), name.begin(), name.end());
-  out.insert(out.end(), data.begin(), data.end());
-  put32(out, static_cast<std::uint32_t>(crc32(0, out.data() + first, static_cast<uInt>(out.size() - first))));
 }
 
 /// Calls use(name, data, whole chunk) for every chunk of a PNG file that we wrote ourselves.
@@ -93,7 +81,7 @@ class Writer {
     });
     write_first(files[0]);
     for (std::size_t i = 1; i < frames.size(); ++i) write_next(files[i], rectangles[i]);
-    put_chunk(out_, "IEND", {});
+    put_png_chunk(out_, "IEND", {});
     return std::move(out_);
   }
 
@@ -106,9 +94,9 @@ class Writer {
       if (name == "IEND") return;
       if (name == "IDAT" && is_before_data) {
         Bytes counts;
-        put32(counts, static_cast<std::uint32_t>(animation_.frames.size()));
-        put32(counts, static_cast<std::uint32_t>(animation_.loops));
-        put_chunk(out_, "acTL", counts);
+        put_png_word(counts, static_cast<std::uint32_t>(animation_.frames.size()));
+        put_png_word(counts, static_cast<std::uint32_t>(animation_.loops));
+        put_png_chunk(out_, "acTL", counts);
         write_control({0, 0, animation_.frames[0].width(), animation_.frames[0].height()});
         is_before_data = false;
       }
@@ -121,21 +109,21 @@ class Writer {
     for_chunks(png, [&](std::string_view name, auto data, auto) {
       if (name != "IDAT") return;
       Bytes numbered;
-      put32(numbered, sequence_++);
+      put_png_word(numbered, sequence_++);
       numbered.insert(numbered.end(), data.begin(), data.end());
-      put_chunk(out_, "fdAT", numbered);
+      put_png_chunk(out_, "fdAT", numbered);
     });
   }
 
   void write_control(const Rectangle& r) {
     Bytes control;
-    put32(control, sequence_++);
-    for (const int value : {r.width, r.height, r.x, r.y}) put32(control, static_cast<std::uint32_t>(value));
+    put_png_word(control, sequence_++);
+    for (const int value : {r.width, r.height, r.x, r.y}) put_png_word(control, static_cast<std::uint32_t>(value));
     put16(control, animation_.seconds);
     put16(control, animation_.per);
     control.push_back(0);  // dispose: leave it for the next frame
     control.push_back(0);  // blend: replace what was there
-    put_chunk(out_, "fcTL", control);
+    put_png_chunk(out_, "fcTL", control);
   }
 
   const Animation& animation_;

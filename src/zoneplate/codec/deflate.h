@@ -18,8 +18,10 @@ void deflate_part(std::span<const std::uint8_t> bytes, bool is_last, std::vector
 
 /// The lengths in bits of a Huffman code for symbols of these counts, none longer than `limit`; 0 where the count is 0.
 ///
-/// A single symbol has length 1. Exact     the same lengths for the same counts; the code is complete, and the best one
-/// where no length would be beyond the limit (counts are halved until none is).
+/// A single symbol has length 1.
+///
+/// Exact     the same lengths for the same counts; the code is complete, and the best one where no length would be
+///           beyond the limit (counts are halved until none is).
 /// Requires  2^limit >= the number of symbols with a count; counts.size() == lengths.size() <= 512.
 void huffman_lengths(std::span<const std::uint32_t> counts, int limit, std::span<std::uint8_t> lengths);
 

@@ -82,11 +82,20 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
+  std::optional<JpegFrame> frame() {
+    if (!read_header()) return std::nullopt;
+    JpegFrame frame{.size = {static_cast<int>(jpeg_.image_width), static_cast<int>(jpeg_.image_height)},
+                    .pixels = static_cast<std::uint64_t>(jpeg_.max_h_samp_factor) *
+                              static_cast<std::uint64_t>(jpeg_.max_v_samp_factor)};
+    for (const jpeg_component_info& component :
+         std::span(jpeg_.comp_info, static_cast<std::size_t>(jpeg_.num_components)))
+      frame.samples +=
+          static_cast<std::uint64_t>(component.h_samp_factor) * static_cast<std::uint64_t>(component.v_samp_factor);
+    return frame;
+  }
+
   Rgba8Image decode(std::uint64_t max_pixels) {
-    check(guarded([this] {
-      jpeg_mem_src(&jpeg_, bytes_.data(), bytes_.size());
-      jpeg_read_header(&jpeg_, TRUE);
-    }));
+    check(read_header());
     check_size(max_pixels);
     const bool is_cmyk = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
     jpeg_.out_color_space = is_cmyk ? JCS_CMYK : JCS_EXT_RGBA;
@@ -107,6 +116,13 @@ class Reader {
     if (setjmp(report_.place) != 0) return false;
     body();
     return true;
+  }
+
+  bool read_header() {
+    return guarded([this] {
+      jpeg_mem_src(&jpeg_, bytes_.data(), bytes_.size());
+      jpeg_read_header(&jpeg_, TRUE);
+    });
   }
 
   void check(bool is_well) const {
@@ -159,10 +175,17 @@ class Reader {
 
 }  // namespace
 
+bool is_jpeg(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+}
+
+std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes) {
+  const std::string no_name;
+  return is_jpeg(bytes) ? Reader(bytes, no_name).frame() : std::nullopt;
+}
+
 Rgba8Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  if (bytes.size() < 3 || bytes[0] != 0xff || bytes[1] != 0xd8 || bytes[2] != 0xff) {
-    throw Error(ErrorKind::Input, name + ": not a JPEG file");
-  }
+  if (!is_jpeg(bytes)) throw Error(ErrorKind::Input, name + ": not a JPEG file");
   return Reader(bytes, name).decode(max_pixels);
 }
 

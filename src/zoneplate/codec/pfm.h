@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
@@ -11,5 +13,18 @@ namespace zoneplate {
 std::vector<std::uint8_t> encode_pfm(const LinearImage& image);
 /// The same with one float a pixel.
 std::vector<std::uint8_t> encode_pfm(const Plane<float>& image);
+
+/// True for the first bytes of a portable float map.
+bool is_pfm(std::span<const std::uint8_t> bytes);
+
+/// Decodes a portable float map of either kind, colour ("PF") or grey ("Pf"), and either byte order.
+///
+/// Units     as stored: the scale of the header states the byte order by its sign, and its magnitude is not applied.
+///           Values that are not finite stay so. Alpha is 1; grey is equal red, green and blue.
+/// Errors    ErrorKind::Input with `name` in front: not such a picture, a number of bytes other than the header states,
+///           more than `max_pixels` pixels.
+/// Source    Debevec, PFM Portable FloatMap Image Format, 2001.
+LinearImage decode_pfm(std::span<const std::uint8_t> bytes, const std::string& name,
+                       std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 }  // namespace zoneplate

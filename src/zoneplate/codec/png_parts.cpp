@@ -3,10 +3,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/deflate.h"
+#include "zoneplate/codec/png_chunk.h"
 #include "zoneplate/codec/png_rows.h"
 
 namespace zoneplate {
@@ -16,25 +16,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 // A code of its own pays for itself in so many bytes, and is near enough to what it codes.
 constexpr std::size_t part_size = std::size_t{1} << 17;
-
-void put_word(Bytes& out, std::uint32_t value) {
-  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-std::uint32_t checksum(std::uint32_t crc, const Bytes& bytes) {
-  // Where there is nothing zlib would begin again.
-  return bytes.empty() ? crc : static_cast<std::uint32_t>(crc32(crc, bytes.data(), static_cast<uInt>(bytes.size())));
-}
-
-void put_chunk(Bytes& out, std::string_view name, const Bytes& data, std::uint32_t crc) {
-  put_word(out, static_cast<std::uint32_t>(data.size()));
-  out.insert(out.end(), name.begin(), name.end());
-  out.insert(out.end(), data.begin(), data.end());
-  put_word(out, crc);
-}
-void put_chunk(Bytes& out, std::string_view name, const Bytes& data) {
-  put_chunk(out, name, data, checksum(checksum(0, Bytes(name.begin(), name.end())), data));
-}
 
 /// Some rows of the picture on their way to an IDAT chunk.
 struct Part {
@@ -71,7 +52,7 @@ class PartWriter {
     // The stream begins with its method, a window of 32 KiB, and a word on the effort.
     if (first_row == 0) part.data = {0x78, 0x01};
     deflate_part(rows, end_row == image_.height(), part.data);
-    part.crc = checksum(checksum(0, {'I', 'D', 'A', 'T'}), part.data);
+    part.crc = png_checksum(png_checksum(0, Bytes{'I', 'D', 'A', 'T'}), part.data);
     return part;
   }
 
@@ -100,21 +81,21 @@ std::vector<std::uint8_t> encode_png_parts(const Rgba8Image& image, const PngOpt
   }
   // The stream ends with the checksum of all that is in it.
   Bytes sum;
-  put_word(sum, static_cast<std::uint32_t>(adler));
+  put_png_word(sum, static_cast<std::uint32_t>(adler));
   parts.back().data.insert(parts.back().data.end(), sum.begin(), sum.end());
-  parts.back().crc = checksum(parts.back().crc, sum);
+  parts.back().crc = png_checksum(parts.back().crc, sum);
 
   Bytes out = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   out.reserve(size + 128);
   Bytes header;
-  put_word(header, static_cast<std::uint32_t>(image.width()));
-  put_word(header, static_cast<std::uint32_t>(image.height()));
+  put_png_word(header, static_cast<std::uint32_t>(image.width()));
+  put_png_word(header, static_cast<std::uint32_t>(image.height()));
   const std::uint8_t color_type = options.has_alpha ? 6 : 2;
   header.insert(header.end(), {8, color_type, 0, 0, 0});
-  put_chunk(out, "IHDR", header);
-  if (options.is_srgb) put_chunk(out, "sRGB", {0});
-  for (const Part& part : parts) put_chunk(out, "IDAT", part.data, part.crc);
-  put_chunk(out, "IEND", {});
+  put_png_chunk(out, "IHDR", header);
+  if (options.is_srgb) put_png_chunk(out, "sRGB", Bytes{0});
+  for (const Part& part : parts) put_png_chunk(out, "IDAT", part.data, part.crc);
+  put_png_chunk(out, "IEND", {});
   return out;
 }
 

@@ -3,12 +3,21 @@
 #include <webp/decode.h>
 #include <webp/encode.h>
 
+#include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 
 namespace zoneplate {
+
+bool is_webp(std::span<const std::uint8_t> bytes) {
+  const auto has = [&](std::size_t at, std::string_view text) {
+    return std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  };
+  return bytes.size() >= 12 && has(0, "RIFF") && has(8, "WEBP");
+}
 
 std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes) {
   int2 size;

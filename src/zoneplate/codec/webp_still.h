@@ -11,6 +11,9 @@
 
 namespace zoneplate {
 
+/// True for the first bytes of a WebP file.
+bool is_webp(std::span<const std::uint8_t> bytes);
+
 /// Width and height as a WebP's header states them.
 std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 

@@ -154,4 +154,14 @@ void DisplayTransform::present(std::span<const Linear8> groups, Rgba8* out) cons
   TonemapKernels::of().show_groups(step_, groups.data(), out, groups.size());
 }
 
+LinearImage over_background(LinearImage image, const DisplayOptions& options) {
+  const float4 b = options.background;
+  const Linear behind{decode_srgb(b.x), decode_srgb(b.y), decode_srgb(b.z), 1};
+  for (Linear& c : image.values()) {
+    const float rest = options.is_transparent ? 0.0f : (1 - c.a) * b.w;
+    c = c * options.exposure + behind * rest;
+  }
+  return image;
+}
+
 }  // namespace zoneplate

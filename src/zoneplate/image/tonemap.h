@@ -14,6 +14,9 @@ namespace zoneplate {
 /// Edges     what is negative or not a number counts as 0, what is above 2^24 as 2^24.
 float3 tone_map(float3 color, ToneMapping mapping);
 
+/// The background of pictures unless another one is given: dark grey, as F3D has it.
+inline constexpr float4 default_background{0.2f, 0.2f, 0.2f, 1};
+
 struct DisplayOptions {
   ToneMapping mapping = ToneMapping::None;
   float exposure = 1;             ///< multiplies linear colour first
@@ -28,6 +31,10 @@ struct DisplayOptions {
 /// Edges     every channel of the result is in [0, 1], whatever the picture holds; where alpha is 0 the
 ///           background's own code is shown, where the picture is opaque nothing of it.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
+
+/// Linear light × exposure over the background, premultiplied: the picture before tone mapping. A transparent picture
+/// stays without background.
+LinearImage over_background(LinearImage image, const DisplayOptions& options);
 
 /// make_display of some pixels without the encoding: straight linear light in [0, 1], four floats a pixel.
 void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light);

@@ -44,6 +44,9 @@ TEST(PixelMetrics, ByHand) {
   const double luma_difference = 0.2126 * 0.5 - 0.0722 * 0.25;
   EXPECT_NEAR(luma_peak_signal_to_noise(p.reference, p.test), psnr_of_mse(luma_difference * luma_difference / 2),
               1e-12);
+  const double older = 0.299 * 0.5 - 0.114 * 0.25;
+  EXPECT_NEAR(luma_peak_signal_to_noise(p.reference, p.test, rec601_luma), psnr_of_mse(older * older / 2), 1e-12);
+  EXPECT_NEAR(measure("psnr_luma:rec=601", p.reference, p.test).value, psnr_of_mse(older * older / 2), 1e-12);
 }
 
 TEST(PixelMetrics, TransparentPicturesLieOnBlack) {

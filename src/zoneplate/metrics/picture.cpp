@@ -31,10 +31,11 @@ Picture make_picture(LinearImage linear) {
   return {std::move(display), std::move(linear)};
 }
 
-Plane<double> luma_plane(const DisplayImage& image) {
+Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights) {
   Plane<double> out(image.width(), image.height());
   for_rows(image.height(), [&](int y) {
-    std::ranges::transform(image.row(y), out.row(y).begin(), [](Display c) { return luma(codes_on_black(c)); });
+    std::ranges::transform(image.row(y), out.row(y).begin(),
+                           [&](Display c) { return luma(codes_on_black(c), weights); });
   });
   return out;
 }

@@ -28,11 +28,18 @@ constexpr Codes codes_on_black(Display c) {
   return {c.r * alpha, c.g * alpha, c.b * alpha};
 }
 
-/// Rec.709 luma: the weighted sum of codes (not of light).
-constexpr double luma(Codes c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+/// The weights of a sum of the three codes.
+struct LumaWeights {
+  double r = 0, g = 0, b = 0;
+};
+constexpr LumaWeights rec709_luma{0.2126, 0.7152, 0.0722};  ///< ITU-R BT.709-6
+constexpr LumaWeights rec601_luma{0.299, 0.587, 0.114};     ///< ITU-R BT.601-7
+
+/// Luma: the weighted sum of codes (not of light).
+constexpr double luma(Codes c, LumaWeights w = rec709_luma) { return w.r * c.r + w.g * c.g + w.b * c.b; }
 
 /// The luma of every pixel of a picture on black.
-Plane<double> luma_plane(const DisplayImage& image);
+Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights = rec709_luma);
 
 /// Rec.709 luminance of every pixel of a picture on black, in linear light.
 Plane<double> luminance_plane(const LinearImage& image);

@@ -14,7 +14,9 @@
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/webp_still.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 
@@ -43,11 +45,11 @@ DisplayImage display_of(const Rgba16Image& codes) {
   return image;
 }
 
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+
 DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path) {
-  constexpr std::array<std::uint8_t, 3> jpeg_start = {0xff, 0xd8, 0xff};
-  if (bytes.size() >= jpeg_start.size() && std::equal(jpeg_start.begin(), jpeg_start.end(), bytes.begin())) {
-    return display_of(decode_jpeg(bytes, path));
-  }
+  if (is_jpeg(bytes)) return display_of(decode_jpeg(bytes, path));
+  if (is_webp(bytes)) return display_of(decode_webp(bytes, path, most_pixels));
   const PngImage png = decode_png(bytes, path);
   return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
 }
@@ -77,7 +79,7 @@ bool comes_before(const std::string& a, const std::string& b) {
 bool is_picture_name(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  constexpr std::array<std::string_view, 5> known = {".png", ".jpg", ".jpeg", ".hdr", ".exr"};
+  constexpr std::array<std::string_view, 7> known = {".png", ".jpg", ".jpeg", ".webp", ".hdr", ".exr", ".pfm"};
   return std::ranges::find(known, extension) != known.end();
 }
 
@@ -144,6 +146,7 @@ Picture load_picture(const std::string& path) {
   const FileBytes file(path);
   Picture picture = is_hdr(file.bytes())   ? make_picture(decode_hdr(file.bytes(), path))
                     : is_exr(file.bytes()) ? make_picture(decode_exr(file.bytes(), path))
+                    : is_pfm(file.bytes()) ? make_picture(decode_pfm(file.bytes(), path))
                                            : make_picture(decode_display(file.bytes(), path));
   watch.check(path);
   return picture;
@@ -154,7 +157,8 @@ std::vector<std::string> list_pictures(const std::string& operand) {
   if (is_directory(operand)) {
     std::vector<std::string> paths = files_of(path, is_picture_name);
     if (paths.empty())
-      throw Error(ErrorKind::Input, operand + ": the directory holds no .png, .jpg, .jpeg, .hdr or .exr file");
+      throw Error(ErrorKind::Input,
+                  operand + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr or .pfm file");
     return paths;
   }
   const auto pattern = frame_pattern(path.filename().string());

@@ -7,17 +7,19 @@
 
 namespace zoneplate::metrics {
 
-/// A picture from a PNG (8 or 16 bits), JPEG, HDR or EXR file, told apart by its first bytes. "-" is stdin.
+/// A picture from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, told apart by its first bytes. "-" is stdin.
 ///
-/// HDR and EXR are light, unbounded; their codes are what a screen shows of it, clamped.
+/// HDR, EXR and PFM are light, unbounded; their codes are what a screen shows of it, clamped.
 /// Errors    ErrorKind::Input naming the file and what is wrong with it.
 Picture load_picture(const std::string& path);
 
 /// The files that one operand names, in order.
 ///
-/// A directory: its .png, .jpg, .jpeg, .hdr and .exr files by name, numbers in names as numbers (9 before 10), nothing
-/// of its folders. A name with `####` or `%04d` in its last part: the files that have a number there, in the numbers'
-/// order. Anything else: that file. Errors    ErrorKind::Input where a directory or a pattern names no picture.
+/// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr and .pfm files by name, numbers in names as numbers (9 before
+/// 10), nothing of its folders. A name with `####` or `%04d` in its last part: the files that have a number there, in
+/// the numbers' order. Anything else: that file.
+///
+/// Errors    ErrorKind::Input where a directory or a pattern names no picture.
 std::vector<std::string> list_pictures(const std::string& operand);
 
 /// True where the names differ by numbers alone: frames of one sequence, not a folder of several pictures.

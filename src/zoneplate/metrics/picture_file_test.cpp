@@ -9,7 +9,9 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/webp_still.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"
 
@@ -59,6 +61,19 @@ TEST_F(PictureFile, OfSixteenBitsKeepsThem) {
   EXPECT_EQ(load_picture(path).display(0, 0), (Display{1 / 65535.0f, 2 / 65535.0f, 3 / 65535.0f, 1}));
 }
 
+TEST_F(PictureFile, AWebpHasTheCodesOfItsPng) {
+  const std::string png = save("a.png", 77), webp = at("a.webp");
+  save_bytes(webp, encode_webp(Rgba8Image(4, 3, {77, 77, 77, 255}), false));
+  EXPECT_EQ(load_picture(webp).display, load_picture(png).display);
+  save_bytes(webp, std::vector<std::uint8_t>{'R', 'I', 'F', 'F', 9, 0, 0, 0, 'W', 'E', 'B', 'P', 'V', 'P', '8', ' '});
+  try {
+    load_picture(webp);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), webp + ": not a sound WebP file");
+  }
+}
+
 TEST_F(PictureFile, OfLightIsUnboundedAndItsCodesAreClamped) {
   const LinearImage light(2, 1, {4, 0.25f, 0, 1});
   const Linear& first = light.values()[0];
@@ -68,7 +83,8 @@ TEST_F(PictureFile, OfLightIsUnboundedAndItsCodesAreClamped) {
                                       {"B", ExrType::Half, &first.b, nullptr, 4}}));
   const std::string bytes("#?RADIANCE\n\n-Y 1 +X 2\n\x80\x08\x00\x83\x80\x08\x00\x83", 30);
   save_bytes(at("a.hdr"), std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
-  for (const char* name : {"a.exr", "a.hdr"}) {
+  save_bytes(at("a.pfm"), encode_pfm(light));
+  for (const char* name : {"a.exr", "a.hdr", "a.pfm"}) {
     const Picture picture = load_picture(at(name));
     EXPECT_EQ(picture.linear, light) << name;
     EXPECT_EQ(picture.display(1, 0).r, 1) << name;
@@ -82,6 +98,8 @@ TEST_F(PictureFile, DirectoriesListPicturesInTheOrderOfNumbers) {
   EXPECT_EQ(names(list_pictures(at("d"))), (std::vector<std::string>{"e.png", "f9.PNG", "f10.png", "f011.jpg"}));
   fs::create_directories(at("empty"));
   EXPECT_THROW(list_pictures(at("empty")), Error);
+  for (const char* name : {"all/a.webp", "all/b.pfm", "all/c.hdr"}) save(name);
+  EXPECT_EQ(list_pictures(at("all")).size(), 3u);
 }
 
 TEST_F(PictureFile, PatternsFindFrames) {

@@ -7,11 +7,11 @@
 
 namespace zoneplate::metrics {
 
-double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test) {
+double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test, LumaWeights weights) {
   const double sum = sum_rows(reference.height(), [&](int y) {
     double row = 0;
     for (int x = 0; x < reference.width(); ++x) {
-      const double d = luma(codes_on_black(reference(x, y))) - luma(codes_on_black(test(x, y)));
+      const double d = luma(codes_on_black(reference(x, y)), weights) - luma(codes_on_black(test(x, y)), weights);
       row += d * d;
     }
     return row;
@@ -20,14 +20,19 @@ double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayIma
 }
 
 Metric psnr_luma() {
+  static constexpr int standards[] = {601, 709};
+  static constexpr Param params[] = {
+      {.name = "rec", .meaning = "luma weights of ITU-R BT.601 or BT.709", .value = 709, .choices = standards}};
   return {.name = "psnr_luma",
-          .summary = "peak signal-to-noise ratio of Rec.709 luma of sRGB codes",
-          .source = "the definition; luma weights of ITU-R BT.709",
+          .summary = "peak signal-to-noise ratio of luma of sRGB codes",
+          .source = "the definition; luma weights of ITU-R BT.709-6 or BT.601-7",
           .unit = "dB",
           .better = Better::Higher,
           .perfect = std::numeric_limits<double>::infinity(),
-          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return Score{.value = luma_peak_signal_to_noise(reference[0].display, test[0].display)};
+          .params = params,
+          .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
+            const LumaWeights weights = settings.number("rec") == 601 ? rec601_luma : rec709_luma;
+            return Score{.value = luma_peak_signal_to_noise(reference[0].display, test[0].display, weights)};
           },
           .pool = pool_psnr};
 }

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include "zoneplate/os/limited_child.h"
+#include "zoneplate/sonames.h"
 
 namespace zoneplate {
 namespace {
@@ -10,10 +11,11 @@ namespace {
 struct Package {
   const char *file, *package;
 };
-/// In the order of Library: the versions whose headers the program was built with.
-constexpr Package packages[] = {{"libassimp.so.5", "libassimp5"},
-                                {"libmeshoptimizer.so.2d", "libmeshoptimizer2d"},
-                                {"libOpenEXRCore-3_1.so.30", "libopenexr-3-1-30"}};
+/// In the order of Library: the versions whose headers the program was built with (cmake/sonames.cmake), and the
+/// packages of Debian 12 that hold them.
+constexpr Package packages[] = {{soname_assimp, "libassimp5"},
+                                {soname_meshoptimizer, "libmeshoptimizer2d"},
+                                {soname_openexrcore, "libopenexr-3-1-30"}};
 
 const Package& package_of(Library library) { return packages[static_cast<int>(library)]; }
 

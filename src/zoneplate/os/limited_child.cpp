@@ -67,8 +67,10 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
     limit_resources(task.limits.memory, task.limits.seconds * threads);
     if (task.limits.is_sandboxed && !enter_sandbox(task.limits.readable))
       throw Error(ErrorKind::Failed, task.place + ": the system has no filter for system calls");
-    with_threads(threads, [&] { task.work(answer); });
-    ::_exit(0);
+    with_threads(threads, [&] {
+      task.work(answer);
+      ::_exit(0);  // the kernel ends the other threads sooner than they could be joined
+    });
   } catch (const Error& error) {
     if (!answer.is_begun()) tell(pipe, error.trouble(), error.what());
   } catch (const LibraryNeeded& needed) {

@@ -1,20 +1,37 @@
 #include "zoneplate/os/memory_limit.h"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 
 namespace zoneplate {
+namespace {
+
+/// The sixth of the seven numbers of /proc/self/statm, which counts the pages of data and stack; 0 where there is none.
+std::uint64_t pages_of_data() {
+  char text[256];  // seven numbers of 20 digits at most
+  const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (statm < 0) return 0;
+  const ssize_t size = ::read(statm, text, sizeof text);
+  ::close(statm);
+  const char *at = text, *const end = text + std::max<ssize_t>(size, 0);
+  std::uint64_t pages = 0;
+  for (int number = 1; number <= 6; ++number) {
+    at = std::find_if(at, end, [](char c) { return c != ' '; });
+    const auto [last, error] = std::from_chars(at, end, pages);
+    if (error != std::errc()) return 0;
+    at = last;
+  }
+  return pages;
+}
+
+}  // namespace
 
 void limit_memory(std::uint64_t bytes) {
-  // Of the seven numbers of /proc/self/statm the sixth counts the pages of data and stack that there are already.
-  unsigned long pages = 0;
-  if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(statm, "%*u %*u %*u %*u %*u %lu", &pages) != 1) pages = 0;
-    std::fclose(statm);
-  }
+  const std::uint64_t pages = pages_of_data();
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
   const rlim_t wanted = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;

@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -22,8 +24,18 @@
 namespace zoneplate {
 namespace {
 
-constexpr const char* folders[] = {"/usr/local/bin/", "/usr/bin/", "/bin/"};
-constexpr const char* environment[] = {"PATH=/usr/local/bin:/usr/bin:/bin", "LC_ALL=C.UTF-8"};
+constexpr std::string_view usual_folders = "/usr/local/bin:/usr/bin:/bin";
+
+/// The folders of PATH, then the usual ones. Those that are not absolute are passed over: a program must not depend on
+/// the working directory.
+std::string search_path() {
+  const char* const variable = std::getenv("PATH");
+  std::string out;
+  std::istringstream folders((variable ? variable : "") + std::string(":") + std::string(usual_folders));
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (folder.starts_with('/')) out += (out.empty() ? "" : ":") + folder;
+  return out;
+}
 
 /// A file that is closed at the end.
 class File {
@@ -70,8 +82,12 @@ std::string first_line_of(const File& file) {
 }
 
 std::string path_of(const std::string& program) {
-  for (const char* folder : folders)
-    if (::access((folder + program).c_str(), X_OK) == 0) return folder + program;
+  std::istringstream folders(search_path());
+  std::error_code ignored;
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const std::string path = folder + '/' + program;
+        ::access(path.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(path, ignored))
+      return path;
   fail(program, "is not installed");
 }
 
@@ -84,7 +100,8 @@ class Child {
     for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
     std::vector<char*> variables;
-    for (const char* variable : environment) variables.push_back(const_cast<char*>(variable));
+    std::string folders = "PATH=" + search_path(), locale = "LC_ALL=C.UTF-8";
+    for (std::string* variable : {&folders, &locale}) variables.push_back(variable->data());
     variables.push_back(nullptr);
 
     posix_spawn_file_actions_t actions;

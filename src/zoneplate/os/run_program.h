@@ -41,8 +41,9 @@ class ScratchFile {
 
 /// Runs a program of the system's folders on `input` as its stdin, without a shell.
 ///
-/// Its environment is the same everywhere: no HOME, so that no settings of a user count, and the C locale in UTF-8.
-/// Errors    ErrorKind::Failed naming the program where it cannot be started or goes past a limit.
+/// It is looked for in the absolute folders of PATH, then in /usr/local/bin, /usr/bin and /bin. Its environment is
+/// these folders and the C locale in UTF-8: no HOME, so that no settings of a user count. Errors    ErrorKind::Failed
+/// naming the program where it cannot be started or goes past a limit.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits = {});
 /// The same with a file as its stdin, read from its beginning.

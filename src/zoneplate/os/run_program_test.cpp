@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
@@ -24,6 +28,36 @@ TEST(Child, GivesInputAnswersAndCode) {
   ::setenv("ZONEPLATE_CHILD_TEST", "seen", 1);
   const ProgramResult variables = run_child("env", {}, "");
   EXPECT_FALSE(contains(std::string(variables.out.begin(), variables.out.end()), "ZONEPLATE_CHILD_TEST"));
+}
+
+/// A folder with a program that prints its own name, and PATH as it was before.
+class ChildInPath : public testing::Test {
+ protected:
+  ChildInPath() : before_(std::getenv("PATH") ? std::getenv("PATH") : "") {
+    std::string name = (std::filesystem::temp_directory_path() / "zoneplate_path_XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    const std::string program = folder_ + "/zoneplate-test-program";
+    std::ofstream(program) << "#!/bin/sh\necho \"$0\"\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  }
+  ~ChildInPath() override {
+    ::setenv("PATH", before_.c_str(), 1);
+    std::filesystem::remove_all(folder_);
+  }
+  std::string before_, folder_;
+};
+
+TEST_F(ChildInPath, IsFoundThereAndNeverByAFolderThatIsNotAbsolute) {
+  ::setenv("PATH", ("/no/such/folder:" + folder_).c_str(), 1);
+  const ProgramResult answer = run_child("zoneplate-test-program", {}, "");
+  EXPECT_EQ(std::string(answer.out.begin(), answer.out.end()), folder_ + "/zoneplate-test-program\n");
+  const std::string relative = std::filesystem::relative(folder_).string();
+  for (const std::string& path : {relative, std::string("."), std::string()}) {
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_THROW(run_child("zoneplate-test-program", {}, ""), Error) << path;
+  }
+  ::unsetenv("PATH");
+  EXPECT_EQ(run_child("true", {}, "").code, 0);  // the usual folders hold it
 }
 
 TEST(Child, EndsWhatDoesNotEnd) {

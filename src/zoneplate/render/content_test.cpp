@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
@@ -41,7 +42,7 @@ Frame frame_of(const Scene& scene, const Camera& camera, const Request& request,
                Isa isa = best_isa()) {
   RenderOptions options{.width = width, .height = height};
   options.isa = isa;
-  return render(scene, camera, request, options, counts);
+  return render(PreparedScene(scene), camera, request, options, counts);
 }
 
 Camera camera_of(const Scene& scene) {

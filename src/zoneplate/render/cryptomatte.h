@@ -13,7 +13,9 @@
 
 namespace zoneplate {
 
-/// The 32-bit MurmurHash3 (x86_32) with seed 0. Source    Appleby, smhasher, 2011.
+/// The 32-bit MurmurHash3 (x86_32) with seed 0.
+///
+/// Source    Appleby, smhasher, 2011.
 std::uint32_t murmur3(std::string_view text);
 
 /// A name as Cryptomatte stores it: its hash as the bits of a float, with one exponent bit turned where the float would

@@ -19,6 +19,7 @@ struct CustomDraw {
   const RenderOptions& options;
   Plane<float>* error = nullptr;
   RasterCounts& counts;
+  RasterMemory& memory;
 };
 
 }  // namespace zoneplate

@@ -26,6 +26,9 @@ struct Planes {
     return depth || normal || albedo || uv || object_id || material_id || primitive_id || coverage ||
            any_point_plane() || sample_triangles;
   }
+  bool any() const { return any_pixel_plane() || error || samples || sample_colors; }
+  /// The planes of either.
+  Planes operator|(const Planes& o) const;
 };
 
 /// One rendered picture, before the method's last word and before tone mapping.
@@ -74,6 +77,16 @@ struct Frame {
   /// have it where nothing is.
   Plane<float2> edge_distance;
   static constexpr float no_edge = 0.5f;
+
+  /// Calls use(plane) for every plane of data by pixel and every one of triangles by sample, empty or not: all but the
+  /// colours and what Content other than Colour makes.
+  template <class Use>
+  void for_data_planes(Use use) {
+    use(place), use(depth), use(reversed_depth), use(normal), use(albedo), use(uv);
+    use(object_id), use(material_id), use(primitive_id), use(instance);
+    use(position), use(motion), use(flow), use(coverage), use(error);
+    for (Plane<std::uint32_t>& plane : sample_triangle) use(plane);
+  }
 };
 
 }  // namespace zoneplate

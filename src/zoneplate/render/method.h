@@ -22,11 +22,12 @@ enum class Rate {
   Sample,   ///< once per sample (supersampling)
 };
 
-/// What is found out at the samples of a frame.
+/// What is evaluated at the samples of a frame.
 enum class Content {
   Colour,         ///< light: materials and lamps are evaluated, which is called shading
   Geometry,       ///< without shading: Frame::sample_geometry
   EdgeDistances,  ///< without shading: Frame::edge_distance, of requests with one sample
+  Data,           ///< the planes of `planes` without any colour: materials are evaluated for normal, albedo and uv only
   Visibility,     ///< which triangle owns each sample, alone: `planes.sample_triangles`, or with its depth: `samples`
 };
 
@@ -53,13 +54,35 @@ struct Request {
   /// It holds what it needs: the method itself may be gone when it is called.
   std::function<void(const CustomDraw&)> draw;
   bool estimates_error = false;  ///< `draw` fills Frame::error
+
+  /// The tiles map the colour to 8-bit display codes: Frame::shown takes the place of Frame::color. Set by Renderer,
+  /// where `resolves_per_pixel`.
+  bool is_presented = false;
+  /// The next frame's FrameContext::previous has the data planes of this frame.
+  bool keeps_planes = false;
 };
 
-/// An antialiasing method at work on one sequence of frames. Override what the method changes.
+/// Which frame of a sequence a method is to make, and what is left of the one before it.
+struct FrameContext {
+  int index = 0;         ///< in its sequence; frames are counted as they are rendered
+  bool is_first = true;  ///< of its sequence: the method drops all history
+  /// A sample position for methods that spread their samples over frames; others ignore it. The first 8 elements of
+  /// the Halton sequence of bases 2 and 3, over and over, rounded to 1/256 pixel.
+  /// Source    Karis, High Quality Temporal Supersampling, SIGGRAPH 2014 course.
+  SamplePosition jitter;
+  /// The data planes of the frame before, where its request had `keeps_planes`; else, and of the first frame, null.
+  /// They stay until the method has resolved and post-processed this frame.
+  const Frame* previous = nullptr;
+};
+
+/// An antialiasing method at work on sequences of frames. Override what the method changes.
+///
+/// For each frame it gets one call of `request` or more, each with the same context; then `refine`, `resolve` and
+/// `post_process` in this order. A method with a history keeps it in its members, and drops it when `is_first`.
 class Resolver {
  public:
   virtual ~Resolver() = default;
-  virtual Request request(int /*frame*/) { return {}; }
+  virtual Request request(const FrameContext& /*context*/) { return {}; }
   /// What to render more after a look at this frame, from which the method takes what it keeps; nothing when it has
   /// seen enough. `resolve` gets the last frame.
   virtual std::optional<Request> refine(Frame& /*frame*/) { return std::nullopt; }

@@ -31,7 +31,7 @@ struct Seen {
   float4x4 clip_from_world;
 
   Seen(const Moment& moment, float aspect)
-      : scene(moment.scene),
+      : scene(moment.scene.get()),
         clip_from_world(moment.camera.clip_from_camera(aspect) * inverse(moment.camera.world_from_camera)) {}
 };
 

@@ -15,6 +15,7 @@
 #include "zoneplate/render/edge_distances.h"
 #include "zoneplate/render/geometry_points.h"
 #include "zoneplate/render/motion.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {
@@ -23,8 +24,8 @@ namespace {
 /// The scene's materials as the rasterizer's shader.
 class ScenePoints : public FragmentShader {
  public:
-  ScenePoints(const Scene& scene, const ViewUniforms& surroundings, const RenderOptions& options)
-      : scene_(scene), surfaces_(scene, surroundings, options.textures, options.records) {}
+  ScenePoints(const PreparedScene& scene, const ViewUniforms& surroundings)
+      : scene_(scene.scene()), surfaces_(scene_, surroundings, scene.textures(), scene.vertices()) {}
 
   void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
     surfaces_.shade(batch, outputs, out);
@@ -57,7 +58,7 @@ PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const 
           up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
 }
 
-ViewUniforms surroundings_of(const Scene& scene, const Camera& camera, const float4x4& clip_from_camera,
+ViewUniforms surroundings_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
                              const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
   ViewUniforms s;
@@ -65,18 +66,18 @@ ViewUniforms surroundings_of(const Scene& scene, const Camera& camera, const flo
   s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
   s.is_orthographic = camera.is_orthographic;
   if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
-  s.environment = options.environment;
-  s.ambient_light = scene.ambient_light;
-  s.raw_colors = options.raw_colors;
+  for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
+  s.environment = lighting.environment.constant_radiance();
+  s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   s.isa = options.isa;
   return s;
 }
 
 /// The tiles write all of the picture that is shown: memory of an earlier one does as well.
-Rgba8Image make_shown(int w, int h, RasterMemory* memory) {
-  const bool fits = memory && memory->shown.width() == w && memory->shown.height() == h;
-  return fits ? std::move(memory->shown) : Rgba8Image(w, h);
+Rgba8Image make_shown(int w, int h, RasterMemory& memory) {
+  const bool fits = memory.shown.width() == w && memory.shown.height() == h;
+  return fits ? std::move(memory.shown) : Rgba8Image(w, h);
 }
 
 /// The planes of a request that has no colour.
@@ -97,14 +98,16 @@ void make_uncoloured(const Request& request, int w, int h, Frame& frame, Target&
   }
 }
 
-void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Frame& frame, Target& target) {
+void make_planes(const Request& request, int w, int h, Frame& frame, Target& target) {
+  Planes planes = request.planes;
+  const std::size_t samples = request.samples.size();
   const auto make = [&](bool wanted, auto& plane, auto*& pointer, auto empty) {
     if (!wanted) return;
     plane = {w, h, empty};
     pointer = &plane;
   };
   if (planes.any_point_plane()) planes.object_id = planes.primitive_id = true;
-  make(!target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(request.content == Content::Colour && !target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
   make(planes.any_point_plane(), frame.place, target.place, SamplePosition{});
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
@@ -115,15 +118,15 @@ void make_planes(Planes planes, const SamplePattern& samples, int w, int h, Fram
   make(planes.primitive_id, frame.primitive_id, target.primitive, Frame::no_id);
   make(planes.coverage, frame.coverage, target.coverage, 0.0f);
   if (planes.samples || planes.sample_triangles) {
-    frame.sample_triangle.assign(samples.size(), Plane<std::uint32_t>(w, h, Frame::no_id));
+    frame.sample_triangle.assign(samples, Plane<std::uint32_t>(w, h, Frame::no_id));
     target.sample_triangle = &frame.sample_triangle;
   }
   if (planes.samples || planes.sample_colors) {
-    frame.sample_color.assign(samples.size(), LinearImage(w, h, Linear{0, 0, 0, 0}));
+    frame.sample_color.assign(samples, LinearImage(w, h, Linear{0, 0, 0, 0}));
     target.sample_color = &frame.sample_color;
   }
   if (!planes.samples) return;
-  frame.sample_depth.assign(samples.size(), Plane<float>(w, h, 0.0f));
+  frame.sample_depth.assign(samples, Plane<float>(w, h, 0.0f));
   target.sample_depth = &frame.sample_depth;
 }
 
@@ -148,34 +151,36 @@ void check(const RenderOptions& o, const Request& request) {
     reject("the crop must lie within the picture of " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
-  if (request.draw && (o.shown || request.planes.samples || request.planes.sample_colors))
+  if (request.draw && (request.is_presented || request.planes.samples || request.planes.sample_colors))
     reject("a method that draws for itself gives a linear picture and has no samples");
-  assert(request.content == Content::Colour || !(request.draw || o.shown));
+  assert(request.content == Content::Colour || !(request.draw || request.is_presented));
+  assert(request.content != Content::Data || !(request.planes.samples || request.planes.sample_colors));
   assert(request.content != Content::EdgeDistances || request.samples.size() == 1);
 }
 
 /// The colour by the request's own hand, the data passes by the tiles.
 RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const FragmentShader& shader,
-                     const RasterRules& rules, const Target& target, const RenderOptions& options,
-                     Plane<float>* error) {
+                     const RasterRules& rules, const Target& target, const RenderOptions& options, RasterMemory& memory,
+                     Plane<float>* error, std::uint64_t& geometric) {
   RasterCounts counts;
   if (request.planes.any_pixel_plane()) {
     Target planes = target;
     planes.color = nullptr;
-    rasterize(draws, shader, rules, planes, options.memory);
+    const RasterCounts data = rasterize(draws, shader, rules, planes, &memory);
+    geometric = data.shaded + data.evaluated;
   }
-  request.draw({draws, shader, rules, target, options, error, counts});
+  request.draw({draws, shader, rules, target, options, error, counts, memory});
   return counts;
 }
 
-/// What has no colour shows opaque and masked surfaces alone.
+/// Without colour only opaque and masked surfaces count. Data keep the blended draws, so that triangles keep their
+/// numbers.
 RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
                              const FragmentShader& surfaces, const RasterRules& rules, Target& target,
-                             const RenderOptions& options) {
+                             RasterMemory& memory) {
+  const auto run = [&](const FragmentShader& points) { return rasterize(draws, points, rules, target, &memory); };
+  if (request.content == Content::Data) return run(surfaces);
   std::erase_if(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
-  const auto run = [&](const FragmentShader& points) {
-    return rasterize(draws, points, rules, target, options.memory);
-  };
   if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
   if (request.content == Content::Visibility) return run(surfaces);
   target.is_per_sample = true;
@@ -184,16 +189,19 @@ RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Req
 
 }  // namespace
 
-Frame render(const Scene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
-             RenderCounts* counts) {
+Frame render(const PreparedScene& prepared, const Camera& camera, const Request& request, const RenderOptions& options,
+             RenderCounts* counts, RasterMemory* kept) {
   check(options, request);
+  RasterMemory own;
+  RasterMemory& memory = kept ? *kept : own;
+  const Scene& scene = prepared.scene();
   const Stopwatch prepare;
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   SceneDraws draws = growing(
       "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
-  const ScenePoints points(scene, surroundings_of(scene, camera, clip_from_camera, options), options);
+  const ScenePoints points(prepared, surroundings_of(prepared.lighting(), camera, clip_from_camera, options));
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;
@@ -210,13 +218,14 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
         request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
   if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
   std::optional<DisplayTransform> presenter;
-  if (options.shown) target.presenter = &presenter.emplace(*options.shown);
+  if (request.is_presented) target.presenter = &presenter.emplace(options.display);
   const bool has_color = request.content == Content::Colour;
-  if (has_color)
-    make_planes(request.planes, request.samples, crop.width, crop.height, frame, target);
+  const bool has_data = has_color || request.content == Content::Data;
+  if (has_data)
+    make_planes(request, crop.width, crop.height, frame, target);
   else
     make_uncoloured(request, crop.width, crop.height, frame, target);
-  if (target.presenter) target.shown = &(frame.shown = make_shown(crop.width, crop.height, options.memory));
+  if (target.presenter) target.shown = &(frame.shown = make_shown(crop.width, crop.height, memory));
   const double prepare_ms = prepare.ms();
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
@@ -224,17 +233,18 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
                           .isa = options.isa,
                           .room = options.room};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
-  const RasterCounts c =
-      !has_color ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, options)
-      : request.draw
-          ? draw_by(request, draws.draws, points, rules, target, options, frame.error.empty() ? nullptr : &frame.error)
-          : rasterize(draws.draws, points, rules, target, options.memory);
+  std::uint64_t geometric = 0;
+  const RasterCounts c = !has_color
+                             ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, memory)
+                         : request.draw ? draw_by(request, draws.draws, points, rules, target, options, memory,
+                                                  frame.error.empty() ? nullptr : &frame.error, geometric)
+                                        : rasterize(draws.draws, points, rules, target, &memory);
   if (request.content == Content::EdgeDistances)
     frame.edge_distance = edge_distances_of(std::exchange(frame.color, {}));
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
-  if (has_color && request.planes.any_point_plane()) {
+  if (has_data && request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
-    add_surface_points({&scene, camera}, request.planes, options, frame);
+    add_surface_points({prepared.shared_scene(), camera}, request.planes, options, frame);
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
@@ -247,7 +257,7 @@ Frame render(const Scene& scene, const Camera& camera, const Request& request, c
                .triangles = c.triangles,
                .triangles_set_up = c.set_up,
                .shaded = has_color ? c.shaded : 0,
-               .geometric = has_color ? 0 : c.shaded};
+               .geometric = geometric + c.evaluated + (has_color ? 0 : c.shaded)};
   return frame;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "zoneplate/base/isa.h"
@@ -12,8 +13,7 @@
 
 namespace zoneplate {
 
-class TextureSet;
-class InterleavedVertices;
+class PreparedScene;
 struct RasterMemory;
 
 /// A part of the picture, in its pixels.
@@ -31,9 +31,9 @@ enum class Visibility {
   Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
 };
 
-/// A scene as it is at some time, and the camera then.
+/// A scene as it is at some time, and the camera then. Of the scene, meshes and instances are looked at.
 struct Moment {
-  const Scene* scene = nullptr;
+  std::shared_ptr<const Scene> scene;
   Camera camera;
 };
 
@@ -44,43 +44,38 @@ struct RenderOptions {
   EdgeRule edge_rule = EdgeRule::TopLeft;
   Visibility visibility = Visibility::ZBuffer;
   bool cull_back_faces = true;  ///< of single-sided materials
-  float3 environment{0, 0, 0};  ///< radiance of a constant environment
-  bool raw_colors = false;      ///< images are not decoded from sRGB
   int anisotropy = 1;           ///< texture probes along a footprint, for all samplers that blend levels; at most 16
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
   Isa isa = current_isa();
-  RasterRoom room;  ///< memory for time; no bit of a picture depends on it
-  /// How the picture is shown: it is made tile by tile as Frame::shown, and Frame::color stays empty. For methods
-  /// whose request is local.
-  const DisplayOptions* shown = nullptr;
-  /// How the picture will be shown, for methods that average what is shown; null: as DisplayOptions{}.
-  const DisplayOptions* display = nullptr;
-  const Moment* last = nullptr;  ///< what Frame::motion is counted from; null: nothing moves
-  const Moment* next = nullptr;  ///< what Frame::flow leads to
-  // The scene's, made once for many frames; null: made for this one.
-  const TextureSet* textures = nullptr;
-  const InterleavedVertices* records = nullptr;
-  RasterMemory* memory = nullptr;  ///< of earlier frames, to be used again; null: its own
+  RasterRoom room;             ///< memory for time; no bit of a picture depends on it
+  DisplayOptions display;      ///< from linear light to display-referred colour
+  std::optional<Moment> last;  ///< what Frame::motion is counted from; none: nothing moves
+  std::optional<Moment> next;  ///< what Frame::flow leads to
 };
 
 /// Where time went and how much was done.
 struct RenderCounts {
   double prepare_ms = 0, geometry_ms = 0, tiles_ms = 0;
+  double resolve_ms = 0;               ///< the method's resolve, where the tiles have not done it
+  double display_ms = 0;               ///< tone mapping, encoding and quantization outside the tiles
+  double filter_ms = 0;                ///< the method's post-process filter
   StageTimes stages;                   ///< of geometry and tiles
   std::uint64_t vertices = 0;          ///< of all draws
   std::uint64_t triangles = 0;         ///< given
   std::uint64_t triangles_set_up = 0;  ///< after culling and clipping
   std::uint64_t shaded = 0;            ///< points shaded
-  std::uint64_t geometric = 0;         ///< points whose geometry alone was evaluated (Request::content)
+  std::uint64_t geometric = 0;         ///< points of which only geometry or data planes were evaluated, without light
 };
 
-/// Renders one frame of a scene as `request` asks, on the threads of the innermost `with_threads`.
+/// Renders one frame of a scene by a request, on the threads of the innermost `with_threads`. Renderer
+/// (render/renderer.h) does the same by a method, with all of the method's rounds.
 ///
+/// `memory` of an earlier frame saves the system's work of finding new pages.
 /// Exact     the same bits for any number of threads and any Isa; triangle order does not matter (equal depths: the
 ///           earlier triangle wins).
-Frame render(const Scene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
-             RenderCounts* counts = nullptr);
+Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
+             RenderCounts* counts = nullptr, RasterMemory* memory = nullptr);
 
 }  // namespace zoneplate

@@ -14,8 +14,11 @@ namespace zoneplate {
 namespace {
 
 constexpr const char* package = "fonts-dejavu-core";
-constexpr const char* files[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                 "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
+constexpr const char* files[] = {"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"};
+/// Where Debian, Arch, Fedora, Gentoo and Alpine, and an administrator put them.
+constexpr const char* folders[] = {"/usr/share/fonts/truetype/dejavu/",       "/usr/share/fonts/TTF/",
+                                   "/usr/share/fonts/dejavu-sans-fonts/",     "/usr/share/fonts/dejavu/",
+                                   "/usr/local/share/fonts/truetype/dejavu/", "/usr/local/share/fonts/"};
 constexpr double leading_em = 1.4;  // DejaVu's letters are tall: the usual 1.2 looks crowded
 constexpr char32_t replacement = 0xfffd;
 
@@ -92,14 +95,17 @@ void Typeface::Close::operator()(FT_LibraryRec_* library) const { FT_Done_FreeTy
 void Typeface::Close::operator()(FT_FaceRec_* face) const { FT_Done_Face(face); }
 
 Typeface::Typeface(Weight weight, int px) : px_(px) {
-  const char* file = files[weight == Weight::Bold];
+  const char* const file = files[weight == Weight::Bold];
   FT_Library library = nullptr;
   FT_Face face = nullptr;
   if (FT_Init_FreeType(&library) != 0) throw Error(ErrorKind::Failed, "FreeType cannot be started");
   library_.reset(library);
-  if (FT_New_Face(library, file, 0, &face) != 0)
+  for (const char* folder : folders)
+    if (FT_New_Face(library, (std::string(folder) + file).c_str(), 0, &face) == 0) break;
+  if (face == nullptr)
     throw Error(ErrorKind::Failed,
-                fmt::format("{}: the font of captions cannot be read; it is in Debian's package {}", file, package));
+                fmt::format("{}: the font of captions is in none of {}; it is in Debian's package {}", file,
+                            fmt::join(folders, ", "), package));
   face_.reset(face);
   if (FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(px)) != 0)
     throw Error(ErrorKind::Failed, fmt::format("{}: there are no letters of {} pixels", file, px));

@@ -14,13 +14,14 @@ constexpr Lamp lamps[] = {
 
 }  // namespace
 
-std::vector<Light> default_lights(const Camera& camera) {
+std::vector<Light> default_lights() {
   std::vector<Light> lights;
   for (const Lamp& lamp : lamps) {
     Light& light = lights.emplace_back();
     light.name = lamp.name;
     light.intensity = lamp.lux;
-    light.direction = normalize(transform_vector(camera.world_from_camera, -lamp.from), {0, -1, 0});
+    light.is_in_camera_space = true;
+    light.direction = -lamp.from;
   }
   return lights;
 }

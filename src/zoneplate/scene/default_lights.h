@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "zoneplate/scene/camera.h"
 #include "zoneplate/scene/light.h"
 
 namespace zoneplate {
@@ -13,9 +12,9 @@ namespace zoneplate {
 /// fill  from the right, a little below: a sixth of the key, so that no side is black;
 /// back  from above behind: draws the upper outline against the background.
 ///
-/// Space     directions are fixed to the camera's axes, whatever the up axis of the scene.
+/// Space     the camera's (Light::is_in_camera_space), whatever the up axis of the scene.
 /// Units     lux. A white diffuse surface that faces the key comes out just below 1.
-std::vector<Light> default_lights(const Camera& camera);
+std::vector<Light> default_lights();
 
 /// The radiance of the constant environment that goes with them: what metals mirror.
 inline constexpr float default_environment = 0.25f;

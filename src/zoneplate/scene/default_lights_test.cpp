@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "zoneplate/scene/camera.h"
+
 namespace zoneplate {
 namespace {
 
 TEST(DefaultLights, AreAKeyAFillAndABackLightOfUnitDirection) {
-  const std::vector<Light> lights = default_lights({});
+  std::vector<Light> lights;
+  for (const Light& light : default_lights()) lights.push_back(in_world_space(light, Camera().world_from_camera));
   ASSERT_EQ(lights.size(), 3u);
   EXPECT_EQ(lights[0].name, "key");
   EXPECT_EQ(lights[1].name, "fill");
@@ -26,7 +29,8 @@ TEST(DefaultLights, TurnWithTheCamera) {
   // A camera that looks along +X: what was -Z for the camera is +X in the world.
   Camera camera;
   camera.world_from_camera = {{float4{0, 0, 1, 0}, float4{0, 1, 0, 0}, float4{-1, 0, 0, 0}, float4{5, 6, 7, 1}}};
-  const Light straight = default_lights({})[0], turned = default_lights(camera)[0];
+  const Light straight = in_world_space(default_lights()[0], Camera().world_from_camera);
+  const Light turned = in_world_space(default_lights()[0], camera.world_from_camera);
   EXPECT_FLOAT_EQ(turned.direction.x, -straight.direction.z);
   EXPECT_FLOAT_EQ(turned.direction.y, straight.direction.y);
   EXPECT_FLOAT_EQ(turned.direction.z, straight.direction.x);

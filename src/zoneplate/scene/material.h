@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "zoneplate/math/vec.h"
 #include "zoneplate/scene/alpha_mode.h"
@@ -70,5 +73,31 @@ struct Material {
   float3 specular{0, 0, 0};               ///< (Blinn-)Phong only: Ks
   float exponent = 32;                    ///< (Blinn-)Phong only: Ns
 };
+
+/// A place for a texture in a material.
+struct MaterialTextureSlot {
+  std::string_view gltf_name;  ///< of the property that holds the texture in a glTF material
+  TextureUse Material::*use;
+  bool is_color;               ///< its codes are sRGB, else linear
+  bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
+};
+
+/// The texture slots of every material, in the order of this list.
+inline constexpr std::size_t texture_slot_count = 5;
+enum class TextureSlotIndex { BaseColor, MetallicRoughness, Emissive, Normal, Occlusion };
+inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_texture_slots = {
+    {{"baseColorTexture", &Material::base_color_texture, true, true},
+     {"metallicRoughnessTexture", &Material::metallic_roughness_texture, false, true},
+     {"emissiveTexture", &Material::emissive_texture, true, false},
+     {"normalTexture", &Material::normal_texture, false, false},
+     {"occlusionTexture", &Material::occlusion_texture, false, false}}};
+
+/// The textures of a material, by slot.
+inline std::array<const TextureUse*, texture_slot_count> texture_slots(const Material& material) {
+  std::array<const TextureUse*, texture_slot_count> uses{};
+  for (std::size_t slot = 0; slot < texture_slot_count; ++slot)
+    uses[slot] = &(material.*material_texture_slots[slot].use);
+  return uses;
+}
 
 }  // namespace zoneplate

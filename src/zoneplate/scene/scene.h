@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zoneplate/scene/camera.h"
+#include "zoneplate/scene/environment.h"
 #include "zoneplate/scene/light.h"
 #include "zoneplate/scene/material.h"
 #include "zoneplate/scene/mesh.h"
@@ -37,6 +38,7 @@ struct Scene {
   std::vector<TextureImage> images;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
+  Environment environment;
   float3 up{0, 1, 0};             ///< the upward axis that the file's format means; the camera takes it from here
   float3 ambient_light{0, 0, 0};  ///< of (Blinn-)Phong's ambient term, of which surfaces reflect Material::ambient
   std::vector<AnimationSpan> animations;  ///< that the file has

@@ -79,16 +79,15 @@ const char* flaw_of(const Material& m, const Scene& s) {
   if (!is_amount(m.alpha_cutoff) || !is_amount(m.exponent) || !std::isfinite(m.normal_scale) ||
       !is_share(m.occlusion_strength) || !is_share(m.metallic) || !is_share(m.roughness))
     return "a factor out of range";
-  for (const TextureUse* use : {&m.base_color_texture, &m.emissive_texture, &m.normal_texture, &m.occlusion_texture,
-                                &m.metallic_roughness_texture})
+  for (const TextureUse* use : texture_slots(m))
     if (const char* flaw = flaw_of(*use, s)) return flaw;
   return nullptr;
 }
 
 const char* flaw_of(const Light& l, const Scene&) {
   if (!are_amounts(l.color) || !is_amount(l.intensity)) return "a colour or intensity out of range";
-  if (!is_finite(l.position) || !is_finite(l.direction) || !has_unit_length(l.direction))
-    return "a place or direction that is none";
+  const bool is_direction = l.is_in_camera_space ? length(l.direction) > 0 : has_unit_length(l.direction);
+  if (!is_finite(l.position) || !is_finite(l.direction) || !is_direction) return "a place or direction that is none";
   if (!(l.range > 0) || !are_amounts(l.attenuation)) return "a falloff out of range";
   constexpr float right_angle = 1.5707964f;
   if (!(l.inner_cone >= 0 && l.inner_cone < l.outer_cone && l.outer_cone <= right_angle)) return "a cone out of range";
@@ -104,6 +103,13 @@ const char* flaw_of(const Camera& c, const Scene&) {
     return "a field of view out of range";
   if (!is_amount(c.near) || !(c.far > c.near) || (c.is_orthographic ? !is_amount(c.far) : c.near == 0))
     return "a near or far distance out of range";
+  return nullptr;
+}
+
+const char* flaw_of(const Environment& e, const Scene& s) {
+  if (!are_amounts(e.color) || !is_amount(e.strength) || !std::isfinite(e.rotation))
+    return "a radiance or rotation out of range";
+  if (e.image >= 0 && !is_number_of(e.image, s.images.size())) return "no image of that number";
   return nullptr;
 }
 
@@ -171,6 +177,7 @@ std::optional<std::string> find_invalid(const Scene& s) {
   if (auto flaw = flaw_among(s.lights, "light", s)) return flaw;
   if (auto flaw = flaw_among(s.cameras, "camera", s)) return flaw;
   if (auto flaw = flaw_among(s.animations, "animation", s)) return flaw;
+  if (const char* flaw = flaw_of(s.environment, s)) return std::string("environment: ") + flaw;
   if (!is_finite(s.up) || !has_unit_length(s.up)) return "its upward axis has no unit length";
   if (!are_amounts(s.ambient_light)) return "its ambient light is out of range";
   if (!std::all_of(s.warnings.begin(), s.warnings.end(), is_one_line)) return "a warning of several lines";

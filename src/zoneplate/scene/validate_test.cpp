@@ -82,6 +82,8 @@ TEST(FindFlaw, LightsAndCamerasAreWithinWhatRenderingTakes) {
   EXPECT_EQ(with_light([](Light& l) { l.color.y = NAN; }), "light 0: a colour or intensity out of range");
   EXPECT_EQ(with_light([](Light& l) { l.position.x = INFINITY; }), "light 0: a place or direction that is none");
   EXPECT_EQ(with_light([](Light& l) { l.direction = {}; }), "light 0: a place or direction that is none");
+  EXPECT_EQ(with_light([](Light& l) { l.direction = {1, 2, 3}; }), "light 0: a place or direction that is none");
+  EXPECT_EQ(with_light([](Light& l) { l.direction = {1, 2, 3}, l.is_in_camera_space = true; }), "");
   EXPECT_EQ(with_light([](Light& l) { l.range = 0; }), "light 0: a falloff out of range");
   EXPECT_EQ(with_light([](Light& l) { l.attenuation.z = -1; }), "light 0: a falloff out of range");
   EXPECT_EQ(with_light([](Light& l) { l.inner_cone = l.outer_cone; }), "light 0: a cone out of range");
@@ -105,6 +107,11 @@ TEST(FindFlaw, LightsAndCamerasAreWithinWhatRenderingTakes) {
 
 TEST(FindFlaw, WhatIsOfTheWholeSceneIsLookedAtToo) {
   EXPECT_EQ(flaw_after([](Scene& s) { s.up = {0, 0, 0}; }), "its upward axis has no unit length");
+  EXPECT_EQ(flaw_after([](Scene& s) { s.environment.color.x = -1; }),
+            "environment: a radiance or rotation out of range");
+  EXPECT_EQ(flaw_after([](Scene& s) { s.environment.rotation = NAN; }),
+            "environment: a radiance or rotation out of range");
+  EXPECT_EQ(flaw_after([](Scene& s) { s.environment.image = 99; }), "environment: no image of that number");
   EXPECT_EQ(flaw_after([](Scene& s) { s.ambient_light.y = NAN; }), "its ambient light is out of range");
   EXPECT_EQ(flaw_after([](Scene& s) { s.animations = {{"a", 2, 1}}; }), "animation 0: a time out of range");
   EXPECT_EQ(flaw_after([](Scene& s) {

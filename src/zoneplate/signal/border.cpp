@@ -11,14 +11,14 @@
 namespace zoneplate {
 
 const char* name_of(Border border) {
-  static constexpr const char* names[] = {"clamp", "reflect", "wrap", "zero"};
+  static constexpr const char* names[] = {"clamp", "reflect", "wrap", "zero", "cut"};
   return names[static_cast<int>(border)];
 }
 
 Border parse_border(std::string_view name) {
-  for (const Border border : {Border::Clamp, Border::Reflect, Border::Wrap, Border::Zero})
+  for (const Border border : {Border::Clamp, Border::Reflect, Border::Wrap, Border::Zero, Border::Cut})
     if (name == name_of(border)) return border;
-  throw Error(ErrorKind::Usage, fmt::format("no border rule '{}'; wants clamp, reflect, wrap or zero", name));
+  throw Error(ErrorKind::Usage, fmt::format("no border rule '{}'; wants clamp, reflect, wrap, zero or cut", name));
 }
 
 int border_index(int i, int n, Border border) {
@@ -35,6 +35,7 @@ int border_index(int i, int n, Border border) {
     case Border::Wrap:
       return modulo(i, n);
     case Border::Zero:
+    case Border::Cut:
       break;
   }
   return -1;

@@ -14,15 +14,16 @@ enum class Border {
   Reflect,  ///< dcba abcd dcba: mirrored at the outer edge of the last pixel
   Wrap,     ///< abcd abcd abcd
   Zero,     ///< 0000 abcd 0000
+  Cut,      ///< nothing: of a kernel that reaches beyond, the rest is divided by its sum; for resample() alone
 };
 
-/// "clamp", "reflect", "wrap", "zero".
+/// "clamp", "reflect", "wrap", "zero", "cut".
 const char* name_of(Border border);
 
 /// Errors    ErrorKind::Usage for another name.
 Border parse_border(std::string_view name);
 
-/// Which of the n pixels stands at index i, which may be far outside; -1 for none (Zero).
+/// Which of the n pixels stands at index i, which may be far outside; -1 for none (Zero, Cut).
 ///
 /// Requires  n >= 1.
 int border_index(int i, int n, Border border);

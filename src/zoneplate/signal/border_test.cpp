@@ -23,12 +23,13 @@ TEST(Border, RulesAreAsTheirPicturesShow) {
   EXPECT_EQ(shown(Border::Reflect, 4), "abcddcbaabcddcbaabcd");
   EXPECT_EQ(shown(Border::Wrap, 4), "abcdabcdabcdabcdabcd");
   EXPECT_EQ(shown(Border::Zero, 4), "00000000abcd00000000");
+  EXPECT_EQ(shown(Border::Cut, 4), "00000000abcd00000000");
   for (Border border : {Border::Clamp, Border::Reflect, Border::Wrap}) EXPECT_EQ(border_index(-9, 1, border), 0);
   EXPECT_EQ(border_index(-2147483647, 3, Border::Reflect), border_index(-2147483647 % 6, 3, Border::Reflect));
 }
 
 TEST(Border, NamesReadBack) {
-  for (Border border : {Border::Clamp, Border::Reflect, Border::Wrap, Border::Zero})
+  for (Border border : {Border::Clamp, Border::Reflect, Border::Wrap, Border::Zero, Border::Cut})
     EXPECT_EQ(parse_border(name_of(border)), border);
   EXPECT_THROW(parse_border("mirror"), Error);
 }

@@ -88,7 +88,7 @@ class Axial : public Resolver {
     for (int i = 0; i < places; ++i) pattern_.push_back({at(i), 128});
     for (int i = 0; i < places; ++i) pattern_.push_back({128, at(i)});
   }
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     color_ = {};
     Request request;
     request.planes.normal = request.planes.object_id = request.planes.material_id = of_surfaces_;

@@ -11,7 +11,7 @@ namespace zoneplate::antialias {
 /// (Content), and makes the picture of both. A pixel depends on the eight around it.
 class ColorThenData : public Resolver {
  public:
-  Request request(int) final {
+  Request request(const FrameContext&) final {
     color_ = {};
     return with_halo({});
   }

@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate::antialias {
@@ -36,7 +37,7 @@ TEST(IdSraa, PicturesWithinASurfaceKeepTheirBits) {
   request.content = Content::Visibility;
   request.planes.sample_triangles = true;
   for (const SamplePosition p : standard_pattern(8)) request.samples.push_back(p);
-  const Frame seen = render(scene, scene.cameras.at(0), request, {.width = 160, .height = 120});
+  const Frame seen = render(PreparedScene(scene), scene.cameras.at(0), request, {.width = 160, .height = 120});
   std::size_t within = 0, mixed = 0, changed = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {
     const bool is_one = std::ranges::all_of(seen.sample_triangle, [&](const Plane<std::uint32_t>& triangle) {

@@ -9,7 +9,7 @@ class PostProcess : public Resolver {
  public:
   PostProcess(int reach, Mixing mixing, EncodedFilter filter)
       : reach_(reach), mixing_(mixing), filter_(std::move(filter)) {}
-  Request request(int) override { return display_referred_request(reach_); }
+  Request request(const FrameContext&) override { return display_referred_request(reach_); }
   DisplayImage post_process(DisplayImage image, const Frame&) override {
     return filter_encoded(std::move(image), mixing_, filter_);
   }

@@ -136,7 +136,7 @@ TEST(PostProcess, ACropWithItsHaloEqualsTheWhole) {
   constexpr int width = 330, height = 310, left = 140, top = 131, right = 190, bottom = 178;
   const Rgba8Image image = random_shapes(width, height, 7);
   for (const Case& c : cases) {
-    const int halo = make_resolver(methods(), c.text)->request(0).halo;
+    const int halo = make_resolver(methods(), c.text)->request({}).halo;
     ASSERT_GT(halo, 0);
     const int x0 = std::max(0, left - halo), y0 = std::max(0, top - halo);
     const int w = std::min(width, right + halo) - x0, h = std::min(height, bottom + halo) - y0;

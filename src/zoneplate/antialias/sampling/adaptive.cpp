@@ -44,7 +44,7 @@ class Adaptive : public Resolver {
   Adaptive(int n, float share)
       : fine_(grid_pattern(n)), limits_{0.4f * share, 0.3f * share, 0.6f * share, 0.3f * share} {}
 
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     first_ = {};
     pixel_mask_ = {};
     Request request{

@@ -215,10 +215,8 @@ void draw_with_slots(const CustomDraw& drawing, const SamplePattern& samples, st
   every.keeps_hidden = true;
   every.sample_color = &sampled.color;
   every.sample_triangle = &sampled.triangle;
-  RasterMemory own;
-  RasterMemory& memory = drawing.options.memory ? *drawing.options.memory : own;
-  drawing.counts = rasterize(drawing.draws, drawing.shader, drawing.rules, every, &memory);
-  const Plane<std::uint16_t> known = known_samples(memory.bins, every, sampled, slots, drawing.rules.isa);
+  drawing.counts = rasterize(drawing.draws, drawing.shader, drawing.rules, every, &drawing.memory);
+  const Plane<std::uint16_t> known = known_samples(drawing.memory.bins, every, sampled, slots, drawing.rules.isa);
   parallel_ranges(static_cast<std::size_t>(target.height), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y) {
       const int row = static_cast<int>(y);

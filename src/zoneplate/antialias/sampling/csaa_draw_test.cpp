@@ -74,7 +74,7 @@ TEST(Csaa, SlotsAreFilledInTheOrderOfDrawing) {
   for (const char* name : {"wires", "sphere:triangles=20000"}) {
     Scene scene = *make_builtin_scene(name);
     if (scene.cameras.empty()) scene.cameras.push_back(fit_camera(scene.bounds(), 4 / 3.0f, {}));
-    if (scene.lights.empty()) scene.lights = default_lights(scene.cameras[0]);
+    if (scene.lights.empty()) scene.lights = default_lights();
     const Scene backwards = drawn_backwards(scene);
     const LinearImage multisampled = shot(scene, "msaa:n=8");
     EXPECT_EQ(differing(shot(scene, "csaa:n=8,slots=8"), multisampled), 0u) << name;

@@ -17,7 +17,7 @@ constexpr std::uint8_t near = 96, far = 160;  // 3/8 and 5/8
 
 class FlipQuad : public Resolver {
  public:
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request{.samples = {{near, 0}, {far, 0}, {0, far}, {0, near}},
                     .rate = Rate::Surface,
                     .weights = {},

@@ -23,7 +23,7 @@ class Msaa : public Resolver {
         accumulator_(filter_),
         alpha_(alpha),
         centroid_(centroid) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.alpha = alpha_;
     request.centroid = centroid_;

@@ -6,7 +6,7 @@ namespace {
 
 class None : public Resolver {
  public:
-  Request request(int) override { return {.resolves_per_pixel = true}; }
+  Request request(const FrameContext&) override { return {.resolves_per_pixel = true}; }
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 class Quincunx : public Resolver {
  public:
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request{
         .samples = {{128, 128}, {0, 0}}, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;

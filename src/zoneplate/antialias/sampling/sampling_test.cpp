@@ -135,7 +135,7 @@ TEST(SharedSamples, SmoothEdgesAndKeepFlatColours) {
 TEST(SharedSamples, ACropWithItsHaloIsThePartOfTheWhole) {
   const Scene scene = *make_builtin_scene("cyclic");
   for (const char* method : {"quincunx", "flipquad", "msaa:n=8,filter=mitchell", "ssaa:n=2,filter=tent", "adaptive"}) {
-    const int halo = make_resolver(methods(), method)->request(0).halo;
+    const int halo = make_resolver(methods(), method)->request({}).halo;
     const LinearImage whole = shot(scene, method);
     RenderOptions options{.width = 160, .height = 120};
     options.crop = Crop{51 - halo, 40 - halo, 30 + 2 * halo, 21 + 2 * halo};

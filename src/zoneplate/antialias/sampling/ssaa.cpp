@@ -22,7 +22,7 @@ class Ssaa : public Resolver {
   Ssaa(SamplePattern pattern, ResolveFilter filter)
       : pattern_(std::move(pattern)), filter_(std::move(filter)), accumulator_(filter_) {}
 
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     if (filter_.is_plain())
       return {.samples = pattern_,
               .rate = Rate::Sample,

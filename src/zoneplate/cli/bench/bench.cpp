@@ -129,7 +129,7 @@ Syntax syntax_of(BenchArgs& args) {
        [&](const std::string& text) { args.work.size = parse_size(text, 16384); }},
       {"--aniso", "N", "Anisotropy of base colours' filters, 1 to 16; default: the scene's own", "Work", false,
        whole(args.work.anisotropy, 1, 16)},
-      {"--threads", "N", "Threads; default: as many as there are processors", "Work", true,
+      {"--threads", "N", "Threads; default: as many as affinity and CPU quota allow", "Work", true,
        whole(args.threads, 1, 1024)},
       {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default the best there is", "Work", false,
        [&](const std::string& text) { args.work.isa = parse_isa(text); }},

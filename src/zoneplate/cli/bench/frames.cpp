@@ -14,9 +14,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/codec/png.h"
-#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -47,29 +46,28 @@ BenchTiming time_frames(const BenchWork& work) {
     if (work.anisotropy > 0) anisotropy = work.anisotropy;
     timing.anisotropy = std::max(timing.anisotropy, anisotropy);
   }
-  const Scene& scene = *found;
-  RenderOptions options{.width = work.size.x, .height = work.size.y, .raw_colors = true, .isa = work.isa};
-  const TextureSet textures(scene, options.raw_colors);
-  options.textures = &textures;
-  const InterleavedVertices records(scene);
-  options.records = &records;
-  const std::unique_ptr<Resolver> resolver =
-      make_resolver(antialias::methods(), work.samples == 1 ? "none" : fmt::format("msaa:n={}", work.samples));
-  const DisplayOptions display{.background = background_of(work.scene), .raw = true};
-  options.shown = &display;
-  RasterMemory memory;
-  options.memory = &memory;
+  const Camera camera = found->cameras.front();
+  const RenderSettings settings{.options = {.width = work.size.x,
+                                            .height = work.size.y,
+                                            .isa = work.isa,
+                                            .display = {.background = background_of(work.scene), .raw = true}}};
+  constexpr bool raw_colors = true;
+  Renderer renderer(
+      PreparedScene(std::move(*found), raw_colors),
+      make_resolver(antialias::methods(), work.samples == 1 ? "none" : fmt::format("msaa:n={}", work.samples)));
+  Rgba8Image picture;
 
   const auto frame = [&] {
-    RenderCounts counts;
+    renderer.recycle(std::move(picture));
     const Stopwatch whole;
-    Frame rendered = render(scene, scene.cameras.front(), resolver->request(0), options, &counts);
+    RenderedImage image = renderer.render(camera, settings);
     const double ms = whole.ms();
+    const RenderCounts& counts = image.counts;
     if (timing.frame_ms.empty() || ms < least(timing.frame_ms)) timing.best = counts;
     timing.frame_ms.push_back(ms);
     timing.geometry_ms = std::min(timing.geometry_ms, counts.geometry_ms);
     timing.tiles_ms = std::min(timing.tiles_ms, counts.tiles_ms);
-    memory.shown = std::move(rendered.shown);
+    picture = std::move(image.display);
   };
   frame();
   timing.first_ms = timing.frame_ms.front();
@@ -87,7 +85,7 @@ BenchTiming time_frames(const BenchWork& work) {
   std::vector<double> encode;
   for (int i = 0; i < 3; ++i) {
     const Stopwatch watch;
-    encode_png(memory.shown, {.has_alpha = false});
+    encode_png(picture, {.has_alpha = false});
     encode.push_back(watch.ms());
   }
   timing.encode_ms = least(encode);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "zoneplate/antialias/methods.h"
+#include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/compare/report.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/metrics.h"
@@ -113,6 +114,43 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   const Answer again = run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
   ASSERT_EQ(again.code, 0) << again.out;
   EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
+}
+
+TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
+  const Answer answer =
+      run("compare teapot --aa none,fxaa,ssaa:n=4,resolve=display --size 320x240 --turns 4 -o out"
+          " --reference ssaa:n=2 --json");
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  const auto json = parsed_json(answer.out);
+  const auto& scene = json["scenes"][0];
+  EXPECT_EQ(scene["turns"], 4);
+  EXPECT_GT(scene["reference"]["processor_ms"], 0);
+  for (const auto& method : scene["methods"]) {
+    double sum = 0;
+    for (const auto& stage : method["ms_by_stage"]) sum += stage.get<double>();
+    EXPECT_LE(sum, method["ms"].get<double>()) << method["method"];
+  }
+  const auto stage = [&](int method, const char* name) {
+    return scene["methods"][method]["ms_by_stage"][name].get<double>();
+  };
+  EXPECT_EQ(stage(0, "filter"), 0);  // the tiles make the picture
+  EXPECT_GT(stage(1, "filter"), 0.05);
+  EXPECT_GT(stage(1, "display"), 0);
+  EXPECT_GT(stage(2, "resolve"), 0);
+  // A run of one scene is titled by it, and the reference's cost stands beside its name.
+  EXPECT_TRUE(contains(text_of("out/cost.svg"), "teapot: error and cost"));
+  EXPECT_TRUE(contains(text_of("out/compare.txt"), "against ssaa:n=2 ("));
+  EXPECT_TRUE(contains(text_of("out/compare.txt"), " shaded a pixel)\n"));
+}
+
+TEST(Report, NamesMethodsThatGotFewerTurns) {
+  SceneTrials scene{.scene = "s", .turns = 3};
+  for (const char* method : {"quick", "slow", "slower"})
+    scene.trials.push_back({.method = method, .pixels = 1, .frame_ms = {1, 2, 3}, .processor_ms = {1, 2, 3}});
+  EXPECT_FALSE(contains(report_text({scene}), "Fewer"));
+  scene.trials[1].frame_ms.pop_back();
+  scene.trials[2].frame_ms.resize(1);
+  EXPECT_TRUE(contains(report_text({scene}), "Fewer than 3 turns, as they take long: slow (2), slower (1)\n"));
 }
 
 TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
@@ -221,6 +259,22 @@ TEST(ParetoFront, HoldsWhatNothingBeats) {
   std::vector<bool> front;
   for (const Trial& t : trials) front.push_back(t.is_on_front);
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, false, true, false}));
+}
+
+TEST(CostPlot, NamesMethodsOfLikeErrorAndOtherCost) {
+  const metrics::Metric* flip = nullptr;
+  for (const metrics::Metric& m : metrics::metrics())
+    if (m.name == "flip") flip = &m;
+  SceneTrials scene{.scene = "s"};
+  const auto add = [&](const char* method, double ms, double error) {
+    scene.trials.push_back({.method = method, .pixels = 1, .frame_ms = {ms}, .processor_ms = {ms}});
+    scene.trials.back().results.push_back({.metric = flip, .value = error});
+  };
+  add("fxaa", 4, 0.0100), add("none", 6, 0.0098), add("close", 6.1, 0.0097), add("msaa", 9, 0.0050);
+  find_front(scene.trials);
+  const Plot plot = cost_plot(scene);
+  EXPECT_EQ(plot.title, "s: error and cost");
+  EXPECT_EQ(plot.curves[1].labels, (std::vector<std::string>{"fxaa", "none", "", "msaa"}));
 }
 
 TEST(Report, SpecsMakeFileNames) {

@@ -60,14 +60,14 @@ Plot plot_of(const std::string& title, std::vector<Dot> dots) {
   Curve front{
       .name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1, .labels_are = Curve::Beside::LeftBelow};
   Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
-  constexpr double apart = 0.94;  // of errors whose names do not touch
-  double last_named = HUGE_VAL;
+  constexpr double lower = 0.94, later = 1.4;  // ratios of errors and of times whose names do not touch
+  double last_error = HUGE_VAL, last_ms = 0;
   for (const Dot& d : dots) {
     Curve& curve = d.is_on_front ? front : others;
     curve.points.emplace_back(d.ms, 1000 * d.error);
-    const bool is_named = !d.is_on_front || d.error <= apart * last_named;
+    const bool is_named = !d.is_on_front || d.error <= lower * last_error || d.ms >= later * last_ms;
     curve.labels.push_back(is_named ? d.method : "");
-    if (d.is_on_front && is_named) last_named = d.error;
+    if (d.is_on_front && is_named) last_error = d.error, last_ms = d.ms;
   }
   // The names of many would cover one another; those on the front are what matters.
   constexpr std::size_t few = 16;

@@ -58,6 +58,23 @@ Table table_of(const SceneTrials& scene) {
   return table;
 }
 
+/// What the reference took, which is in none of the methods' times.
+std::string reference_cost(const SceneTrials& scene) {
+  if (!scene.reference_ms) return "";
+  const double pixels = static_cast<double>(scene.reference_picture.values().size());
+  return fmt::format(" ({:.1f} ms, {:.1f} processor ms, {:.2f} shaded a pixel)", *scene.reference_ms,
+                     *scene.reference_processor_ms, static_cast<double>(scene.reference_shaded) / pixels);
+}
+
+/// The methods whose turns took so long that some were left out: the least of fewer times is less often undisturbed.
+std::string fewer_turns(const SceneTrials& scene) {
+  std::string text;
+  for (const Trial& t : scene.trials)
+    if (static_cast<int>(t.frame_ms.size()) < scene.turns)
+      text += fmt::format("{} {} ({})", text.empty() ? "" : ",", t.method, t.frame_ms.size());
+  return text.empty() ? "" : fmt::format("Fewer than {} turns, as they take long:{}\n", scene.turns, text);
+}
+
 /// The first of these is what a scene without a class counts as.
 std::string class_of(const SceneTrials& scene) { return scene.failure.empty() ? "other" : scene.failure; }
 
@@ -118,7 +135,10 @@ Json trial_json(const SceneTrials& scene, const Trial& trial) {
                       {"processor_ms_of_turns", numbers(trial.processor_ms)},
                       {"ms_by_stage", Json::Object{{"prepare", trial.counts.prepare_ms},
                                                    {"geometry", trial.counts.geometry_ms},
-                                                   {"tiles", trial.counts.tiles_ms}}},
+                                                   {"tiles", trial.counts.tiles_ms},
+                                                   {"resolve", trial.counts.resolve_ms},
+                                                   {"display", trial.counts.display_ms},
+                                                   {"filter", trial.counts.filter_ms}}},
                       {"triangles", trial.counts.triangles},
                       {"shaded", trial.counts.shaded},
                       {"shaded_per_pixel", trial.shaded_per_pixel()},
@@ -139,7 +159,9 @@ Json scene_json(const SceneTrials& scene) {
                       {"reference", Json::Object{{"source", scene.reference},
                                                  {"picture", scene.name + "/reference.png"},
                                                  {"ms", number(scene.reference_ms)},
+                                                 {"processor_ms", number(scene.reference_processor_ms)},
                                                  {"shaded", scene.reference_shaded}}},
+                      {"turns", scene.turns},
                       {"worst", place_json(scene.common_worst)},
                       {"crops", scene.name + "/crops.png"},
                       {"plot", scene.name + "/cost.svg"},
@@ -193,9 +215,9 @@ std::vector<MethodMeans> means_of(const std::vector<SceneTrials>& scenes) {
 std::string report_text(const std::vector<SceneTrials>& scenes) {
   std::string text;
   for (const SceneTrials& s : scenes) {
-    text += fmt::format("{}{}, {}x{}, against {}\n", s.scene, s.failure.empty() ? "" : " (" + s.failure + ")",
-                        s.reference_picture.width(), s.reference_picture.height(), s.reference);
-    text += table_text(table_of(s)) + '\n';
+    text += fmt::format("{}{}, {}x{}, against {}{}\n", s.scene, s.failure.empty() ? "" : " (" + s.failure + ")",
+                        s.reference_picture.width(), s.reference_picture.height(), s.reference, reference_cost(s));
+    text += table_text(table_of(s)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';
   return text + "* on the Pareto front: no other method takes less processor time and is nearer\n";

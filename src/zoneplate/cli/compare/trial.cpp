@@ -10,8 +10,6 @@
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/picture_file.h"
-#include "zoneplate/raster/tile/rasterize.h"
-#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -36,24 +34,23 @@ metrics::Picture picture_of(const Rgba8Image& codes) {
 /// One method's pictures, each turn as a program would that draws one frame after the other.
 Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
   Trial trial{.method = method};
-  RasterMemory memory;
-  RenderOptions options = stage.options;
-  options.memory = &memory;
+  std::optional<Renderer> renderer;
   double sum_ms = 0;
   for (int turn = 0; turn < turns && (turn == 0 || sum_ms < budget_ms); ++turn) {
     const MemoryWatch memory_watch;
     const double used_before = processor_ms();
     const Stopwatch watch;
-    RenderCounts counts;
-    const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), method);
-    Rgba8Image picture = render_picture(stage.scene, stage.camera, *resolver, options, stage.display, &counts);
-    trial.frame_ms.push_back(watch.ms());
+    if (!renderer) renderer.emplace(stage.scene, make_resolver(antialias::methods(), method));
+    renderer->begin_sequence();
+    RenderedImage image = renderer->render(stage.camera, stage.settings);
+    const double ms = watch.ms();
+    if (turn == 0 || ms < trial.least_ms()) trial.counts = image.counts;
+    trial.frame_ms.push_back(ms);
     trial.processor_ms.push_back(processor_ms() - used_before);
-    sum_ms += trial.frame_ms.back();
+    sum_ms += ms;
     if (turn > 0) continue;
     trial.memory = memory_watch.rise();
-    trial.counts = counts;
-    trial.picture = opaque(std::move(picture));
+    trial.picture = opaque(std::move(image.display));
     trial.pixels = trial.picture.values().size();
   }
   return trial;
@@ -75,6 +72,7 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTr
   if (!options.is_reference_file) {
     Trial trial = rendered(stage, options.reference, 1);
     out.reference_ms = trial.frame_ms[0];
+    out.reference_processor_ms = trial.processor_ms[0];
     out.reference_shaded = trial.counts.shaded;
     out.reference_picture = std::move(trial.picture);
     return;
@@ -82,7 +80,7 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTr
   out.reference_picture = opaque(quantize8(metrics::load_picture(options.reference).display));
   const auto size = [](int w, int h) { return fmt::format("{}x{}", w, h); };
   const std::string found = size(out.reference_picture.width(), out.reference_picture.height());
-  const std::string wanted = size(stage.options.width, stage.options.height);
+  const std::string wanted = size(stage.settings.options.width, stage.settings.options.height);
   if (found != wanted)
     throw Error(ErrorKind::Input, fmt::format("{}: has {} pixels, the pictures have {}; give --size {}",
                                               options.reference, found, wanted, found));
@@ -150,18 +148,15 @@ void find_front(std::vector<Trial>& trials) {
 
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
                        const std::function<void(const std::string&)>& tell) {
-  const TextureSet textures(stage.scene, stage.options.raw_colors);
-  TrialSetup ready = stage;
-  ready.options.textures = &textures;
-
   SceneTrials out;
+  out.turns = options.turns;
   tell(options.reference);
-  set_reference(ready, options, out);
+  set_reference(stage, options, out);
   const metrics::Picture reference = picture_of(out.reference_picture);
   Plane<float> sum(out.reference_picture.width(), out.reference_picture.height());
   for (const std::string& method : options.methods) {
     tell(method);
-    Trial trial = rendered(ready, method, options.turns);
+    Trial trial = rendered(stage, method, options.turns);
     judge(trial, reference, options);
     for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += trial.error_map.values()[i];
     out.trials.push_back(std::move(trial));

@@ -7,7 +7,7 @@
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
 
@@ -23,9 +23,9 @@ struct Trial {
   std::string method;
   Rgba8Image picture;
   std::uint64_t pixels = 0;             ///< of the picture
-  std::vector<double> frame_ms;         ///< of each turn, from the scene in memory to the codes
+  std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the codes
   std::vector<double> processor_ms;     ///< the same on all processors together, which other programs disturb less
-  RenderCounts counts;                  ///< of the first turn
+  RenderCounts counts;                  ///< of the turn of least time
   std::optional<std::uint64_t> memory;  ///< bytes that the first turn needed more than was there before it
   std::vector<metrics::Result> results;
   Plane<float> error_map;  ///< FLIP
@@ -48,7 +48,9 @@ struct SceneTrials {
   std::string reference;           ///< a method's text, or a file
   Rgba8Image reference_picture;
   std::optional<double> reference_ms;  ///< nothing of a file
+  std::optional<double> reference_processor_ms;
   std::uint64_t reference_shaded = 0;
+  int turns = 0;       ///< of each method, where they take no longer than the budget for them
   Place common_worst;  ///< where the methods are worst on average
   std::vector<Trial> trials;
 };
@@ -64,10 +66,9 @@ struct TrialOptions {
 
 /// A scene that is ready to be rendered.
 struct TrialSetup {
-  const Scene& scene;
-  const Camera& camera;
-  RenderOptions options;
-  DisplayOptions display;
+  PreparedScene scene;
+  Camera camera;
+  RenderSettings settings;
 };
 
 /// Renders a scene by every method and by the reference, and judges them. `tell` is called with each method's text

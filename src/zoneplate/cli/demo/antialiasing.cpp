@@ -6,10 +6,9 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
-#include "zoneplate/cli/look.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/mse.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -34,12 +33,10 @@ struct Taken {
   RenderCounts counts;
 };
 
-Taken taken(const Scene& scene, const Camera& camera, const RenderOptions& options, const char* method) {
-  const auto resolver = make_resolver(antialias::methods(), method);
-  Taken out;
-  const DisplayOptions display{.background = {0.2f, 0.2f, 0.2f, 1}};
-  out.picture = render_picture(scene, camera, *resolver, options, display, &out.counts);
-  return out;
+Taken taken(const PreparedScene& scene, const Camera& camera, const RenderSettings& settings, const char* method) {
+  Renderer renderer(scene, make_resolver(antialias::methods(), method));
+  RenderedImage image = renderer.render(camera, settings);
+  return {std::move(image.display), image.counts};
 }
 
 DisplayImage codes_of(const Rgba8Image& picture) {
@@ -61,9 +58,11 @@ Lesson make(const DemoSize& size) {
   const int side = size.panel, width = side * 4 / 3, crop_side = side / 2;
   Scene scene = scene_of(scene_name);
   const Camera camera = camera_of(scene, width, side);
-  RenderOptions options{.width = width, .height = side};
-  options.environment = apply_look(scene, camera, {});
-  const Taken truth = taken(scene, camera, options, reference);
+  light_unlit(scene);
+  const PreparedScene prepared(std::move(scene));
+  const RenderSettings settings{
+      .options = {.width = width, .height = side, .display = {.background = default_background}}};
+  const Taken truth = taken(prepared, camera, settings, reference);
   const DisplayImage truth_codes = codes_of(truth.picture);
   const double pixels = static_cast<double>(truth.picture.values().size());
 
@@ -74,7 +73,7 @@ Lesson make(const DemoSize& size) {
   for (const char* kind : kinds) curves.push_back({.name = kind, .mark = Curve::Mark::Points});
   for (std::size_t i = 0; i < std::size(ways); ++i) {
     if (i % columns == 0) figure.rows.emplace_back();
-    const Taken own = taken(scene, camera, options, ways[i].method);
+    const Taken own = taken(prepared, camera, settings, ways[i].method);
     const double error = 100 * std::sqrt(metrics::mean_squared_error(truth_codes, codes_of(own.picture)));
     const double shaded = static_cast<double>(own.counts.shaded) / pixels;
     curves[ways[i].kind].points.emplace_back(shaded, error);

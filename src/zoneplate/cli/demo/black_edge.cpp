@@ -9,7 +9,8 @@
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/render.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -20,10 +21,10 @@ constexpr int factor = 8, samples = 4;
 Frame sampled(const Scene& scene, int width, int height) {
   RenderOptions options{.width = width, .height = height};
   const auto resolver = make_resolver(antialias::methods(), "msaa:grid=2");
-  Request request = resolver->request(0);
+  Request request = resolver->request({});
   request.resolves_per_pixel = false;
   request.planes.samples = true;
-  return render(scene, camera_of(scene, width, height), request, options);
+  return render(PreparedScene(scene), camera_of(scene, width, height), request, options);
 }
 
 /// A pixel of one colour buffer without samples, while triangles are drawn one after the other, the nearer one first.

@@ -54,8 +54,8 @@ Syntax demo_syntax(DemoArgs& args) {
                [&args](const std::string& text) { args.output = text; }},
               {"--panel", "PX", "Side of one picture of the lesson, 64 to 1024; default 360", "Lesson", true,
                [&args](const std::string& text) { args.size.panel = parse_whole(text, 64, 1024); }},
-              {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", "Running", false,
-               [&args](const std::string& text) { args.threads = parse_whole(text, 0, 1024); }},
+              {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
+               "Running", false, [&args](const std::string& text) { args.threads = parse_whole(text, 0, 1024); }},
           }};
 }
 

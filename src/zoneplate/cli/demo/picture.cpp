@@ -7,12 +7,11 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/look.h"
-#include "zoneplate/cli/view.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/flip/magma.h"
-#include "zoneplate/render/picture.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/render/view.h"
 #include "zoneplate/report/typeface.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/signal/border.h"
@@ -42,12 +41,12 @@ Camera camera_of(const Scene& scene, int width, int height) {
 
 LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts) {
   Scene lit = scene;
-  const Camera camera = camera_of(lit, width, height);
-  RenderOptions options{.width = width, .height = height};
-  options.environment = apply_look(lit, camera, {});
-  const auto resolver = make_resolver(antialias::methods(), method);
-  Frame frame = render_rounds(lit, camera, *resolver, resolver->request(0), options, {}, counts);
-  LinearImage light = resolver->resolve(frame);
+  light_unlit(lit);
+  Renderer renderer(PreparedScene(std::move(lit)), make_resolver(antialias::methods(), method));
+  RenderedImage image = renderer.render(camera_of(scene, width, height),
+                                        {.options = {.width = width, .height = height}, .form = ImageForm::Linear});
+  if (counts) *counts = image.counts;
+  LinearImage light = std::move(image.linear);
   const float background = decode_srgb(background_code);
   for (Linear& c : light.values()) {
     const float behind = background * (1 - c.a);

@@ -186,7 +186,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--color-management", "MODE",
        "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
        [&](auto& text) {
-         a.display.raw = a.options.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
+         a.display.raw = a.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
        }},
   };
 }
@@ -221,12 +221,12 @@ std::vector<Option> scene_options(RenderArgs& a) {
        [&](auto& text) {
          constexpr ShadingModel models[] = {ShadingModel::BlinnPhong, ShadingModel::Phong,
                                             ShadingModel::MetallicRoughness, ShadingModel::Unlit};
-         a.look.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
+         a.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
        }},
       {"--light-intensity", "FACTOR", "Multiplies every light; default 1", group, false,
-       [&](auto& text) { a.look.light_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
+       [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--environment", "COLOR", "Light of one colour from all sides, in place of the default lights", group, false,
-       [&](auto& text) { a.look.environment = linear_color(text); }},
+       [&](auto& text) { a.lighting.environment = linear_color(text); }},
       {"--no-cull", "", "Draw the back faces of single-sided materials too", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
       {"--point-size", "PX", "Side of the squares that points are drawn as; default 1", group, false,
@@ -257,7 +257,7 @@ std::vector<Option> teaching_options(RenderArgs& a) {
 std::vector<Option> run_options(RenderArgs& a) {
   const std::string group = "Running";
   return {
-      {"--threads,-t", "N", "Threads at most; 0, the default, is one for each core", group, false,
+      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
        "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best there is", group, false,

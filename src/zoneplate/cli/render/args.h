@@ -8,13 +8,13 @@
 #include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/look.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/render/shard.h"
-#include "zoneplate/cli/view.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/render/lighting.h"
 #include "zoneplate/render/render.h"
+#include "zoneplate/render/view.h"
 
 namespace zoneplate::cli {
 
@@ -47,11 +47,13 @@ struct RenderArgs {
   DisplayOptions display;
   std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one
   View view;
-  Look look;
+  bool raw_colors = false;                    ///< images are not decoded from sRGB
+  std::optional<ShadingModel> shading_model;  ///< for every material
+  LightingOptions lighting;
   std::vector<const Aov*> aovs;
   LoadOptions load;
   std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
-  int threads = 0;           ///< 0: as many as there are cores
+  int threads = 0;           ///< 0: usable_processors(), base/processors.h
   double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
   bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
   bool wants_json = false;

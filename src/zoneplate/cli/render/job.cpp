@@ -17,51 +17,59 @@ std::string model_key(const RenderArgs& args) {
   const LoadLimits& l = args.load.limits;
   return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
                      c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds,
-                     fmt::join(l.allowed_paths, "\n"), args.options.raw_colors,
-                     args.look.shading_model ? static_cast<int>(*args.look.shading_model) : -1);
+                     fmt::join(l.allowed_paths, "\n"), args.raw_colors,
+                     args.shading_model ? static_cast<int>(*args.shading_model) : -1);
 }
 
-Stage& RenderJobs::stage_of(const RenderArgs& args) {
+std::optional<Scene> RenderJobs::read(const RenderArgs& args) {
   const std::string key = model_key(args);
-  if (stage_ && key == key_ && args.input != "-") return *stage_;
-  stage_.reset();
-  within_import_time(args.input, args.load.limits,
-                     [&] { stage_ = std::make_unique<Stage>(load_scene(args.input, args.load)); });
+  if (scene_ && key == key_ && args.input != "-") return std::nullopt;
+  scene_.reset();
+  std::optional<Scene> scene;
+  within_import_time(args.input, args.load.limits, [&] { scene = load_scene(args.input, args.load); });
   key_ = key;
-  return *stage_;
+  return scene;
 }
 
 Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Stopwatch total_watch;
-  const std::unique_ptr<Resolver> resolver = make_resolver(antialias::methods(), args.method);
-  check_request(args, resolver->request(0));
+  std::unique_ptr<Resolver> method = make_resolver(antialias::methods(), args.method);
+  check_request(args, method->request({}));
   Summary summary;
   summary.threads = thread_limit();
   out.progress("read", 0);
   if (args.sequence.is_wanted()) {
-    render_sequence(args, *resolver, out, summary);
+    render_sequence(args, std::move(method), out, summary);
     summary.times = {{"total", total_watch.ms()}};
     summary.peak_memory = peak_memory();
     return summary;
   }
 
   const Stopwatch read_watch;
-  Stage& stage = stage_of(args);
+  std::optional<Scene> read_scene = read(args);
   summary.times.emplace_back("read", read_watch.ms());
   out.has_read();
-  const Scene& scene = stage.scene();
+  const Stopwatch texture_watch;
+  if (read_scene) {
+    convert_materials(args, *read_scene);
+    scene_.emplace(std::move(*read_scene), args.raw_colors);
+  }
+  summary.times.emplace_back("textures", texture_watch.ms());
+  const Scene& scene = scene_->scene();
   args.view.up = args.up.value_or(scene.up);
   const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
   if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   const Camera camera = choose_camera(scene, args.view, aspect);
-  args.options.environment = stage.light(camera, args.look);
   summary.warnings = scene.warnings;
-  const Stopwatch texture_watch;
-  args.options.textures = &stage.take_textures(args.options.raw_colors);
-  summary.times.emplace_back("textures", texture_watch.ms());
   out.progress("render", 0.2);
-  const Rendered picture = render_picture(args, scene, camera, *resolver, args.named_output(), summary);
+  check_passes(args, method->request({}));
+  RenderedImage image;
+  {
+    Renderer renderer(scene_->lit(make_lighting(scene, args.lighting)), std::move(method));
+    image = renderer.render(camera, settings_of(args, args.named_output()));
+  }
+  const Rendered picture = finish_picture(args, std::move(image), scene, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
   out.progress("encode", 0.8);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
-#include "zoneplate/cli/stage.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/report/json.h"
 
 namespace zoneplate::cli {
@@ -18,10 +18,11 @@ class RenderJobs {
   Summary run(RenderArgs args, ItemSender& out);
 
  private:
-  Stage& stage_of(const RenderArgs& args);
+  /// The model of the arguments; nothing where it is `scene_` already.
+  std::optional<Scene> read(const RenderArgs& args);
 
-  std::string key_;  ///< of the model that is loaded
-  std::unique_ptr<Stage> stage_;
+  std::string key_;                     ///< of the model that is loaded
+  std::optional<PreparedScene> scene_;  ///< the model, with the lights of its file
 };
 
 /// What decides how a model is loaded: jobs of the same key share one.

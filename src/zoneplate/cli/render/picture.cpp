@@ -16,80 +16,25 @@
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
-#include "zoneplate/image/dither.h"
-#include "zoneplate/image/transfer.h"
 #include "zoneplate/os/file.h"
-#include "zoneplate/render/picture.h"
 
 namespace zoneplate::cli {
 namespace {
 
-// What is rendered for a crop: so much more around it as the method looks at, within the picture.
-std::optional<Crop> rendered_crop(const RenderOptions& options, int halo) {
-  if (!options.crop) return std::nullopt;
-  const Crop c = *options.crop;
-  const int left = std::min(halo, c.x), top = std::min(halo, c.y);
-  return Crop{c.x - left, c.y - top, left + c.width + std::min(halo, options.width - c.x - c.width),
-              top + c.height + std::min(halo, options.height - c.y - c.height)};
-}
-
 // "#333333", as F3D shows models by default; the homework's scene is defined on black.
 float4 background_of(const RenderArgs& args) {
   if (args.background) return *args.background;
-  return args.input == "triangles" ? float4{0, 0, 0, 1} : float4{0.2f, 0.2f, 0.2f, 1};
-}
-
-Request request_of(Resolver& resolver, const RenderArgs& args) {
-  Request request = resolver.request(0);
-  for (const Aov* aov : args.aovs) request.planes.*(aov->plane) = request.planes.depth = true;
-  if (request.planes.error && !request.estimates_error)
-    throw Error(ErrorKind::Usage,
-                "--aov error: " + args.method + " has no estimate of its error; converged and analytic have");
-  return request;
-}
-
-template <class T>
-void cut_out(Plane<T>& image, const Crop& part) {
-  if (image.empty()) return;
-  Plane<T> out(part.width, part.height);
-  for (int y = 0; y < part.height; ++y)
-    std::ranges::copy_n(image.row(part.y + y).begin() + part.x, part.width, out.row(y).begin());
-  image = std::move(out);
+  return args.input == "triangles" ? float4{0, 0, 0, 1} : default_background;
 }
 
 bool is_pfm(const std::string& output) { return extension_of(output) == ".pfm"; }
 bool is_exr(const std::string& output) { return extension_of(output) == ".exr"; }
 bool is_linear(const std::string& output) { return is_pfm(output) || is_exr(output); }
 
-// The picture before tone mapping, over the background.
-LinearImage over_background(LinearImage image, const DisplayOptions& display) {
-  const float4 b = display.background;
-  const Linear behind{decode_srgb(b.x), decode_srgb(b.y), decode_srgb(b.z), 1};
-  for (Linear& c : image.values()) {
-    const float rest = display.is_transparent ? 0.0f : (1 - c.a) * b.w;
-    c = c * display.exposure + behind * rest;
-  }
-  return image;
-}
-
 DisplayOptions display_of(const RenderArgs& args) {
   DisplayOptions display = args.display;
   display.background = background_of(args);
   return display;
-}
-
-// From linear light to what is written.
-void finish(const RenderArgs& args, LinearImage picture, const Frame& frame, Resolver& resolver,
-            const std::string& output, Rendered& out) {
-  if (is_linear(output)) {
-    out.linear = over_background(std::move(picture), frame.display);
-    return;
-  }
-  const DisplayImage shown = resolver.post_process(make_display(picture, frame.display), frame);
-  if (args.bit_depth == 16)
-    out.image16 = quantize16(shown);
-  else
-    out.image = args.dithers ? quantize8_dithered(shown) : quantize8(shown);
 }
 
 std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& data) {
@@ -98,7 +43,7 @@ std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& d
                                       {"G", ExrType::Half, &first->g, nullptr, 4},
                                       {"B", ExrType::Half, &first->b, nullptr, 4},
                                       {"A", ExrType::Half, &first->a, nullptr, 4}};
-  channels.insert(channels.end(), data.list.begin(), data.list.end());
+  add_exr_channels(data, channels);
   return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
 }
 
@@ -121,7 +66,7 @@ void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, 
       continue;
     }
     std::optional<std::vector<std::uint8_t>> pfm = is_pfm(output) ? encode_data_pfm(*aov, frame, scene) : std::nullopt;
-    out.layers.push_back({static_cast<int>(i), pfm ? std::move(*pfm) : aov->encode(frame, scene)});
+    out.layers.push_back({static_cast<int>(i), pfm ? std::move(*pfm) : encode_data_png(*aov, frame, scene)});
   }
   if (is_exr(output)) out.exr = exr_of(out.linear, data);
 }
@@ -134,7 +79,7 @@ void check_memory(const RenderArgs& args, const Request& request) {
   const std::uint64_t bytes_per_pixel = (args.aovs.empty() ? 44 : 136) +
                                         (has_matte ? 96 + sizeof(std::uint32_t) * request.samples.size() : 0) +
                                         (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
-  const std::optional<Crop> crop = rendered_crop(args.options, request.halo);
+  const std::optional<Crop> crop = padded_crop(args.options, request.halo);
   const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
@@ -142,12 +87,6 @@ void check_memory(const RenderArgs& args, const Request& request) {
     throw Error(ErrorKind::Failed,
                 fmt::format("{}: a picture of {}x{} needs {} MB of memory, --max-memory allows {} MB", args.input,
                             width, height, need >> 20, args.load.limits.memory >> 20));
-}
-
-void count_times(Summary& summary) {
-  summary.times.insert(summary.times.end(), {{"prepare", summary.counts.prepare_ms},
-                                             {"geometry", summary.counts.geometry_ms},
-                                             {"tiles", summary.counts.tiles_ms}});
 }
 
 }  // namespace
@@ -180,63 +119,56 @@ void check_request(const RenderArgs& args, const Request& request) {
   check_memory(args, request);
 }
 
-Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
-                        const std::string& output, Summary& summary) {
-  const DisplayOptions display = display_of(args);
-  const Request request = request_of(resolver, args);
-  RenderOptions options = args.options;
-  options.crop = rendered_crop(args.options, request.halo);
-  const bool is_shown = request.resolves_per_pixel && args.bit_depth == 8 && !args.dithers && !is_linear(output);
-  if (is_shown) options.shown = &display;
-  Frame frame = render_rounds(scene, camera, resolver, request, options, display, &summary.counts);
-  count_times(summary);
-
-  const Stopwatch watch;
-  Rendered out;
-  if (is_shown)
-    out.image = std::move(frame.shown);
-  else
-    finish(args, resolver.resolve(frame), frame, resolver, output, out);
-  summary.width = args.options.width, summary.height = args.options.height;
-  if (const std::optional<Crop> crop = args.options.crop) {
-    const Crop part{crop->x - options.crop->x, crop->y - options.crop->y, crop->width, crop->height};
-    if (request.halo > 0) cut_out(out.image, part), cut_out(out.image16, part), cut_out(out.linear, part);
-    summary.width = crop->width, summary.height = crop->height;
-  }
-  // The data passes have no halo, and a later round of a method that asks again has none of them.
-  if (!args.aovs.empty() && ((args.options.crop && request.halo > 0) || frame.depth.empty()))
-    frame = render(scene, camera, request, args.options);
-  out.has_alpha = display.is_transparent || display.background.w < 1;
-  add_passes(args, scene, frame, output, out);
-  summary.times.emplace_back("display", watch.ms());
-  return out;
+void check_passes(const RenderArgs& args, const Request& request) {
+  const bool has_error = std::ranges::any_of(args.aovs, [](const Aov* aov) { return aov->plane == &Planes::error; });
+  if (has_error && !request.estimates_error)
+    throw Error(ErrorKind::Usage,
+                "--aov error: " + args.method + " has no estimate of its error; converged and analytic have");
 }
 
-Rendered render_mean(const RenderArgs& args, int count, const std::function<const Scene&(int)>& scene_at,
-                     const Camera& camera, Resolver& resolver, Summary& summary) {
-  const DisplayOptions display = display_of(args);
-  const Request request = resolver.request(0);
-  LinearImage sum;
-  Frame frame;
-  for (int i = 0; i < count; ++i) {
-    frame = render_rounds(scene_at(i), camera, resolver, request, args.options, display, &summary.counts);
-    LinearImage picture = resolver.resolve(frame);
-    if (i == 0) {
-      sum = std::move(picture);
-      continue;
-    }
-    const auto values = sum.values();
-    std::transform(values.begin(), values.end(), picture.values().begin(), values.begin(),
-                   [](const Linear& a, const Linear& b) { return a + b; });
-  }
-  const float share = 1 / static_cast<float>(count);
-  for (Linear& c : sum.values()) c = c * share;
-  count_times(summary);
+void convert_materials(const RenderArgs& args, Scene& scene) {
+  if (!args.shading_model) return;
+  for (Material& material : scene.materials) convert_material(material, *args.shading_model);
+}
 
+void set_look(const RenderArgs& args, Scene& scene) {
+  convert_materials(args, scene);
+  Lighting lighting = make_lighting(scene, args.lighting);
+  scene.lights = std::move(lighting.lights);
+  scene.environment = lighting.environment;
+  scene.ambient_light = lighting.ambient_light;
+}
+
+RenderSettings settings_of(const RenderArgs& args, const std::string& output) {
+  RenderSettings settings{.options = args.options};
+  settings.options.display = display_of(args);
+  for (const Aov* aov : args.aovs) settings.planes.*(aov->plane) = settings.planes.depth = true;
+  settings.form = is_linear(output)      ? ImageForm::Linear
+                  : args.bit_depth == 16 ? ImageForm::Display16
+                  : args.dithers         ? ImageForm::Display8Dithered
+                                         : ImageForm::Display8;
+  return settings;
+}
+
+Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const std::string& output,
+                        Summary& summary) {
+  const Stopwatch watch;
+  const DisplayOptions display = display_of(args);
   Rendered out;
-  finish(args, std::move(sum), frame, resolver, args.output, out);
+  out.image = std::move(image.display);
+  out.image16 = std::move(image.display16);
+  if (is_linear(output)) out.linear = over_background(std::move(image.linear), display);
   out.has_alpha = display.is_transparent || display.background.w < 1;
-  summary.width = args.options.width, summary.height = args.options.height;
+  if (!args.aovs.empty()) add_passes(args, scene, image.data, output, out);
+  const std::optional<Crop>& crop = args.options.crop;
+  summary.width = crop ? crop->width : args.options.width;
+  summary.height = crop ? crop->height : args.options.height;
+  summary.counts = image.counts;
+  summary.times.insert(summary.times.end(), {{"prepare", image.counts.prepare_ms},
+                                             {"geometry", image.counts.geometry_ms},
+                                             {"tiles", image.counts.tiles_ms},
+                                             {"display", image.counts.resolve_ms + image.counts.display_ms +
+                                                             image.counts.filter_ms + watch.ms()}});
   return out;
 }
 

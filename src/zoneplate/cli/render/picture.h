@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/summary.h"
-#include "zoneplate/render/method.h"
+#include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
 
@@ -45,15 +44,22 @@ std::string output_path(const RenderArgs& args, int frame, int layer);
 ///           method would leave no trace in a file of linear values.
 void check_request(const RenderArgs& args, const Request& request);
 
-/// Renders a scene that is loaded and lit. The ending of `output` decides the formats of the picture and the passes.
-Rendered render_picture(const RenderArgs& args, const Scene& scene, const Camera& camera, Resolver& resolver,
-                        const std::string& output, Summary& summary);
+/// Errors    ErrorKind::Usage where the method does not make one of the data passes.
+void check_passes(const RenderArgs& args, const Request& request);
 
-/// The mean in linear light of the pictures of `count` scenes at one camera, as an open shutter sees what moves.
-///
-/// Exact     the sum is made in order and divided once.
-Rendered render_mean(const RenderArgs& args, int count, const std::function<const Scene&(int)>& scene_at,
-                     const Camera& camera, Resolver& resolver, Summary& summary);
+/// Gives the materials of a loaded scene the shading model of the arguments.
+void convert_materials(const RenderArgs& args, Scene& scene);
+
+/// Changes the materials and the lighting of a loaded scene as the arguments say.
+void set_look(const RenderArgs& args, Scene& scene);
+
+/// What the arguments say of each frame. The ending of `output` decides the form of the picture.
+RenderSettings settings_of(const RenderArgs& args, const std::string& output);
+
+/// A rendered picture of `scene` in the formats that the ending of `output` decides, with its data passes. Its counts,
+/// times and size go into `summary`.
+Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const std::string& output,
+                        Summary& summary);
 
 /// The picture's bytes in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
 std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output);

@@ -7,6 +7,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/values.h"
+#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/signal/pattern/pattern.h"
@@ -29,8 +31,8 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
   return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
           {"--json", "", "The numbers as one line of JSON", group, true, [&](auto&) { args.wants_json = true; }},
-          {"--threads,-t", "N", "Threads at most; 0 as many as there are cores", group, false,
-           [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+          {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group,
+           false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
 }
 
 Option codes_option(SignalArgs& args) {
@@ -59,7 +61,7 @@ const std::string& only_operand(const Syntax& syntax, const std::string& what) {
 
 std::string image_notes() {
   std::string text =
-      "IMAGE is a PNG, JPEG, WebP, HDR or EXR file, - for stdin, or a pattern made in code, NAME or "
+      "IMAGE is a PNG, JPEG, WebP, HDR, EXR or PFM file, - for stdin, or a pattern made in code, NAME or "
       "NAME:PARAMETER=VALUE,...\n"
       "(a file with such a name is given as ./NAME):\n";
   for (const PatternEntry& entry : patterns()) {
@@ -71,12 +73,25 @@ std::string image_notes() {
 }
 
 void check_picture_name(const std::string& path) { check_name(path, {".png"}); }
+void check_result_name(const std::string& path) { check_name(path, {".png", ".pfm", ".exr"}); }
 void check_plot_name(const std::string& path) { check_name(path, {".svg", ".png"}); }
 
 void save_picture(const std::string& path, const Rgba8Image& picture) {
   const bool is_opaque =
       std::all_of(picture.values().begin(), picture.values().end(), [](Rgba8 c) { return c.a == 255; });
   save_bytes(path, encode_png(picture, {.has_alpha = !is_opaque}));
+}
+
+void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture) {
+  if (path.ends_with(".pfm")) return save_bytes(path, encode_pfm(values));
+  if (!path.ends_with(".exr")) return save_picture(path, picture());
+  const Linear& first = *values.values().data();
+  constexpr std::size_t step = sizeof(Linear) / sizeof(float);
+  save_bytes(path, encode_exr(values.width(), values.height(),
+                              {{"R", ExrType::Float, &first.r, nullptr, step},
+                               {"G", ExrType::Float, &first.g, nullptr, step},
+                               {"B", ExrType::Float, &first.b, nullptr, step},
+                               {"A", ExrType::Float, &first.a, nullptr, step}}));
 }
 
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size) {

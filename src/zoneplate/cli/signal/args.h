@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "zoneplate/cli/args.h"
+#include "zoneplate/image/rgb.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/plot.h"
 #include "zoneplate/signal/border.h"
@@ -36,11 +38,20 @@ const std::string& only_operand(const Syntax& syntax, const std::string& what);
 /// What IMAGE may be and what the patterns are, for the end of the help.
 std::string image_notes();
 
-/// Refuses an output that does not end in .png (or, for a plot, .svg) and is not "-".
+/// Refuses an output that does not end in .png (or, for a plot, .svg; for a result, .pfm or .exr) and is not "-".
 void check_picture_name(const std::string& path);
+void check_result_name(const std::string& path);
 void check_plot_name(const std::string& path);
 
 void save_picture(const std::string& path, const Rgba8Image& picture);
+
+/// Writes a result: to .pfm and .exr its values as they are, in floats, premultiplied, neither clamped nor shifted; to
+/// any other name `picture()`, which shows them.
+void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture);
+
+/// What save_result writes, for the help.
+inline constexpr const char* result_meaning =
+    "The picture to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 
 /// The plots as the output's name wants them.
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);

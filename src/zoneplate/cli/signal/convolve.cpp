@@ -7,6 +7,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/signal/alpha.h"
 #include "zoneplate/cli/signal/convolve.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
@@ -40,9 +41,19 @@ double range_of(const LinearImage& image) {
   return static_cast<double>(high) - static_cast<double>(low);
 }
 
-LinearImage in_space(const LinearImage& image, const KernelChoice& kernel, Border border) {
+template <class T>
+Plane<T> in_space(const Plane<T>& image, const KernelChoice& kernel, Border border) {
   return kernel.is_separable() ? convolve_separable(image, kernel.taps, kernel.taps, {.border = border})
                                : convolve(image, kernel.weights, {.border = border});
+}
+
+LinearImage convolved(const LinearImage& image, const KernelChoice& kernel, Border border, Via via) {
+  const auto way = [&](const auto& plane, Border rule) {
+    return via == Via::Space ? in_space(plane, kernel, rule) : convolve_by_fourier(plane, kernel.weights, rule);
+  };
+  LinearImage out = way(image, border);
+  if (border == Border::Zero) set_alpha(out, way(alpha_of(image), Border::Clamp));
+  return out;
 }
 
 struct Results {
@@ -56,10 +67,10 @@ Results convolved(const ConvolveArgs& args, const LinearImage& image, const Kern
   Results out;
   LinearImage by_product;
   const Stopwatch watch;
-  if (args.via != Via::Frequency) out.image = in_space(image, kernel, args.border);
+  if (args.via != Via::Frequency) out.image = convolved(image, kernel, args.border, Via::Space);
   out.space_ms = watch.ms();
   if (args.via == Via::Space) return out;
-  by_product = convolve_by_fourier(image, kernel.weights, args.border);
+  by_product = convolved(image, kernel, args.border, Via::Frequency);
   out.frequency_ms = watch.ms() - out.space_ms;
   if (args.via == Via::Frequency) {
     out.image = std::move(by_product);
@@ -177,8 +188,10 @@ void run_image(const ConvolveArgs& args, const std::string& input) {
   const KernelChoice& kernel = args.kernel;
   const Results results = convolved(args, image, kernel);
   if (!args.output.empty())
-    save_picture(args.output, args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
-                                                   : picture_of(args, kernel, results.image));
+    save_result(args.output, results.image, [&] {
+      return args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
+                                  : picture_of(args, kernel, results.image);
+    });
   tell(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results));
 }
 
@@ -194,13 +207,13 @@ Syntax make_syntax(ConvolveArgs& args) {
       "as \"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row.\n"
       "Numbers are taken as they are, not scaled. A kernel of sum 0 leaves differences, shown around\n"
       "mid-grey: code 1/2 + value / 2.\n"
-      "Names: box:width= tent:radius= gaussian:sigma= mitchell b-spline catmull-rom lanczos2 lanczos3\n"
+      "Names: box:width= tent:radius= gaussian:sigma=,extent= mitchell b-spline catmull-rom lanczos2 lanczos3\n"
       "lanczos:lobes= blackman-harris:radius= kaiser:radius=,beta=\n\n"
       "The convolution theorem: the spectrum of a convolution is the product of the spectra. It is about\n"
       "signals that repeat without end, and so it holds as it stands for\n"
       "  wrap    the image is one tile of an endless wall: the signal that a discrete transform describes\n"
       "  zero    once the image has as many zeros around it as the kernel reaches; else its left border\n"
-      "          would bleed into the right one\n"
+      "          would bleed into the right one (the zeros are black: alpha goes on as at the border)\n"
       "and does not hold as it stands for\n"
       "  clamp, reflect   what lies beyond the border depends on where the border is; a convolution only\n"
       "                   knows distances. They come out right if the border is written out around the\n"
@@ -232,8 +245,7 @@ Syntax make_syntax(ConvolveArgs& args) {
       {"--side-by-side", "", "The picture shows image, kernel and result above their spectra, with captions", group,
        true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, "The picture to write: a .png file, or - for stdout"))
-    syntax.options.push_back(std::move(option));
+  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -250,7 +262,7 @@ void run_signal_convolve(std::span<const std::string> arguments) {
     return with_threads(args.threads, [&] { convolve_row(args); });
   }
   const std::string& input = only_operand(syntax, "one IMAGE, or --values");
-  check_picture_name(args.output);
+  args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] { run_image(args, input); });
 }
 

@@ -1,4 +1,5 @@
 #include "zoneplate/cli/signal/kernel.h"
+#include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
 
@@ -57,6 +58,38 @@ TEST_F(SignalConvolve, WritesThePicture) {
   EXPECT_EQ(edges(5, 5).r, 128);
   EXPECT_EQ(edges(16, 5).r, 32);  // from 0.05 to 0.8: ½ - 0.75 / 2
   EXPECT_EQ(edges(15, 5).r, 32);
+}
+
+TEST_F(SignalConvolve, WritesValuesByTheEndingOfTheOutput) {
+  // Sobel's differences are -0.75 and 0.75: as a picture they are clamped around mid-grey, as values they are signed.
+  const Words words{"edge:size=32,angle=0", "--kernel", "-2 0 2", "-o"};
+  for (const char* name : {"edges.pfm", "edges.exr"}) {
+    Words all = words;
+    all.push_back(at(name));
+    out(run_signal_convolve, all);
+    const LinearImage values = load_signal(at(name), false);
+    EXPECT_EQ(values.width(), 32) << name;
+    EXPECT_NEAR(values(16, 5).r, -1.5, 1e-6) << name;
+    EXPECT_EQ(values(5, 5).r, 0) << name;
+  }
+  Words figure = words;
+  figure.insert(figure.end(), {at("edges.pfm"), "--side-by-side"});
+  EXPECT_TRUE(contains(refusal(run_signal_convolve, figure), "ends in .png"));
+  EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "-o", at("a.gif")}), "ends in .png or .pfm or .exr"));
+}
+
+TEST_F(SignalConvolve, BeyondTheBorderZeroIsBlackAndNotTransparent) {
+  save_bytes(at("white.png"), encode_png(Rgba8Image(8, 8, {255, 255, 255, 255})));
+  for (const char* via : {"space", "frequency"}) {
+    out(run_signal_convolve,
+        {at("white.png"), "--kernel", "box:width=3", "--border", "zero", "--codes", "--via", via, "-o", at("z.png")});
+    EXPECT_EQ(picture("z.png")(0, 4), (Rgba8{170, 170, 170, 255})) << via;  // two thirds
+    EXPECT_EQ(picture("z.png")(4, 4), (Rgba8{255, 255, 255, 255})) << via;
+  }
+}
+
+TEST_F(SignalConvolve, TheHelpNamesEveryParameterOfTheGaussian) {
+  EXPECT_TRUE(contains(out(run_signal_convolve, {"--help"}), "gaussian:sigma=,extent="));
 }
 
 TEST_F(SignalConvolve, ShowsKernelsAndSpectraSideBySide) {

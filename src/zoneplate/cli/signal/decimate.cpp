@@ -155,9 +155,9 @@ Syntax make_syntax(DecimateArgs& args) {
       {"--kernel", "NAME", "Kernel of the filter; default lanczos3", group, true,
        [&](auto& text) { args.kernel = make_kernel(text).name; }},
       {"--all-kernels", "", "Print the figures of every kernel", group, true, [&](auto&) { args.compares_all = true; }},
-      {"--naive", "FILE", "Write the picture of dropped pixels alone, a .png file", group, false,
-       [&](auto& text) { args.naive_path = text; }},
-      {"--filtered", "FILE", "Write the filtered picture alone, a .png file", group, false,
+      {"--naive", "FILE", "Write the picture of dropped pixels alone: .png, or the values as .pfm or .exr", group,
+       false, [&](auto& text) { args.naive_path = text; }},
+      {"--filtered", "FILE", "Write the filtered picture alone: .png, or the values as .pfm or .exr", group, false,
        [&](auto& text) { args.filtered_path = text; }},
       codes_option(args)};
   for (Option& option : signal_options(args, "The picture of both, with their spectra and captions: a .png file, or -"))
@@ -172,12 +172,15 @@ void run_signal_decimate(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
-  for (const std::string& path : {args.output, args.naive_path, args.filtered_path}) check_picture_name(path);
+  check_picture_name(args.output);
+  for (const std::string& path : {args.naive_path, args.filtered_path}) check_result_name(path);
   with_threads(args.threads, [&] {
     const Pair pair = make_pair(args, load_signal(input, args.uses_codes));
     if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair));
-    if (!args.naive_path.empty()) save_picture(args.naive_path, shown(pair.naive, args.uses_codes));
-    if (!args.filtered_path.empty()) save_picture(args.filtered_path, shown(pair.filtered, args.uses_codes));
+    if (!args.naive_path.empty())
+      save_result(args.naive_path, pair.naive, [&] { return shown(pair.naive, args.uses_codes); });
+    if (!args.filtered_path.empty())
+      save_result(args.filtered_path, pair.filtered, [&] { return shown(pair.filtered, args.uses_codes); });
     const std::vector<Figures> rows = measure(args, pair);
     tell(args, text_of(input, pair, rows), json_of(input, args, pair, rows));
   });

@@ -167,8 +167,7 @@ Syntax make_syntax(FilterArgs& args) {
       {"--side-by-side", "", "The picture shows image, spectrum and response, before and after, with captions",
        "Options", true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, "The picture to write: a .png file, or - for stdout"))
-    syntax.options.push_back(std::move(option));
+  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -202,12 +201,14 @@ void run_signal_filter(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.passes_given != 1)
     throw Error(ErrorKind::Usage, "one of --low-pass, --high-pass, --band-pass and --band-stop is wanted");
-  check_picture_name(args.output);
+  args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage before = load_signal(input, args.uses_codes);
     const LinearImage after = filtered(before, args.filter, args.border);
     if (!args.output.empty())
-      save_picture(args.output, args.is_side_by_side ? figure_of(input, args, before, after) : picture_of(args, after));
+      save_result(args.output, after, [&] {
+        return args.is_side_by_side ? figure_of(input, args, before, after) : picture_of(args, after);
+      });
     tell_result(input, args, before, after);
   });
 }

@@ -5,6 +5,7 @@
 
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/transfer.h"
@@ -54,9 +55,10 @@ LinearImage as_codes(LinearImage image) {
 
 LinearImage load_file(const std::string& operand, bool uses_codes) {
   const FileBytes file(operand);
-  if (is_hdr(file.bytes()) || is_exr(file.bytes())) {
-    LinearImage light = is_hdr(file.bytes()) ? decode_hdr(file.bytes(), operand, most_pixels)
-                                             : decode_exr(file.bytes(), operand, most_pixels);
+  if (is_hdr(file.bytes()) || is_exr(file.bytes()) || is_pfm(file.bytes())) {
+    LinearImage light = is_hdr(file.bytes())   ? decode_hdr(file.bytes(), operand, most_pixels)
+                        : is_exr(file.bytes()) ? decode_exr(file.bytes(), operand, most_pixels)
+                                               : decode_pfm(file.bytes(), operand, most_pixels);
     return uses_codes ? as_codes(std::move(light)) : light;
   }
   const bool is_png = !file.bytes().empty() && file.bytes()[0] == 0x89;

@@ -1,5 +1,6 @@
 #include "zoneplate/cli/signal/reduce.h"
 
+#include "zoneplate/cli/signal/alpha.h"
 #include "zoneplate/signal/filter/kernel.h"
 #include "zoneplate/signal/filter/resample.h"
 
@@ -7,7 +8,13 @@ namespace zoneplate::cli {
 
 LinearImage resampled(const LinearImage& image, int width, int height, const std::string& kernel, Border border) {
   if (kernel == "nearest") return resample_nearest(image, width, height);
-  if (kernel != "ideal") return resample(image, width, height, make_kernel(kernel), {.border = border});
+  if (kernel != "ideal") {
+    const Kernel weights = make_kernel(kernel);
+    LinearImage out = resample(image, width, height, weights, {.border = border});
+    if (border == Border::Zero)
+      set_alpha(out, resample(alpha_of(image), width, height, weights, {.border = Border::Clamp}));
+    return out;
+  }
   LinearImage out(width, height);
   for (float Linear::*channel : {&Linear::r, &Linear::g, &Linear::b, &Linear::a}) {
     Plane<float> plane(image.width(), image.height());

@@ -69,7 +69,12 @@ Syntax make_syntax(ResampleArgs& args) {
           "Besides the kernels of zoneplate signal convolve there are nearest (no filter at all) and ideal (all\n"
           "frequencies that both grids hold, no other; the image is taken as a tile).\n"
           "Negative lobes (lanczos, catmull-rom, mitchell, kaiser) overshoot at edges; what leaves 0 to 1 is\n"
-          "clamped.\n\n" +
+          "clamped in a .png, and kept in a .pfm or .exr.\n\n"
+          "Where the kernel reaches beyond the image, --border cut divides by the sum of the weights inside, as\n"
+          "Pillow does; clamp, the default, repeats the border's pixels. With zero black lies beyond, and alpha\n"
+          "goes on as at the border. Where a pixel lies at a kernel's jump (box: halfway between two new\n"
+          "centres) it counts by half for both sides, and for Pillow to one of them. nearest takes the pixel to\n"
+          "the right or below on a tie, as Pillow does.\n\n" +
           image_notes()};
   const std::string group = "Options";
   syntax.options = {
@@ -77,12 +82,11 @@ Syntax make_syntax(ResampleArgs& args) {
        [&](auto& text) { args.size = text; }},
       {"--kernel", "NAME", "lanczos3 (default), mitchell, box, tent, gaussian:sigma=0.5, ..., nearest, ideal", group,
        true, [&](auto& text) { check_reduction(text), args.kernel = text; }},
-      border_option(args.border, "clamp, reflect, wrap, zero"),
+      border_option(args.border, "clamp, reflect, wrap, zero, cut"),
       {"--side-by-side", "", "The picture shows the image, the nearest pixels and the result, with captions", group,
        true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, "The picture to write: a .png file, or - for stdout"))
-    syntax.options.push_back(std::move(option));
+  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -95,13 +99,14 @@ void run_signal_resample(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.size.empty()) throw Error(ErrorKind::Usage, "--size is missing: the new size, as 640x480 or 50%");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: where to write the picture");
-  check_picture_name(args.output);
+  args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage image = load_signal(input, args.uses_codes);
     const int2 size = size_from(args.size, image.width(), image.height());
     const LinearImage result = resampled(image, size.x, size.y, args.kernel, args.border);
-    save_picture(args.output,
-                 args.is_side_by_side ? figure_of(input, args, image, result) : shown(result, args.uses_codes));
+    save_result(args.output, result, [&] {
+      return args.is_side_by_side ? figure_of(input, args, image, result) : shown(result, args.uses_codes);
+    });
     tell(args,
          fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", input, image.width(), image.height(), size.x, size.y,
                      args.kernel, name_of(args.border)),

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <cstdlib>
 
+#include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
 
@@ -53,6 +55,46 @@ TEST_F(SignalResample, KeepsTransparencyPremultiplied) {
   save_bytes(at("a.png"), encode_png(image));
   out(run_signal_resample, {at("a.png"), "--size", "1x1", "--kernel", "box", "-o", at("b.png")});
   EXPECT_EQ(picture("b.png")(0, 0), (Rgba8{0, 255, 0, 128}));
+}
+
+TEST_F(SignalResample, BordersAreCutAsPillowDoes) {
+  // The row 0 64 128 255 in grey, 4 pixels to 8, by Pillow's resize(BILINEAR) and (LANCZOS) of an "F" image:
+  // tent weights at the border 1 alone; elsewhere 3/4 and 1/4.
+  Rgba8Image row(4, 1);
+  for (int x = 0; x < 4; ++x) {
+    constexpr std::uint8_t codes[] = {0, 64, 128, 255};
+    row(x, 0) = {codes[x], codes[x], codes[x], 255};
+  }
+  save_bytes(at("row.png"), encode_png(row));
+  out(run_signal_resample,
+      {at("row.png"), "--size", "8x1", "--kernel", "tent", "--codes", "--border", "cut", "-o", at("cut.pfm")});
+  const LinearImage cut = load_signal(at("cut.pfm"), false);
+  const double bilinear[] = {0, 16, 48, 80, 112, 159.75, 223.25, 255};
+  for (int x = 0; x < 8; ++x) EXPECT_NEAR(255.0 * static_cast<double>(cut(x, 0).r), bilinear[x], 1e-3) << x;
+  // Of lanczos3 the five or six taps inside are divided by their sum; outside there is nothing, as if repeated.
+  for (const char* border : {"cut", "clamp"})
+    out(run_signal_resample, {at("row.png"), "--size", "8x1", "--kernel", "lanczos3", "--codes", "--border", border,
+                              "-o", at(border + std::string(".pfm"))});
+  const LinearImage lanczos = load_signal(at("cut.pfm"), false), clamped = load_signal(at("clamp.pfm"), false);
+  const auto sinc = [](double x) { return x == 0 ? 1 : std::sin(M_PI * x) / (M_PI * x); };
+  const double codes[] = {0, 64, 128, 255};
+  for (int x = 0; x < 8; ++x) {
+    double sum = 0, weights = 0;
+    for (int i = 0; i < 4; ++i) {
+      const double away = i - ((x + 0.5) / 2 - 0.5), weight = std::abs(away) < 3 ? sinc(away) * sinc(away / 3) : 0;
+      sum += weight * codes[i], weights += weight;
+    }
+    EXPECT_NEAR(255.0 * static_cast<double>(lanczos(x, 0).r), sum / weights, 1e-2) << x;
+  }
+  EXPECT_NE(lanczos(0, 0).r, clamped(0, 0).r);
+  EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--border", "cut"}), "cannot be used here"));
+}
+
+TEST_F(SignalResample, BeyondTheBorderZeroIsBlackAndNotTransparent) {
+  save_bytes(at("white.png"), encode_png(Rgba8Image(8, 8, {255, 255, 255, 255})));
+  out(run_signal_resample,
+      {at("white.png"), "--size", "16x16", "--kernel", "tent", "--border", "zero", "--codes", "-o", at("z.png")});
+  EXPECT_EQ(picture("z.png")(0, 8), (Rgba8{191, 191, 191, 255}));
 }
 
 TEST_F(SignalResample, ShowsBothAndRefuses) {

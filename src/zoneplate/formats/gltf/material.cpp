@@ -67,7 +67,8 @@ class MaterialReader {
   const std::vector<std::size_t>& used_images() const { return images_.source; }
 
  private:
-  TextureUse texture(const JsonView& owner, const char* key);
+  TextureUse texture(const JsonView& owner, const std::string& key);
+  void read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m);
   float factor(const JsonView& json, const char* key, float otherwise, float high);
   float clamp(const JsonView& json, const char* key, float value, float high);
   float3 color(const JsonView& json, const char* key, float3 otherwise);
@@ -78,10 +79,10 @@ class MaterialReader {
   UsedImages images_;
 };
 
-TextureUse MaterialReader::texture(const JsonView& owner, const char* key) {
+TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key) {
   TextureUse use;
-  if (!owner.has(key)) return use;
-  const JsonView info = owner.object(key);
+  if (!owner.has(key.c_str())) return use;
+  const JsonView info = owner.object(key.c_str());
   const std::size_t number = info.index("index", file_.count("textures"));
   const std::uint64_t uv_set = read_transform(info, info.whole("texCoord", 0), use);
   if (uv_set > 1) {
@@ -99,6 +100,12 @@ TextureUse MaterialReader::texture(const JsonView& owner, const char* key) {
   else
     file_.warn(texture.place() + ": has no image that is supported, left out");
   return use;
+}
+
+/// The textures whose properties `owner` holds.
+void MaterialReader::read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m) {
+  for (const MaterialTextureSlot& slot : material_texture_slots)
+    if (slot.is_metallic_roughness == is_metallic_roughness) m.*slot.use = texture(owner, std::string(slot.gltf_name));
 }
 
 float MaterialReader::clamp(const JsonView& json, const char* key, float value, float high) {
@@ -123,8 +130,7 @@ void MaterialReader::read_metallic_roughness(const JsonView& json, Material& m) 
                     clamp(json, "baseColorFactor", v[2], 1), clamp(json, "baseColorFactor", v[3], 1)};
   m.metallic = factor(json, "metallicFactor", 1, 1);
   m.roughness = factor(json, "roughnessFactor", 1, 1);
-  m.base_color_texture = texture(json, "baseColorTexture");
-  m.metallic_roughness_texture = texture(json, "metallicRoughnessTexture");
+  read_textures(json, true, m);
 }
 
 void MaterialReader::read_alpha(const JsonView& json, Material& m) {
@@ -146,10 +152,8 @@ Material MaterialReader::read(std::size_t i) {
   m.emissive = color(json, "emissiveFactor", {0, 0, 0});
   if (const auto strength = json.extension("KHR_materials_emissive_strength"))
     m.emissive = m.emissive * factor(*strength, "emissiveStrength", 1, 1e9f);
-  m.emissive_texture = texture(json, "emissiveTexture");
-  m.normal_texture = texture(json, "normalTexture");
+  read_textures(json, false, m);
   m.normal_scale = json.object("normalTexture").number("scale", 1.0f);
-  m.occlusion_texture = texture(json, "occlusionTexture");
   m.occlusion_strength = factor(json.object("occlusionTexture"), "strength", 1, 1);
   if (json.extension("KHR_materials_unlit")) m.model = ShadingModel::Unlit;
   return m;

@@ -23,10 +23,6 @@ bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_v
                     [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
 }
 
-bool is_jpeg(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "\xff\xd8\xff"); }
-
-bool is_webp(std::span<const std::uint8_t> bytes) { return has_text(bytes, 0, "RIFF") && has_text(bytes, 8, "WEBP"); }
-
 /// The name of a format that is not read.
 std::string_view known_format(std::span<const std::uint8_t> bytes) {
   if (has_text(bytes, 1, "KTX ")) return "a KTX";
@@ -41,36 +37,6 @@ int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   std::uint32_t v = 0;
   for (int i = 0; i < size; ++i) v = v << 8 | bytes[at + static_cast<std::size_t>(i)];
   return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
-}
-
-/// A JPEG's frame header (ITU-T T.81, B.2.2).
-struct JpegFrame {
-  int2 size;
-  std::uint64_t samples = 0;  ///< of all components in one unit of `pixels`: 3 of 2 where colour is stored by halves
-  std::uint64_t pixels = 1;
-};
-
-/// Walks over a JPEG's segments to the frame header; what stands between segments is passed over, as libjpeg does.
-std::optional<JpegFrame> find_jpeg_frame(std::span<const std::uint8_t> bytes) {
-  for (std::size_t at = 2; at + 9 <= bytes.size();) {
-    const std::uint8_t marker = bytes[at + 1];
-    const bool is_marker = bytes[at] == 0xff && marker != 0xff && marker != 0;
-    const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_marker && is_frame) {
-      JpegFrame frame{{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)}};
-      const std::size_t components = at + 9 < bytes.size() ? bytes[at + 9] : 0;
-      std::uint64_t wide = 1, high = 1;
-      for (std::size_t i = at + 11; i < at + 10 + 3 * components && i < bytes.size(); i += 3) {
-        const std::uint64_t x = bytes[i] >> 4, y = bytes[i] & 15;
-        frame.samples += x * y, wide = std::max(wide, x), high = std::max(high, y);
-      }
-      frame.pixels = wide * high;
-      return frame;
-    }
-    const bool is_bare = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd9);
-    at += !is_marker ? 1 : is_bare ? 2 : 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
-  }
-  return std::nullopt;
 }
 
 /// Light without the alpha that it was multiplied by.
@@ -100,7 +66,7 @@ TexelImage decode_png_texels(std::span<const std::uint8_t> bytes, const std::str
 
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_jpeg(bytes)) {
-    const std::optional<JpegFrame> frame = find_jpeg_frame(bytes);
+    const std::optional<JpegFrame> frame = read_jpeg_frame(bytes);
     return frame ? std::optional(frame->size) : std::nullopt;
   }
   if (is_webp(bytes)) return find_webp_size(bytes);
@@ -128,7 +94,7 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   if (is_webp(bytes)) return 5 * pixels;
   if (!is_jpeg(bytes)) return 0;
   // In several passes all coefficients are kept, two bytes each.
-  const std::optional<JpegFrame> frame = find_jpeg_frame(bytes);
+  const std::optional<JpegFrame> frame = read_jpeg_frame(bytes);
   return 2 * pixels * frame->samples / frame->pixels;
 }
 

@@ -23,8 +23,9 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes);
 ///
 /// The texels are those of the file: codes of 8 bits, of 16 where a PNG has them, and the light of HDR and EXR. Light
 /// is divided by an EXR's alpha where that is above 0. An EXR may have a quarter of the pixels, for each takes four
-/// times the room on the way. Errors    ErrorKind::Input with `name` in front: another format (named, if known),
-/// corrupt, more than `max_pixels`.
+/// times the room on the way.
+///
+/// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
 TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
 /// A warning, without the file's name, where an image has more texels along a side than are drawn.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "zoneplate/base/error.h"
@@ -46,10 +47,21 @@ TEST(ImageFile, SixteenBitsAreKept) {
   EXPECT_EQ(decode_image(encode_png(grey), "tex", 100), Rgba16Image(1, 1, {1000, 1000, 1000, 65535}));
 }
 
-TEST(ImageFile, SizeOfAJpegStandsInItsFrameHeader) {
-  const Bytes head{0xff, 0xd8, 0xff, 0xe0, 0, 4, 1, 2, 0xff, 0xff, 0xc2, 0, 17, 8, 1, 2, 3, 4, 3};
-  EXPECT_EQ(find_image_size(head), (int2{0x304, 0x102}));
-  for (std::size_t n = 0; n < 18; ++n) EXPECT_FALSE(find_image_size(std::span(head).first(n))) << n;
+TEST(ImageFile, SizeOfAJpegIsWhatLibjpegReadsUpToTheFirstScan) {
+  const Bytes whole = encode_jpeg(Rgba8Image(517, 258));
+  const Bytes scan{0xff, 0xda};
+  const auto start =
+      static_cast<std::size_t>(std::search(whole.begin(), whole.end(), scan.begin(), scan.end()) - whole.begin());
+  const std::size_t header = start + 2 + whole[start + 3];
+  EXPECT_EQ(find_image_size(std::span(whole).first(header)), (int2{517, 258}));
+  for (std::size_t n = 0; n < header; ++n) EXPECT_FALSE(find_image_size(std::span(whole).first(n))) << n;
+  // A second frame header, which decoding refuses, gives no size either: there is one parser alone.
+  const Bytes frame{0xff, 0xc0};
+  const auto first = std::search(whole.begin(), whole.end(), frame.begin(), frame.end());
+  Bytes twice = whole;
+  twice.insert(twice.begin() + (first - whole.begin()), first, first + 19);
+  EXPECT_NE(error_of(twice), "no error");
+  EXPECT_FALSE(find_image_size(twice));
 }
 
 TEST(ImageFile, LightIsKept) {
@@ -79,7 +91,8 @@ TEST(ImageFile, WhatDecodingTakesBesideThePicture) {
   EXPECT_EQ(image_working_memory(encode_webp(image, false)), 48u * 32 * 5);
   EXPECT_EQ(image_working_memory(encode_jpeg(image)), 48u * 32 * 3 * 2);  // every pixel its own colour
   // Colour stored by halves both ways: one pixel of brightness has half a sample of colour.
-  const Bytes halves{0xff, 0xd8, 0xff, 0xc2, 0, 17, 8, 0, 32, 0, 48, 3, 1, 0x22, 0, 2, 0x11, 0, 3, 0x11, 0};
+  const Bytes halves{0xff, 0xd8, 0xff, 0xc2, 0,    17, 8,  0, 32, 0, 48, 3, 1, 0x22, 0, 2, 0x11, 0,
+                     3,    0x11, 0,    0xff, 0xda, 0,  12, 3, 1,  0, 2,  0, 3, 0,    0, 0, 0};
   EXPECT_EQ(image_working_memory(halves), 48u * 32 * 3);
   // An EXR's pixels are those that it stores, not those that it shows.
   const std::vector<float> values(64);

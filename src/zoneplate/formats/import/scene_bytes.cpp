@@ -173,15 +173,15 @@ template <class S>
 void pass(S& s, Material& m) {
   s.text(m.name), s.choice(m.model, ShadingModel::Unlit), s.choice(m.alpha_mode, AlphaMode::Blend);
   s.value(m.alpha_cutoff), s.choice(m.double_sided);
-  s.value(m.base_color), pass(s, m.base_color_texture), s.value(m.emissive), pass(s, m.emissive_texture);
-  pass(s, m.normal_texture), s.value(m.normal_scale), pass(s, m.occlusion_texture), s.value(m.occlusion_strength);
-  s.value(m.metallic), s.value(m.roughness), pass(s, m.metallic_roughness_texture);
-  s.value(m.ambient), s.value(m.specular), s.value(m.exponent);
+  s.value(m.base_color), s.value(m.emissive), s.value(m.normal_scale), s.value(m.occlusion_strength);
+  s.value(m.metallic), s.value(m.roughness), s.value(m.ambient), s.value(m.specular), s.value(m.exponent);
+  for (const MaterialTextureSlot& slot : material_texture_slots) pass(s, m.*slot.use);
 }
 
 template <class S>
 void pass(S& s, Light& l) {
-  s.text(l.name), s.choice(l.kind, LightKind::Spot), s.value(l.color), s.value(l.intensity), s.value(l.position);
+  s.text(l.name), s.choice(l.kind, LightKind::Spot), s.choice(l.is_in_camera_space), s.value(l.color),
+      s.value(l.intensity), s.value(l.position);
   s.value(l.direction), s.value(l.range), s.choice(l.falloff, Falloff::Quadratic), s.value(l.attenuation);
   s.value(l.inner_cone), s.value(l.outer_cone);
 }
@@ -190,6 +190,11 @@ template <class S>
 void pass(S& s, Camera& c) {
   s.text(c.name), s.value(c.world_from_camera), s.choice(c.is_orthographic), s.value(c.vertical_fov);
   s.value(c.half_height), s.value(c.aspect), s.value(c.near), s.value(c.far);
+}
+
+template <class S>
+void pass(S& s, Environment& e) {
+  s.value(e.color), s.value(e.image), s.value(e.rotation), s.value(e.strength);
 }
 
 template <class S>
@@ -202,7 +207,7 @@ void pass(S& s, Scene& scene) {
   s.list(scene.images, [&](TextureImage& i) { s.text(i.name), s.image(i.pixels); });
   s.list(scene.lights, [&](Light& l) { pass(s, l); });
   s.list(scene.cameras, [&](Camera& c) { pass(s, c); });
-  s.value(scene.up), s.value(scene.ambient_light);
+  pass(s, scene.environment), s.value(scene.up), s.value(scene.ambient_light);
   s.list(scene.animations, [&](AnimationSpan& a) { s.text(a.name), s.value(a.begin), s.value(a.end); });
   s.list(scene.variants, text), s.list(scene.warnings, text);
 }

@@ -39,6 +39,8 @@ Scene full_scene() {
   const MemoryFile file;
   Scene s = load_gltf(file.write(everything().glb()));
   s.ambient_light = {1, 2, 3};
+  s.environment = {.color = {3, 2, 1}, .image = 0, .rotation = 0.5f, .strength = 2};
+  s.lights[0].is_in_camera_space = true;
   s.up = {0, 0, 1};
   s.variants = {"red", "blue"};
   s.warnings = {"one", ""};
@@ -65,6 +67,10 @@ TEST(SceneBytes, BringWholeScenesOver) {
   EXPECT_EQ(other.materials[0].double_sided, scene.materials[0].double_sided);
   EXPECT_EQ(other.materials[0].base_color_texture.sampler, scene.materials[0].base_color_texture.sampler);
   EXPECT_EQ(other.lights[0].kind, LightKind::Spot);
+  EXPECT_TRUE(other.lights[0].is_in_camera_space);
+  EXPECT_EQ(other.environment, scene.environment);
+  for (const MaterialTextureSlot& slot : material_texture_slots)
+    EXPECT_EQ((other.materials[0].*slot.use).image, (scene.materials[0].*slot.use).image) << slot.gltf_name;
   EXPECT_EQ(other.cameras.back().name, "eye");
   EXPECT_EQ(other.animations.size(), scene.animations.size());
   EXPECT_EQ(other.variants, scene.variants);

@@ -186,14 +186,19 @@ Score score_of_flip(Plane<float> map) {
   });
   std::vector<float> sorted(map.values().begin(), map.values().end());
   std::ranges::sort(sorted);
-  double below = 0;
-  std::size_t median = 0;
-  while (median + 1 < sorted.size() && below + sorted[median] < total / 2) below += sorted[median++];
+  auto weighted = [&, below = 0.0, at = std::size_t{0}](double share) mutable {
+    while (at + 1 < sorted.size() && below + sorted[at] < total * share) below += sorted[at++];
+    return static_cast<double>(sorted[at]);
+  };
+  const double first = weighted(0.25), median = weighted(0.5), third = weighted(0.75);
 
   Score score;
   score.value = total / static_cast<double>(sorted.size());
-  score.more = {{"weighted_median", sorted[median], ""},
+  score.more = {{"weighted_first_quartile", first, ""},
+                {"weighted_median", median, ""},
+                {"weighted_third_quartile", third, ""},
                 {"p99", sorted[(sorted.size() - 1) * 99 / 100], ""},
+                {"min", sorted.front(), ""},
                 {"max", sorted.back(), ""}};
   score.map = std::move(map);
   return score;

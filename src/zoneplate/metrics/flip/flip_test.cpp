@@ -37,6 +37,20 @@ TEST(Flip, PublishedValues) {
   }
 }
 
+TEST(Flip, QuartilesAreWeightedByTheError) {
+  // The sum is 0.2 + 0.3 + 0.3 + 0.3, from the least error up; its quarters by hand.
+  Plane<float> map(19, 1, 0.0f);
+  std::size_t at = 0;
+  for (const auto& [value, count] : {std::pair{0.05f, 6}, {0.1f, 3}, {0.025f, 8}, {0.15f, 2}})
+    for (int i = 0; i < count; ++i) map.values()[at++] = value;
+  const Score score = score_of_flip(map);
+  EXPECT_EQ(figure(score, "weighted_first_quartile"), static_cast<double>(0.05f));  // 0.275 of 1.1
+  EXPECT_EQ(figure(score, "weighted_median"), static_cast<double>(0.1f));           // 0.55
+  EXPECT_EQ(figure(score, "weighted_third_quartile"), static_cast<double>(0.15f));  // 0.825
+  EXPECT_EQ(figure(score, "min"), static_cast<double>(0.025f));
+  EXPECT_EQ(figure(score, "max"), static_cast<double>(0.15f));
+}
+
 TEST(Flip, PublishedValuesOfUnboundedLight) {
   const double published[] = {0.005382, 0.561196, 0.256468, 0.200432};
   for (int which = 0; which < 4; ++which) {

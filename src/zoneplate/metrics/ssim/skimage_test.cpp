@@ -27,7 +27,8 @@ except ImportError:
 pairs = numpy.fromfile(sys.argv[1]).reshape(-1, 2, int(sys.argv[2]), int(sys.argv[3]))
 for a, b in pairs:
     print(structural_similarity(a, b, gaussian_weights=True, sigma=1.5, use_sample_covariance=False, data_range=1),
-          peak_signal_noise_ratio(a, b, data_range=1))
+          peak_signal_noise_ratio(a, b, data_range=1),
+          structural_similarity(a, b, data_range=1), structural_similarity(a, b, win_size=9, use_sample_covariance=False, data_range=1))
 )";
 
 /// The grey values of a pair as doubles; the pairs are the four charts and noise beside less noise.
@@ -91,12 +92,14 @@ TEST(Skimage, AgreesOnSsimAndPsnr) {
 
   const char* at = text.c_str();
   for (const GreyPair& pair : pairs) {
-    double ssim = 0, psnr = 0;
+    double ssim = 0, psnr = 0, uniform7 = 0, uniform9 = 0;
     int length = 0;
-    ASSERT_EQ(std::sscanf(at, "%lf %lf%n", &ssim, &psnr, &length), 2) << text;
+    ASSERT_EQ(std::sscanf(at, "%lf %lf %lf %lf%n", &ssim, &psnr, &uniform7, &uniform9, &length), 4) << text;
     at += length;
     EXPECT_NEAR(structural_similarity(pair.reference, pair.test).ssim, ssim, 1e-10);
     EXPECT_NEAR(psnr_of(pair), psnr, 1e-10);
+    EXPECT_NEAR(structural_similarity(pair.reference, pair.test, {7, true}).ssim, uniform7, 1e-10);
+    EXPECT_NEAR(structural_similarity(pair.reference, pair.test, {9, false}).ssim, uniform9, 1e-10);
   }
 }
 

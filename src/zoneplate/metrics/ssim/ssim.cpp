@@ -5,8 +5,9 @@
 #include "zoneplate/metrics/ssim/ssim.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <functional>
+#include <vector>
 
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/rows.h"
@@ -15,7 +16,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr int radius = 5;  // 3.5 sigma of 1.5, rounded
+constexpr int most_side = 11;  // 3.5 sigma of 1.5 on both sides, rounded
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
 constexpr int block_rows = 32;
 
@@ -30,16 +31,28 @@ Moments& operator+=(Moments& sum, const Moments& m) {
   return sum;
 }
 
-using Window = std::array<double, 2 * radius + 1>;
+/// A window as the product of one row of weights with itself, and how far it reaches beyond its pixel.
+struct Window {
+  std::vector<double> weights;
+  int before = 0, behind = 0;
+  double unbias = 1;  ///< what variances and covariance are multiplied by
+};
 
-Window gaussian_window() {
-  Window window{};
+Window make_window(const SimilarityWindow& choice) {
+  const int side = choice.side == 0 ? most_side : choice.side;
+  assert(side >= 2 && side <= most_side);
+  Window window{.weights = std::vector<double>(static_cast<std::size_t>(side), 1.0),
+                .before = (side - 1) / 2,
+                .behind = side / 2};
+  if (choice.side == 0)
+    for (int i = 0; i < side; ++i) {
+      const int away = i - window.before;
+      window.weights[static_cast<std::size_t>(i)] = natural_exp(-away * away / (2 * 1.5 * 1.5));
+    }
   double sum = 0;
-  for (int i = -radius; i <= radius; ++i) {
-    window[static_cast<std::size_t>(i + radius)] = natural_exp(-i * i / (2 * 1.5 * 1.5));
-    sum += window[static_cast<std::size_t>(i + radius)];
-  }
-  for (double& w : window) w /= sum;
+  for (const double w : window.weights) sum += w;
+  for (double& w : window.weights) w /= sum;
+  if (choice.is_unbiased) window.unbias = static_cast<double>(side * side) / (side * side - 1);
   return window;
 }
 
@@ -51,9 +64,9 @@ void filter_row(std::span<const double> a, std::span<const double> b, const Wind
   const int width = static_cast<int>(a.size());
   for (int x = 0; x < width; ++x) {
     Moments sum;
-    for (int i = -radius; i <= radius; ++i) {
+    for (int i = -window.before; i <= window.behind; ++i) {
       const auto at = static_cast<std::size_t>(mirrored(x + i, width));
-      sum += window[static_cast<std::size_t>(i + radius)] *
+      sum += window.weights[static_cast<std::size_t>(i + window.before)] *
              Moments{a[at], b[at], a[at] * a[at], b[at] * b[at], a[at] * b[at]};
     }
     out[static_cast<std::size_t>(x)] = sum;
@@ -65,10 +78,10 @@ struct Terms {
   double ssim = 0, contrast = 0;
 };
 
-Terms terms_of(const Moments& m) {
+Terms terms_of(const Moments& m, double unbias) {
   const double product = m.a * m.b, squares = m.a * m.a + m.b * m.b;
-  const double covariance = m.ab - product;
-  const double variances = (m.aa - m.a * m.a) + (m.bb - m.b * m.b);
+  const double covariance = (m.ab - product) * unbias;
+  const double variances = ((m.aa - m.a * m.a) + (m.bb - m.b * m.b)) * unbias;
   const double contrast = (2 * covariance + c2) / (variances + c2);
   return {(2 * product + c1) / (squares + c1) * contrast, contrast};
 }
@@ -77,18 +90,19 @@ Terms terms_of(const Moments& m) {
 void measure_rows(const Plane<double>& a, const Plane<double>& b, int begin, int end, const Window& window,
                   Plane<float>& map, std::span<Terms> row_sums) {
   const int width = a.width(), height = a.height();
-  Plane<Moments> rows(width, end - begin + 2 * radius);
+  const int reach = window.before + window.behind;
+  Plane<Moments> rows(width, end - begin + reach);
   for (int i = 0; i < rows.height(); ++i) {
-    const int y = mirrored(begin - radius + i, height);
+    const int y = mirrored(begin - window.before + i, height);
     filter_row(a.row(y), b.row(y), window, rows.row(i));
   }
   for (int y = begin; y < end; ++y) {
     for (int x = 0; x < width; ++x) {
       Moments sum;
-      for (int i = 0; i <= 2 * radius; ++i) sum += window[static_cast<std::size_t>(i)] * rows(x, y - begin + i);
-      const Terms terms = terms_of(sum);
+      for (int i = 0; i <= reach; ++i) sum += window.weights[static_cast<std::size_t>(i)] * rows(x, y - begin + i);
+      const Terms terms = terms_of(sum, window.unbias);
       map(x, y) = static_cast<float>(terms.ssim);
-      if (x < radius || x >= width - radius) continue;
+      if (x < window.before || x >= width - window.behind) continue;
       row_sums[static_cast<std::size_t>(y)].ssim += terms.ssim;
       row_sums[static_cast<std::size_t>(y)].contrast += terms.contrast;
     }
@@ -97,10 +111,10 @@ void measure_rows(const Plane<double>& a, const Plane<double>& b, int begin, int
 
 }  // namespace
 
-Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test) {
+Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test, SimilarityWindow choice) {
   const int width = reference.width(), height = reference.height();
-  assert(width > 2 * radius && height > 2 * radius && test.width() == width && test.height() == height);
-  const Window window = gaussian_window();
+  assert(width >= most_side && height >= most_side && test.width() == width && test.height() == height);
+  const Window window = make_window(choice);
   Similarity out;
   out.map = Plane<float>(width, height);
   std::vector<Terms> row_sums(static_cast<std::size_t>(height));
@@ -109,28 +123,58 @@ Similarity structural_similarity(const Plane<double>& reference, const Plane<dou
   });
 
   Terms sum;
-  for (int y = radius; y < height - radius; ++y) {
+  for (int y = window.before; y < height - window.behind; ++y) {
     sum.ssim += row_sums[static_cast<std::size_t>(y)].ssim;
     sum.contrast += row_sums[static_cast<std::size_t>(y)].contrast;
   }
-  const double count = static_cast<double>(width - 2 * radius) * (height - 2 * radius);
+  const int reach = window.before + window.behind;
+  const double count = static_cast<double>(width - reach) * (height - reach);
   out.ssim = sum.ssim / count;
   out.contrast = sum.contrast / count;
   return out;
 }
 
+namespace {
+
+/// SSIM of one grey picture, or the mean of those of red, green and blue, value and map.
+Score similarity_score(const Picture& reference, const Picture& test, const Settings& settings) {
+  static constexpr LumaWeights channels[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const SimilarityWindow window{static_cast<int>(settings.number("window")), settings.number("unbiased") != 0};
+  const auto of = [&](LumaWeights w) {
+    return structural_similarity(luma_plane(reference.display, w), luma_plane(test.display, w), window);
+  };
+  Similarity s = of(settings.number("rgb") != 0 ? channels[0] : rec709_luma);
+  if (settings.number("rgb") != 0) {
+    for (const LumaWeights w : {channels[1], channels[2]}) {
+      const Similarity other = of(w);
+      s.ssim += other.ssim;
+      std::ranges::transform(s.map.values(), other.map.values(), s.map.values().begin(), std::plus<>());
+    }
+    s.ssim /= 3;
+    for (float& value : s.map.values()) value /= 3;
+  }
+  for (float& value : s.map.values()) value = (1 - value) / 2;
+  return Score{.value = s.ssim, .map = std::move(s.map)};
+}
+
+}  // namespace
+
 Metric ssim() {
+  static constexpr int sides[] = {0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, flags[] = {0, 1};
+  static constexpr Param params[] = {
+      {.name = "window", .meaning = "side of a uniform window; 0: Gaussian of sigma 1.5, 11 pixels", .choices = sides},
+      {.name = "unbiased", .meaning = "1: variances divided by n - 1", .choices = flags},
+      {.name = "rgb", .meaning = "1: the mean of red, green and blue in place of luma", .choices = flags}};
   return {.name = "ssim",
           .summary = "structural similarity of Rec.709 luma of sRGB codes, Gaussian window of sigma 1.5",
           .source = "Wang, Bovik, Sheikh, Simoncelli 2004",
           .unit = "",
           .better = Better::Higher,
           .perfect = 1.0,
-          .smallest = 2 * radius + 1,
-          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            Similarity s = structural_similarity(luma_plane(reference[0].display), luma_plane(test[0].display));
-            for (float& value : s.map.values()) value = (1 - value) / 2;
-            return Score{.value = s.ssim, .map = std::move(s.map)};
+          .smallest = most_side,
+          .params = params,
+          .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
+            return similarity_score(reference[0], test[0], settings);
           }};
 }
 

@@ -12,14 +12,23 @@ struct Similarity {
   Plane<float> map;     ///< SSIM at each pixel, in [-1, 1]
 };
 
-/// Structural similarity under a Gaussian window, of sigma 1.5 and 11 × 11 pixels, with biased moments.
+/// The window under which means, variances and the covariance are taken.
+struct SimilarityWindow {
+  int side = 0;              ///< of a uniform window, in pixels, 2 to 11; 0: a Gaussian of sigma 1.5 in 11 × 11 pixels
+  bool is_unbiased = false;  ///< variances and covariance are divided by n - 1, for a window of n pixels
+};
+
+/// Structural similarity, by default under the Gaussian window of the paper, with biased moments. Uniform windows of 7
+/// (scikit-image, with unbiased moments) or 8 pixels a side (ffmpeg, at every fourth pixel) are in use as well.
 ///
 /// Requires  equal sizes, at least 11 × 11.
 /// Edges     the map mirrors the picture at its border (the edge pixel twice); the means are over the pixels whose
-///           window lies inside. Symmetric; exactly 1 where the pictures agree.
+///           window lies inside; a window of even side reaches a pixel farther to the right and below. Symmetric;
+///           exactly 1 where the pictures agree.
 /// Source    Wang, Bovik, Sheikh, Simoncelli, Image Quality Assessment: From Error Visibility to Structural
 ///           Similarity, IEEE TIP 13(4), 2004.
-Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test);
+Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test,
+                                 SimilarityWindow window = {});
 
 /// The five scales of MS-SSIM: each the mean of 2 × 2 pixels of the one before (a last odd row or column is left
 /// out); the product of contrast^weight over scales, and of luminance at the last one. A negative mean counts as 0.

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "zoneplate/metrics/charts_for_test.h"
+#include "zoneplate/metrics/metrics.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -44,6 +46,38 @@ TEST(Ssim, OneWindowByHand) {
   EXPECT_NEAR(s.ssim, luminance * contrast, 1e-12);
   EXPECT_NEAR(s.contrast, contrast, 1e-12);
   EXPECT_NEAR(s.map(5, 5), luminance * contrast, 1e-7);
+}
+
+// By a program of the paper's formula alone: windows as lists of pixels, in Python. The pictures are whole numbers.
+TEST(Ssim, UniformWindowsAsTheFormulaSays) {
+  const auto code = [](int x, int y) { return ((7 * x * x + 13 * y * y + 5 * x * y) / 64 + 2 * x) % 256; };
+  const auto noisy = [&](int x, int y) { return std::clamp(code(x, y) + (37 * x + 91 * y + x * y) % 41 - 20, 0, 255); };
+  Plane<double> a(24, 20), b(24, 20);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 24; ++x) a(x, y) = code(x, y) / 255.0, b(x, y) = noisy(x, y) / 255.0;
+  const struct {
+    SimilarityWindow window;
+    double ssim;
+  } expected[] = {{{7, true}, 0.7560892134975208},
+                  {{7, false}, 0.756665985733545},
+                  {{8, true}, 0.7965766986483606},
+                  {{2, false}, 0.44530943939238316},
+                  {{11, true}, 0.8783639258302577}};
+  for (const auto& [window, ssim] : expected)
+    EXPECT_NEAR(structural_similarity(a, b, window).ssim, ssim, 1e-12) << window.side << ' ' << window.is_unbiased;
+}
+
+TEST(Ssim, OfColoursIsTheMeanOfTheThree) {
+  const ChartPair pair = chart_pair(2);  // red alone differs
+  const Picture a = make_picture(as_codes(pair.reference)), b = make_picture(as_codes(pair.test));
+  const auto measure = [&](const char* text) {
+    const Choice choice = choose_metric(metrics(), text);
+    return choice.metric->measure({&a, 1}, {&b, 1}, choice.settings)->value;
+  };
+  const auto red = [](const Picture& p) { return luma_plane(p.display, {1, 0, 0}); };
+  EXPECT_NEAR(measure("ssim:rgb=1"), (structural_similarity(red(a), red(b)).ssim + 2) / 3, 1e-12);
+  EXPECT_NE(measure("ssim:rgb=1"), measure("ssim"));
+  EXPECT_NE(measure("ssim:window=7,unbiased=1"), measure("ssim:window=7"));
 }
 
 TEST(MsSsim, OfConstantsIsTheLuminanceOfTheLastScale) {

@@ -4,10 +4,11 @@
 
 namespace zoneplate {
 
-/// Alpha as a number of samples, told one binary digit a call: what a test that says yes or no can bring over.
+/// Alpha to coverage: converts alpha into a number of samples, and reports one binary digit of that number per call, so
+/// that FragmentBatcher::test_alpha, which keeps one bit for each fragment, can carry it.
 ///
-/// The number is alpha × samples, rounded; sharpened alpha is first made steep about the cutoff, so that it falls from
-/// 1 to 0 within a pixel: (alpha - cutoff) / max(|d alpha/dx| + |d alpha/dy|, 1e-4) + ½, clamped.
+/// The number is alpha × samples, rounded. AlphaTest::Sharp first steepens alpha around the cutoff, so that it falls
+/// from 1 to 0 within a pixel: (alpha - cutoff) / max(|d alpha/dx| + |d alpha/dy|, 1e-4) + ½, clamped.
 /// Source    Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
 class AlphaDigits : public FragmentShader {
  public:
@@ -20,7 +21,7 @@ class AlphaDigits : public FragmentShader {
   void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
     inner_.shade(batch, wanted, out);
   }
-  /// 1 where the chosen digit of a point's number is 1, else 0; the cutoff is 1.
+  /// Writes 1 where the chosen digit of a fragment's number is 1, otherwise 0; the cutoff is 1.
   float alpha(const FragmentBatch& batch, float* out) const override;
 
  private:

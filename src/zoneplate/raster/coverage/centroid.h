@@ -8,31 +8,33 @@
 
 namespace zoneplate {
 
-/// A place to be added to others: x in bits 0 to 11, y in bits 12 to 23, a one from bit 24 on. At most 16 add up.
+/// A position packed so that sums of positions stay packed: x in bits 0 to 11, y in bits 12 to 23, a count from bit 24
+/// on. At most 16 may be added.
 constexpr std::int32_t summand(SamplePosition place) { return place.x | place.y << 12 | 1 << 24; }
 
-/// The mean of n places whose sum is (x, y), halves rounded up.
+/// The mean of n positions whose sum is (x, y), with halves rounded up.
 constexpr SamplePosition mean_place(int x, int y, int n) {
   return {static_cast<std::uint8_t>((2 * x + n) / (2 * n)), static_cast<std::uint8_t>((2 * y + n) / (2 * n))};
 }
 
-/// That of a sum of summands.
+/// The mean of positions from the sum of their summands.
 constexpr SamplePosition mean_place(std::int32_t sum) { return mean_place(sum & 4095, sum >> 12 & 4095, sum >> 24); }
 
-/// A rule and a pattern as summands by sample: a surface is shaded at the mean of `first` of its first sample and
-/// `more` of its others, which are 0 where the rule has no use for them.
+/// Where surfaces are shaded that own a part of a pixel's samples, for one rule and one sample pattern: at the mean of
+/// the summands `first` of the first sample and `more` of the other samples. `more` is 0 where the rule ignores them.
 ///
-/// Exact     a mean of samples that a triangle covers lies on it but for the rounding to 1/256 pixel; where triangles
-///           share a pixel of a pattern whose mean is the centre, so is the mean of their places, weighted by their
-///           samples: a colour that changes linearly over them comes out as if one triangle had the whole pixel.
-/// Source    centroid sampling: any place inside both the pixel and the primitive (OpenGL Shading Language,
+/// Exact     the mean of samples that a triangle covers lies on the triangle, up to the rounding to 1/256 pixel. Where
+///           triangles share a pixel of a pattern whose mean is the centre, so is the mean of their positions, weighted
+///           by their samples: a colour that is linear over the triangles resolves as if one triangle covered the whole
+///           pixel.
+/// Source    centroid sampling: any position inside both the pixel and the primitive (OpenGL Shading Language,
 /// `centroid`);
 ///           hardware takes the mean of the covered samples (Zink, Pettineo, Hoxley, Practical Rendering and
 ///           Computation with Direct3D 11, 2011), or the first of them.
 struct ShadedPlaces {
   std::vector<std::int32_t> first, more;
   ShadedPlaces(const SamplePattern& samples, Centroid rule);
-  /// The place of samples, a bit each; bit 0 is sample `begin`.
+  /// The position for a set of samples; bit 0 is sample `begin`.
   SamplePosition of(std::uint64_t samples, int begin) const;
 };
 

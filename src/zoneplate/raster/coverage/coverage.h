@@ -56,14 +56,14 @@ struct CoverageKernels : PerIsa<CoverageKernels> {
   /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Gives true if some
   /// block's `block_min_depth` may have risen.
   bool (*draw)(const TileTriangle& triangle, TileVisibility& tile);
-  /// Lists the pixels where the triangle would win at least one sample; draws nothing. `out` has room for a fragment of
-  /// every pixel of the tile; gives the number of fragments, in order of rows.
+  /// Lists the pixels where the triangle would win at least one sample, row by row, and returns their number; draws
+  /// nothing. `out` has the capacity for every pixel of the tile.
   ///
   /// Requires  open blocks.
   int (*collect)(const TileTriangle& triangle, const TileVisibility& tile, CoveredPixel* out);
   /// Lists the rows of 8 pixels where the triangle would win every sample, in the lines from first_y to last_y; sets
-  /// is_partial[row] where it would win some but not all. Only in blocks whose bit is set. `out` has room for every row
-  /// of those lines.
+  /// is_partial[row] where it would win some but not all. Only in blocks whose bit is set. `out` has the capacity for
+  /// every row of those lines.
   ///
   /// Requires  open blocks.
   int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, std::uint64_t blocks, SpanLayer* out,
@@ -71,7 +71,7 @@ struct CoverageKernels : PerIsa<CoverageKernels> {
   /// The greatest depth of the samples of each block; 0 where nothing is drawn.
   void (*find_nearest)(const TileVisibility& tile, float* nearest);
   /// Lists the blocks where the triangle covers every sample and is in front of `nearest`; sets the bits in `others` of
-  /// the other blocks where it may win some. `out` has room for every block; gives their number.
+  /// the other blocks where it may win some. `out` has the capacity for every block; the result is their number.
   int (*collect_blocks)(const TileTriangle& triangle, const TileVisibility& tile, const float* nearest, BlockLayer* out,
                         std::uint64_t& others);
   /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else

@@ -326,7 +326,7 @@ void FragmentBatcher::shade_data(std::span<const Fragment> fragments, FragmentDa
 
 void FragmentBatcher::shade_outputs(std::span<const Fragment> fragments, std::vector<Linear>* colors,
                                     FragmentData* data) {
-  shaded_ += fragments.size();
+  (colors ? shaded_ : evaluated_) += fragments.size();
   const OutputMask outputs{.color = colors != nullptr,
                            .normal = data && target_.normal,
                            .uv = data && target_.uv,

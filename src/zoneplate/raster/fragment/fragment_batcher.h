@@ -15,7 +15,7 @@
 
 namespace zoneplate {
 
-/// A surface point to be shaded: where on the screen, of which triangle.
+/// A fragment to be shaded: a position of a triangle on the screen, and the samples that take its colour.
 struct Fragment {
   std::int32_t x, y;      ///< 1/256 pixel from the picture's top-left corner
   std::int32_t id;        ///< triangle
@@ -23,20 +23,20 @@ struct Fragment {
   std::uint64_t samples;  ///< the samples of the pixel that take its colour
 };
 
-/// Points of one triangle in eight neighbouring pixels of a row, at the same place in each.
+/// Eight fragments of one triangle in neighbouring pixels of a row, at the same position in each pixel.
 struct FragmentSpan {
   std::int32_t x, y;    ///< the first; the others follow a pixel apart
   std::int32_t id;      ///< triangle
   std::uint32_t pixel;  ///< the first, within the tile
 };
 
-/// What the data planes show of a point.
+/// Results of shading other than colour, by fragment (OutputMask).
 struct FragmentData {
   std::vector<float3> normal, albedo;
   std::vector<float2> uv;
 };
 
-/// Shades lists of points in batches of one material.
+/// Shades lists of fragments in batches of one material.
 class FragmentBatcher {
  public:
   FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target);
@@ -47,28 +47,30 @@ class FragmentBatcher {
   /// The data alone: materials and lights are not evaluated.
   void shade_data(std::span<const Fragment> fragments, FragmentData& data);
 
-  /// The colours of rows: `use(numbers, shaded)` is called for parts of the list, which hold these rows of it; their
-  /// colours follow each other in `shaded`.
+  /// Shades spans: use(numbers, shaded) is called for parts of the list, with the indices of their spans; the colours
+  /// of these spans follow each other in `shaded`.
   template <class Use>
   void shade(std::span<const FragmentSpan> rows, Use use);
 
-  /// The colours of rows in the order of the list: `use(shaded, first, count)` is called for consecutive parts of it,
-  /// which begin at row `first` and whose colours stand at the beginning of `shaded`.
+  /// Shades spans in the order of the list: use(shaded, first, count) is called for consecutive parts of `count` spans
+  /// from span `first` on, whose colours begin at entry 0 of `shaded`.
   template <class Use>
   void shade_in_order(std::span<const FragmentSpan> rows, Use use);
 
-  /// The colours of a list: `use(shaded, first, count)` is called for consecutive parts of it, which begin at point
-  /// `first` and whose colours stand at the beginning of `shaded`.
+  /// Shades a list: use(shaded, first, count) is called for consecutive parts of `count` fragments from fragment
+  /// `first` on, whose colours begin at entry 0 of `shaded`.
   template <class Use>
   void shade(const FragmentList& list, Use use);
 
-  /// Keeps the points whose alpha reaches the cutoff: is_there[i] is 1 or 0.
+  /// Tests alpha: is_there[i] is 1 if the alpha of fragment i is at least the cutoff, otherwise 0.
   void test_alpha(std::span<const Fragment> points, std::vector<std::uint8_t>& is_there);
 
-  /// How far the points' alpha is above the cutoff, in their order: a surface is there where that is not negative.
+  /// The differences of the fragments' alpha and the cutoff; a surface is present where its margin is not negative.
   void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
+  /// Fragments of which only data were evaluated.
+  std::uint64_t evaluated() const { return evaluated_; }
 
  private:
   /// The draw that the last triangle belongs to.
@@ -116,7 +118,7 @@ class FragmentBatcher {
   const Target& target_;
   const bool has_ends_;          ///< some draw has lines or points
   const bool has_one_material_;  ///< all draws share theirs
-  std::uint64_t shaded_ = 0;
+  std::uint64_t shaded_ = 0, evaluated_ = 0;
 
   std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
   std::vector<std::uint32_t> order_, material_;  ///< of a list of several materials; else empty

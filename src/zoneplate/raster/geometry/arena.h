@@ -6,11 +6,11 @@
 
 namespace zoneplate {
 
-/// Uninitialised memory for plain data, on a cache line's start. What is large asks the system for large pages: to
-/// touch new pages costs more than to fill them.
+/// Uninitialised memory for plain data, aligned to cache lines. Large blocks are advised to use large pages, since the
+/// first access to a page costs more than filling it.
 class RawMemory {
  public:
-  /// At least `size` bytes. Memory that is large enough already is kept, and what was in it is lost.
+  /// At least `size` bytes. A block that is large enough is kept; its contents are lost.
   std::byte* room(std::size_t size);
 
  private:
@@ -33,7 +33,7 @@ class Arena {
     at_ += rounded;
     return taken;
   }
-  /// Gives everything back; what was taken may not be used any more.
+  /// Takes everything back; memory that was taken may not be used any more.
   void clear();
 
   static constexpr std::size_t largest = std::size_t{1} << 17;
@@ -46,13 +46,13 @@ class Arena {
   std::byte *at_ = nullptr, *end_ = nullptr;
 };
 
-/// Plain data by number; what is in it never moves.
+/// An array of plain data whose elements never move.
 template <class T>
 class ArenaArray {
  public:
   static constexpr std::size_t chunk_size = 1024;
 
-  /// Uninitialised room for `count` more in one piece, which counts for nothing before it is added.
+  /// Uninitialised memory for `count` more elements in one piece; they become elements by add().
   /// Requires: count <= chunk_size.
   T* room(std::size_t count, Arena& arena) {
     static_assert(chunk_size * sizeof(T) <= Arena::largest);
@@ -62,13 +62,13 @@ class ArenaArray {
     }
     return chunks_.back() + end_ % chunk_size;
   }
-  /// Adds what was written into the room; gives the number of the first.
+  /// Adds the `count` elements that were written; returns the index of the first.
   std::size_t add(std::size_t count) {
     const std::size_t first = end_;
     end_ += count, size_ += count;
     return first;
   }
-  /// Numbers may have gaps.
+  /// Indices may have gaps.
   const T& operator[](std::size_t i) const { return chunks_[i / chunk_size][i % chunk_size]; }
   std::size_t size() const { return size_; }
   void clear() { chunks_.clear(), size_ = end_ = 0; }
@@ -78,7 +78,7 @@ class ArenaArray {
   std::size_t size_ = 0, end_ = 0;
 };
 
-/// Plain data that is only added to and read from the start on.
+/// A list of plain data that is appended to and read from the start.
 template <class T>
 class ArenaList {
  public:

@@ -14,7 +14,7 @@
 
 namespace zoneplate {
 
-/// A pattern's places as plain arrays.
+/// The sample positions of a pattern as arrays.
 struct SampleArrays {
   std::vector<std::int32_t> x, y;
   explicit SampleArrays(const SamplePattern& samples) {
@@ -24,20 +24,20 @@ struct SampleArrays {
 
 /// The triangles of a frame by the tiles that they may touch.
 ///
-/// Each thread fills its own lists; which thread set up a triangle leaves no trace in the picture, because what is
-/// visible does not depend on the order of drawing. Small opaque triangles leave no record: what they cover is in
-/// `fragments`.
+/// Each thread fills its own lists. Visibility does not depend on the order of drawing, so it does not matter which
+/// thread set up a triangle. Small opaque triangles have no record: the samples that they cover are in `fragments`.
 struct Bins {
-  int first_column = 0, first_row = 0, columns = 0, rows = 0;  ///< tiles of 64 × 64 on the picture's own grid
+  int first_column = 0, first_row = 0, columns = 0,
+      rows = 0;  ///< the tiles of the image's grid that the target overlaps
   using TileList = ArenaList<std::uint32_t>;
   struct alignas(128) Worker {
     Arena arena;
     ArenaArray<Triangle> triangles;
-    std::vector<std::array<TileList, 3>> tiles;  ///< by tile and Surface: indices into triangles
+    std::vector<std::array<TileList, 3>> tiles;  ///< by tile and AlphaMode: indices into triangles
     TileSampleBins fragments;
-    std::uint64_t drawn = 0;  ///< triangles that became fragments
+    std::uint64_t drawn = 0;  ///< triangles that became samples
 
-    /// Empties the lists and makes them for that number of tiles and that target.
+    /// Empties the lists and prepares them for this number of tiles.
     void clear(std::size_t tiles, const Target& target);
     bool is_empty(std::size_t tile) const {
       const auto& lists = this->tiles[tile];
@@ -54,16 +54,16 @@ struct Bins {
   std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-/// No triangles by the tiles of a target. The memory of `reused` serves again.
+/// Empty bins for the tiles of a target, in the memory of `reused`.
 Bins make_bins(const Target& target, Bins reused = {});
 
 /// Culls, clips, sets up and sorts into tiles the triangles of the draws [first, last), in parallel.
 ///
-/// Requires  their screen vertices are there; fewer than 2^32 triangles survive.
+/// Requires  stored screen vertices of these draws; fewer than 2^32 triangles survive.
 void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
                  const SetupRules& rules, Isa isa, Bins& bins);
 
-/// Both, of all draws.
+/// Both, for all draws.
 Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
                    Bins reused = {});
 

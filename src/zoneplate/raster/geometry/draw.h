@@ -17,8 +17,8 @@ namespace zoneplate {
 
 /// Triangles that are drawn with one state: an instance of a mesh.
 ///
-/// Its vertices come as positions with a matrix, as clip positions, or as those of quads. Triangles are numbered
-/// through the draws in their order; the number is the last word where depths are equal.
+/// The vertices are positions with a matrix, clip positions, or those of quads. Triangle ids count the triangles of all
+/// draws in their order; of equal depths the lower id is visible.
 struct Draw {
   std::span<const float3> position;
   float4x4 clip_from_object;
@@ -46,25 +46,25 @@ struct Draw {
 /// Draws with their screen vertices and triangle numbers.
 ///
 /// Instances share the vertices of their mesh but not its screen vertices, of which there may be more than memory.
-/// Those of the first draws are kept, as many as there is room for; those of the others are there while their batch is
-/// at work, and found again one by one where a triangle is seen.
+/// The screen vertices of the first draws are stored up to a capacity; those of the other draws are stored while their
+/// batch is processed, and computed again one by one where a triangle is visible.
 struct ProjectedDraws {
   std::span<const Draw> draws;
   Viewport viewport;
-  std::vector<std::span<ScreenVertex>> screen;  ///< by draw; empty where they are not there
+  std::vector<std::span<ScreenVertex>> screen;  ///< by draw; empty where they are not stored
   std::vector<std::int32_t> first_triangle;     ///< by draw, and the total at the end
   std::size_t kept = 0;                         ///< screen vertices of the first draws
   RawMemory memory, batch_memory;               ///< of the screen vertices
 
   /// The draw that a triangle belongs to.
   std::size_t draw_of(std::int32_t triangle) const;
-  /// A screen vertex of a draw, whether it is there or not.
+  /// A screen vertex of a draw: stored, or computed again.
   ScreenVertex vertex(std::size_t draw, std::uint32_t v) const {
     return screen[draw].empty() ? project(draws[draw].clip_position(v), viewport) : screen[draw][v];
   }
 };
 
-/// Numbers the triangles; no screen vertices are there yet. The memory of `reused` serves again.
+/// Assigns the triangle ids; no screen vertices are stored yet. The memory of `reused` is used again.
 ///
 /// `kept`: screen vertices that are kept; none: as many as the draws' meshes have, or 2^22 where that is more.
 /// Errors    ErrorKind::Failed past 2^31 - 2 triangles.

@@ -8,15 +8,15 @@
 
 namespace zoneplate {
 
-/// One thread's fragments by tile, in an arena. Where a tile's list has grown long, of each sample only the nearest
-/// stays: a list is at most a few times as long as what is seen of it, however much lies behind.
+/// The samples of small triangles that one thread has found, by tile. When a tile's list has grown long, only the
+/// nearest entry of each sample is kept: a list is at most a few times as long as its visible part.
 class TileSampleBins {
  public:
-  /// Empties the lists, whose memory the arena takes back, and makes them for that number of tiles.
-  /// `keeps_hidden`: all fragments stay.
+  /// Empties the lists, whose memory returns to the arena, and prepares them for this number of tiles. `keeps_hidden`:
+  /// no entry is dropped.
   void clear(std::size_t tiles, int samples, bool keeps_hidden);
 
-  /// Gives a tile's list a new, empty last part.
+  /// Appends an empty bin to a tile's list.
   SampleBin* grow(std::size_t tile, std::int32_t first_id, Arena& arena);
 
   SampleBin** last() { return last_.data(); }  ///< by tile: the last part of its list, or null

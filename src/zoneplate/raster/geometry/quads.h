@@ -8,12 +8,13 @@
 
 namespace zoneplate {
 
-/// The lines or points of a mesh, each to be drawn as a quad that is made when it is asked for: all instances share
-/// this.
+/// The lines or points of a mesh. Each is drawn as a quad, which make_quad computes on demand; all instances share one
+/// QuadMesh.
 ///
-/// A line is the rectangle about its segment, a point the square about its place. Four vertices a primitive, of which
-/// two are about its first end and two about the other; its triangles are (0, 1, 2) and (2, 1, 3). Source rectangular
-/// lines: Vulkan specification, Basic Line Segment Rasterization.
+/// A line becomes the rectangle around its segment, a point the square around its position. A primitive has four
+/// vertices, two at its first end and two at the other; its triangles are (0, 1, 2) and (2, 1, 3).
+///
+/// Source    rectangular lines: Vulkan specification, Basic Line Segment Rasterization.
 struct QuadMesh {
   std::span<const float3> position;
   std::span<const std::uint32_t> ends;  ///< vertices of the mesh, two a primitive; a point's ends are one vertex
@@ -24,7 +25,7 @@ struct QuadMesh {
   std::size_t vertices() const { return 2 * ends.size(); }
 };
 
-/// A primitive's quad in clip space. Attributes at a vertex are those at its `share` of the way between the ends.
+/// The quad of a primitive in clip space. A vertex has the attributes at parameter `share` of the segment, in [0, 1].
 struct Quad {
   float4 clip[4];
   float share[4];

@@ -46,11 +46,11 @@ Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const Scree
 ///
 /// Edge k of sample s at pixel (i, j) of the tile is inside where a_k i + b_k j + c_ks >= 0. Depth there is
 /// clamp((z_s + dzdy (j - origin_y)) + dzdx (i - origin_x)) with the triangle's own first pixel as origin, so that
-/// neither tile nor crop changes its bits. Exact     samples of one kind are whole pixels apart, so E = 256 (a i + b j)
-/// + C_s and sign E = sign(a i + b j + floor(C_s / 256));
-///           C_s is reduced and clamped to [-2^30, 2^30 - 1], where a clamped edge has one sign in the whole tile (|a i
-///           + b j|
-///           <= 63 × 2^24 < 2^30).
+/// neither tile nor crop changes its bits.
+///
+/// Exact     samples of one kind are whole pixels apart, so E = 256 (a i + b j) + C_s and sign E = sign(a i + b j +
+///           floor(C_s / 256)); C_s is reduced and clamped to [-2^30, 2^30 - 1], where a clamped edge has one sign in
+///           the whole tile (|a i + b j| <= 63 × 2^24 < 2^30).
 struct TileTriangle {
   static constexpr int max_samples = 64;
   std::int32_t a[3], b[3];

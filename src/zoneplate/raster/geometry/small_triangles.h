@@ -8,7 +8,7 @@
 
 namespace zoneplate {
 
-/// Samples of one tile that small triangles cover, in any order; a list of these is what a thread has for a tile.
+/// Samples of one tile that small triangles cover, in any order. A thread has a list of these bins for each tile.
 ///
 /// Units     what = 65536 (id - first_id) + at, at = 4096 sample + 64 y + x, with the pixel (x, y) within the tile.
 struct SampleBin {
@@ -25,29 +25,29 @@ struct SampleBin {
   std::int32_t id(std::uint32_t w) const { return first_id + static_cast<std::int32_t>(w >> 16); }
 };
 
-/// Where the fragments of one thread go: by tile of the picture's grid, the list's last part, or null.
+/// Appends the samples of one thread to its bins: by tile of the image's grid, the list's last bin, or null.
 struct SampleBinWriter {
   std::int32_t first_column, first_row, columns;
   SampleBin** last;
   void* owner;
-  /// Gives the list a new, empty last part for triangles from `first_id` on.
+  /// Appends an empty bin for triangles from `first_id` on.
   SampleBin* (*grow)(SampleBinWriter& sink, std::int32_t tile, std::int32_t first_id);
 };
 
-/// A run of consecutive triangles of one draw, and what they are tested against.
+/// A run of consecutive triangles of one draw, with the parameters of their tests.
 struct SmallTriangleRun {
   const ScreenVertex* screen;
   const std::uint32_t* index;  ///< three a triangle
   std::int32_t count;          ///< at most `capacity`
   std::int32_t first_id;
   Viewport viewport;
-  /// The pixels that are drawn, ends included. Fragments fill their tiles beyond them.
+  /// The pixels that are drawn, ends included. Samples outside of them are found too, within their tiles.
   std::int32_t left, top, right, bottom;
   const std::int32_t *sample_x, *sample_y;
   std::int32_t sample_count;
-  std::int32_t facing;  ///< 1 keeps what runs clockwise on the screen, -1 the others, 0 both
+  std::int32_t facing;  ///< 1 keeps triangles that are clockwise on the screen, -1 the others, 0 both
   bool is_top_left;     ///< as SetupRules
-  /// 1/256 pixel: what is no wider and no higher becomes fragments; at most 2047, -1: none, as it must be where there
+  /// 1/256 pixel: triangles that are no wider and no higher become samples; at most 2047. -1: none; required if there
   /// are more samples than SampleBin::most_samples.
   std::int32_t small_extent;
 
@@ -56,7 +56,7 @@ struct SmallTriangleRun {
   static constexpr int capacity = 256;
 };
 
-/// What became of a run's triangles, as numbers within the run.
+/// The results for a run's triangles, as indices within the run.
 struct SmallTriangleResult {
   std::int32_t general_count = 0, kept_count = 0;
   std::uint64_t drawn = 0;  ///< small triangles that went on to be fragments
@@ -67,7 +67,7 @@ struct SmallTriangleResult {
 };
 
 struct SmallTriangleKernels : PerIsa<SmallTriangleKernels> {
-  /// Culls a run of triangles, draws the small ones as fragments, sets up or lists the rest, in their order.
+  /// Culls a run of triangles, converts the small ones to samples, and sets up or lists the rest, in their order.
   ///
   /// The samples of small triangles and their depths are those of make_tile_triangle and depth_at, bit for bit.
   void (*run)(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result);

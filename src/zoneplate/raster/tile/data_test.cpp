@@ -37,7 +37,8 @@ TEST(DataStage, AttributesShadeOneFragmentPerPixel) {
   TileBuffers b(*scene.setup);
   render_tile(0, b);
   EXPECT_EQ(planes.uv(10, 20), (float2{1, 128}));
-  EXPECT_EQ(b.batcher.shaded(), static_cast<std::uint64_t>(tile_pixels));
+  EXPECT_EQ(b.batcher.shaded(), 0u);
+  EXPECT_EQ(b.batcher.evaluated(), static_cast<std::uint64_t>(tile_pixels));
 }
 
 TEST(DataStage, DataAreTheSameWithAndWithoutColour) {

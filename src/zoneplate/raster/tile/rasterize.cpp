@@ -42,6 +42,7 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
   });
   buffers.for_each([&](const TileBuffers& used) {
     counts.shaded += used.batcher.shaded();
+    counts.evaluated += used.batcher.evaluated();
     counts.stages += used.times;
   });
   counts.tiles_ms = tiles.ms();

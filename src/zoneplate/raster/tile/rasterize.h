@@ -24,21 +24,23 @@ struct RasterRules {
   }
 };
 
-/// What frames that are drawn one after the other may share.
+/// Memory that consecutive frames may share.
 struct RasterMemory {
   ProjectedDraws projected;
   Bins bins;
-  Rgba8Image shown;  ///< an earlier picture that is done with, where there is one
+  Rgba8Image shown;  ///< an earlier image whose memory is free, if there is one
 };
 
 struct RasterCounts {
   double geometry_ms = 0, tiles_ms = 0;
   StageTimes stages;
   std::uint64_t vertices = 0, triangles = 0, set_up = 0, shaded = 0;
+  std::uint64_t evaluated = 0;  ///< fragments whose data alone were evaluated, without light
 };
 
-/// Draws triangles into a target: project, clip, set up, sort into tiles; then for each tile what is visible, shading
-/// once per surface and pixel (or sample), layers of blended surfaces in exact order, and the mean of the samples.
+/// Draws triangles into a target: projects, clips, sets up and bins them; then, tile by tile, finds the visible
+/// triangles, shades once per surface and pixel (or per sample), composites blended surfaces in exact order, and
+/// resolves the samples.
 ///
 /// Exact     the result does not depend on the number of threads, the Isa, or the order of the draws where no two
 ///           triangles have equal depth at a sample.

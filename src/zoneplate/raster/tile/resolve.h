@@ -6,46 +6,44 @@
 
 namespace zoneplate {
 
-/// TransparentStack of a pixel put under one another, the nearest first: what they show, and how much of what is behind
-/// them is seen through them.
+/// Transparent layers of a pixel, composited front to back: their colour, and the transmittance to what is behind them.
 ///
-/// Exact     in float, as written. TransparentStack behind a transmittance of `least_transmittance` or less are left
-/// out, and
-///           need not be shaded.
+/// Exact     in float, as written. Layers behind a transmittance of `least_transmittance` or less are left out, and
+///           are not shaded.
 /// Source    Porter and Duff, Compositing Digital Images, 1984: over, from the front.
 struct TransparentStack {
   float r = 0, g = 0, b = 0;
   float transmittance = 1;
 
-  /// colour += layer × transmittance; transmittance ×= 1 - alpha. Nothing, if the transmittance is not above `least`.
+  /// colour += layer × transmittance; transmittance ×= 1 - alpha. No effect if the transmittance is not above `least`.
   void composite_under(const Linear& layer, float least);
-  /// The layers over what is behind all of them. The whole is opaque if that is.
+  /// The layers over the colour behind all of them. The result is opaque if that colour is.
   Linear over(const Linear& behind) const;
 };
 
-/// The transmittance down to which layers count in a scene whose surfaces' channels are at most `brightest`: all that
-/// is behind it, the last surface too, adds at most 2^-25 to a channel, half of the smallest half float, whether layers
-/// are left out or not. 0, so that all layers count, for +infinity.
+/// The transmittance at or below which layers are left out, if no channel of a surface exceeds `brightest`: everything
+/// behind it, the opaque surface included, changes a channel by at most 2^-25, half of the smallest half float. 0 for
+/// +infinity: no layer is left out.
 inline float least_transmittance(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
 
 /// The same for eight pixels of a row.
 struct alignas(64) TransparentStack8 {
   static constexpr int size = Linear8::size;
   float r[size], g[size], b[size], transmittance[size];
-  bool is_open;  ///< further layers count at one of the pixels at least
+  bool is_open;  ///< some pixel's transmittance is above the limit
 
   void clear();
 };
 
-/// Sums and means of samples, for eight pixels of a row whose points stand side by side in `color` from `first` on.
+/// Sums and means of samples, for spans of eight pixels whose fragments are consecutive in `color`, from `first` on.
 ///
 /// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
 struct ResolveKernels : PerIsa<ResolveKernels> {
-  /// out = (0 + color × weight) / weight: one surface owns all samples. Of rows whose points follow each other.
+  /// out = (0 + color × weight) / weight: one surface owns all samples. For consecutive spans.
   void (*resolve)(const FragmentOutputs& color, int first, int rows, float weight, Linear8* const* out);
-  /// TransparentStack::composite_under for eight points.
+  /// TransparentStack::composite_under for eight fragments.
   void (*composite_under)(const FragmentOutputs& color, int first, float least, TransparentStack8& layers);
-  /// The same for rows whose points follow each other from the first on.
+  /// The same for consecutive spans, from the first fragment on.
   void (*composite_spans_under)(const FragmentOutputs& color, int rows, float least, TransparentStack8* const* layers);
   /// TransparentStack::over.
   void (*over)(const TransparentStack8& layers, Linear8& behind);

@@ -5,10 +5,10 @@
 
 namespace zoneplate {
 
-/// How much is held at once of what there may be more of than memory; the rest is drawn part by part, or found again
-/// where it is needed. It changes times, no bits.
+/// Capacities of buffers whose contents may exceed any memory. What does not fit is processed in parts, or computed
+/// again where it is needed: capacities change the time, but no bit of an image.
 struct RasterRoom {
-  std::size_t layer_samples = std::size_t{1} << 16;  ///< of masked and blended layers, by thread
+  std::size_t layer_samples = std::size_t{1} << 16;  ///< samples of transparent layers, per thread
   std::optional<std::size_t> screen_vertices;        ///< as `kept` of number_draws
 };
 

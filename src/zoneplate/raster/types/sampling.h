@@ -2,19 +2,20 @@
 
 namespace zoneplate {
 
-/// Where a masked surface is there, at the samples that a triangle covers.
+/// At which of the samples that a triangle covers an alpha-tested surface is present.
 enum class AlphaTest {
-  Pixel,     ///< at all or none of them: alpha at the point that is shaded
-  Samples,   ///< alpha at each sample by itself
-  Coverage,  ///< at as many as alpha says
-  Sharp,     ///< the same of alpha made steep about the cutoff: its edge is a pixel wide
+  Pixel,     ///< at all or none, by the alpha of the fragment
+  Samples,   ///< by the alpha at each sample
+  Coverage,  ///< at a number of samples in proportion to alpha (alpha to coverage)
+  Sharp,     ///< alpha to coverage of alpha sharpened to an edge one pixel wide
 };
 
-/// Where in a pixel a surface is shaded that owns some of its samples. One that owns them all is shaded at the centre.
+/// Where in a pixel a surface is shaded that owns a part of its samples. A surface that owns all of them is shaded at
+/// the pixel's centre.
 enum class Centroid {
   Mean,    ///< at the mean of the samples that it owns
   First,   ///< at the first of them
-  Centre,  ///< at the pixel's centre, where the surface may not even be: its weights are held to the triangle
+  Centre,  ///< at the pixel's centre, even if it lies outside the triangle: the weights are clamped
 };
 
 }  // namespace zoneplate

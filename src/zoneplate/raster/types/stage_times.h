@@ -2,17 +2,17 @@
 
 namespace zoneplate {
 
-/// Where a frame's time went, in milliseconds.
+/// The time of a frame by stage, in milliseconds.
 ///
-/// Vertices and triangles are steps that follow each other, by the clock on the wall. The rest happens tile by tile,
-/// on all threads at once: the sum of the threads' times, waiting for a processor included.
+/// `vertices` and `triangles` are wall-clock times. The other stages run tile by tile on all threads at once; their
+/// times are sums over the threads, including the time spent waiting for a processor.
 struct StageTimes {
   double vertices = 0;    ///< transform, divide, snap
   double triangles = 0;   ///< cull, clip, set up, and sort into tiles
-  double visibility = 0;  ///< who owns each sample
-  double shading = 0;     ///< interpolation, textures, light; and the mean of the samples of whole rows
-  double blending = 0;    ///< layers: sorted, shaded, laid over each other
-  double output = 0;      ///< the mean of the samples of other pixels, tone mapping, encoding, 8 bits
+  double visibility = 0;  ///< depth and owner of each sample
+  double shading = 0;     ///< interpolation, textures, lighting, and the resolve of spans
+  double blending = 0;    ///< transparent layers: sorting, shading, compositing
+  double output = 0;      ///< the resolve of other pixels, tone mapping, encoding
 
   StageTimes& operator+=(const StageTimes& o) {
     vertices += o.vertices, triangles += o.triangles, visibility += o.visibility;

@@ -14,7 +14,9 @@ template <class F>
   return max(nl, F(0.0f));
 }
 
-/// x^exponent. Requires  x >= 0.
+/// x^exponent.
+///
+/// Requires  x >= 0.
 template <class F>
 [[gnu::always_inline]] inline F power(F x, Exponent exponent) {
   if (exponent.whole == 0) return pow(x, F(exponent.value));

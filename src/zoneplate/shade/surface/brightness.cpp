@@ -24,7 +24,7 @@ float arriving(std::span<const PreparedLight> lights) {
 /// The greatest n·l F V D: V n·l is at most 1 / (2 α) and D at most 1 / (π α²).
 float highlight(const MaterialPlan& plan) {
   if (plan.model != ShadingModel::MetallicRoughness) return greatest(plan.specular);
-  const bool is_textured = plan.metallic_roughness.texture != nullptr;
+  const bool is_textured = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   const float roughness = is_textured ? least_roughness : std::max(plan.roughness, least_roughness);
   const float alpha = roughness * roughness;
   return inverse_pi / (2 * alpha * alpha * alpha);
@@ -35,7 +35,9 @@ bool is_unbounded(const TextureSlot& slot) { return slot.texture != nullptr && s
 
 /// Diffuse weights, cosines and their powers are at most 1.
 float brightest(const MaterialPlan& plan, float light, float environment) {
-  if (plan.attributes.color || is_unbounded(plan.base_color) || is_unbounded(plan.emissive)) return brightest_color;
+  if (plan.attributes.color || is_unbounded(plan.slot(TextureSlotIndex::BaseColor)) ||
+      is_unbounded(plan.slot(TextureSlotIndex::Emissive)))
+    return brightest_color;
   const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
   if (!plan.is_lit) return base;
   // Twice the sum, for what rounding and the fit to the environment's integral add.

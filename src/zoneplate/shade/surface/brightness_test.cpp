@@ -47,11 +47,11 @@ TEST(Brightness, TexturesOfFloatsMayBeAnything) {
   const Texture codes(TexelImage(Rgba8Image(2, 2)), TexelMeaning::Color);
   const Texture light(TexelImage(Plane<float4>(2, 2)), TexelMeaning::Color);
   MaterialPlan plan = plan_of(ShadingModel::MetallicRoughness);
-  plan.base_color.texture = plan.emissive.texture = &codes;
+  plan.slot(TextureSlotIndex::BaseColor).texture = plan.slot(TextureSlotIndex::Emissive).texture = &codes;
   EXPECT_LT(bound(plan), 10);
-  plan.emissive.texture = &light;
+  plan.slot(TextureSlotIndex::Emissive).texture = &light;
   EXPECT_EQ(bound(plan), brightest_color);
-  plan.emissive.texture = &codes, plan.base_color.texture = &light;
+  plan.slot(TextureSlotIndex::Emissive).texture = &codes, plan.slot(TextureSlotIndex::BaseColor).texture = &light;
   EXPECT_EQ(bound(plan), brightest_color);
 }
 

@@ -38,9 +38,9 @@ struct AnyIllumination {
         is_blended(s.is_blended) {}
 };
 
-inline bool is_plain(const ShadingUniforms& s) {
-  return s.lights == 1 && s.light[0].is_directional && !s.has_occlusion && !s.has_emissive && !s.has_emissive_texture &&
-         !s.has_bare_meshes && !s.is_blended;
+inline bool is_plain(const ShadingUniforms& s, const ShadingState& p) {
+  return p.light_visibility == nullptr && s.lights == 1 && s.light[0].is_directional && !s.has_occlusion &&
+         !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended;
 }
 
 /// What of a light arrives at points, perpendicular to its direction.
@@ -60,6 +60,13 @@ template <class F>
   F strength = fading(light, dot(path, path));
   if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
   return {l, radiance * strength};
+}
+
+/// What arrives of radiance at points where light number k is shadowed, or all of it.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> visible(Vector<F> radiance, const ShadingState& p, int k, int i) {
+  if (p.light_visibility == nullptr) return radiance;
+  return radiance * F::load(p.light_visibility + k * FragmentBatch::padded_capacity + i);
 }
 
 /// Colour × alpha, colour clamped to [0, brightest_color].
@@ -166,9 +173,10 @@ struct Gathered {
 };
 
 template <class F, Highlight highlight>
-[[gnu::always_inline]] inline Gathered<F> gather(const PreparedLight& of, bool is_sun, const ShadingState& p,
+[[gnu::always_inline]] inline Gathered<F> gather(const PreparedLight& of, int k, bool is_sun, const ShadingState& p,
                                                  const Cosines& cosines, int i) {
-  const Vector<F> radiance = arriving<F>(of, is_sun, p, i).radiance;
+  Vector<F> radiance = arriving<F>(of, is_sun, p, i).radiance;
+  if (!is_sun) radiance = visible(radiance, p, k, i);
   if constexpr (highlight == Highlight::None) return {radiance * F::load(cosines.diffuse + i), zeros<F>()};
   return {radiance * F::load(cosines.diffuse + i), radiance * F::load(cosines.highlight + i)};
 }
@@ -199,7 +207,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
     find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
     if constexpr (highlight != Highlight::None) raise_cosines<F, highlight>(s.exponent, cosines, p.count);
     for (int i = 0; i < p.count; i += F::lanes) {
-      Gathered<F> all = gather<F, highlight>(light, kind.has_sun_only, p, cosines, i);
+      Gathered<F> all = gather<F, highlight>(light, k, kind.has_sun_only, p, cosines, i);
       if (k > 0) {
         all.diffuse = Vector<F>::load(diffuse, i) + all.diffuse;
         all.specular = Vector<F>::load(specular, i) + all.specular;
@@ -215,7 +223,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
 
 template <class F, Highlight highlight>
 void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
-  if (is_plain(s)) return light_phong<F, highlight>(s, PlainIllumination(), batch, p, out);
+  if (is_plain(s, p)) return light_phong<F, highlight>(s, PlainIllumination(), batch, p, out);
   light_phong<F, highlight>(s, AnyIllumination(s), batch, p, out);
 }
 
@@ -241,7 +249,7 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
-      sum = sum + light.radiance * metallic_light(m, n, light.from, v);
+      sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
     }
     if (s.has_environment) {
       const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));

@@ -9,24 +9,25 @@
 namespace zoneplate {
 namespace {
 
-struct NamedUse {
-  const TextureUse* use;
-  TexelMeaning meaning;
-};
-
 bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-/// The textures that change what a material looks like.
-std::vector<NamedUse> uses_of(const Material& m) {
-  std::vector<NamedUse> uses = {{&m.base_color_texture, TexelMeaning::Color}};
-  if (m.model == ShadingModel::Unlit) return uses;
-  if (!is_black(m.emissive)) uses.push_back({&m.emissive_texture, TexelMeaning::Color});
-  uses.push_back({&m.normal_texture, TexelMeaning::Values});
-  uses.push_back({&m.occlusion_texture, TexelMeaning::Values});
-  if (m.model == ShadingModel::MetallicRoughness) {
-    uses.push_back({&m.metallic_roughness_texture, TexelMeaning::Values});
-  }
-  return uses;
+/// True if the slot's texture changes what the material looks like.
+bool uses_slot(const Material& m, TextureSlotIndex slot) {
+  if (slot == TextureSlotIndex::BaseColor) return true;
+  if (m.model == ShadingModel::Unlit) return false;
+  if (slot == TextureSlotIndex::Emissive) return !is_black(m.emissive);
+  return slot != TextureSlotIndex::MetallicRoughness || m.model == ShadingModel::MetallicRoughness;
+}
+
+TexelMeaning meaning_of(const MaterialTextureSlot& slot) {
+  return slot.is_color ? TexelMeaning::Color : TexelMeaning::Values;
+}
+
+/// Calls use(slot number, slot) for every slot whose texture changes what the material looks like.
+template <class Use>
+void for_used_slots(const Material& m, Use use) {
+  for (std::size_t i = 0; i < texture_slot_count; ++i)
+    if (uses_slot(m, static_cast<TextureSlotIndex>(i))) use(i, material_texture_slots[i]);
 }
 
 TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotropy) {
@@ -69,42 +70,33 @@ void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) 
 }
 
 void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
-  const auto slot = [&](const TextureUse& use, TexelMeaning meaning) {
-    return make_slot(use, textures.find(use, meaning), anisotropy);
-  };
-  plan.base_color = slot(m.base_color_texture, TexelMeaning::Color);
-  if (m.model == ShadingModel::Unlit) return;
-  plan.emissive = slot(m.emissive_texture, TexelMeaning::Color);
-  plan.normal = slot(m.normal_texture, TexelMeaning::Values);
-  plan.occlusion = slot(m.occlusion_texture, TexelMeaning::Values);
-  if (m.model == ShadingModel::MetallicRoughness) {
-    plan.metallic_roughness = slot(m.metallic_roughness_texture, TexelMeaning::Values);
-  }
+  for_used_slots(m, [&](std::size_t i, const MaterialTextureSlot& slot) {
+    const TextureUse& use = m.*slot.use;
+    plan.slots[i] = make_slot(use, textures.find(use, meaning_of(slot)), anisotropy);
+  });
 }
 
 /// Which stages are needed, given the lights and textures there are.
-void decide(const Scene& scene, const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
+void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   const bool is_metallic = m.model == ShadingModel::MetallicRoughness;
-  const bool has_lights = !scene.lights.empty();
-  const bool has_places = std::any_of(scene.lights.begin(), scene.lights.end(),
+  const bool has_lights = !s.lights.empty();
+  const bool has_places = std::any_of(s.lights.begin(), s.lights.end(),
                                       [](const Light& light) { return light.kind != LightKind::Directional; });
   plan.is_lit = m.model != ShadingModel::Unlit;
   const bool uses_normal = plan.is_lit && (has_lights || (is_metallic && !is_black(s.environment)));
   plan.has_specular = plan.is_lit && !is_metallic && has_lights && !is_black(m.specular);
   plan.has_emissive = plan.is_lit && !is_black(m.emissive);
   plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
-  if (!uses_normal) plan.normal.texture = nullptr;
-  if (!plan.has_emissive) plan.emissive.texture = nullptr;
+  TextureSlot& normal = plan.slot(TextureSlotIndex::Normal);
+  if (!uses_normal) normal.texture = nullptr;
 
   Attributes& a = plan.attributes;
   a.position = (plan.needs_viewer && !s.is_orthographic && !s.rays) || (uses_normal && has_places);
   a.normal = uses_normal;
-  a.tangent = plan.normal.texture != nullptr;
-  a.tangent_uv_set = plan.normal.uv_set;
-  for (const TextureSlot* slot :
-       {&plan.base_color, &plan.metallic_roughness, &plan.emissive, &plan.occlusion, &plan.normal}) {
-    if (slot->texture != nullptr) a.uv[slot->uv_set] = true;
-  }
+  a.tangent = normal.texture != nullptr;
+  a.tangent_uv_set = normal.uv_set;
+  for (const TextureSlot& slot : plan.slots)
+    if (slot.texture != nullptr) a.uv[slot.uv_set] = true;
 }
 
 }  // namespace
@@ -135,12 +127,13 @@ TextureSet TextureSet::take(Scene& scene, bool raw_colors) {
 void TextureSet::find_uses(const Scene& scene) {
   for (const TextureImage& image : scene.images) is_light_.push_back(image.pixels.kind() == TexelKind::Light);
   for (const Material& material : scene.materials)
-    for (const NamedUse& named : uses_of(material)) {
-      if (named.use->image < 0) continue;
-      const TextureImage& image = scene.images.at(static_cast<std::size_t>(named.use->image));
+    for_used_slots(material, [&](std::size_t, const MaterialTextureSlot& slot) {
+      const int number = (material.*slot.use).image;
+      if (number < 0) return;
+      const TextureImage& image = scene.images.at(static_cast<std::size_t>(number));
       if (image.pixels.empty()) throw Error(ErrorKind::Input, "texture " + image.name + ": has no texels");
-      textures_[key_of(named.use->image, named.meaning)] = nullptr;
-    }
+      textures_[key_of(number, meaning_of(slot))] = nullptr;
+    });
 }
 
 TextureSet::Key TextureSet::key_of(int image, TexelMeaning meaning) const {
@@ -171,7 +164,7 @@ std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& sur
     copy_factors(scene.materials[i], plans[i]);
     plan_ambient(scene.materials[i], surroundings, plans[i]);
     find_slots(scene.materials[i], textures, surroundings.anisotropy, plans[i]);
-    decide(scene, surroundings, scene.materials[i], plans[i]);
+    decide(surroundings, scene.materials[i], plans[i]);
   }
 
   // What some mesh of a material has or lacks, all of the material's batches are ready for.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -59,7 +60,9 @@ bool share_taps(const TextureSlot& a, const TextureSlot& b);
 struct MaterialPlan {
   ShadingModel model = ShadingModel::Unlit;
   AlphaMode alpha_mode = AlphaMode::Opaque;
-  TextureSlot base_color, metallic_roughness, emissive, occlusion, normal;
+  std::array<TextureSlot, texture_slot_count> slots;  ///< by TextureSlotIndex
+  const TextureSlot& slot(TextureSlotIndex index) const { return slots[static_cast<std::size_t>(index)]; }
+  TextureSlot& slot(TextureSlotIndex index) { return slots[static_cast<std::size_t>(index)]; }
 
   float factor[4] = {1, 1, 1, 1};
   float metallic = 1, roughness = 1;

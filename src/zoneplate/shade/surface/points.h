@@ -17,6 +17,10 @@ struct ShadingState {
 
   int count = 0;  ///< a multiple of FragmentBatch::group
 
+  /// The part of each light that reaches each fragment, in [0, 1]: one array of padded_capacity for each light, one
+  /// after the other; null: no light is shadowed.
+  const float* light_visibility = nullptr;
+
   // Interpolated from the vertices; world space once placed.
   alignas(64) Array position[3], normal[3], tangent[4], color[4];
   alignas(64) Array uv[2][2], uv_dx[2][2],

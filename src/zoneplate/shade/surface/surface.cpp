@@ -36,15 +36,15 @@ ShadingUniforms make_illumination(const MaterialPlan& plan, const std::vector<Pr
   ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
   s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
-  s.has_occlusion = plan.occlusion.texture != nullptr;
-  s.has_emissive_texture = plan.emissive.texture != nullptr || plan.has_own_ambient;
+  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
+  s.has_emissive_texture = plan.slot(TextureSlotIndex::Emissive).texture != nullptr || plan.has_own_ambient;
   s.has_emissive = plan.has_emissive || plan.has_own_ambient;
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
   copy(plan.emissive_factor, s.emissive);
   s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
   copy(plan.ambient_share, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
-  s.has_material_texture = plan.metallic_roughness.texture != nullptr;
+  s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   s.metallic = plan.metallic, s.roughness = plan.roughness;
   s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
   s.environment[0] = environment.x, s.environment[1] = environment.y, s.environment[2] = environment.z;
@@ -54,16 +54,14 @@ ShadingUniforms make_illumination(const MaterialPlan& plan, const std::vector<Pr
 }  // namespace
 
 struct SurfaceShader::Data {
-  Data(const Scene& scene_in, const ViewUniforms& surroundings_in, const TextureSet* textures_in,
-       const InterleavedVertices* records_in)
+  Data(const Scene& scene_in, const ViewUniforms& surroundings_in, const TextureSet& textures_in,
+       const InterleavedVertices& records_in)
       : scene(scene_in),
         surroundings(surroundings_in),
-        own_textures(textures_in ? nullptr : std::make_unique<TextureSet>(scene_in, surroundings_in.raw_colors)),
-        own_records(records_in ? nullptr : std::make_unique<InterleavedVertices>(scene_in)),
-        records(records_in ? *records_in : *own_records),
-        plans(make_plans(scene_in, surroundings_in, textures_in ? *textures_in : *own_textures)),
+        records(records_in),
+        plans(make_plans(scene_in, surroundings_in, textures_in)),
         placements(make_placements(scene_in.instances)),
-        lights(prepare_all(scene_in.lights)),
+        lights(prepare_all(surroundings_in.lights)),
         viewpoint(make_viewpoint(surroundings_in)),
         kernels(SurfaceKernels::of(surroundings_in.isa)),
         filtering(FilteringKernels::of(surroundings_in.isa)) {
@@ -87,8 +85,6 @@ struct SurfaceShader::Data {
 
   const Scene& scene;
   const ViewUniforms surroundings;
-  const std::unique_ptr<TextureSet> own_textures;
-  const std::unique_ptr<InterleavedVertices> own_records;
   const InterleavedVertices& records;
   const std::vector<MaterialPlan> plans;
   const std::vector<InstanceTransform> placements;
@@ -174,9 +170,9 @@ void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* c
 
 /// Factor × texture × vertex colour.
 void SurfaceShader::Data::BatchShading::find_base() {
-  const bool is_textured = plan.base_color.texture != nullptr;
+  const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
   float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
-  if (is_textured) sample(plan.base_color, base);
+  if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), base);
   for (int c = 0; c < 4; ++c) {
     if (!is_textured) {
       kernels.fill(p.base[c], plan.factor[c], p.count);
@@ -191,25 +187,28 @@ void SurfaceShader::Data::BatchShading::find_base() {
 }
 
 void SurfaceShader::Data::BatchShading::find_normals() {
-  if (plan.normal.texture == nullptr) return kernels.find_normals(batch, corners, d.placements.data(), p);
+  if (plan.slot(TextureSlotIndex::Normal).texture == nullptr)
+    return kernels.find_normals(batch, corners, d.placements.data(), p);
   kernels.place_normals(batch, corners, d.placements.data(), p);
-  sample(plan.normal, texel);
+  sample(plan.slot(TextureSlotIndex::Normal), texel);
   kernels.bend_normals(batch, texel, plan.normal_scale, p);
 }
 
 void SurfaceShader::Data::BatchShading::find_emissive() {
-  if (plan.emissive.texture == nullptr) return;
-  sample(plan.emissive, texel);
+  if (plan.slot(TextureSlotIndex::Emissive).texture == nullptr) return;
+  sample(plan.slot(TextureSlotIndex::Emissive), texel);
   for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
 }
 
 /// The ambient term of channels whose base colour has next to no factor: the surface seems to emit it.
 void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
-  const bool is_textured = plan.base_color.texture != nullptr, is_occluded = plan.occlusion.texture != nullptr;
-  if (is_textured) sample(plan.base_color, texel);
+  const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
+             is_occluded = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
+  if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), texel);
   for (int c = 0; c < 3; ++c) {
-    if (plan.emissive.texture == nullptr) kernels.fill(p.emissive[c], plan.emissive_factor[c], p.count);
+    if (plan.slot(TextureSlotIndex::Emissive).texture == nullptr)
+      kernels.fill(p.emissive[c], plan.emissive_factor[c], p.count);
     if (is_textured)
       kernels.scale(texel[c], texel[c], plan.own_ambient[c], 0, p.count);
     else
@@ -222,14 +221,14 @@ void SurfaceShader::Data::BatchShading::add_own_ambient() {
 
 /// 1 + strength (texture - 1).
 void SurfaceShader::Data::BatchShading::find_occlusion() {
-  if (plan.occlusion.texture == nullptr) return;
-  sample(plan.occlusion, texel);
+  if (plan.slot(TextureSlotIndex::Occlusion).texture == nullptr) return;
+  sample(plan.slot(TextureSlotIndex::Occlusion), texel);
   kernels.scale(p.occlusion, texel[0], plan.occlusion_strength, 1 - plan.occlusion_strength, p.count);
 }
 
 void SurfaceShader::Data::BatchShading::find_metallic() {
-  if (plan.metallic_roughness.texture == nullptr) return;
-  sample(plan.metallic_roughness, texel);
+  if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) return;
+  sample(plan.slot(TextureSlotIndex::MetallicRoughness), texel);
   kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
   kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
 }
@@ -251,8 +250,8 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   }
 }
 
-SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet* textures,
-                             const InterleavedVertices* records)
+SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures,
+                             const InterleavedVertices& records)
     : data_(std::make_unique<Data>(scene, surroundings, textures, records)),
       brightest_(brightest_point(data_->plans, data_->lights, surroundings.environment)) {}
 
@@ -270,13 +269,13 @@ void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, Fragme
   if (outputs.normal || outputs.uv) {
     Attributes attributes = plan.attributes;
     if (outputs.normal) attributes.normal = true;
-    if (outputs.uv) attributes.uv[plan.base_color.uv_set] = true;
+    if (outputs.uv) attributes.uv[plan.slot(TextureSlotIndex::BaseColor).uv_set] = true;
     more = data_->make_needs(batch.material, attributes, plan.needs_viewer || (outputs.normal && plan.has_bare_meshes));
     needs = &more;
   }
 
   walk.interpolate(*needs);
-  walk.find_base();
+  if (outputs.color || outputs.albedo) walk.find_base();
   if (needs->attributes.normal) walk.find_normals();
   if (outputs.color && plan.is_lit)
     walk.light(out);
@@ -291,7 +290,7 @@ void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, Fragme
   if (outputs.albedo)
     for (int c = 0; c < 3; ++c) copy(p.base[c], out.albedo[c]);
   if (outputs.uv) {
-    const Footprint at = walk.footprint(plan.base_color);
+    const Footprint at = walk.footprint(plan.slot(TextureSlotIndex::BaseColor));
     copy(at.u, out.uv[0]), copy(at.v, out.uv[1]);
   }
 }
@@ -310,7 +309,8 @@ void SurfaceShader::alpha(const FragmentBatch& batch, float* out) const {
   Data::BatchShading walk(*data_, batch);
   Attributes attributes;
   attributes.color = walk.plan.attributes.color;
-  if (walk.plan.base_color.texture != nullptr) attributes.uv[walk.plan.base_color.uv_set] = true;
+  if (walk.plan.slot(TextureSlotIndex::BaseColor).texture != nullptr)
+    attributes.uv[walk.plan.slot(TextureSlotIndex::BaseColor).uv_set] = true;
   walk.interpolate(data_->make_needs(batch.material, attributes, false));
   walk.find_base();
   std::copy_n(walk.p.base[3], walk.p.count, out);

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/raster/types/batch.h"
@@ -23,6 +25,7 @@ struct ViewUniforms {
   float3 view_direction{0, 0, -1};  ///< the way an orthographic camera looks
   bool is_orthographic = false;
   std::optional<PixelRays> rays;  ///< of a perspective camera; without them they are made from positions
+  std::vector<Light> lights;      ///< in world space
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< images are taken as they are, not decoded from sRGB (--color-management raw)
@@ -32,13 +35,13 @@ struct ViewUniforms {
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.
 ///
-/// Textures are decoded and their levels made when it is built (in parallel), unless they are given. It keeps
-/// references to the scene. `shade` and `alpha` are const and may be called from any thread.
+/// It keeps references to the scene, its textures and its vertices. `shade` and `alpha` are const and may be called
+/// from any thread.
 class SurfaceShader {
  public:
-  /// `textures`, `records`: those of the scene, made before; null: made here.
-  SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet* textures = nullptr,
-                const InterleavedVertices* records = nullptr);
+  /// `textures`, `records`: those of the scene. The lights are those of `surroundings`.
+  SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures,
+                const InterleavedVertices& records);
   ~SurfaceShader();
   SurfaceShader(const SurfaceShader&) = delete;
   SurfaceShader& operator=(const SurfaceShader&) = delete;

@@ -105,6 +105,17 @@ struct Bench {
   }
 };
 
+/// The part of each of four lights that reaches each fragment.
+const std::vector<float>& visibility() {
+  static const std::vector<float> weights = [] {
+    std::vector<float> out(4 * FragmentBatch::padded_capacity);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = static_cast<float>(hash(static_cast<std::uint32_t>(i), 77) % 5) / 4;
+    return out;
+  }();
+  return weights;
+}
+
 struct Stage {
   std::string name;
   std::function<void(const SurfaceKernels&, Bench&)> run;
@@ -155,6 +166,7 @@ std::vector<Stage> stages() {
       s.has_specular = bit(0), s.is_phong = s.has_occlusion = bit(1), s.has_emissive_texture = s.is_blended = bit(2);
       s.viewpoint.has_rays = bit(3), s.viewpoint.is_orthographic = bit(4), s.has_material_texture = bit(5);
       s.has_bare_meshes = bit(3) != bit(5), s.exponent = bit(5) ? Exponent{40, 40} : Exponent{17.5f, 0};
+      b.points.light_visibility = bit(1) != bit(4) ? visibility().data() : nullptr;
     };
     all.push_back(
         {"light_phong", [light](K k, B b) { light(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
@@ -211,6 +223,37 @@ TEST(SurfaceKernels, NothingIsWrittenPastTheCountsVector) {
                                 after + a * FragmentBatch::padded_capacity + i, sizeof(float)),
                     0)
               << stage.name << " " << name_of(isa);
+    }
+}
+
+TEST(SurfaceKernels, AShadowedLightCountsByItsVisibility) {
+  // Light k is seen by all fragments, by none, or by a quarter: what each gives adds up to the whole.
+  for (const Isa isa : supported_isas())
+    for (const bool is_metallic : {true, false}) {
+      const auto color_under = [&](std::vector<float> weights) {
+        const auto b = std::make_unique<Bench>(16);
+        b->light.has_environment = b->light.has_emissive = b->light.has_specular = false;
+        std::fill_n(b->light.ambient, 3, 0.0f);
+        std::vector<float> visibility;
+        for (const float w : weights) visibility.insert(visibility.end(), FragmentBatch::padded_capacity, w);
+        b->points.light_visibility = weights.empty() ? nullptr : visibility.data();
+        (is_metallic ? kernels(isa).light_metallic : kernels(isa).light_phong)(b->light, b->batch, b->points,
+                                                                               b->shaded);
+        return std::vector<float>(b->shaded.g, b->shaded.g + 16);
+      };
+      const std::vector<float> all = color_under({}), same = color_under({1, 1, 1, 1}),
+                               none = color_under({0, 0, 0, 0});
+      EXPECT_EQ(all, same);
+      EXPECT_EQ(none, std::vector<float>(16, 0.0f));
+      const std::vector<float> first = color_under({1, 0, 0, 0}), quarter = color_under({0.25f, 0, 0, 0}),
+                               rest = color_under({0, 1, 1, 1});
+      float sum = 0;
+      for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_EQ(quarter[i], first[i] / 4);
+        EXPECT_NEAR(first[i] + rest[i], all[i], 1e-5f * (1 + all[i]));
+        sum += first[i];
+      }
+      EXPECT_GT(sum, 0);
     }
 }
 

@@ -70,6 +70,21 @@ struct Hand {
   }
 };
 
+/// A scene with all that its shader refers to.
+struct Surfaces {
+  TextureSet textures;
+  InterleavedVertices vertices;
+  SurfaceShader shader;
+  Surfaces(const Scene& scene, ViewUniforms view)
+      : textures(scene, view.raw_colors),
+        vertices(scene),
+        shader(scene, with_lights(view, scene), textures, vertices) {}
+  static ViewUniforms& with_lights(ViewUniforms& view, const Scene& scene) {
+    view.lights = scene.lights;
+    return view;
+  }
+};
+
 struct Outcome {
   FragmentOutputs shaded;
   float4 color(std::size_t i = 0) const { return {shaded.r[i], shaded.g[i], shaded.b[i], shaded.a[i]}; }
@@ -80,7 +95,7 @@ std::unique_ptr<Outcome> shade(const Scene& scene, const ViewUniforms& surroundi
   auto outcome = std::make_unique<Outcome>();
   std::memset(static_cast<void*>(outcome.get()), 0, sizeof *outcome);
   FragmentOutputs& shaded = outcome->shaded;
-  SurfaceShader(scene, surroundings).shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
+  Surfaces(scene, surroundings).shader.shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
   // What lies behind the points within a vector means nothing.
   const int end = hand.batch.padded(),
             whole = (end + FragmentBatch::max_lanes - 1) / FragmentBatch::max_lanes * FragmentBatch::max_lanes;
@@ -120,7 +135,7 @@ TEST(Surface, AlphaModesSayWhatAlphaMeans) {
     const float4 blended{0.125f, 0.0625f, 0.25f, 0.25f}, solid{0.5f, 0.25f, 1, 1};
     EXPECT_EQ(color_of(scene, {}), mode == AlphaMode::Blend ? blended : solid);
     float alpha[FragmentBatch::capacity];
-    SurfaceShader(scene, {}).alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
+    Surfaces(scene, {}).shader.alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
     EXPECT_EQ(alpha[0], 0.25f);
   }
 }
@@ -505,7 +520,7 @@ TEST(Surface, AlphaStaysBetweenZeroAndOne) {
   scene.materials[0].base_color = {0.5f, 0.25f, 1, 3};
   EXPECT_EQ(color_of(scene, {}), (float4{0.5f, 0.25f, 1, 1}));
   float alpha[FragmentBatch::capacity];
-  SurfaceShader(scene, {}).alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
+  Surfaces(scene, {}).shader.alpha(Hand{{0.5f, 0.25f, 0.25f}}.batch, alpha);
   EXPECT_EQ(alpha[0], 1.0f);
 }
 
@@ -647,7 +662,8 @@ TEST(Surface, AskingForMoreDoesNotChangeTheColour) {
   const Hand hand = random_points(100);
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
-    const SurfaceShader shader(scene, {.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}});
+    const Surfaces surfaces(scene, {.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}});
+    const SurfaceShader& shader = surfaces.shader;
     const auto full = shade(scene, {.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}}, hand);
     Outcome plain;
     shader.shade(hand.batch, {}, plain.shaded);

@@ -36,8 +36,7 @@ std::vector<RecordLayout> make_layouts(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     const auto m = static_cast<std::size_t>(mesh.material);
     const Material& material = scene.materials[m];
-    for (const TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture,
-                                  &material.emissive_texture, &material.occlusion_texture, &material.normal_texture})
+    for (const TextureUse* use : texture_slots(material))
       if (use->uv_set == 1) take(layouts[m].uv1, layouts[m]);
     if (material.normal_texture.image >= 0) take(layouts[m].tangent, layouts[m]);
     if (!mesh.color.empty()) take(layouts[m].color, layouts[m]);

@@ -14,7 +14,7 @@ namespace zoneplate {
 /// A kernel of odd size is centred; none is scaled. Each channel of a `Linear` image, alpha too, is filtered alone,
 /// as premultiplied colour wants; nothing is clamped.
 struct ConvolveOptions {
-  Border border = Border::Clamp;
+  Border border = Border::Clamp;  ///< not Cut
 };
 
 /// Along rows, then along columns. Not empty: a single tap of 1 leaves a direction as it is.

@@ -33,6 +33,25 @@ Plane<T> transposed(const Plane<T>& plane) {
   return out;
 }
 
+// What is left of the weights within [0, size), divided by its sum. The centre lies within half a step of the pixels:
+// where a kernel with negative lobes leaves no positive sum, the nearest pixel stands for it.
+void cut_weights(PixelWeights& w, int size) {
+  const int nearest = std::clamp(w.first + static_cast<int>(w.weights.size()) / 2, 0, size - 1);
+  const int before = std::max(0, -w.first), count = static_cast<int>(w.weights.size());
+  const int behind = std::max(0, w.first + count - size);
+  if (before == 0 && behind == 0) return;
+  if (before + behind < count) {
+    w.weights.erase(w.weights.end() - behind, w.weights.end());
+    w.weights.erase(w.weights.begin(), w.weights.begin() + before);
+    w.first += before;
+    double sum = 0;
+    for (const double weight : w.weights) sum += weight;
+    for (double& weight : w.weights) weight /= sum;
+    if (sum > 0) return;
+  }
+  w = {nearest, {1}};
+}
+
 // Along columns: each output row is a weighted sum of input rows.
 template <class T>
 Plane<T> along_columns(const Plane<T>& plane, const Axis& axis, const Kernel& kernel, const ResampleOptions& options) {
@@ -44,7 +63,8 @@ Plane<T> along_columns(const Plane<T>& plane, const Axis& axis, const Kernel& ke
   parallel_ranges(static_cast<std::size_t>(axis.size), rows_at_once, [&](std::size_t begin, std::size_t end) {
     std::vector<const float*> rows;
     for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
-      const PixelWeights w = pixel_weights(kernel, centre_of(i, axis), std::max(1.0, axis.step));
+      PixelWeights w = pixel_weights(kernel, centre_of(i, axis), std::max(1.0, axis.step));
+      if (options.border == Border::Cut) cut_weights(w, plane.height());
       rows.clear();
       for (std::size_t t = 0; t < w.weights.size(); ++t) {
         const int y = border_index(w.first + static_cast<int>(t), plane.height(), options.border);

@@ -22,7 +22,9 @@ struct ResampleOptions {
 /// stretched by the factor, so that it also filters away what the new grid cannot hold.
 ///
 /// The centre of output pixel i lies at (i + ½) step - ½ among the centres of the input's pixels: no shift by half a
-/// pixel. The weights of each output pixel are divided by their sum. Linear light, premultiplied; nothing is clamped,
+/// pixel. The weights of each output pixel are divided by their sum; with Border::Cut by the sum of those that meet
+/// pixels, as Pillow does. A kernel that jumps has the mean of both sides where a pixel lies at its jump (Pillow: the
+/// value of one side). Linear light, premultiplied; nothing is clamped,
 /// so that kernels with negative lobes may go below 0 and above 1 at edges.
 /// Requires  width, height >= 0; a plane without pixels gives zeros.
 /// Exact     sums in double, rounded to float after each direction: a constant stays that constant to the bit. A ramp

@@ -25,10 +25,11 @@ FilterShape parse_filter_shape(std::string_view text);
 /// A filter of radial frequency √(fx² + fy²).
 ///
 /// u is f / high for Low, |f² - low high| / (f (high - low)) for Band: the low-pass's shape again, 1 at √(low high) and
-/// ½ at both ends. High and Stop are 1 minus the Low of cut-off `low` and the Band. Units     cycles per pixel; ½ is
-/// the Nyquist frequency, √½ the corner of the spectrum. Requires  0 < low < high for Band and Stop; high > 0 for Low;
-/// low > 0 for High. Source    Gonzalez and Woods, Digital Image Processing, ch. 4 (theirs is 0.607 at the cut-off of a
-/// Gaussian).
+/// ½ at both ends. High and Stop are 1 minus the Low of cut-off `low` and the Band.
+///
+/// Units     cycles per pixel; ½ is the Nyquist frequency, √½ the corner of the spectrum.
+/// Requires  0 < low < high for Band and Stop; high > 0 for Low; low > 0 for High.
+/// Source    Gonzalez and Woods, Digital Image Processing, ch. 4 (theirs is 0.607 at the cut-off of a Gaussian).
 struct FrequencyFilter {
   enum class Pass { Low, High, Band, Stop } pass = Pass::Low;
   FilterShape shape;

@@ -8,8 +8,10 @@ namespace zoneplate {
 ///
 /// The spectrum of the periodic part has no cross through the origin, and needs no window that would hide the borders.
 /// The smooth part is the mean-free solution of the periodic Poisson equation whose source is the jump across each
-/// edge. Exact     periodic + smooth is the plane within 1 unit in the last place. Cost      one transform there and
-/// back. Source    Moisan, Periodic plus Smooth Image Decomposition, J. Mathematical Imaging and Vision 39, 2011.
+/// edge. Exact     periodic + smooth is the plane within 1 unit in the last place.
+///
+/// Cost      one transform there and back.
+/// Source    Moisan, Periodic plus Smooth Image Decomposition, J. Mathematical Imaging and Vision 39, 2011.
 struct PeriodicSmooth {
   Plane<float> periodic, smooth;
 };

@@ -90,7 +90,7 @@ Plane<float> changed(const Plane<T>& from, Change change) {
 class Smaa : public Resolver {
  public:
   Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request = display_referred_request(smaa_reach(options_));
     request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
     request.planes.object_id = predication_ == Predication::Objects;
@@ -133,7 +133,7 @@ Display mean_light(const Display& a, const Display& b) {
 class SmaaS2x : public Resolver {
  public:
   explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request = display_referred_request(smaa_reach(options_));
     request.samples = standard_pattern(2);
     request.planes.samples = true;

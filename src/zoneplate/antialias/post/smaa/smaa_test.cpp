@@ -267,7 +267,7 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
   // 1.5 % are less than a threshold of 2 %.
   EXPECT_EQ(treated("smaa:predication=depth,pthreshold=0.02"), before);
   EXPECT_EQ(treated("smaa:predication=depth,pscale=1,pstrength=0"), plain);
-  const auto asks = [](const char* method) { return make_resolver(methods(), method)->request(0).planes; };
+  const auto asks = [](const char* method) { return make_resolver(methods(), method)->request({}).planes; };
   EXPECT_TRUE(asks("smaa:predication=depth").depth);
   EXPECT_TRUE(asks("smaa:predication=objects").object_id);
   EXPECT_FALSE(asks("smaa").depth);
@@ -341,7 +341,7 @@ TEST(Smaa, LevelEdgesComeNearTheirArea) {
 /// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's picture to the other's place.
 double error_of_s2x(const Band& band, bool exchanged) {
   const std::unique_ptr<Resolver> resolver = make_resolver(methods(), "smaa:mode=s2x");
-  const Request request = resolver->request(0);
+  const Request request = resolver->request({});
   EXPECT_EQ(request.samples, standard_pattern(2));
   Frame frame;
   for (const std::size_t s : {exchanged ? 1u : 0u, exchanged ? 0u : 1u}) {

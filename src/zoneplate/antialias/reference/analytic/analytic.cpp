@@ -20,7 +20,7 @@ namespace {
 class Analytic : public Resolver {
  public:
   explicit Analytic(const AnalyticOptions& options) : options_(options) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request{.samples = standard_pattern(8)};
     request.draw = [options = options_](const CustomDraw& drawing) { draw_analytic(drawing, options); };
     request.estimates_error = true;

@@ -6,6 +6,7 @@
 #include "zoneplate/antialias/reference/analytic/flat_triangles_for_test.h"
 #include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/fit.h"
@@ -416,8 +417,7 @@ TEST(Analytic, BothTruthsOfBrightEdges) {
   scene.add_quad({0, 0, 0.6f}, {3.5, 0, 0.6f}, {3.5, 8, 0.6f}, {0, 8, 0.6f}, {10, 10, 10, 1});
   EXPECT_NEAR(scene.analytic()(3, 3).r, 5.1, 1e-6);
   EXPECT_NEAR(scene.analytic({.order = FilterOrder::Display})(3, 3).r, 0.6, 1e-6);
-  const DisplayOptions display{.mapping = ToneMapping::Aces, .exposure = 0.5f};
-  scene.render_options.display = &display;
+  scene.render_options.display = {.mapping = ToneMapping::Aces, .exposure = 0.5f};
   const float expected =
       (tone_map({5, 5, 5}, ToneMapping::Aces).x + tone_map({0.1f, 0.1f, 0.1f}, ToneMapping::Aces).x) / 2;
   EXPECT_NEAR(scene.analytic({.order = FilterOrder::Display})(3, 3).r, expected, 1e-6);
@@ -437,14 +437,14 @@ TEST(Analytic, ScenesAgreeWithManySamples) {
                                             {"fillblend", "ssaa:n=8", 5e-5},
                                             {"city-trilinear", "ssaa:n=8", 2.8e-3},
                                             {"foliage", "converged:samples=1024", 1e-3}}) {
-    const Scene scene = *make_builtin_scene(name);
+    Scene scene = *make_builtin_scene(name);
     RenderOptions options;
     options.width = 64, options.height = 48;
-    options.environment = {0.5f, 0.5f, 0.5f};
+    scene.environment.color = {0.5f, 0.5f, 0.5f};
     const Camera camera = scene.cameras.empty() ? fit_camera(scene.bounds(), 4.0f / 3, {}) : scene.cameras[0];
     const auto shot = [&](const char* by) {
       const auto resolver = make_resolver(methods(), by);
-      Frame frame = render(scene, camera, resolver->request(0), options);
+      Frame frame = render(PreparedScene(scene), camera, resolver->request({}), options);
       return resolver->resolve(frame);
     };
     const LinearImage exact = shot("analytic:shading=8"), sampled = shot(method);

@@ -273,8 +273,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
 
   const Stopwatch tiles;
   Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
-  if (options.order == FilterOrder::Display)
-    whole.display_light.emplace(drawing.options.display ? *drawing.options.display : DisplayOptions{});
+  if (options.order == FilterOrder::Display) whole.display_light.emplace(drawing.options.display);
   PerThread<TileIntegrator> integrators;
   for (int row = 0; row < triangles.rows();) {
     const auto columns = static_cast<std::size_t>(triangles.columns());

@@ -120,7 +120,8 @@ class FlatTriangles : public FragmentShader {
     if (error) *error = Plane<float>(c.width, c.height);
     const RasterRules rules{.isa = isa};
     counts = {};
-    use(CustomDraw{draws, *this, rules, target, render_options, error, counts});
+    RasterMemory memory;
+    use(CustomDraw{draws, *this, rules, target, render_options, error, counts, memory});
     return image;
   }
 

@@ -14,7 +14,7 @@ namespace {
 class Converged : public Resolver {
  public:
   explicit Converged(ConvergedOptions options) : options_(std::move(options)) {}
-  Request request(int) override {
+  Request request(const FrameContext&) override {
     Request request{.samples = standard_pattern(8)};
     request.draw = [options = options_](const CustomDraw& drawing) { draw_converged(drawing, options); };
     request.estimates_error = true;

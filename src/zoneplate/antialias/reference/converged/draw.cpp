@@ -69,8 +69,7 @@ class Strips {
     for (const SamplePosition p : pattern_) x.push_back(p.x), y.push_back(p.y);
     across_.emplace(filter_.value, filter_.reach, x);
     down_.emplace(filter_.value, filter_.reach, y);
-    if (options.order == FilterOrder::Display)
-      shown_.emplace(drawing.options.display ? *drawing.options.display : DisplayOptions{});
+    if (options.order == FilterOrder::Display) shown_.emplace(drawing.options.display);
   }
 
   void draw() {

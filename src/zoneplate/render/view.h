@@ -4,9 +4,9 @@
 
 #include "zoneplate/scene/scene.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
-/// What the camera options say; angles in radians.
+/// Which camera a picture has; angles in radians.
 struct View {
   std::optional<int> index;  ///< a camera of the scene
   std::optional<float3> position, focal_point, view_up;
@@ -26,4 +26,4 @@ struct View {
 /// Errors    ErrorKind::Usage for an index that the scene does not have, or a position equal to the focal point.
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,4 +1,4 @@
-#include "zoneplate/cli/view.h"
+#include "zoneplate/render/view.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "zoneplate/math/transform.h"
 #include "zoneplate/scene/fit.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 // A camera as options speak of it.
@@ -108,4 +108,4 @@ Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   return camera;
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

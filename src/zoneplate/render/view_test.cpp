@@ -1,10 +1,10 @@
-#include "zoneplate/cli/view.h"
+#include "zoneplate/render/view.h"
 
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 constexpr float degree = 0.017453293f;
@@ -113,4 +113,4 @@ TEST(ChooseCamera, AnEmptySceneHasACamera) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,18 +1,19 @@
-#include "zoneplate/cli/look.h"
+#include "zoneplate/render/lighting.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "zoneplate/scene/default_lights.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 bool is_phong(ShadingModel model) { return model == ShadingModel::BlinnPhong || model == ShadingModel::Phong; }
 
 }  // namespace
 
-void change_model(Material& material, ShadingModel model) {
+void convert_material(Material& material, ShadingModel model) {
   // A Blinn-Phong lobe of exponent 2 / r⁴ - 2 is as wide as a GGX lobe of roughness r.
   // Source: Karis, Specular BRDF Reference, 2013 (alpha = r², exponent = 2 / alpha² - 2).
   if (is_phong(model) && !is_phong(material.model)) {
@@ -32,24 +33,30 @@ void change_model(Material& material, ShadingModel model) {
   material.model = model;
 }
 
-float3 apply_look(Scene& scene, const Camera& camera, const Look& look) {
-  if (look.shading_model)
-    for (Material& material : scene.materials) change_model(material, *look.shading_model);
-
-  float3 environment = look.environment.value_or(float3{0, 0, 0});
-  if (scene.lights.empty() && !look.environment) {
-    scene.lights = default_lights(camera);
-    // (Blinn-)Phong's diffuse term has no 1 / π: the same lamps are that much weaker for a scene made of it, so that a
+Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
+  Lighting lighting{scene.lights, scene.environment, scene.ambient_light};
+  if (options.environment) {
+    lighting.environment = {.color = *options.environment};
+  } else if (scene.lights.empty() && scene.environment == Environment{}) {
+    lighting.lights = default_lights();
+    // (Blinn-)Phong's diffuse term has no 1 / π: the same lights are that much weaker for a scene made of it, so that a
     // white surface comes out alike in every model.
     constexpr float pi = 3.14159265f;
     const auto is_made_of_it = [](const Material& m) { return is_phong(m.model); };
     if (!scene.materials.empty() && std::all_of(scene.materials.begin(), scene.materials.end(), is_made_of_it))
-      for (Light& light : scene.lights) light.intensity /= pi;
-    environment = {default_environment, default_environment, default_environment};
+      for (Light& light : lighting.lights) light.intensity /= pi;
+    lighting.environment = {.color = {default_environment, default_environment, default_environment}};
   }
-  for (Light& light : scene.lights) light.intensity *= look.light_intensity;
-  if (scene.ambient_light == float3{}) scene.ambient_light = environment;
-  return environment;
+  for (Light& light : lighting.lights) light.intensity *= options.intensity;
+  if (lighting.ambient_light == float3{}) lighting.ambient_light = lighting.environment.constant_radiance();
+  return lighting;
 }
 
-}  // namespace zoneplate::cli
+void light_unlit(Scene& scene) {
+  Lighting lighting = make_lighting(scene);
+  scene.lights = std::move(lighting.lights);
+  scene.environment = lighting.environment;
+  scene.ambient_light = lighting.ambient_light;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <algorithm>
+
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate::cli {
+
+// The border rule `zero` puts black beyond an image, not transparency: colour is filtered by it, alpha by `clamp`.
+
+inline Plane<float> alpha_of(const LinearImage& image) {
+  Plane<float> out(image.width(), image.height());
+  std::ranges::transform(image.values(), out.values().begin(), &Linear::a);
+  return out;
+}
+
+/// Requires  equal sizes.
+inline void set_alpha(LinearImage& image, const Plane<float>& alpha) {
+  for (std::size_t i = 0; i < image.values().size(); ++i) image.values()[i].a = alpha.values()[i];
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,96 @@
+#include "zoneplate/render/aov.h"
+
+#include <fmt/format.h>
+
+#include "zoneplate/render/cryptomatte.h"
+
+namespace zoneplate {
+namespace {
+
+template <Plane<float> Frame::*plane>
+void add_value(const Frame& frame, DataChannels& out, std::string name) {
+  out.list.push_back({std::move(name), ChannelPrecision::Float, (frame.*plane).values().data()});
+}
+
+// A channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z.
+void add_vector(const float* first, std::string_view letters, ChannelPrecision type, std::string_view layer,
+                DataChannels& out) {
+  for (std::size_t i = 0; i < letters.size(); ++i)
+    out.list.push_back({fmt::format("{}{}", layer, letters[i]), type, first + i, nullptr, letters.size()});
+}
+
+template <Plane<std::uint32_t> Frame::*ids>
+void add_ids(const Frame& frame, DataChannels& out, std::string name) {
+  out.list.push_back({std::move(name), ChannelPrecision::Number, nullptr, (frame.*ids).values().data()});
+}
+
+template <MatteKind kind>
+void add_matte(const Frame& frame, const Scene& scene, DataChannels& out) {
+  Cryptomatte matte = make_cryptomatte(frame, scene, kind);
+  for (std::size_t i = 0; i < matte.ranks.size(); ++i) {
+    const Plane<float4>& plane = out.made.emplace_back(std::move(matte.ranks[i]));
+    add_vector(&plane.values().data()->x, "RGBA", ChannelPrecision::Float, fmt::format("{}{:02}.", matte.layer, i),
+               out);
+  }
+  out.attributes.insert(out.attributes.end(), matte.attributes.begin(), matte.attributes.end());
+}
+
+void add_depth(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::depth>(frame, out, "Z"); }
+void add_normal(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.normal.values().data()->x, "XYZ", ChannelPrecision::Float, "N.", out);
+}
+void add_position(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.position.values().data()->x, "XYZ", ChannelPrecision::Float, "P.", out);
+}
+void add_albedo(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.albedo.values().data()->x, "RGB", ChannelPrecision::Half, "albedo.", out);
+}
+void add_uv(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.uv.values().data()->x, "UV", ChannelPrecision::Float, "UV.", out);
+}
+void add_motion(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.motion.values().data()->x, "XY", ChannelPrecision::Float, "motion.", out);
+  out.attributes.emplace_back("motion",
+                              "pixels, +x right, +y down: position now minus position in the last frame, no jitter");
+}
+void add_flow(const Frame& frame, const Scene&, DataChannels& out) {
+  add_vector(&frame.flow.values().data()->x, "XY", ChannelPrecision::Float, "flow.", out);
+  out.attributes.emplace_back("flow",
+                              "pixels, +x right, +y down: position in the next frame minus position now, no jitter");
+}
+void add_object_id(const Frame& frame, const Scene&, DataChannels& out) {
+  add_ids<&Frame::object_id>(frame, out, "objectId");
+}
+void add_material_id(const Frame& frame, const Scene&, DataChannels& out) {
+  add_ids<&Frame::material_id>(frame, out, "materialId");
+}
+void add_primitive_id(const Frame& frame, const Scene&, DataChannels& out) {
+  add_ids<&Frame::primitive_id>(frame, out, "primId");
+}
+void add_coverage(const Frame& frame, const Scene&, DataChannels& out) {
+  add_value<&Frame::coverage>(frame, out, "coverage");
+}
+void add_error(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::error>(frame, out, "error"); }
+
+constexpr Aov all[] = {
+    {"depth", "distance along the view axis, near black, far white", &Planes::depth, add_depth},
+    {"normal", "world-space normal as colour", &Planes::normal, add_normal},
+    {"position", "world-space position as colour", &Planes::position, add_position},
+    {"albedo", "base colour without light", &Planes::albedo, add_albedo},
+    {"uv", "texture coordinates as red and green", &Planes::uv, add_uv},
+    {"motion", "way on the screen since the last frame: direction as hue, length as saturation", &Planes::motion,
+     add_motion},
+    {"flow", "the same to the next frame", &Planes::flow, add_flow},
+    {"object-id", "a false colour for each object", &Planes::object_id, add_object_id},
+    {"material-id", "a false colour for each material", &Planes::material_id, add_material_id},
+    {"primitive-id", "a false colour for each triangle of a mesh", &Planes::primitive_id, add_primitive_id},
+    {"crypto-object", "Cryptomatte of objects by name", &Planes::sample_triangles, add_matte<MatteKind::Object>},
+    {"crypto-material", "Cryptomatte of materials by name", &Planes::sample_triangles, add_matte<MatteKind::Material>},
+    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, add_coverage},
+    {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, add_error}};
+
+}  // namespace
+
+std::span<const Aov> aovs() { return all; }
+
+}  // namespace zoneplate

@@ -1,0 +1,91 @@
+#include "zoneplate/render/lighting.h"
+
+#include <gtest/gtest.h>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/scene/default_lights.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr float3 dim{default_environment, default_environment, default_environment};
+
+TEST(Lighting, LightsASceneThatHasNoLight) {
+  Scene scene;
+  light_unlit(scene);
+  EXPECT_EQ(scene.environment.constant_radiance(), dim);
+  EXPECT_EQ(scene.lights.size(), 3u);
+  EXPECT_EQ(scene.ambient_light, dim);
+}
+
+TEST(Lighting, APhongSceneIsAsBrightAsAnyOther) {
+  Scene phong, physical;
+  phong.materials.push_back({.model = ShadingModel::BlinnPhong});
+  physical.materials.push_back({.model = ShadingModel::MetallicRoughness});
+  light_unlit(phong);
+  light_unlit(physical);
+  EXPECT_FLOAT_EQ(phong.lights[0].intensity * 3.14159265f, physical.lights[0].intensity);
+}
+
+TEST(Lighting, LeavesAFilesOwnLightAlone) {
+  Scene scene;
+  scene.lights.resize(1);
+  scene.ambient_light = {0.1f, 0.2f, 0.3f};
+  light_unlit(scene);
+  EXPECT_EQ(scene.environment, Environment{});
+  EXPECT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.ambient_light, (float3{0.1f, 0.2f, 0.3f}));
+}
+
+TEST(Lighting, AnEnvironmentTakesThePlaceOfTheDefaultLights) {
+  Scene scene;
+  const Lighting lighting = make_lighting(scene, {.environment = float3{1, 0.5f, 0}});
+  EXPECT_EQ(lighting.environment.constant_radiance(), (float3{1, 0.5f, 0}));
+  EXPECT_EQ(lighting.ambient_light, (float3{1, 0.5f, 0}));
+  EXPECT_TRUE(lighting.lights.empty());
+}
+
+TEST(Lighting, ASceneKeepsItsOwnEnvironment) {
+  Scene scene;
+  scene.environment = {.color = {1, 2, 3}, .strength = 0.5f};
+  light_unlit(scene);
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.ambient_light, (float3{0.5f, 1, 1.5f}));
+  scene.environment.image = 0;
+  scene.ambient_light = {};
+  EXPECT_THROW(light_unlit(scene), Error);
+}
+
+TEST(Lighting, MultipliesEveryLight) {
+  Scene scene;
+  scene.lights.resize(2);
+  scene.lights[1].intensity = 3;
+  const Lighting lighting = make_lighting(scene, {.intensity = 2});
+  EXPECT_EQ(lighting.lights[0].intensity, 2);
+  EXPECT_EQ(lighting.lights[1].intensity, 6);
+}
+
+TEST(ConvertMaterial, KeepsTheWidthOfTheHighlightThereAndBack) {
+  Material material;
+  material.metallic = 0, material.roughness = 0.5f;
+  convert_material(material, ShadingModel::BlinnPhong);
+  EXPECT_EQ(material.model, ShadingModel::BlinnPhong);
+  EXPECT_FLOAT_EQ(material.exponent, 30);  // 2 / 0.5⁴ - 2
+  EXPECT_EQ(material.specular, (float3{0.04f, 0.04f, 0.04f}));
+  convert_material(material, ShadingModel::MetallicRoughness);
+  EXPECT_FLOAT_EQ(material.roughness, 0.5f);
+  EXPECT_EQ(material.metallic, 0);
+}
+
+TEST(ConvertMaterial, ChangesNothingButTheModelBetweenKin) {
+  Material material;
+  material.model = ShadingModel::BlinnPhong, material.exponent = 77, material.specular = {1, 2, 3};
+  convert_material(material, ShadingModel::Phong);
+  EXPECT_EQ(material.exponent, 77);
+  EXPECT_EQ(material.specular, (float3{1, 2, 3}));
+  convert_material(material, ShadingModel::Unlit);
+  EXPECT_EQ(material.model, ShadingModel::Unlit);
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,212 @@
+#include "zoneplate/render/renderer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/image/dither.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/raster/tile/rasterize.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr int jitter_period = 8;
+
+void add(RenderCounts& sum, const RenderCounts& c) {
+  sum.prepare_ms += c.prepare_ms, sum.geometry_ms += c.geometry_ms, sum.tiles_ms += c.tiles_ms;
+  sum.stages += c.stages;
+  sum.vertices = c.vertices, sum.triangles = c.triangles, sum.triangles_set_up = c.triangles_set_up;
+  sum.shaded += c.shaded, sum.geometric += c.geometric;
+}
+
+template <class T>
+void cut_out(Plane<T>& image, const Crop& part) {
+  if (image.empty()) return;
+  Plane<T> out(part.width, part.height);
+  for (int y = 0; y < part.height; ++y)
+    std::ranges::copy_n(image.row(part.y + y).begin() + part.x, part.width, out.row(y).begin());
+  image = std::move(out);
+}
+
+/// The data planes of a frame, which are moved out of it, and its place in the picture.
+Frame data_of(Frame& frame) {
+  Frame data;
+  data.x = frame.x, data.y = frame.y;
+  data.sample_triangle.resize(frame.sample_triangle.size());
+  std::vector<void*> from;
+  frame.for_data_planes([&](auto& plane) { from.push_back(&plane); });
+  std::size_t i = 0;
+  data.for_data_planes([&]<class T>(Plane<T>& plane) { plane = std::move(*static_cast<Plane<T>*>(from[i++])); });
+  return data;
+}
+
+/// Of a frame that was rendered with a halo, the part without it.
+void cut_out(RenderedImage& image, const Crop& whole, const Crop& crop) {
+  const Crop part{crop.x - whole.x, crop.y - whole.y, crop.width, crop.height};
+  cut_out(image.display, part), cut_out(image.display16, part), cut_out(image.linear, part);
+  image.data.for_data_planes([&](auto& plane) { cut_out(plane, part); });
+  image.data.x = crop.x, image.data.y = crop.y;
+}
+
+bool is_same(const std::optional<Crop>& a, const std::optional<Crop>& b) {
+  if (!a || !b) return !a && !b;
+  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
+}
+
+}  // namespace
+
+std::optional<Crop> padded_crop(const RenderOptions& options, int halo) {
+  if (!options.crop) return std::nullopt;
+  const Crop c = *options.crop;
+  const int left = std::min(halo, c.x), top = std::min(halo, c.y);
+  return Crop{c.x - left, c.y - top, left + c.width + std::min(halo, options.width - c.x - c.width),
+              top + c.height + std::min(halo, options.height - c.y - c.height)};
+}
+
+Renderer::Renderer(PreparedScene scene, std::unique_ptr<Resolver> method)
+    : scene_(std::move(scene)),
+      method_(std::move(method)),
+      memory_(std::make_unique<RasterMemory>()),
+      jitter_(named_pattern("halton", jitter_period)) {}
+
+Renderer::~Renderer() = default;
+
+void Renderer::set_scene(PreparedScene scene) { scene_ = std::move(scene); }
+
+void Renderer::recycle(Rgba8Image image) { memory_->shown = std::move(image); }
+
+void Renderer::begin_frame(const RenderSettings& settings) {
+  const RenderOptions& o = settings.options;
+  if (o.width != width_ || o.height != height_ || !is_same(o.crop, crop_)) index_ = 0;
+  width_ = o.width, height_ = o.height, crop_ = o.crop;
+  if (index_ == 0) moment_.reset(), previous_.reset();
+  context_ = {.index = index_,
+              .is_first = index_ == 0,
+              .jitter = jitter_[static_cast<std::size_t>(index_ % jitter_period)],
+              .previous = previous_ ? &*previous_ : nullptr};
+}
+
+Request Renderer::request_for(const RenderSettings& settings) {
+  Request request = method_->request(context_);
+  request.planes = request.planes | settings.planes;
+  if (settings.planes.error && !request.estimates_error)
+    throw Error(ErrorKind::Usage, "the method has no estimate of its error");
+  request.is_presented = request.resolves_per_pixel && settings.form == ImageForm::Display8;
+  return request;
+}
+
+Frame Renderer::Rounds::take_data() { return data ? std::move(*data) : data_of(frame); }
+
+Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
+                                         RenderCounts& counts) {
+  const auto round = [&](const Request& wanted) {
+    RenderCounts own;
+    Frame frame = zoneplate::render(scene_, camera, wanted, options, &own, memory_.get());
+    frame.display = options.display;
+    add(counts, own);
+    return frame;
+  };
+  Rounds rounds{round(request), std::nullopt};
+  while (const std::optional<Request> more = method_->refine(rounds.frame)) {
+    if (!rounds.data) rounds.data = data_of(rounds.frame);
+    rounds.frame = round(*more);
+  }
+  return rounds;
+}
+
+/// From the method's linear picture to the form that is wanted.
+void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out) {
+  if (form == ImageForm::Linear) {
+    out.linear = std::move(picture);
+    return;
+  }
+  Stopwatch watch;
+  DisplayImage display = make_display(picture, frame.display);
+  out.counts.display_ms += watch.lap_ms();
+  display = method_->post_process(std::move(display), frame);
+  out.counts.filter_ms += watch.lap_ms();
+  if (form == ImageForm::Display16)
+    out.display16 = quantize16(display);
+  else
+    out.display = form == ImageForm::Display8Dithered ? quantize8_dithered(display) : quantize8(display);
+  out.counts.display_ms += watch.ms();
+}
+
+/// Keeps what the next frame may look back at.
+void Renderer::end_frame(const Camera& camera, const Request& request, bool are_planes_wanted, Frame& data) {
+  moment_.reset();
+  if (request.planes.motion) moment_ = {scene_.shared_scene(), camera};
+  previous_.reset();
+  if (request.keeps_planes && are_planes_wanted)
+    previous_ = data;
+  else if (request.keeps_planes)
+    previous_ = std::move(data);
+  ++index_;
+}
+
+RenderedImage Renderer::render(const Camera& camera, const RenderSettings& settings) {
+  begin_frame(settings);
+  const Request request = request_for(settings);
+  RenderOptions options = settings.options;
+  options.crop = padded_crop(settings.options, request.halo);
+  if (!options.last) options.last = moment_;
+
+  RenderedImage out;
+  Rounds rounds = render_rounds(camera, request, options, out.counts);
+  Frame& frame = rounds.frame;
+  if (request.is_presented) {
+    out.display = std::move(frame.shown);
+  } else {
+    const Stopwatch watch;
+    LinearImage linear = method_->resolve(frame);
+    out.counts.resolve_ms = watch.ms();
+    finish(std::move(linear), frame, settings.form, out);
+  }
+  out.data = rounds.take_data();
+  const bool are_planes_wanted = settings.planes.any();
+  end_frame(camera, request, are_planes_wanted, out.data);
+  if (!are_planes_wanted) out.data = {};
+  if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
+  return out;
+}
+
+RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
+                                    const RenderSettings& settings) {
+  begin_frame(settings);
+  Request request = request_for(settings);
+  request.is_presented = false;
+  RenderOptions options = settings.options;
+  options.crop = padded_crop(settings.options, request.halo);
+  if (!options.last) options.last = moment_;
+
+  RenderedImage out;
+  LinearImage sum;
+  Rounds rounds;
+  Camera camera;
+  for (int i = 0; i < count; ++i) {
+    SceneView view = moment(i);
+    scene_ = std::move(view.scene), camera = std::move(view.camera);
+    rounds = render_rounds(camera, request, options, out.counts);
+    const Stopwatch watch;
+    LinearImage picture = method_->resolve(rounds.frame);
+    if (i == 0) {
+      sum = std::move(picture);
+    } else {
+      const auto values = sum.values();
+      std::transform(values.begin(), values.end(), picture.values().begin(), values.begin(),
+                     [](const Linear& a, const Linear& b) { return a + b; });
+    }
+    out.counts.resolve_ms += watch.ms();
+  }
+  const float share = 1 / static_cast<float>(count);
+  for (Linear& c : sum.values()) c = c * share;
+  finish(std::move(sum), rounds.frame, settings.form, out);
+  Frame data = rounds.take_data();
+  end_frame(camera, request, false, data);
+  if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
+  return out;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,86 @@
+#include "zoneplate/render/sequence.h"
+
+#include <utility>
+#include <vector>
+
+#include "zoneplate/math/transform.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr double tau = 6.28318530717958647692;
+
+}  // namespace
+
+Sequence::Sequence(PreparedScene scene, const SequenceTiming& timing) : timing_(timing), scene_(std::move(scene)) {}
+
+Sequence::Sequence(SceneLoader loader, bool raw_colors, const SequenceTiming& timing)
+    : loader_(std::move(loader)), raw_colors_(raw_colors), timing_(timing) {}
+
+void Sequence::set_view(const View& view, float aspect) {
+  view_ = view, aspect_ = aspect;
+  Scene all = loader_.load ? all_poses() : scene_->scene();
+  const Box bounds = all.bounds();
+  centre_ = bounds.empty() ? float3{} : bounds.centre();
+  if (timing_.turntable && !view.position && !view.index) add_turns(all);
+  still_ = choose_camera(all, view, aspect);
+}
+
+const PreparedScene& Sequence::scene(double frame) {
+  if (!loader_.load || (scene_ && frame_ == frame)) return *scene_;
+  Scene loaded = loader_.load(seconds_of(frame));
+  scene_ = scene_ ? PreparedScene(std::move(loaded), *scene_) : PreparedScene(std::move(loaded), raw_colors_);
+  frame_ = frame;
+  return *scene_;
+}
+
+SceneView Sequence::view(double frame) {
+  const PreparedScene& at = scene(frame);
+  return {at, camera(at.scene(), frame)};
+}
+
+Moment Sequence::moment(double frame) {
+  const std::shared_ptr<const Scene> shape =
+      loader_.load ? std::make_shared<const Scene>(loader_.load_shape(seconds_of(frame))) : scene_->shared_scene();
+  return {shape, camera(*shape, frame)};
+}
+
+Camera Sequence::camera(const Scene& scene, double frame) const {
+  Camera camera = view_.index && loader_.load ? choose_camera(scene, view_, aspect_) : still_;
+  if (!timing_.turntable) return camera;
+  camera.world_from_camera = turned(static_cast<float>(tau * frame / *timing_.turntable)) * camera.world_from_camera;
+  return camera;
+}
+
+/// All places that anything is at, over the whole animation: parts of a film are made apart from each other.
+Scene Sequence::all_poses() {
+  constexpr int poses = 8;
+  Scene all;
+  for (int i = 0; i < poses; ++i) {
+    Scene scene = loader_.load_shape(timing_.start + timing_.duration * i / (poses - 1));
+    const auto before = static_cast<int>(all.meshes.size());
+    for (Mesh& mesh : scene.meshes) all.meshes.push_back(std::move(mesh));
+    for (Instance instance : scene.instances) instance.mesh += before, all.instances.push_back(instance);
+    if (i == 0) all.cameras = scene.cameras;
+  }
+  return all;
+}
+
+float4x4 Sequence::turned(float angle) const {
+  return translation(centre_) * rotation(view_.up, angle) * translation(-centre_);
+}
+
+/// What the camera sees on its way round, seen from where it starts.
+void Sequence::add_turns(Scene& all) const {
+  constexpr int steps = 24;
+  const std::vector<Instance> once = all.instances;
+  for (int i = 1; i < steps; ++i)
+    for (Instance instance : once) {
+      instance.world_from_object = turned(static_cast<float>(tau * i / steps)) * instance.world_from_object;
+      all.instances.push_back(instance);
+    }
+}
+
+double shutter_time(double frame, double open, int i, int count) { return frame + open * (i + 0.5) / count; }
+
+}  // namespace zoneplate
