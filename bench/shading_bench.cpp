@@ -35,7 +35,7 @@ struct Looks {
   float* const out[4] = {values[0], values[1], values[2], values[3]};
   Texture texture;
   Taps taps;
-  const FilteringKernels& kernels = pick(best_isa(), scalar::filtering_kernels);
+  const FilteringKernels& kernels = FilteringKernels::of();
 
   /// `stretch`: how much longer than wide a footprint is.
   explicit Looks(TexelMeaning meaning, float stretch = 1) : texture(noise(), meaning) {
@@ -87,8 +87,8 @@ struct Surface {
   TriangleVertices corners;
   ShadingState at;
   FragmentOutputs shaded;
-  const SurfaceKernels& kernels = pick(best_isa(), scalar::surface_kernels);
-  const InterpolateKernels& weights = interpolate_kernels(best_isa());
+  const SurfaceKernels& kernels = SurfaceKernels::of();
+  const InterpolateKernels& weights = InterpolateKernels::of();
 
   explicit Surface(bool has_rows) {
     batch.count = at.count = points;

@@ -22,19 +22,24 @@ list(FILTER cli_sources INCLUDE REGEX "^src/zoneplate/cli/")
 list(FILTER cli_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/main\\.cpp$")
 file(GLOB whole_tests CONFIGURE_DEPENDS tests/*_test.cpp)
 
-# A catalogue is a list of names, one a line, in <folder>/<list>.txt; the table is made from it. `header` declares `type`.
-function(make_table folder list header type)
+# A catalogue is a list of names, one a line, in <folder>/<list>.txt. The table is made from it: a function <table>() of
+# <namespace>, which <header> declares, with a row for each name, that <prefix><name>() makes. Appends the source to
+# <sources>.
+function(make_table sources folder list header type namespace table prefix)
   set(listed src/zoneplate/${folder}/${list}.txt)
   file(STRINGS ${listed} names REGEX "^[a-z]")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${listed})
   set(declarations "")
   set(entries "")
   foreach(name IN LISTS names)
-    string(APPEND declarations "${type} ${name}();\n")
-    string(APPEND entries "      ${name}(),\n")
+    string(APPEND declarations "${type} ${prefix}${name}();\n")
+    string(APPEND entries "      ${prefix}${name}(),\n")
   endforeach()
-  configure_file(cmake/table.cpp.in generated/${folder}_table.cpp)
+  configure_file(cmake/table.cpp.in generated/${table}_table.cpp)
+  set(${sources} ${${sources}} ${generated}/${table}_table.cpp PARENT_SCOPE)
 endfunction()
+make_table(library_sources scene/builtin makers scene/builtin/make.h BuiltinMaker zoneplate builtin_makers builtin_)
+make_table(library_sources antialias methods antialias/methods.h Method zoneplate::antialias methods "")
 
 # Adds to a library the kernels, built once for each instruction set of the processor's architecture (base/isa.h).
 set(flags_sse4 -msse4.2)

@@ -20,7 +20,8 @@ constexpr const char* retired =
     "block_far|open_block|block_owner|many_triangles|RowLayer|Layers8|put_under|VertexRecords|Illumination|"
     "Surroundings|"
     "LevelPlace|Trouble|find_flaw|Presenter|LostBytesWatch|ShownLight|works_on_shown|is_local|ask_again|"
-    "ObjFolder";
+    "ObjFolder|filter_codes|CodeFilter|SampleGather|Gathering|gathering_of|GatherKernels|SmaaWeigher|smaa_edges|"
+    "SinCos|SpecParam|BuiltinParam|shown_value|display_shown_light";
 
 TEST(Words, RetiredIdentifiersDoNotComeBack) {
   const std::regex word(std::string("\\b(") + retired + ")\\b");

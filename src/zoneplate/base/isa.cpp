@@ -1,8 +1,18 @@
 #include "zoneplate/base/isa.h"
 
 #include <cstddef>
+#include <utility>
 
 namespace zoneplate {
+namespace {
+
+thread_local Isa current = best_isa();
+
+}  // namespace
+
+Isa current_isa() { return current; }
+
+Isa exchange_isa(Isa isa) { return std::exchange(current, isa); }
 
 std::span<const Isa> supported_isas() {
 #if defined(__x86_64__)

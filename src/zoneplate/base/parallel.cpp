@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "zoneplate/base/deadline.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/processors.h"
 
 namespace zoneplate {
@@ -21,6 +22,7 @@ struct Loop {
   const std::function<void(std::size_t)>& body;
   const std::size_t count;
   const Deadline* const deadline;  ///< of whoever began the loop
+  const Isa isa;                   ///< likewise
   std::exception_ptr error;        ///< the first one; guarded by the team's mutex
   std::atomic<int> helpers = 0;    ///< threads at work on it, besides the one that began it
   alignas(64) std::atomic<std::size_t> next = 0;
@@ -125,6 +127,7 @@ Loop* Team::join_a_loop() {
 
 void Team::work(Loop& loop) {
   const Deadline* const outer = exchange_deadline(loop.deadline);
+  const Isa outer_isa = exchange_isa(loop.isa);
   try {
     for (std::size_t i = loop.next++; i < loop.count; i = loop.next++) {
       check_deadline();
@@ -135,6 +138,7 @@ void Team::work(Loop& loop) {
     const std::lock_guard lock(mutex_);
     if (!loop.error) loop.error = std::current_exception();
   }
+  exchange_isa(outer_isa);
   exchange_deadline(outer);
 }
 
@@ -147,7 +151,7 @@ void Team::leave(Loop& loop) {
 
 void Team::run(std::size_t count, const std::function<void(std::size_t)>& body) {
   start(count - 1);
-  Loop loop{.body = body, .count = count, .deadline = current_deadline()};
+  Loop loop{.body = body, .count = count, .deadline = current_deadline(), .isa = current_isa()};
   {
     const std::lock_guard lock(mutex_);
     open_.push_back(&loop);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace zoneplate {
 
@@ -29,5 +30,31 @@ int thread_index();
 
 /// The greatest number of threads that `parallel_for` may use here.
 int thread_limit();
+
+/// An object for each thread that takes part in the loops of the innermost `with_threads`: buffers that a thread keeps
+/// from item to item, and sums that are added up after the loop.
+template <class T>
+class PerThread {
+ public:
+  PerThread() : objects_(static_cast<std::size_t>(thread_limit())) {}
+
+  /// The calling thread's own, which the first call on the thread makes from `arguments`.
+  template <class... Arguments>
+  T& local(const Arguments&... arguments) {
+    std::unique_ptr<T>& own = objects_[static_cast<std::size_t>(thread_index())];
+    if (!own) own = std::make_unique<T>(arguments...);
+    return *own;
+  }
+
+  /// Calls `body(object)` for every one that was made.
+  template <class Body>
+  void for_each(const Body& body) const {
+    for (const std::unique_ptr<T>& object : objects_)
+      if (object) body(*object);
+  }
+
+ private:
+  std::vector<std::unique_ptr<T>> objects_;
+};
 
 }  // namespace zoneplate

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <map>
 
+#include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::cli {
@@ -15,7 +16,9 @@ void Background::run(std::function<void()> work) {
   const auto most = static_cast<std::size_t>(thread_limit());
   if (most == 1) return work();
   while (running_.size() >= most) wait_for_first();
-  running_.push_back(std::async(std::launch::async, [work = std::move(work)] { with_threads(1, work); }));
+  running_.push_back(std::async(std::launch::async, [work = std::move(work), isa = current_isa()] {
+    with_isa(isa, [&] { with_threads(1, work); });
+  }));
 }
 
 void Background::wait() {

@@ -21,8 +21,7 @@ std::string range_of(const Param& param) {
     return fmt::format("{}={} ({})", param.name, fmt::join(param.names, "|"),
                        param.names[static_cast<std::size_t>(param.value)]);
   if (!param.choices.empty()) return fmt::format("{}={} ({})", param.name, fmt::join(param.choices, "|"), param.value);
-  return fmt::format("{}={}..{} ({})", param.name, shown_value(param, param.low), shown_value(param, param.high),
-                     shown_value(param, param.value));
+  return fmt::format("{}={}..{} ({})", param.name, param.low, param.high, param.value);
 }
 
 std::string methods_text() {
@@ -46,9 +45,7 @@ Json methods_json() {
         row.emplace_back("default", param.names[static_cast<std::size_t>(param.value)]);
         row.emplace_back("values", Json::Array(param.names.begin(), param.names.end()));
       } else {
-        const auto value = [&](int v) {
-          return param.decimals == 0 ? Json(v) : Json(std::stod(shown_value(param, v)));
-        };
+        const auto value = [&](double v) { return param.decimals == 0 ? Json(static_cast<int>(v)) : Json(v); };
         row.emplace_back("default", value(param.value));
         if (param.choices.empty()) {
           row.emplace_back("low", value(param.low));

@@ -9,13 +9,13 @@
 #include <new>
 #include <vector>
 
+#include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/cli/version.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
-#include "zoneplate/render/method.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate::cli {

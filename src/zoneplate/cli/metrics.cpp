@@ -173,9 +173,9 @@ std::string catalogue_text() {
   for (const Metric& metric : metrics::metrics()) {
     text +=
         fmt::format("  {}{:<14}{} [{}]\n", metric.is_default ? '*' : ' ', metric.name, metric.summary, metric.source);
-    for (const metrics::Param& param : metric.params) {
-      text += fmt::format("   {:<14}  {}={} (default {:.6g})  {}\n", "", param.name, metrics::values_of(param),
-                          param.value, param.meaning);
+    for (const Param& param : metric.params) {
+      text += fmt::format("   {:<14}  {}={} (default {:.6g})  {}\n", "", param.name, values_of(param), param.value,
+                          param.meaning);
     }
   }
   return text;

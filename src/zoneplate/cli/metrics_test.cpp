@@ -105,8 +105,8 @@ TEST_F(MetricsVerb, LumaAndWindowsAreParameters) {
   };
   EXPECT_NEAR(psnr(""), -20 * std::log10(0.2126), 1e-6);
   EXPECT_NEAR(psnr(":rec=601"), -20 * std::log10(0.299), 1e-6);
-  EXPECT_TRUE(contains(run("none.png red.png --metric psnr_luma:rec=650").out, "rec=650: wants 601 or 709"));
-  EXPECT_TRUE(contains(run("none.png red.png --metric ssim:window=7.5").out, "window=7.5: wants 0, 2, 3"));
+  EXPECT_TRUE(contains(run("none.png red.png --metric psnr_luma:rec=650").out, "rec is '650', wants 601 or 709"));
+  EXPECT_TRUE(contains(run("none.png red.png --metric ssim:window=7.5").out, "window is '7.5', wants 0, 2, 3"));
 }
 
 TEST_F(MetricsVerb, TroubleIsTwo) {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -117,7 +117,7 @@ Bytes packed(Bytes raw) {
     const std::size_t n = std::min(most_part, wanted.size() - at);
     deflate_part(std::span(wanted).subspan(at, n), at + n == wanted.size(), out);
   }
-  const std::uint32_t sum = png_row_kernels(best_isa()).adler(wanted.data(), wanted.size());
+  const std::uint32_t sum = PngRowKernels::of().adler(wanted.data(), wanted.size());
   for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(sum >> shift));
   return out.size() < raw.size() ? out : raw;
 }

@@ -60,7 +60,7 @@ class PartWriter {
   const Rgba8Image& image_;
   bool has_alpha_;
   std::vector<Rgba8> above_first_;
-  const PngRowKernels& kernels_ = png_row_kernels(best_isa());
+  const PngRowKernels& kernels_ = PngRowKernels::of();
 };
 
 }  // namespace

@@ -91,15 +91,17 @@ void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, s
       const Linear color = linear[i].get(k);
       float display[4];
       display_pixel(step, &color.r, display);
-      transfer_kernels.quantize8(display, &shown[Linear8::size * i + k].r, 4);
+      TransferKernels::scalar.quantize8(display, &shown[Linear8::size * i + k].r, 4);
     }
 }
 
 }  // namespace
 
-const TonemapKernels tonemap_kernels = {.display_row = display_row, .show_groups = show_groups};
-
 }  // namespace scalar
+
+template <>
+const TonemapKernels PerIsa<TonemapKernels>::scalar = {.display_row = scalar::display_row,
+                                                       .show_groups = scalar::show_groups};
 
 namespace {
 
@@ -120,13 +122,11 @@ DisplayStep make_step(const DisplayOptions& options) {
   return step;
 }
 
-const TonemapKernels& best_kernels() { return pick(best_isa(), scalar::tonemap_kernels); }
-
 }  // namespace
 
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options) {
   static_assert(sizeof(Linear) == 4 * sizeof(float) && sizeof(Display) == 4 * sizeof(float));
-  const TonemapKernels& kernels = best_kernels();
+  const TonemapKernels& kernels = TonemapKernels::of();
   const DisplayStep step = make_step(options);
   DisplayImage display(image.width(), image.height());
   // Blocks of pixels rather than rows, so that a thin picture is shared out as well.
@@ -140,7 +140,7 @@ void show_light(std::span<const Linear> pixels, const DisplayOptions& options, f
   DisplayStep step = make_step(options);
   step.is_encoded = false;
   for (int c = 0; c < 3; ++c) step.code[c] = options.raw ? step.code[c] : decode_srgb(step.code[c]);
-  best_kernels().display_row(step, &pixels.data()->r, light, pixels.size());
+  TonemapKernels::of().display_row(step, &pixels.data()->r, light, pixels.size());
 }
 
 DisplayTransform::DisplayTransform(const DisplayOptions& options) : step_(make_step(options)) {
@@ -151,7 +151,7 @@ DisplayTransform::DisplayTransform(const DisplayOptions& options) : step_(make_s
 }
 
 void DisplayTransform::present(std::span<const Linear8> groups, Rgba8* out) const {
-  best_kernels().show_groups(step_, groups.data(), out, groups.size());
+  TonemapKernels::of().show_groups(step_, groups.data(), out, groups.size());
 }
 
 LinearImage over_background(LinearImage image, const DisplayOptions& options) {

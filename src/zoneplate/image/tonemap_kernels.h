@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/image/pixel.h"
 #include "zoneplate/image/tone_mapping.h"
 
@@ -17,17 +18,11 @@ struct DisplayStep {
   float light[4] = {0, 0, 0, 1};  ///< the background in linear light, premultiplied
 };
 
-struct TonemapKernels {
+struct TonemapKernels : PerIsa<TonemapKernels> {
   /// n pixels of four floats: Linear in, Display out.
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
   /// The same of n groups of eight pixels, and quantize8 of that.
   void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
-
-  static const TonemapKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const TonemapKernels tonemap_kernels;
-}
 
 }  // namespace zoneplate

@@ -155,12 +155,12 @@ TEST(MakeDisplay, EveryInstructionSetGivesTheSameBits) {
     }
   }
   for (const Isa isa : supported_isas()) {
-    const TonemapKernels& kernels = pick(isa, scalar::tonemap_kernels);
+    const TonemapKernels& kernels = TonemapKernels::of(isa);
     for (std::uint32_t n = 0; n <= 200; ++n) {
       const std::vector<float> in = pixels(n, n);
       const DisplayStep& step = steps[n % steps.size()];
       std::vector<float> wanted(in.size() + 1, 9), found(in.size() + 1, 9);
-      scalar::tonemap_kernels.display_row(step, in.data(), wanted.data(), n);
+      TonemapKernels::scalar.display_row(step, in.data(), wanted.data(), n);
       kernels.display_row(step, in.data(), found.data(), n);
       EXPECT_EQ(found, wanted) << name_of(isa) << ' ' << n;
       EXPECT_TRUE(std::all_of(found.begin(), found.end() - 1, [](float x) { return x >= 0 && x <= 1; }));

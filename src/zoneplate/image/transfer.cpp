@@ -111,10 +111,13 @@ void quantize16(const float* values, std::uint16_t* codes, std::size_t n) {
 
 }  // namespace
 
-const TransferKernels transfer_kernels = {
-    .encode = encode, .decode = decode, .quantize8 = quantize8, .quantize16 = quantize16};
-
 }  // namespace scalar
+
+template <>
+const TransferKernels PerIsa<TransferKernels>::scalar = {.encode = scalar::encode,
+                                                         .decode = scalar::decode,
+                                                         .quantize8 = scalar::quantize8,
+                                                         .quantize16 = scalar::quantize16};
 
 namespace {
 
@@ -129,12 +132,10 @@ Plane<Pixel> quantize(const DisplayImage& image, void (*row)(const float*, Code*
   return out;
 }
 
-const TransferKernels& best_kernels() { return pick(best_isa(), scalar::transfer_kernels); }
-
 }  // namespace
 
-Rgba8Image quantize8(const DisplayImage& image) { return quantize<Rgba8>(image, best_kernels().quantize8); }
+Rgba8Image quantize8(const DisplayImage& image) { return quantize<Rgba8>(image, TransferKernels::of().quantize8); }
 
-Rgba16Image quantize16(const DisplayImage& image) { return quantize<Rgba16>(image, best_kernels().quantize16); }
+Rgba16Image quantize16(const DisplayImage& image) { return quantize<Rgba16>(image, TransferKernels::of().quantize16); }
 
 }  // namespace zoneplate

@@ -3,22 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// The transfer functions over arrays; one value is one channel.
-struct TransferKernels {
+struct TransferKernels : PerIsa<TransferKernels> {
   /// encode_srgb and decode_srgb of each value.
   void (*encode)(const float* linear, float* code, std::size_t n);
   void (*decode)(const float* code, float* linear, std::size_t n);
   /// floor(255 x + 0.5) and floor(65535 x + 0.5) with x clamped to [0, 1]; what is not a number counts as 0.
   void (*quantize8)(const float* values, std::uint8_t* codes, std::size_t n);
   void (*quantize16)(const float* values, std::uint16_t* codes, std::size_t n);
-
-  static const TransferKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const TransferKernels transfer_kernels;
-}
 
 }  // namespace zoneplate

@@ -1,32 +1,23 @@
 #include "zoneplate/image/transfer_simd.h"
 
 #include "zoneplate/image/transfer_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
-/// Calls step(d, i) for each whole vector, then for each value that is left.
-template <class Step>
-HWY_INLINE void for_vectors(std::size_t n, Step step) {
-  const hn::CappedTag<float, 8> wide;
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(wide) <= n; i += hn::Lanes(wide)) step(wide, i);
-  for (; i < n; ++i) step(one, i);
-}
-
 void encode(const float* linear, float* code, std::size_t n) {
-  for_vectors(n, [=](auto d, std::size_t i) { hn::StoreU(encode_srgb(d, hn::LoadU(d, linear + i)), d, code + i); });
+  for_lanes(n, [=](auto d, std::size_t i) { hn::StoreU(encode_srgb(d, hn::LoadU(d, linear + i)), d, code + i); });
 }
 
 void decode(const float* code, float* linear, std::size_t n) {
-  for_vectors(n, [=](auto d, std::size_t i) { hn::StoreU(decode_srgb(d, hn::LoadU(d, code + i)), d, linear + i); });
+  for_lanes(n, [=](auto d, std::size_t i) { hn::StoreU(decode_srgb(d, hn::LoadU(d, code + i)), d, linear + i); });
 }
 
 template <class T>
 HWY_INLINE void quantize(float greatest, const float* values, T* codes, std::size_t n) {
-  for_vectors(n, [=](auto d, std::size_t i) {
+  for_lanes(n, [=](auto d, std::size_t i) {
     const hn::Rebind<T, decltype(d)> dt;
     const auto x = clamp_unit(d, hn::LoadU(d, values + i));
     const auto scaled = hn::Add(hn::Mul(x, hn::Set(d, greatest)), hn::Set(d, 0.5f));
@@ -44,8 +35,9 @@ void quantize16(const float* values, std::uint16_t* codes, std::size_t n) { quan
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const TransferKernels TransferKernels::HWY_NAMESPACE = {.encode = HWY_NAMESPACE::encode,
-                                                        .decode = HWY_NAMESPACE::decode,
-                                                        .quantize8 = HWY_NAMESPACE::quantize8,
-                                                        .quantize16 = HWY_NAMESPACE::quantize16};
+template <>
+const TransferKernels PerIsa<TransferKernels>::HWY_NAMESPACE = {.encode = HWY_NAMESPACE::encode,
+                                                                .decode = HWY_NAMESPACE::decode,
+                                                                .quantize8 = HWY_NAMESPACE::quantize8,
+                                                                .quantize16 = HWY_NAMESPACE::quantize16};
 }  // namespace zoneplate

@@ -115,7 +115,7 @@ TEST(Transfer, QuantizesTheSameOnAnyNumberOfThreads) {
 
 TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
   for (const Isa isa : supported_isas()) {
-    const TransferKernels& kernels = pick(isa, scalar::transfer_kernels);
+    const TransferKernels& kernels = TransferKernels::of(isa);
     for (std::uint32_t n = 0; n <= 200; ++n) {
       std::vector<float> in(n);
       for (std::uint32_t i = 0; i < n; ++i) {
@@ -123,20 +123,20 @@ TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
         in[i] = i % 17 == 3 ? nan : i % 17 == 5 ? infinity : i % 3 == 0 ? u * 2 - 0.5f : i % 3 == 1 ? u : u * 0.01f;
       }
       std::vector<float> wanted(n), found(n);
-      scalar::transfer_kernels.encode(in.data(), wanted.data(), n);
+      TransferKernels::scalar.encode(in.data(), wanted.data(), n);
       kernels.encode(in.data(), found.data(), n);
       EXPECT_EQ(found, wanted) << name_of(isa);
-      scalar::transfer_kernels.decode(in.data(), wanted.data(), n);
+      TransferKernels::scalar.decode(in.data(), wanted.data(), n);
       kernels.decode(in.data(), found.data(), n);
       EXPECT_EQ(found, wanted) << name_of(isa);
 
       // One more code than asked for shows a kernel that writes past the end.
       std::vector<std::uint8_t> wanted8(n + 1, 9), found8(n + 1, 9);
-      scalar::transfer_kernels.quantize8(in.data(), wanted8.data(), n);
+      TransferKernels::scalar.quantize8(in.data(), wanted8.data(), n);
       kernels.quantize8(in.data(), found8.data(), n);
       EXPECT_EQ(found8, wanted8) << name_of(isa);
       std::vector<std::uint16_t> wanted16(n + 1, 9), found16(n + 1, 9);
-      scalar::transfer_kernels.quantize16(in.data(), wanted16.data(), n);
+      TransferKernels::scalar.quantize16(in.data(), wanted16.data(), n);
       kernels.quantize16(in.data(), found16.data(), n);
       EXPECT_EQ(found16, wanted16) << name_of(isa);
     }

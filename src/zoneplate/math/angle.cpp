@@ -17,17 +17,7 @@ SineCosine sine_cosine(double angle) {
     s = 1 - z * s / (n * (n + 1));
     c = 1 - z * c / ((n - 1) * n);
   }
-  s = x * s;
-  switch (static_cast<long long>(quarters) & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
+  return turned(static_cast<std::uint64_t>(static_cast<std::int64_t>(quarters)), {x * s, c});
 }
 
 }  // namespace zoneplate

@@ -38,6 +38,11 @@ void evaluate(Elementary function, const float* a, const float* b, float* out, s
 
 }  // namespace
 
-const ElementaryKernels elementary_kernels = {.evaluate = evaluate};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const ElementaryKernels PerIsa<ElementaryKernels>::scalar = {.evaluate = scalar::evaluate};
+
+}  // namespace zoneplate

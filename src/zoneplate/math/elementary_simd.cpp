@@ -1,6 +1,7 @@
 #include "zoneplate/math/elementary_simd.h"
 
 #include "zoneplate/math/elementary_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -35,14 +36,10 @@ HWY_INLINE hn::Vec<D> evaluate_vector(D d, Elementary function, const float* a, 
 }
 
 void evaluate(Elementary function, const float* a, const float* b, float* out, std::size_t n) {
-  const hn::CappedTag<float, 8> wide;
-  const hn::CappedTag<float, 1> one;
-  const std::size_t lanes = hn::Lanes(wide);
   const bool has_two = function == Elementary::Pow || function == Elementary::Atan2;
   const auto second = [&](std::size_t i) { return has_two ? b + i : nullptr; };
-  std::size_t i = 0;
-  for (; i + lanes <= n; i += lanes) hn::StoreU(evaluate_vector(wide, function, a + i, second(i)), wide, out + i);
-  for (; i < n; ++i) hn::StoreU(evaluate_vector(one, function, a + i, second(i)), one, out + i);
+  for_lanes(n, [&](auto d, std::size_t i)
+                   HWY_ATTR { hn::StoreU(evaluate_vector(d, function, a + i, second(i)), d, out + i); });
 }
 
 }  // namespace
@@ -51,5 +48,6 @@ void evaluate(Elementary function, const float* a, const float* b, float* out, s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const ElementaryKernels ElementaryKernels::HWY_NAMESPACE = {.evaluate = HWY_NAMESPACE::evaluate};
+template <>
+const ElementaryKernels PerIsa<ElementaryKernels>::HWY_NAMESPACE = {.evaluate = HWY_NAMESPACE::evaluate};
 }  // namespace zoneplate

@@ -195,11 +195,11 @@ TEST(Elementary, EveryInstructionSetGivesTheSameBits) {
   std::vector<float> b = arguments(8);
   std::swap(b.front(), b.back());
   for (const Isa isa : supported_isas()) {
-    const ElementaryKernels& kernels = pick(isa, scalar::elementary_kernels);
+    const ElementaryKernels& kernels = ElementaryKernels::of(isa);
     for (int f = 0; f <= static_cast<int>(Elementary::Asin); ++f) {
       const auto function = static_cast<Elementary>(f);
       std::vector<float> wanted(a.size()), found(a.size());
-      scalar::elementary_kernels.evaluate(function, a.data(), b.data(), wanted.data(), a.size());
+      ElementaryKernels::scalar.evaluate(function, a.data(), b.data(), wanted.data(), a.size());
       kernels.evaluate(function, a.data(), b.data(), found.data(), a.size());
       std::size_t different = 0;
       for (std::size_t i = 0; i < a.size(); ++i) {

@@ -125,7 +125,7 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
 std::vector<Choice> default_choices(std::span<const Metric> catalogue) {
   std::vector<Choice> choices;
   for (const Metric& metric : catalogue) {
-    if (metric.is_default) choices.push_back({&metric, Settings(metric.name, metric.params)});
+    if (metric.is_default) choices.push_back({&metric, Settings(metric.params)});
   }
   return choices;
 }

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/spec.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::metrics {
@@ -18,29 +18,6 @@ enum class Better { Lower, Higher };
 enum class Sizes {
   Same,              ///< equal
   ReferenceMultiple  ///< the reference is n × n times as large, n = 1, 2, 3, ...
-};
-
-/// One parameter of a metric: a number in [low, high], or one of `choices` where there are any.
-struct Param {
-  std::string_view name, meaning;
-  double value = 0, low = 0, high = 0;
-  std::span<const double> choices = {};
-};
-
-/// The values of a parameter, for help and errors: "1 to 1000", "601 or 709".
-std::string values_of(const Param& param);
-
-/// The values that a user gave to a metric's parameters, the others at their defaults.
-class Settings {
- public:
-  /// Parses `ppd=30,distance=2`. Errors: ErrorKind::Usage naming an unknown parameter or a value out of range.
-  Settings(std::string_view metric, std::span<const Param> params, std::string_view text = {});
-
-  double number(std::string_view name) const;
-
- private:
-  std::span<const Param> params_;
-  std::vector<double> values_;
 };
 
 /// A number beside a metric's own.
@@ -95,7 +72,7 @@ struct Choice {
 
 /// Reads a text such as `flip:ppd=30`.
 ///
-/// Errors    ErrorKind::Usage naming an unknown metric, parameter or value, and what there is.
+/// Errors    ErrorKind::Usage naming an unknown metric, parameter or value, and the closest or what there is.
 Choice choose_metric(std::span<const Metric> catalogue, std::string_view text);
 
 }  // namespace zoneplate::metrics

@@ -28,12 +28,13 @@ TEST(ChooseMetric, ReadsParameters) {
 }
 
 TEST(ChooseMetric, SaysWhatThereIs) {
-  EXPECT_EQ(message_of("mse:n=3"), "metric mse: unknown parameter n; there is: none");
-  EXPECT_EQ(message_of("flip:pd=3"), "metric flip: unknown parameter pd; there is: ppd");
-  EXPECT_EQ(message_of("flip:ppd=0"), "metric flip: ppd=0: wants a number from 1 to 1000");
-  EXPECT_EQ(message_of("flip:ppd=x"), "metric flip: ppd=x: wants a number from 1 to 1000");
-  EXPECT_EQ(message_of("flip:ppd"), "metric flip: ppd=: wants a number from 1 to 1000");
-  EXPECT_EQ(message_of("flop").find("unknown metric flop; there is: mse, mae,"), 0u);
+  EXPECT_EQ(message_of("mse:n=3"), "metric mse: unknown parameter 'n'; it has none");
+  EXPECT_EQ(message_of("flip:pd=3"), "metric flip: unknown parameter 'pd'; did you mean 'ppd'?");
+  EXPECT_EQ(message_of("flip:ppd=0"), "metric flip: ppd is '0', wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd=x"), "metric flip: ppd is 'x', wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd"), "metric flip: ppd is '', wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flop"), "unknown metric 'flop'; did you mean 'flip'?");
+  EXPECT_EQ(message_of("butteraugli").find("unknown metric 'butteraugli'; there are mse, mae,"), 0u);
 }
 
 TEST(Pooling, MeanAndRootMeanSquare) {

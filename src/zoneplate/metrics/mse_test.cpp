@@ -90,7 +90,7 @@ TEST(EveryMetric, APictureIsPerfectlyLikeItself) {
   const std::vector<Picture> twice = {picture, picture};
   for (const Metric& metric : metrics()) {
     const auto frames = std::span(twice).first(std::min<std::size_t>(2, static_cast<std::size_t>(metric.frames)));
-    const auto score = metric.measure(frames, frames, Settings(metric.name, metric.params));
+    const auto score = metric.measure(frames, frames, Settings(metric.params));
     if (!metric.perfect) continue;
     ASSERT_TRUE(score) << metric.name;
     EXPECT_EQ(score->value, *metric.perfect) << metric.name;
@@ -116,8 +116,7 @@ TEST(EveryMetric, HasTheSameBitsOnAnyNumberOfThreads) {
       std::optional<Score> score;
       with_threads(threads, [&] {
         const auto frames = std::min<std::size_t>(2, static_cast<std::size_t>(metric.frames));
-        score = metric.measure(std::span(a).first(frames), std::span(b).first(frames),
-                               Settings(metric.name, metric.params));
+        score = metric.measure(std::span(a).first(frames), std::span(b).first(frames), Settings(metric.params));
       });
       return score;
     };

@@ -20,7 +20,7 @@ double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayIma
 }
 
 Metric psnr_luma() {
-  static constexpr double standards[] = {601, 709};
+  static constexpr int standards[] = {601, 709};
   static constexpr Param params[] = {
       {.name = "rec", .meaning = "luma weights of ITU-R BT.601 or BT.709", .value = 709, .choices = standards}};
   return {.name = "psnr_luma",

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/spec.h"
 #include "zoneplate/raster/types/target.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/signal/samples.h"
@@ -91,36 +90,6 @@ class Resolver {
   virtual DisplayImage post_process(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
 };
 
-/// One parameter of a method: a whole number in [low, high] (or one of `choices` where there are any), a number with
-/// `decimals` and then held as a whole number of the last of them (1.5 with two is 150), or a name out of `names`.
-struct Param {
-  std::string_view name, meaning;
-  int value = 0, low = 0, high = 0;
-  std::span<const int> choices = {};
-  std::span<const std::string_view> names = {};  ///< where not empty, the value is a name; the default is names[value]
-  int decimals = 0;
-};
-
-/// The values that a user gave to a method's parameters, the others at their defaults.
-class Settings {
- public:
-  /// Parses `n=4,pattern=halton`. Errors: ErrorKind::Usage naming an unknown parameter or a value out of range.
-  Settings(std::string_view method, std::span<const Param> params, std::string_view text);
-
-  int integer(std::string_view name) const;
-  double number(std::string_view name) const;
-  std::string_view chosen(std::string_view name) const;
-  bool is_given(std::string_view name) const;
-
- private:
-  struct Value {
-    int number = 0;
-    bool given = false;
-  };
-  std::span<const Param> params_;
-  std::map<std::string_view, Value> values_;
-};
-
 /// A row of the catalogue; each method's file makes its own.
 struct Method {
   std::string_view name, summary, source;
@@ -130,12 +99,6 @@ struct Method {
   bool is_reference = false;                        ///< what others are measured against: not one of `compare --aa all`
   bool is_specification_only = false;  ///< held to its text alone: there was no other implementation to compare with
 };
-
-/// A parameter's value as it is written: 150 of two decimals is "1.5".
-std::string shown_value(const Param& param, int value);
-
-/// The name nearest to `word` by edit distance, or empty if none is near; for "did you mean".
-std::string_view closest(std::string_view word, std::span<const std::string_view> names);
 
 /// Makes the resolver of a text such as `msaa:n=4` from a catalogue.
 ///

@@ -48,7 +48,7 @@ struct RenderOptions {
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
-  Isa isa = best_isa();
+  Isa isa = current_isa();
   RasterRoom room;             ///< memory for time; no bit of a picture depends on it
   DisplayOptions display;      ///< from linear light to display-referred colour
   std::optional<Moment> last;  ///< what Frame::motion is counted from; none: nothing moves

@@ -37,39 +37,27 @@ double small_cos(double t) {
   return 1 - (0.5 * u - u * u * c);
 }
 
-// The point at angle quadrant · π/2 + t, for |t| <= π/4.
-SinCos turned(std::uint64_t quadrant, double t) {
-  const double s = small_sin(t), c = small_cos(t);
-  switch (quadrant & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
-}
+/// The sine and cosine at angle quadrant · π/2 + t, for |t| <= π/4.
+SineCosine turned(std::uint64_t quadrant, double t) { return turned(quadrant, SineCosine{small_sin(t), small_cos(t)}); }
 
 constexpr double ln2_high = 0x1.62e42fefa0000p-1;  // ln 2 to 33 bits, so that k · ln2_high is exact
 constexpr double ln2_low = 0x1.cf79abc9e3b39p-40;
 
 }  // namespace
 
-SinCos sin_cos_pi(double x) {
+SineCosine sin_cos_pi(double x) {
   // The sign of x is set aside, so that the sine is odd and the cosine even to the bit.
   const double a = std::abs(x);
   if (!(a < 0x1p52)) return {0, 1};
   const double quarter = std::floor(2 * a + 0.5);
-  const SinCos p = turned(static_cast<std::uint64_t>(quarter), pi * (a - 0.5 * quarter));
-  return {x < 0 ? -p.sin : p.sin, p.cos};
+  const SineCosine p = turned(static_cast<std::uint64_t>(quarter), pi * (a - 0.5 * quarter));
+  return {x < 0 ? -p.sine : p.sine, p.cosine};
 }
 
-double sin_pi(double x) { return sin_cos_pi(x).sin; }
-double cos_pi(double x) { return sin_cos_pi(x).cos; }
+double sin_pi(double x) { return sin_cos_pi(x).sine; }
+double cos_pi(double x) { return sin_cos_pi(x).cosine; }
 
-SinCos unit_root(std::uint64_t k, std::uint64_t n) {
+SineCosine unit_root(std::uint64_t k, std::uint64_t n) {
   assert(k < n && n < (std::uint64_t{1} << 60));
   // The angle is (quadrant + r / n) · π/2 with |r| <= n / 2.
   const std::uint64_t quadrant = (4 * k + n / 2) / n;

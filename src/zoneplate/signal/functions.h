@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "zoneplate/math/angle.h"
+
 namespace zoneplate {
 
 /// Elementary functions in double precision for filters and transforms.
@@ -10,19 +12,15 @@ namespace zoneplate {
 ///           the C library does not give (its sin has variants per processor). Within 4 units in the last place of
 ///           the result unless a function says otherwise.
 
-struct SinCos {
-  double sin = 0, cos = 1;
-};
-
 /// sin(πx) and cos(πx); exact zeros and ones at multiples of ½.
-SinCos sin_cos_pi(double x);
+SineCosine sin_cos_pi(double x);
 double sin_pi(double x);
 double cos_pi(double x);
 
 /// cos(2πk / n) and sin(2πk / n); the angle is reduced in integers, so that great k lose nothing.
 ///
 /// Requires  0 <= k < n < 2^60.
-SinCos unit_root(std::uint64_t k, std::uint64_t n);
+SineCosine unit_root(std::uint64_t k, std::uint64_t n);
 
 /// sin(πx) / (πx), 1 at 0.
 double sinc(double x);

@@ -28,14 +28,14 @@ TEST(Functions, SinAndCosAgreeWithLongDouble) {
 TEST(Functions, UnitRootsAgreeWithLongDoubleAndAreExactAtTheAxes) {
   for (std::uint64_t n : {1u, 2u, 3u, 4u, 7u, 8u, 12u, 97u, 1000u, 4096u})
     for (std::uint64_t k = 0; k < n; ++k) {
-      const SinCos w = unit_root(k, n);
+      const SineCosine w = unit_root(k, n);
       const long double a = 2 * pi_l * static_cast<long double>(k) / static_cast<long double>(n);
-      EXPECT_NEAR(w.cos, static_cast<double>(std::cos(a)), 2.3e-16);
-      EXPECT_NEAR(w.sin, static_cast<double>(std::sin(a)), 2.3e-16);
+      EXPECT_NEAR(w.cosine, static_cast<double>(std::cos(a)), 2.3e-16);
+      EXPECT_NEAR(w.sine, static_cast<double>(std::sin(a)), 2.3e-16);
     }
-  EXPECT_EQ(unit_root(1, 4).sin, 1.0);
-  EXPECT_EQ(unit_root(1, 4).cos, 0.0);
-  EXPECT_EQ(unit_root(2, 4).cos, -1.0);
+  EXPECT_EQ(unit_root(1, 4).sine, 1.0);
+  EXPECT_EQ(unit_root(1, 4).cosine, 0.0);
+  EXPECT_EQ(unit_root(2, 4).cosine, -1.0);
 }
 
 TEST(Functions, ExpLogAngleErfAndBesselAgreeWithTheLibrary) {

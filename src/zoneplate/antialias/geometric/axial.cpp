@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
@@ -171,8 +171,6 @@ constexpr Param params[] = {
 constexpr std::string_view variants[] = {"edges=triangles"};
 
 }  // namespace
-
-Method axial();
 
 Method axial() {
   return {.name = "axial",

@@ -16,8 +16,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/post/codes.h"
-#include "zoneplate/render/method.h"
+#include "zoneplate/antialias/geometric/color_then_data.h"
+#include "zoneplate/antialias/post/encoded.h"
 
 namespace zoneplate::antialias {
 
@@ -51,50 +51,33 @@ Step step_of(float offset) {
   return offset >= 0 ? Step{1, 0.5f - offset} : Step{-1, 0.5f + offset};
 }
 
-class Gbaa : public Resolver {
- public:
-  Request request(const FrameContext&) override {
-    color_ = {};
-    Request request;
-    request.halo = 1;
-    return request;
-  }
-  /// The picture first, then the distances.
-  std::optional<Request> refine(Frame& frame) override {
-    if (!color_.empty()) return std::nullopt;
-    color_ = std::move(frame.color);
+/// At most one axis has an edge. Beyond the picture's sides its outermost pixels go on.
+Linear mixed_pixel(const LinearImage& color, const Plane<float2>& distance, int x, int y) {
+  const float2 offset = gbaa_offset(distance, x, y);
+  const Step across = step_of(offset.x), down = step_of(offset.y);
+  const float share = across.share + down.share;
+  if (share == 0) return color(x, y);
+  const Linear& other =
+      color(std::clamp(x + across.towards, 0, color.width() - 1), std::clamp(y + down.towards, 0, color.height() - 1));
+  return color(x, y) * (1 - share) + other * share;
+}
+
+class Gbaa : public ColorThenData {
+  Request data_request() const override {
     Request request;
     request.content = Content::EdgeDistances;
-    request.halo = 1;
     return request;
   }
-  LinearImage resolve(Frame& frame) override {
-    if (color_.empty()) return std::move(frame.color);
-    LinearImage out(color_.width(), color_.height());
+  LinearImage combined(const LinearImage& color, const Frame& data) const override {
+    LinearImage out(color.width(), color.height());
     for_rows(out.height(), [&](int y) {
-      for (int x = 0; x < out.width(); ++x) out(x, y) = pixel(frame.edge_distance, x, y);
+      for (int x = 0; x < out.width(); ++x) out(x, y) = mixed_pixel(color, data.edge_distance, x, y);
     });
     return out;
   }
-
- private:
-  /// At most one axis has an edge. Beyond the picture's sides its outermost pixels go on.
-  Linear pixel(const Plane<float2>& distance, int x, int y) const {
-    const float2 offset = gbaa_offset(distance, x, y);
-    const Step across = step_of(offset.x), down = step_of(offset.y);
-    const float share = across.share + down.share;
-    if (share == 0) return color_(x, y);
-    const Linear& other = color_(std::clamp(x + across.towards, 0, color_.width() - 1),
-                                 std::clamp(y + down.towards, 0, color_.height() - 1));
-    return color_(x, y) * (1 - share) + other * share;
-  }
-
-  LinearImage color_;
 };
 
 }  // namespace
-
-Method gbaa();
 
 Method gbaa() {
   return {.name = "gbaa",

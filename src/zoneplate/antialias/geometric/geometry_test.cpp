@@ -278,7 +278,7 @@ TEST(Sraa, KernelsAddWhatTheirTwinsAdd) {
   };
   for (const Isa isa : supported_isas())
     for (std::size_t count = 0; count <= n; count += count < 20 ? 1 : 37)
-      ASSERT_EQ(added(pick(isa, scalar::sraa_kernels), count), added(scalar::sraa_kernels, count)) << name_of(isa);
+      ASSERT_EQ(added(SraaKernels::of(isa), count), added(SraaKernels::scalar, count)) << name_of(isa);
 }
 
 TEST(GeometryMethods, ShadeOnceAPixel) {

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/post/codes.h"
-#include "zoneplate/render/method.h"
+#include "zoneplate/antialias/geometric/color_then_data.h"
+#include "zoneplate/antialias/post/encoded.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -72,43 +72,32 @@ class Reconstruction {
   const Frame& frame_;
 };
 
-class IdSraa : public Resolver {
+class IdSraa : public ColorThenData {
  public:
   explicit IdSraa(int samples) {
     pattern_ = {SamplePosition{}};
     for (const SamplePosition p : standard_pattern(samples)) pattern_.push_back(p);
   }
-  Request request(const FrameContext&) override {
-    color_ = {};
-    Request request;
-    request.halo = 1;
-    return request;
-  }
-  /// The picture first, then the triangles.
-  std::optional<Request> refine(Frame& frame) override {
-    if (!color_.empty()) return std::nullopt;
-    color_ = std::move(frame.color);
+
+ private:
+  Request data_request() const override {
     Request request;
     request.samples = pattern_;
     request.content = Content::Visibility;
     request.planes.samples = true;
     request.centroid = Centroid::First;  // alpha of masked surfaces at the pixel's centre where the triangle is there
-    request.halo = 1;
     return request;
   }
-  LinearImage resolve(Frame& frame) override {
-    if (color_.empty()) return std::move(frame.color);
-    const Reconstruction reconstruction(color_, frame);
-    LinearImage out(color_.width(), color_.height());
+  LinearImage combined(const LinearImage& color, const Frame& data) const override {
+    const Reconstruction reconstruction(color, data);
+    LinearImage out(color.width(), color.height());
     for_rows(out.height(), [&](int y) {
       for (int x = 0; x < out.width(); ++x) out(x, y) = reconstruction.pixel(x, y);
     });
     return out;
   }
 
- private:
   SamplePattern pattern_;
-  LinearImage color_;
 };
 
 constexpr int counts[] = {2, 4, 8, 16};
@@ -120,8 +109,6 @@ constexpr Param params[] = {{.name = "n",
 constexpr std::string_view variants[] = {"n=4"};
 
 }  // namespace
-
-Method idsraa();
 
 Method idsraa() {
   return {

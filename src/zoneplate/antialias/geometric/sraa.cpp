@@ -16,9 +16,9 @@
 #include <optional>
 #include <span>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/geometric/color_then_data.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/math/elementary.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -44,9 +44,10 @@ void add(const float* sample, const float* centre, const float* color, const Bil
 
 }  // namespace
 
-const SraaKernels sraa_kernels = {.add = add};
-
 }  // namespace scalar
+
+template <>
+const SraaKernels PerIsa<SraaKernels>::scalar = {.add = scalar::add};
 
 namespace antialias {
 namespace {
@@ -80,7 +81,7 @@ class Reconstruction {
       : color_(color),
         geometry_(geometry),
         scales_(bilateral.scales),
-        kernels_(pick(best_isa(), scalar::sraa_kernels)),
+        kernels_(SraaKernels::of()),
         all_around_(offsets_around({}, 1.5)) {
     for (const SamplePosition sample : pattern) around_.push_back(offsets_around(sample, bilateral.radius));
   }
@@ -130,38 +131,26 @@ class Reconstruction {
   std::vector<std::vector<Offset>> around_;  ///< by sample of the pattern
 };
 
-class Sraa : public Resolver {
+class Sraa : public ColorThenData {
  public:
   Sraa(int samples, Bilateral bilateral) : pattern_(standard_pattern(samples)), bilateral_(bilateral) {}
 
-  Request request(const FrameContext&) override {
-    color_ = {};
-    Request request;
-    request.halo = 1;
-    return request;
-  }
-  /// The picture first, then the geometry.
-  std::optional<Request> refine(Frame& frame) override {
-    if (!color_.empty()) return std::nullopt;
-    color_ = std::move(frame.color);
+ private:
+  Request data_request() const override {
     Request request;
     request.content = Content::Geometry;
     request.samples.insert(request.samples.end(), pattern_.begin(), pattern_.end());
-    request.halo = 1;
     return request;
   }
-  LinearImage resolve(Frame& frame) override {
-    if (color_.empty()) return std::move(frame.color);
-    const Reconstruction reconstruction(color_, frame.sample_geometry, pattern_, bilateral_);
-    LinearImage out(color_.width(), color_.height(), Linear{0, 0, 0, 0});
+  LinearImage combined(const LinearImage& color, const Frame& data) const override {
+    const Reconstruction reconstruction(color, data.sample_geometry, pattern_, bilateral_);
+    LinearImage out(color.width(), color.height(), Linear{0, 0, 0, 0});
     for_rows(out.height(), [&](int y) { reconstruction.row(y, out.row(y)); });
     return out;
   }
 
- private:
   SamplePattern pattern_;
   Bilateral bilateral_;
-  LinearImage color_;
 };
 
 constexpr int counts[] = {2, 4, 8, 16};
@@ -171,16 +160,14 @@ constexpr Param params[] = {
     {.name = "depth", .meaning = "weight of depths against normals", .value = 10, .low = 0, .high = 10000},
     {.name = "radius",
      .meaning = "pixels from a sample to the shaded centres that count",
-     .value = 100,
-     .low = 75,
-     .high = 150,
+     .value = 1,
+     .low = 0.75,
+     .high = 1.5,
      .decimals = 2}};
 
 constexpr std::string_view variants[] = {"n=8"};
 
 }  // namespace
-
-Method sraa();
 
 Method sraa() {
   return {.name = "sraa",

@@ -11,19 +11,13 @@ struct BilateralScales {
   float scale, depth;
 };
 
-struct SraaKernels {
+struct SraaKernels : PerIsa<SraaKernels> {
   /// Adds what n shaded pixels say of n samples: their colours times their weights, and the weights alone.
   ///
   /// Shape     four floats a pixel, but one of `weight`: geometry as in Frame::sample_geometry, colours r, g, b, a.
   /// Edges     where nothing is at both places the weight is 1, where at one of them 0.
   void (*add)(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
               float* weight, std::size_t n);
-
-  static const SraaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const SraaKernels sraa_kernels;
-}
 
 }  // namespace zoneplate

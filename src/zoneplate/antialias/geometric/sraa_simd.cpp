@@ -48,7 +48,7 @@ HWY_INLINE void add_some(D d, const float* sample, const float* centre, const fl
 
 void add(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
          float* weight, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { add_some(d, sample, centre, color, scales, sum, weight, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { add_some(d, sample, centre, color, scales, sum, weight, i); });
 }
 
 }  // namespace
@@ -56,5 +56,6 @@ void add(const float* sample, const float* centre, const float* color, const Bil
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SraaKernels SraaKernels::HWY_NAMESPACE = {.add = HWY_NAMESPACE::add};
+template <>
+const SraaKernels PerIsa<SraaKernels>::HWY_NAMESPACE = {.add = HWY_NAMESPACE::add};
 }  // namespace zoneplate

@@ -24,6 +24,6 @@ class DisplayLight {
 };
 
 /// The picture of light that is tone mapped already.
-DisplayImage display_shown_light(const LinearImage& image, DisplayOptions options);
+DisplayImage encode_display_light(const LinearImage& image, DisplayOptions options);
 
 }  // namespace zoneplate::antialias

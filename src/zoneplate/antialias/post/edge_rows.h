@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "zoneplate/antialias/post/bordered.h"
-#include "zoneplate/antialias/post/codes.h"
 #include "zoneplate/antialias/post/edge_stencil.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/row_window.h"
 #include "zoneplate/base/parallel.h"
 

@@ -9,11 +9,19 @@ namespace {
 
 void copy(const std::uint8_t* from, std::uint8_t* to, std::size_t n) { std::memcpy(to, from, n); }
 
+void luma(const std::uint8_t* rgba, float* out, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
+    out[i] = 2126 * r + 7152 * g + 722 * b;
+  }
+}
+
 }  // namespace
 
-const RowKernels row_kernels = {.copy = copy, .stream = copy};
-
 }  // namespace scalar
+
+template <>
+const RowKernels PerIsa<RowKernels>::scalar = {.copy = scalar::copy, .stream = scalar::copy, .luma = scalar::luma};
 
 namespace antialias {
 namespace {
@@ -23,8 +31,8 @@ constexpr std::size_t least_streamed = 8 << 20;
 
 }  // namespace
 
-ResultRow::ResultRow(const Rgba8Image& from, Rgba8Image& to, Isa isa)
-    : from_(from), to_(to), kernels_(pick(isa, scalar::row_kernels)), values_(static_cast<std::size_t>(from.width())) {
+ResultRow::ResultRow(const Rgba8Image& from, Rgba8Image& to)
+    : from_(from), to_(to), kernels_(RowKernels::of()), values_(static_cast<std::size_t>(from.width())) {
   assert(to.width() == from.width() && to.height() == from.height());
 }
 

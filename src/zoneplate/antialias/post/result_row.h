@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "zoneplate/antialias/post/row_kernels.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -16,7 +15,7 @@ namespace zoneplate::antialias {
 /// Cost      a large result goes past the caches, which would not keep it anyway.
 class ResultRow {
  public:
-  ResultRow(const Rgba8Image& from, Rgba8Image& to, Isa isa = best_isa());
+  ResultRow(const Rgba8Image& from, Rgba8Image& to);
 
   std::span<Rgba8> begin(int y);
   void end();

@@ -11,7 +11,7 @@ TEST(ResultRow, KernelsCopyEveryByteAndNoOther) {
   std::vector<std::uint8_t> from(300);
   for (std::uint32_t i = 0; i < from.size(); ++i) from[i] = static_cast<std::uint8_t>(hash(i) | 1);
   for (const Isa isa : supported_isas()) {
-    const RowKernels& kernels = pick(isa, scalar::row_kernels);
+    const RowKernels& kernels = RowKernels::of(isa);
     for (const auto copy : {kernels.copy, kernels.stream})
       for (std::size_t n = 0; n <= 200; ++n) {
         const std::size_t at = n % 37;
@@ -33,8 +33,10 @@ TEST(ResultRow, ResultsOfAnySizeGetWhatTheRowHolds) {
     for (int y = 0; y < height; ++y) expected(y % width, y) = {1, 2, 3, 4};
     for (const Isa isa : supported_isas()) {
       Rgba8Image out(width, height);
-      ResultRow row(image, out, isa);
-      for (int y = 0; y < height; ++y) row.begin(y)[static_cast<std::size_t>(y % width)] = {1, 2, 3, 4}, row.end();
+      with_isa(isa, [&] {
+        ResultRow row(image, out);
+        for (int y = 0; y < height; ++y) row.begin(y)[static_cast<std::size_t>(y % width)] = {1, 2, 3, 4}, row.end();
+      });
       ASSERT_EQ(out, expected) << name_of(isa);
     }
   }

@@ -3,6 +3,7 @@
 #include <hwy/cache_control.h>
 
 #include "zoneplate/antialias/post/row_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -28,11 +29,31 @@ void stream(const std::uint8_t* from, std::uint8_t* to, std::size_t n) {
   hwy::FlushStream();
 }
 
+// Every product and sum is a whole number below 2^24, so that floats are exact.
+template <class D>
+HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_t i) {
+  const hn::RebindToSigned<D> di;
+  const hn::Repartition<std::uint8_t, D> bytes;
+  const auto pixels = hn::BitCast(di, hn::LoadU(bytes, rgba + 4 * i));
+  const auto mask = hn::Set(di, 255);
+  const auto r = hn::ConvertTo(d, hn::And(pixels, mask));
+  const auto g = hn::ConvertTo(d, hn::And(hn::ShiftRight<8>(pixels), mask));
+  const auto b = hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(pixels), mask));
+  const auto rg = hn::Add(hn::Mul(r, hn::Set(d, 2126.0f)), hn::Mul(g, hn::Set(d, 7152.0f)));
+  hn::StoreU(hn::Add(rg, hn::Mul(b, hn::Set(d, 722.0f))), d, luma + i);
+}
+
+void luma(const std::uint8_t* rgba, float* out, std::size_t n) {
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_some(d, rgba, out, i); });
+}
+
 }  // namespace
 
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const RowKernels RowKernels::HWY_NAMESPACE = {.copy = HWY_NAMESPACE::copy, .stream = HWY_NAMESPACE::stream};
+template <>
+const RowKernels PerIsa<RowKernels>::HWY_NAMESPACE = {
+    .copy = HWY_NAMESPACE::copy, .stream = HWY_NAMESPACE::stream, .luma = HWY_NAMESPACE::luma};
 }  // namespace zoneplate

@@ -8,7 +8,7 @@
 // (max - min) / (max + min) of a colour, against 0.4 for red, 0.3 for green, 0.6 for blue.
 #include <algorithm>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
@@ -93,8 +93,6 @@ constexpr Param params[] = {{.name = "n",
 constexpr std::string_view variants[] = {"n=8", "n=4,contrast=100"};
 
 }  // namespace
-
-Method adaptive();
 
 Method adaptive() {
   return {.name = "adaptive",

@@ -45,8 +45,6 @@ constexpr std::string_view variants[] = {"n=8,slots=2", "n=16,slots=4"};
 
 }  // namespace
 
-Method csaa();
-
 Method csaa() {
   return {.name = "csaa",
           .summary = "coverage at many samples, colours of few surfaces (CSAA, EQAA)",

@@ -12,15 +12,10 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/coverage/coverage.h"
 #include "zoneplate/raster/geometry/bin.h"
+#include "zoneplate/raster/tile/visibility.h"
 
 namespace zoneplate::antialias {
 namespace {
-
-/// A cache line, which kernels want their planes to begin with.
-template <class T>
-struct alignas(64) Line {
-  T values[64 / sizeof(T)];
-};
 
 /// What the tiles made of all samples.
 struct Sampled {
@@ -36,19 +31,12 @@ class TileHistory {
         target_(target),
         sampled_(sampled),
         slots_(slots),
-        coverage_(coverage_kernels(isa)),
+        coverage_(CoverageKernels::of(isa)),
         count_(static_cast<int>(target.samples.size())),
         all_((1u << target.samples.size()) - 1),
-        depth_lines_(target.samples.size() * tile_pixels / std::size(Line<float>{}.values)),
-        id_lines_(target.samples.size() * tile_pixels / std::size(Line<std::int32_t>{}.values)),
-        depth_(depth_lines_[0].values),
-        id_(id_lines_[0].values),
+        visibility_(count_),
         fragments_(tile_pixels) {
-    visibility_ = {.sample_count = count_,
-                   .depth = depth_,
-                   .id = id_,
-                   .block_min_depth = block_min_depth_,
-                   .block_primitive = block_primitive_};
+    visibility_.sample_count = count_;
   }
 
   void find(std::size_t tile, Plane<std::uint16_t>& known) {
@@ -112,8 +100,10 @@ class TileHistory {
   }
 
   bool wins(std::uint32_t at, float depth, std::int32_t id) {
-    if (depth < depth_[at] || (depth == depth_[at] && id >= id_[at])) return false;
-    depth_[at] = depth, id_[at] = id;
+    float& nearest = visibility_.depth[at];
+    std::int32_t& owner = visibility_.id[at];
+    if (depth < nearest || (depth == nearest && id >= owner)) return false;
+    nearest = depth, owner = id;
     return true;
   }
 
@@ -134,13 +124,7 @@ class TileHistory {
   const CoverageKernels& coverage_;
   const int count_;
   const std::uint32_t all_;
-  std::vector<Line<float>> depth_lines_;
-  std::vector<Line<std::int32_t>> id_lines_;
-  float* depth_;  ///< by sample and pixel, as in TileVisibility
-  std::int32_t* id_;
-  float block_min_depth_[TileVisibility::blocks];
-  std::int32_t block_primitive_[TileVisibility::blocks];
-  TileVisibility visibility_;
+  VisibilityBuffer visibility_;
   std::vector<CoveredPixel> fragments_;
   TileTriangle tile_triangle_;
   int x_ = 0, y_ = 0;  ///< the tile's first pixel
@@ -153,12 +137,9 @@ Plane<std::uint16_t> known_samples(const Bins& bins, const Target& target, const
                                    Isa isa) {
   Plane<std::uint16_t> known(target.width, target.height,
                              static_cast<std::uint16_t>((1u << target.samples.size()) - 1));
-  std::vector<std::unique_ptr<TileHistory>> histories(static_cast<std::size_t>(thread_limit()));
-  parallel_for(bins.tiles(), [&](std::size_t tile) {
-    std::unique_ptr<TileHistory>& mine = histories[static_cast<std::size_t>(thread_index())];
-    if (!mine) mine = std::make_unique<TileHistory>(bins, target, sampled, slots, isa);
-    mine->find(tile, known);
-  });
+  PerThread<TileHistory> histories;
+  parallel_for(bins.tiles(),
+               [&](std::size_t tile) { histories.local(bins, target, sampled, slots, isa).find(tile, known); });
   return known;
 }
 

@@ -7,7 +7,7 @@
 // Source: Akenine-Möller, An Extremely Inexpensive Multisampling Scheme, Chalmers 2003 (after his FLIPQUAD of 2002);
 // the places on the sides are those of the rotated grid, 3/8 and 5/8. The renderer, whose pixels are all alike, is
 // asked for both mirror images on the upper and the left side, and one of them is taken.
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
@@ -50,8 +50,6 @@ class FlipQuad : public Resolver {
 };
 
 }  // namespace
-
-Method flipquad();
 
 Method flipquad() {
   return {.name = "flipquad",

@@ -9,7 +9,7 @@
 // every sample is shaded at the pixel's centre, another at the mean of its samples (centroid sampling:
 // raster/coverage/centroid.h has this and other rules), so that a plane looks the same however many triangles it is
 // made of. Sharpened alpha: Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
-#include "zoneplate/antialias/sampling/sample_gather.h"
+#include "zoneplate/antialias/sampling/sample_accumulator.h"
 #include "zoneplate/base/error.h"
 
 namespace zoneplate::antialias {
@@ -17,36 +17,36 @@ namespace {
 
 class Msaa : public Resolver {
  public:
-  Msaa(SamplePattern pattern, Gathering gathering, AlphaTest alpha, Centroid centroid)
+  Msaa(SamplePattern pattern, ResolveFilter filter, AlphaTest alpha, Centroid centroid)
       : pattern_(std::move(pattern)),
-        gathering_(std::move(gathering)),
-        gather_(gathering_),
+        filter_(std::move(filter)),
+        accumulator_(filter_),
         alpha_(alpha),
         centroid_(centroid) {}
   Request request(const FrameContext&) override {
     Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.alpha = alpha_;
     request.centroid = centroid_;
-    request.resolves_per_pixel = gathering_.is_plain();
-    request.planes.sample_colors = !gathering_.is_plain();
-    request.halo = gathering_.reach();
-    request.is_display_referred = gathering_.weight == SampleWeight::Display;
+    request.resolves_per_pixel = filter_.is_plain();
+    request.planes.sample_colors = !filter_.is_plain();
+    request.halo = filter_.reach();
+    request.is_display_referred = filter_.weight == SampleWeight::Display;
     return request;
   }
   LinearImage resolve(Frame& frame) override {
-    if (gathering_.is_plain()) return std::move(frame.color);
-    gather_ = SampleGather(gathering_);
-    gather_.add(frame, pattern_);
-    return gather_.light();
+    if (filter_.is_plain()) return std::move(frame.color);
+    accumulator_ = SampleAccumulator(filter_);
+    accumulator_.add(frame, pattern_);
+    return accumulator_.light();
   }
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
-    return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
+    return filter_.is_plain() ? image : accumulator_.display_referred(std::move(image), frame.display);
   }
 
  private:
   SamplePattern pattern_;
-  Gathering gathering_;
-  SampleGather gather_;
+  ResolveFilter filter_;
+  SampleAccumulator accumulator_;
   AlphaTest alpha_;
   Centroid centroid_;
 };
@@ -73,7 +73,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
   if (s.is_given("n") && s.is_given("grid"))
     throw Error(ErrorKind::Usage, "msaa: n and grid exclude each other: n is a standard pattern, grid a regular one");
   return std::make_unique<Msaa>(s.is_given("grid") ? grid_pattern(s.integer("grid")) : standard_pattern(s.integer("n")),
-                                gathering_of("msaa", s), static_cast<AlphaTest>(s.integer("alpha")),
+                                resolve_filter_of("msaa", s), static_cast<AlphaTest>(s.integer("alpha")),
                                 static_cast<Centroid>(s.integer("centroid")));
 }
 
@@ -90,8 +90,6 @@ constexpr std::string_view variants[] = {"n=2",
                                          "n=8,alpha=sharp"};
 
 }  // namespace
-
-Method msaa();
 
 Method msaa() {
   return {.name = "msaa",

@@ -11,8 +11,6 @@ class None : public Resolver {
 
 }  // namespace
 
-Method none();
-
 Method none() {
   return {.name = "none",
           .summary = "one sample at the pixel's centre",

@@ -4,7 +4,7 @@
 // soft. That is why it was given up.
 //
 // Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre counts ½, each corner ⅛.
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
@@ -38,8 +38,6 @@ class Quincunx : public Resolver {
 };
 
 }  // namespace
-
-Method quincunx();
 
 Method quincunx() {
   return {.name = "quincunx",

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/sampling/sample_gather.h"
+#include "zoneplate/antialias/sampling/sample_accumulator.h"
 #include "zoneplate/base/error.h"
 
 namespace zoneplate::antialias {
@@ -19,34 +19,34 @@ constexpr std::size_t samples_a_round = 16;  // so that no more of them need be 
 
 class Ssaa : public Resolver {
  public:
-  Ssaa(SamplePattern pattern, Gathering gathering)
-      : pattern_(std::move(pattern)), gathering_(std::move(gathering)), gather_(gathering_) {}
+  Ssaa(SamplePattern pattern, ResolveFilter filter)
+      : pattern_(std::move(pattern)), filter_(std::move(filter)), accumulator_(filter_) {}
 
   Request request(const FrameContext&) override {
-    if (gathering_.is_plain())
+    if (filter_.is_plain())
       return {.samples = pattern_,
               .rate = Rate::Sample,
               .weights = {},
               .planes = {},
               .pixel_mask = {},
               .resolves_per_pixel = true};
-    gather_ = SampleGather(gathering_);
+    accumulator_ = SampleAccumulator(filter_);
     taken_ = 0;
     return next_round();
   }
   std::optional<Request> refine(Frame& frame) override {
-    if (gathering_.is_plain()) return std::nullopt;
+    if (filter_.is_plain()) return std::nullopt;
     take(frame);
     if (taken_ == pattern_.size()) return std::nullopt;
     return next_round();
   }
   LinearImage resolve(Frame& frame) override {
-    if (gathering_.is_plain()) return std::move(frame.color);
-    if (gather_.is_empty()) take(frame);
-    return gather_.light();
+    if (filter_.is_plain()) return std::move(frame.color);
+    if (accumulator_.is_empty()) take(frame);
+    return accumulator_.light();
   }
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
-    return gathering_.is_plain() ? image : gather_.shown(std::move(image), frame.display);
+    return filter_.is_plain() ? image : accumulator_.display_referred(std::move(image), frame.display);
   }
 
  private:
@@ -58,19 +58,19 @@ class Ssaa : public Resolver {
     Request request{.samples = round(), .rate = Rate::Sample, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
-    request.halo = gathering_.reach();
-    request.is_display_referred = gathering_.weight == SampleWeight::Display;
+    request.halo = filter_.reach();
+    request.is_display_referred = filter_.weight == SampleWeight::Display;
     return request;
   }
   void take(const Frame& frame) {
     const SamplePattern own = round();
-    gather_.add(frame, own);
+    accumulator_.add(frame, own);
     taken_ += own.size();
   }
 
   SamplePattern pattern_;
-  Gathering gathering_;
-  SampleGather gather_;
+  ResolveFilter filter_;
+  SampleAccumulator accumulator_;
   std::size_t taken_ = 0;  // samples of the pattern that are in the sums
 };
 
@@ -88,7 +88,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
   if (s.is_given("n") && s.is_given("samples"))
     throw Error(ErrorKind::Usage, "ssaa: n and samples exclude each other: n=4 is samples=16");
   const int samples = s.is_given("samples") ? s.integer("samples") : s.integer("n") * s.integer("n");
-  return std::make_unique<Ssaa>(named_pattern(std::string(s.chosen("pattern")), samples), gathering_of("ssaa", s));
+  return std::make_unique<Ssaa>(named_pattern(std::string(s.chosen("pattern")), samples), resolve_filter_of("ssaa", s));
 }
 
 constexpr std::string_view variants[] = {"n=4",
@@ -101,8 +101,6 @@ constexpr std::string_view variants[] = {"n=4",
                                          "n=4,filter=mitchell"};
 
 }  // namespace
-
-Method ssaa();
 
 Method ssaa() {
   return {.name = "ssaa",

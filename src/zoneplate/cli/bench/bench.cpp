@@ -161,7 +161,7 @@ void run_bench(std::span<const std::string> arguments) {
       for (const int samples : counts) {
         BenchWork work = args.work;
         work.scene = scene, work.samples = samples;
-        const BenchTiming timing = time_frames(work);
+        const BenchTiming timing = with_isa(work.isa, [&] { return time_frames(work); });
         print(wants_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
       }
   });

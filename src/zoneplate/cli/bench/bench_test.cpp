@@ -76,8 +76,8 @@ TEST(LimitKernels, AllInstructionSetsSumTheSame) {
   }
   for (std::size_t i = 0; i < 320; ++i) sum += words[i], gathered += words[static_cast<std::size_t>(index[i])];
   for (const Isa isa : supported_isas()) {
-    EXPECT_EQ(limit_kernels(isa).sum(words.data(), 320), sum);
-    EXPECT_EQ(limit_kernels(isa).gather(words.data(), index.data(), 320), gathered);
+    EXPECT_EQ(LimitKernels::of(isa).sum(words.data(), 320), sum);
+    EXPECT_EQ(LimitKernels::of(isa).gather(words.data(), index.data(), 320), gathered);
   }
 }
 

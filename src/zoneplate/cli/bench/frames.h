@@ -13,7 +13,7 @@ struct BenchWork {
   int samples = 1;
   int2 size{1920, 1080};
   int anisotropy = 0;  ///< of base colours' filters; 0: the scene's own
-  Isa isa = best_isa();
+  Isa isa = current_isa();
   int frames = 30, warm_up = 2;
   double budget_ms = 4000;  ///< no new frame after this time; three are drawn in any case
 };

@@ -29,9 +29,14 @@ std::uint32_t gather(const std::uint32_t* table, const std::int32_t* index, std:
 
 }  // namespace
 
-const cli::LimitKernels limit_kernels = {.sum = sum, .gather = gather};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const cli::LimitKernels PerIsa<cli::LimitKernels>::scalar = {.sum = scalar::sum, .gather = scalar::gather};
+
+}  // namespace zoneplate
 
 namespace zoneplate::cli {
 namespace {
@@ -54,7 +59,7 @@ double gather_ns(std::size_t table_bytes, const std::uint32_t* table) {
   std::vector<std::int32_t> index(indices);
   for (std::uint32_t i = 0; i < indices; ++i)
     index[i] = static_cast<std::int32_t>(hash(i) % static_cast<std::uint32_t>(table_bytes / 4));
-  const LimitKernels& kernels = limit_kernels(best_isa());
+  const LimitKernels& kernels = LimitKernels::of();
   volatile std::uint32_t result = 0;
   return least_ms(15, [&] { result = kernels.gather(table, index.data(), indices); }) * 1e6 / (indices / 8);
 }
@@ -75,7 +80,7 @@ MachineLimits measure_limits() {
   const double gigabytes = static_cast<double>(share * threads) * 1e-9;
   out.write_gb_s = gigabytes / least_ms(5, on_all(share, [&](std::byte* p) { std::memset(p, 1, share); })) * 1e3;
   std::atomic<std::uint32_t> result = 0;  // so that nothing is left out; of all threads
-  const LimitKernels& kernels = limit_kernels(best_isa());
+  const LimitKernels& kernels = LimitKernels::of();
   out.read_gb_s = gigabytes * 1e3 / least_ms(5, on_all(share, [&](std::byte* p) {
                                                result =
                                                    kernels.sum(reinterpret_cast<const std::uint32_t*>(p), share / 4);

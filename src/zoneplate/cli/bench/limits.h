@@ -18,21 +18,11 @@ struct MachineLimits {
 /// The best of several turns each; some tenths of a second.
 MachineLimits measure_limits();
 
-struct LimitKernels {
+struct LimitKernels : PerIsa<LimitKernels> {
   /// The sum of n words. Requires: n a multiple of 32.
   std::uint32_t (*sum)(const std::uint32_t* words, std::size_t n);
   /// The sum of table[index[i]] for n indices. Requires: n a multiple of 32.
   std::uint32_t (*gather)(const std::uint32_t* table, const std::int32_t* index, std::size_t n);
-
-  static const LimitKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
 
-}  // namespace zoneplate::cli
-
-namespace zoneplate::scalar {
-extern const cli::LimitKernels limit_kernels;
-}
-
-namespace zoneplate::cli {
-inline const LimitKernels& limit_kernels(Isa isa) { return pick(isa, scalar::limit_kernels); }
 }  // namespace zoneplate::cli

@@ -48,5 +48,6 @@ std::uint32_t gather(const std::uint32_t* table, const std::int32_t* index, std:
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate::cli {
-const LimitKernels LimitKernels::HWY_NAMESPACE = {.sum = HWY_NAMESPACE::sum, .gather = HWY_NAMESPACE::gather};
+template <>
+const LimitKernels PerIsa<LimitKernels>::HWY_NAMESPACE = {.sum = HWY_NAMESPACE::sum, .gather = HWY_NAMESPACE::gather};
 }  // namespace zoneplate::cli

@@ -269,7 +269,8 @@ void run_compare(std::span<const std::string> arguments) {
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   Comparison made;
-  with_threads(args.render.threads, [&] { made = compare_all(args, options); });
+  with_isa(args.render.options.isa,
+           [&] { with_threads(args.render.threads, [&] { made = compare_all(args, options); }); });
   save_folder(args.render.output, made.files);  // without other threads, as it requires
   if (args.render.verbosity != Verbosity::Quiet || args.render.wants_json)
     print(args.render.wants_json ? made.json : made.text);

@@ -165,7 +165,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   expect("triangles --aa msaa:n=3 -o out", 2, "2, 4, 8, 16");
   expect("triangles --reference mssa -o out", 2, "did you mean 'msaa'?");
   expect("triangles --reference truth.png -o out", 3, "truth.png: no such file");
-  expect("triangles --metric flop -o out", 2, "unknown metric flop");
+  expect("triangles --metric flop -o out", 2, "unknown metric 'flop'; did you mean 'flip'?");
   expect("triangles --aa none -o none/out", 4, "no directory");
   // Whatever the others are: these would take minutes to be drawn.
   const std::string slow = "city --turns 100 --aa ssaa:n=16 -o out --size 4096x4096 ";

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <filesystem>
 
+#include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
@@ -19,14 +19,9 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp.h"
 #include "zoneplate/os/file.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::cli {
 namespace {
-
-constexpr std::array demos = {demo_jaggies,        demo_antialiasing,        demo_black_edge, demo_moire,
-                              demo_prefilter,      demo_convolution_theorem, demo_sampling,   demo_aliases,
-                              demo_exact_coverage, demo_wagon_wheel};
 
 struct DemoArgs {
   std::string output;
@@ -36,10 +31,7 @@ struct DemoArgs {
 
 std::string list_of_lessons() {
   std::string text = "Lessons:\n";
-  for (const auto& demo_of : demos) {
-    const Demo demo = demo_of();
-    text += fmt::format("  {:<22}{}\n", demo.name, demo.summary);
-  }
+  for (const Demo& demo : demos()) text += fmt::format("  {:<22}{}\n", demo.name, demo.summary);
   return text + fmt::format("  {:<22}{}\n", "all", "every one of them, into a folder");
 }
 
@@ -67,15 +59,13 @@ Syntax demo_syntax(DemoArgs& args) {
           }};
 }
 
-std::vector<Demo> chosen(const std::string& name) {
-  std::vector<Demo> all;
+std::span<const Demo> chosen(const std::string& name) {
+  if (name == "all") return demos();
   std::vector<std::string_view> names{"all"};
-  for (const auto& demo_of : demos) {
-    all.push_back(demo_of());
-    names.push_back(all.back().name);
-    if (all.back().name == name) return {all.back()};
+  for (const Demo& demo : demos()) {
+    names.push_back(demo.name);
+    if (demo.name == name) return {&demo, 1};
   }
-  if (name == "all") return all;
   const std::string_view near = closest(name, names);
   throw Error(ErrorKind::Usage, near.empty() ? fmt::format("demo: no lesson {}; `zoneplate demo -h` lists them", name)
                                              : fmt::format("demo: no lesson {}; did you mean {}?", name, near));
@@ -159,7 +149,7 @@ void run_demo(std::span<const std::string> arguments) {
   if (syntax.found_operands.size() != 1)
     throw Error(ErrorKind::Usage, "demo: give one lesson; `zoneplate demo -h` lists them");
   const std::string& name = syntax.found_operands.front();
-  const std::vector<Demo> lessons = chosen(name);
+  const std::span<const Demo> lessons = chosen(name);
   check_output(name, args.output);
   if (name == "all") make_folder(args.output);
   const auto path_of = [&](const Demo& demo) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,16 +33,8 @@ struct Demo {
   bool is_animated = false;  ///< the lesson has several frames, written as APNG and WebP
 };
 
-Demo demo_jaggies();
-Demo demo_antialiasing();
-Demo demo_black_edge();
-Demo demo_moire();
-Demo demo_wagon_wheel();
-Demo demo_prefilter();
-Demo demo_convolution_theorem();
-Demo demo_sampling();
-Demo demo_aliases();
-Demo demo_exact_coverage();
+/// The lessons, in the order of demos.txt.
+std::span<const Demo> demos();
 
 /// What the figure says, as text: title, captions, text, wrapped for a terminal, and the tables.
 std::string text_of(const Lesson& lesson);

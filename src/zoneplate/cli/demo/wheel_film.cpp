@@ -66,12 +66,12 @@ std::vector<double> spoke_profile(const WheelFilm& film, const LinearImage& pict
   std::vector<double> profile(places, 0.0);
   const auto around = static_cast<std::uint64_t>(places * film.spokes);
   for (std::uint64_t j = 0; j < around; ++j) {
-    const SinCos direction = unit_root(j, around);
+    const SineCosine direction = unit_root(j, around);
     double sum = 0;
     for (int ring = 0; ring < rings; ++ring) {
       const float r = inner + (outer - inner) * static_cast<float>(ring) / (rings - 1);
       // Clockwise from the right.
-      const float3 p = axle + float3{static_cast<float>(direction.cos), -static_cast<float>(direction.sin), 0} * r;
+      const float3 p = axle + float3{static_cast<float>(direction.cosine), -static_cast<float>(direction.sine), 0} * r;
       const float4 clip = clip_from_world * float4{p.x, p.y, p.z, 1};
       const float x = (clip.x / clip.w + 1) * 0.5f * w - 0.5f, y = (1 - clip.y / clip.w) * 0.5f * h - 0.5f;
       sum += static_cast<double>(bilinear(light, x, y));
@@ -101,8 +101,8 @@ double displacement(const std::vector<double>& a, const std::vector<double>& b) 
 double fundamental(const std::vector<double>& profile) {
   double re = 0, im = 0;
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    const SinCos wave = unit_root(i, profile.size());
-    re += profile[i] * wave.cos, im += profile[i] * wave.sin;
+    const SineCosine wave = unit_root(i, profile.size());
+    re += profile[i] * wave.cosine, im += profile[i] * wave.sine;
   }
   return 2 * std::sqrt(re * re + im * im) / static_cast<double>(profile.size());
 }

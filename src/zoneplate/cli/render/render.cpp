@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/items.h"
@@ -34,14 +35,14 @@ void run_render(std::span<const std::string> arguments) {
   RenderArgs& args = *parsed;
   if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
   if (args.is_batch()) {
-    with_threads(args.threads, [&] { render_batch(args); });
+    with_isa(args.options.isa, [&] { with_threads(args.threads, [&] { render_batch(args); }); });
     return;
   }
   static_cast<void>(make_resolver(antialias::methods(), args.method));
   check_outputs(args);
   if (args.skip_existing && exists(args.output)) return;
   Summary summary;
-  with_threads(args.threads, [&] { summary = RenderItems({args}).next(); });
+  with_isa(args.options.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
   if (args.verbosity != Verbosity::Quiet)
     for (const std::string& warning : summary.warnings) say_warning(warning);
   tell(args, summary);

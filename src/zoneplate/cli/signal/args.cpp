@@ -66,8 +66,7 @@ std::string image_notes() {
       "(a file with such a name is given as ./NAME):\n";
   for (const PatternEntry& entry : patterns()) {
     std::string params;
-    for (const SpecParam& p : entry.params)
-      params += fmt::format("{}{}={:g}", params.empty() ? "" : ",", p.name, p.value);
+    for (const Param& p : entry.params) params += fmt::format("{}{}={:g}", params.empty() ? "" : ",", p.name, p.value);
     text += fmt::format("  {:<14}{} [{}]\n", entry.name, entry.summary, params);
   }
   return text;

@@ -107,7 +107,7 @@ TEST_F(SignalConvolve, NumbersAreReadOrRefused) {
   EXPECT_EQ(parse_kernel_choice("box:width=3").weights(0, 0), static_cast<float>(1.0 / 9));
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--kernel", "1 2; 3"}), "row 2 has 1 numbers"));
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--kernel", "1/0"}), "divides by zero"));
-  EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--kernel", "blob"}), "no kernel 'blob'"));
+  EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--kernel", "blob"}), "unknown kernel 'blob'"));
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"noise", "--values", "1 2"}), "not both"));
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"--values", "1 2; 3 4"}), "one row"));
   EXPECT_TRUE(contains(refusal(run_signal_convolve, {"--values", "1 2", "--kernel", "1 2; 3 4"}), "one row"));

@@ -151,7 +151,7 @@ TEST_F(SignalDecimate, DroppingPixelsTurnsAFineWaveIntoACoarseOne) {
 
 TEST_F(SignalDecimate, Refuses) {
   EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--by", "0.5"}), "--by: "));
-  EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--kernel", "nearest"}), "no kernel 'nearest'"));
+  EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--kernel", "nearest"}), "unknown kernel 'nearest'"));
   EXPECT_TRUE(contains(refusal(run_signal_decimate, {"noise", "--naive", "x.gif"}), "ends in .png"));
 }
 

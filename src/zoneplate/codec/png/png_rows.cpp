@@ -25,6 +25,12 @@ std::uint32_t adler(const std::uint8_t* p, std::size_t n) {
 
 }  // namespace
 
-const PngRowKernels png_row_kernels = {.up = up, .up_rgb = up_rgb, .adler = adler};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const PngRowKernels PerIsa<PngRowKernels>::scalar = {
+    .up = scalar::up, .up_rgb = scalar::up_rgb, .adler = scalar::adler};
+
+}  // namespace zoneplate

@@ -8,7 +8,7 @@
 namespace zoneplate {
 
 /// What is done to every byte of a picture before it is compressed.
-struct PngRowKernels {
+struct PngRowKernels : PerIsa<PngRowKernels> {
   /// PNG's filter Up: row - above for n bytes, modulo 256.
   void (*up)(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, std::uint8_t* out);
   /// The same for n pixels of four bytes, of which the fourth is left out.
@@ -17,13 +17,6 @@ struct PngRowKernels {
   ///
   /// Source    RFC 1950.
   std::uint32_t (*adler)(const std::uint8_t* p, std::size_t n);
-
-  static const PngRowKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const PngRowKernels png_row_kernels;
-}
-inline const PngRowKernels& png_row_kernels(Isa isa) { return pick(isa, scalar::png_row_kernels); }
 
 }  // namespace zoneplate

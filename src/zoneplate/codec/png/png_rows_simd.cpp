@@ -82,6 +82,7 @@ std::uint32_t adler(const std::uint8_t* p, std::size_t n) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const PngRowKernels PngRowKernels::HWY_NAMESPACE = {
+template <>
+const PngRowKernels PerIsa<PngRowKernels>::HWY_NAMESPACE = {
     .up = HWY_NAMESPACE::up, .up_rgb = HWY_NAMESPACE::up_rgb, .adler = HWY_NAMESPACE::adler};
 }  // namespace zoneplate

@@ -20,11 +20,11 @@ TEST(PngRows, EveryInstructionSetGivesTheSameBytes) {
   for (std::size_t n = 0; n <= 200; ++n) {
     const auto row = noise(4 * n, 1), above = noise(4 * n, 2);
     std::vector<std::uint8_t> expected(4 * n), expected_rgb(3 * n), out(4 * n), out_rgb(3 * n);
-    scalar::png_row_kernels.up(row.data(), above.data(), 4 * n, expected.data());
-    scalar::png_row_kernels.up_rgb(row.data(), above.data(), n, expected_rgb.data());
+    PngRowKernels::scalar.up(row.data(), above.data(), 4 * n, expected.data());
+    PngRowKernels::scalar.up_rgb(row.data(), above.data(), n, expected_rgb.data());
     for (const Isa isa : supported_isas()) {
-      png_row_kernels(isa).up(row.data(), above.data(), 4 * n, out.data());
-      png_row_kernels(isa).up_rgb(row.data(), above.data(), n, out_rgb.data());
+      PngRowKernels::of(isa).up(row.data(), above.data(), 4 * n, out.data());
+      PngRowKernels::of(isa).up_rgb(row.data(), above.data(), n, out_rgb.data());
       EXPECT_EQ(out, expected) << n;
       EXPECT_EQ(out_rgb, expected_rgb) << n;
     }
@@ -38,7 +38,7 @@ TEST(PngRows, AdlerIsZlibs) {
   inputs.emplace_back(500000, std::uint8_t{255});  // the greatest sums
   for (const auto& bytes : inputs)
     for (const Isa isa : supported_isas())
-      EXPECT_EQ(png_row_kernels(isa).adler(bytes.data(), bytes.size()),
+      EXPECT_EQ(PngRowKernels::of(isa).adler(bytes.data(), bytes.size()),
                 adler32(1, bytes.data(), static_cast<uInt>(bytes.size())))
           << bytes.size() << ' ' << name_of(isa);
 }

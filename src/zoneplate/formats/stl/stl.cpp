@@ -104,8 +104,8 @@ Mesh read_facets(Bytes bytes, std::uint64_t count, ImportBudget& budget) {
     }
     std::iota(&mesh.index[3 * begin], &mesh.index[3 * begin] + 3 * (end - begin),
               static_cast<std::uint32_t>(3 * begin));
-    flat_normal_kernels(best_isa())
-        .make(facets + begin * facet_bytes + corners_at, facet_bytes, end - begin, &mesh.normal[3 * begin].x);
+    FlatNormalKernels::of().make(facets + begin * facet_bytes + corners_at, facet_bytes, end - begin,
+                                 &mesh.normal[3 * begin].x);
     if (color.is_own(any)) is_colored = true;
   });
   budget.check_time();

@@ -18,8 +18,8 @@ struct Viewing {
 };
 
 /// The parameters of the metrics for a screen.
-inline constexpr Param viewing_params[] = {{"ppd", "pixels per degree of view", 75.40245, 1, 1000},
-                                           {"peak", "cd/m² of white", 200, 1, 10000}};
+inline constexpr Param viewing_params[] = {real_param("ppd", "pixels per degree of view", 75.40245, 1, 1000),
+                                           real_param("peak", "cd/m² of white", 200, 1, 10000)};
 Viewing viewing_of(const Settings& settings);
 
 /// Least width and height.

@@ -83,8 +83,8 @@ OpponentPlanes filtered_in_time(std::span<const OpponentPlanes> frames,
 }
 
 Metric cvvdp_video() {
-  static constexpr Param params[] = {
-      viewing_params[0], viewing_params[1], {"fps", "frames shown in a second", 60, 4, greatest_rate}};
+  static constexpr Param params[] = {viewing_params[0], viewing_params[1],
+                                     real_param("fps", "frames shown in a second", 60, 4, greatest_rate)};
   return {.name = "cvvdp_video",
           .summary = "ColorVideoVDP of a sequence: quality in JOD, flicker included (10 is the same)",
           .source = "Mantiuk et al. 2024, version 0.5.6",

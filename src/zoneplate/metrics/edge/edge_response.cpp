@@ -138,9 +138,9 @@ double transform(const std::vector<double>& spread, double frequency) {
     const double place = static_cast<double>(i + 1) - static_cast<double>(spread.size()) / 2;  // bins from the edge
     const double window = 0.54 + 0.46 * cos_pi(2 * place / static_cast<double>(spread.size()));
     const double change = (spread[i + 1] - spread[i]) * window;
-    const SinCos wave = sin_cos_pi(2 * frequency * place / bins_a_pixel);
-    re += change * wave.cos;
-    im += change * wave.sin;
+    const SineCosine wave = sin_cos_pi(2 * frequency * place / bins_a_pixel);
+    re += change * wave.cosine;
+    im += change * wave.sine;
   }
   return std::sqrt(re * re + im * im);
 }

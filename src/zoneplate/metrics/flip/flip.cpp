@@ -32,9 +32,10 @@ void weighted_sums(const double* from, std::size_t step, const double* taps, std
 
 }  // namespace
 
-const FlipKernels flip_kernels = {.weighted_sums = weighted_sums};
-
 }  // namespace scalar
+
+template <>
+const FlipKernels PerIsa<FlipKernels>::scalar = {.weighted_sums = scalar::weighted_sums};
 
 namespace metrics {
 namespace {
@@ -81,7 +82,7 @@ Plane<double> filter(const Plane<double>& in, int reach, const Taps& across, con
   const int radius = static_cast<int>(across.size()) / 2;
   const int width = in.width() - 2 * reach, height = in.height() - 2 * reach;
   const auto n = static_cast<std::size_t>(width);
-  const FlipKernels& kernels = pick(best_isa(), scalar::flip_kernels);
+  const FlipKernels& kernels = FlipKernels::of();
   Plane<double> rows(width, height + 2 * radius), out(width, height);
   for (int j = 0; j < rows.height(); ++j)
     kernels.weighted_sums(in.row(j + reach - radius).data() + (reach - radius), 1, across.data(), across.size(),
@@ -204,7 +205,7 @@ Score score_of_flip(Plane<float> map) {
 }
 
 Metric flip() {
-  static constexpr Param params[] = {{"ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000}};
+  static constexpr Param params[] = {real_param("ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000)};
   return {.name = "flip",
           .summary = "difference seen when the pictures alternate, from a stated distance: mean of the map",
           .source = "Andersson et al. 2020",

@@ -38,5 +38,6 @@ void weighted_sums(const double* from, std::size_t step, const double* taps, std
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FlipKernels FlipKernels::HWY_NAMESPACE = {.weighted_sums = HWY_NAMESPACE::weighted_sums};
+template <>
+const FlipKernels PerIsa<FlipKernels>::HWY_NAMESPACE = {.weighted_sums = HWY_NAMESPACE::weighted_sums};
 }  // namespace zoneplate

@@ -122,8 +122,8 @@ TEST(Flip, KernelsSumAsTheirTwins) {
   for (const Isa isa : supported_isas())
     for (std::size_t n = 0; n <= 70; ++n) {
       std::vector<double> expected(80, 7), found = expected;
-      scalar::flip_kernels.weighted_sums(from.data(), 71, taps, 5, expected.data(), n);
-      pick(isa, scalar::flip_kernels).weighted_sums(from.data(), 71, taps, 5, found.data(), n);
+      FlipKernels::scalar.weighted_sums(from.data(), 71, taps, 5, expected.data(), n);
+      FlipKernels::of(isa).weighted_sums(from.data(), 71, taps, 5, found.data(), n);
       ASSERT_EQ(found, expected) << name_of(isa) << ' ' << n;
     }
 }

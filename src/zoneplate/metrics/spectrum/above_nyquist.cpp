@@ -21,8 +21,8 @@ namespace {
 /// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the picture and
 /// samples lie in the middle of their pixels.
 Complex half_pixel(double f) {
-  const SinCos turn = sin_cos_pi(f);
-  return {turn.cos, -turn.sin};
+  const SineCosine turn = sin_cos_pi(f);
+  return {turn.cosine, -turn.sine};
 }
 
 /// What a ring of frequencies holds: of reference and test the powers, and of both what they have in common.

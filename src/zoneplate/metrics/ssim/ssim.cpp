@@ -160,7 +160,7 @@ Score similarity_score(const Picture& reference, const Picture& test, const Sett
 }  // namespace
 
 Metric ssim() {
-  static constexpr double sides[] = {0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, flags[] = {0, 1};
+  static constexpr int sides[] = {0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, flags[] = {0, 1};
   static constexpr Param params[] = {
       {.name = "window", .meaning = "side of a uniform window; 0: Gaussian of sigma 1.5, 11 pixels", .choices = sides},
       {.name = "unbiased", .meaning = "1: variances divided by n - 1", .choices = flags},

@@ -139,12 +139,13 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
 
 }  // namespace
 
-const CoverageKernels coverage_kernels = {.draw = draw,
-                                          .collect = collect,
-                                          .collect_rows = collect_rows,
-                                          .find_nearest = find_nearest,
-                                          .collect_blocks = collect_blocks,
-                                          .find_owners = find_owners};
-
 }  // namespace scalar
+
+template <>
+const CoverageKernels PerIsa<CoverageKernels>::scalar = {.draw = scalar::draw,
+                                                         .collect = scalar::collect,
+                                                         .collect_rows = scalar::collect_rows,
+                                                         .find_nearest = scalar::find_nearest,
+                                                         .collect_blocks = scalar::collect_blocks,
+                                                         .find_owners = scalar::find_owners};
 }  // namespace zoneplate

@@ -52,7 +52,7 @@ struct BlockLayer {
   float least, greatest;  ///< its depths there
 };
 
-struct CoverageKernels {
+struct CoverageKernels : PerIsa<CoverageKernels> {
   /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Gives true if some
   /// block's `block_min_depth` may have risen.
   bool (*draw)(const TileTriangle& triangle, TileVisibility& tile);
@@ -77,13 +77,6 @@ struct CoverageKernels {
   /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
   /// `mixed_primitives`; `no_primitive` where nothing is.
   void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
-
-  static const CoverageKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const CoverageKernels coverage_kernels;
-}
-inline const CoverageKernels& coverage_kernels(Isa isa) { return pick(isa, scalar::coverage_kernels); }
 
 }  // namespace zoneplate

@@ -7,10 +7,10 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-using F = hn::CappedTag<float, 8>;
-using I = hn::Rebind<std::int32_t, F>;
-using VF = hn::Vec<F>;
-using VI = hn::Vec<I>;
+using DF = hn::CappedTag<float, 8>;
+using DI = hn::Rebind<std::int32_t, DF>;
+using VF = hn::Vec<DF>;
+using VI = hn::Vec<DI>;
 
 int least(int p, int q) { return p < q ? p : q; }
 int greatest(int p, int q) { return p > q ? p : q; }
@@ -82,8 +82,8 @@ float least_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
 
 /// One vector of pixels of one sample: where the triangle is inside and wins, and its depth there.
 struct Step {
-  F d;
-  I di;
+  DF d;
+  DI di;
   VI ramp[3];  ///< a_k × lane
   VF lane;     ///< 0, 1, 2 ...
   VF dzdx, z_low, z_high;
@@ -98,7 +98,7 @@ struct Step {
         z_high(hn::Set(d, t.z_high)),
         id(hn::Set(di, t.id)) {}
 
-  HWY_INLINE hn::Mask<F> wins(const TileTriangle& t, const TileVisibility& tile, int s, int x, int y, VF& z) const {
+  HWY_INLINE hn::Mask<DF> wins(const TileTriangle& t, const TileVisibility& tile, int s, int x, int y, VF& z) const {
     VI outside = hn::Add(ramp[0], hn::Set(di, t.a[0] * x + t.b[0] * y + t.c[0][s]));
     outside = hn::Or(outside, hn::Add(ramp[1], hn::Set(di, t.a[1] * x + t.b[1] * y + t.c[1][s])));
     outside = hn::Or(outside, hn::Add(ramp[2], hn::Set(di, t.a[2] * x + t.b[2] * y + t.c[2][s])));
@@ -116,7 +116,7 @@ struct Step {
 
 /// The least depth of the block's samples, of which none is below `bound`: one that is not above it ends the search.
 float farthest(const TileVisibility& tile, int x, int y, float bound) {
-  const F d;
+  const DF d;
   const float* plane = tile.depth + y * tile_size + x;
   VF low = hn::Load(d, plane);
   for (int s = 0; s < tile.sample_count; ++s, plane += tile_pixels) {
@@ -130,8 +130,8 @@ float farthest(const TileVisibility& tile, int x, int y, float bound) {
 
 /// Draws into a block that the triangle covers and where nothing is yet: it wins everywhere.
 void fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int by) {
-  const F d;
-  const I di;
+  const DF d;
+  const DI di;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const VF lane = hn::Iota(d, 0), dzdx = hn::Set(d, t.dzdx);
   const VF z_low = hn::Set(d, t.z_low), z_high = hn::Set(d, t.z_high);
@@ -153,19 +153,19 @@ void fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int b
   }
 }
 
-HWY_INLINE hn::Mask<F> inside(VI e0, VI e1, VI e2) {
-  return hn::Not(hn::MaskFromVec(hn::BitCast(F(), hn::BroadcastSignBit(hn::Or(hn::Or(e0, e1), e2)))));
+HWY_INLINE hn::Mask<DF> inside(VI e0, VI e1, VI e2) {
+  return hn::Not(hn::MaskFromVec(hn::BitCast(DF(), hn::BroadcastSignBit(hn::Or(hn::Or(e0, e1), e2)))));
 }
 
 /// A triangle's constants by sample, each a vector of one number.
 struct SampleVectors {
-  static constexpr int lanes = static_cast<int>(hn::MaxLanes(I()));
+  static constexpr int lanes = static_cast<int>(hn::MaxLanes(DI()));
   alignas(64) std::int32_t c[3][TileTriangle::max_samples][lanes];
   alignas(64) float z[TileTriangle::max_samples][lanes];
 
   HWY_INLINE SampleVectors(const TileTriangle& t, int samples) {
-    const F d;
-    const I di;
+    const DF d;
+    const DI di;
     for (int s = 0; s < samples; ++s) {
       for (int k = 0; k < 3; ++k) hn::Store(hn::Set(di, t.c[k][s]), di, c[k][s]);
       hn::Store(hn::Set(d, t.z[s]), d, z[s]);
@@ -178,8 +178,8 @@ struct SampleVectors {
 /// What Step::wins computes, with everything taken out of the loop over samples that is the same for all of them.
 bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, const SampleVectors& by_sample,
                 const TileVisibility& tile, int bx, int top, int bottom) {
-  const F d;
-  const I di;
+  const DF d;
+  const DI di;
   bool all = true;
   for (int x = bx; x < bx + 8; x += static_cast<int>(hn::Lanes(d))) {
     const VF across = hn::Mul(step.dzdx, hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), step.lane));
@@ -255,7 +255,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
 }
 
 int collect(const TileTriangle& t, const TileVisibility& tile, CoveredPixel* out) {
-  const F d;
+  const DF d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Spread spread = spread_of(t, tile.sample_count);
   const Reach reach = reach_of(t, spread, 8);
@@ -281,7 +281,7 @@ int collect(const TileTriangle& t, const TileVisibility& tile, CoveredPixel* out
 
 int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, SpanLayer* out,
                  std::uint8_t* is_partial) {
-  const F d;
+  const DF d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const Spread spread = spread_of(t, tile.sample_count);
   const Reach reach = reach_of(t, spread, 8);
@@ -311,7 +311,7 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_
 }
 
 void find_nearest(const TileVisibility& tile, float* nearest) {
-  const F d;
+  const DF d;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     nearest[block] = 0;
     if (tile.block_primitive[block] == no_primitive) continue;
@@ -345,7 +345,7 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
 }
 
 void find_owners(const TileVisibility& tile, std::int32_t* owners) {
-  const I d;
+  const DI d;
   const int lanes = static_cast<int>(hn::Lanes(d)), samples = tile.sample_count;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     const int first_row = block / 8 * 64 + block % 8;
@@ -370,10 +370,11 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const CoverageKernels CoverageKernels::HWY_NAMESPACE = {.draw = HWY_NAMESPACE::draw,
-                                                        .collect = HWY_NAMESPACE::collect,
-                                                        .collect_rows = HWY_NAMESPACE::collect_rows,
-                                                        .find_nearest = HWY_NAMESPACE::find_nearest,
-                                                        .collect_blocks = HWY_NAMESPACE::collect_blocks,
-                                                        .find_owners = HWY_NAMESPACE::find_owners};
+template <>
+const CoverageKernels PerIsa<CoverageKernels>::HWY_NAMESPACE = {.draw = HWY_NAMESPACE::draw,
+                                                                .collect = HWY_NAMESPACE::collect,
+                                                                .collect_rows = HWY_NAMESPACE::collect_rows,
+                                                                .find_nearest = HWY_NAMESPACE::find_nearest,
+                                                                .collect_blocks = HWY_NAMESPACE::collect_blocks,
+                                                                .find_owners = HWY_NAMESPACE::find_owners};
 }  // namespace zoneplate

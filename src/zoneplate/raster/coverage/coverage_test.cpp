@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "zoneplate/base/aligned_array.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {
@@ -35,18 +36,13 @@ bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, bool is_
 
 struct Buffers {
   explicit Buffers(int samples)
-      : z(static_cast<std::size_t>(samples) * tile_pixels + 16),
-        id(static_cast<std::size_t>(samples) * tile_pixels + 16) {
+      : z(static_cast<std::size_t>(samples) * tile_pixels), id(static_cast<std::size_t>(samples) * tile_pixels) {
     visibility = {
-        .sample_count = samples, .depth = align(z), .id = align(id), .block_min_depth = far, .block_primitive = owner};
+        .sample_count = samples, .depth = z.data(), .id = id.data(), .block_min_depth = far, .block_primitive = owner};
     visibility.clear();
   }
-  template <class T>
-  static T* align(std::vector<T>& v) {
-    return v.data() + (64 - reinterpret_cast<std::uintptr_t>(v.data()) % 64) % 64 / sizeof(T);
-  }
-  std::vector<float> z;
-  std::vector<std::int32_t> id;
+  AlignedArray<float> z;
+  AlignedArray<std::int32_t> id;
   float far[TileVisibility::blocks];
   std::int32_t owner[TileVisibility::blocks];
   TileVisibility visibility;
@@ -160,7 +156,7 @@ std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int trian
         const int tile_x = column * tile_size, tile_y = row * tile_size;
         make_tile_triangle(t, pattern.data(), samples, tile_x, tile_y, tile);
         buffers.visibility.clear();
-        coverage_kernels(isa).draw(tile, buffers.visibility);
+        CoverageKernels::of(isa).draw(tile, buffers.visibility);
         buffers.visibility.materialize_all();
         wrong += definition.differing(pattern, tile_x, tile_y, buffers.visibility);
       }
@@ -236,9 +232,9 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
     Buffers first(16), second(16);
     TileTriangle tile;
     make_tile_triangle(make_triangle(v[0], v[1], v[2], 1, rules), pattern.data(), 16, 448, 320, tile);
-    scalar::coverage_kernels.draw(tile, first.visibility);
+    CoverageKernels::scalar.draw(tile, first.visibility);
     make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, rules), pattern.data(), 16, 448, 320, tile);
-    scalar::coverage_kernels.draw(tile, second.visibility);
+    CoverageKernels::scalar.draw(tile, second.visibility);
     first.visibility.materialize_all();
     second.visibility.materialize_all();
     for (int i = 0; i < 16 * tile_pixels; ++i) {
@@ -283,25 +279,25 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
           std::vector<SpanLayer> ra(tile_pixels / 8), rb(tile_pixels / 8);
           std::vector<std::uint8_t> pa(tile_pixels / 8), pb(tile_pixels / 8);
           const std::uint64_t blocks = i % 2 == 0 ? ~std::uint64_t{0} : 0x0f3355aa5533f00full;
-          const int rows = scalar::coverage_kernels.collect_rows(tile, a.visibility, blocks, ra.data(), pa.data());
-          ASSERT_EQ(rows, coverage_kernels(isa).collect_rows(tile, b.visibility, blocks, rb.data(), pb.data()));
+          const int rows = CoverageKernels::scalar.collect_rows(tile, a.visibility, blocks, ra.data(), pa.data());
+          ASSERT_EQ(rows, CoverageKernels::of(isa).collect_rows(tile, b.visibility, blocks, rb.data(), pb.data()));
           ASSERT_EQ(pa, pb);
           for (std::size_t k = 0; k < static_cast<std::size_t>(rows); ++k)
             ASSERT_TRUE(ra[k].row == rb[k].row && ra[k].least == rb[k].least && ra[k].greatest == rb[k].greatest);
-          const int n = scalar::coverage_kernels.collect(tile, a.visibility, fa.data());
-          ASSERT_EQ(n, coverage_kernels(isa).collect(tile, b.visibility, fb.data()));
+          const int n = CoverageKernels::scalar.collect(tile, a.visibility, fa.data());
+          ASSERT_EQ(n, CoverageKernels::of(isa).collect(tile, b.visibility, fb.data()));
           for (int k = 0; k < n; ++k) {
             ASSERT_EQ(fa[static_cast<std::size_t>(k)].pixel, fb[static_cast<std::size_t>(k)].pixel);
             ASSERT_EQ(fa[static_cast<std::size_t>(k)].samples, fb[static_cast<std::size_t>(k)].samples);
           }
           continue;
         }
-        scalar::coverage_kernels.draw(tile, a.visibility);
-        coverage_kernels(isa).draw(tile, b.visibility);
+        CoverageKernels::scalar.draw(tile, a.visibility);
+        CoverageKernels::of(isa).draw(tile, b.visibility);
       }
       std::vector<std::int32_t> owners_a(tile_pixels / 8), owners_b(tile_pixels / 8);
-      scalar::coverage_kernels.find_owners(a.visibility, owners_a.data());
-      coverage_kernels(isa).find_owners(b.visibility, owners_b.data());
+      CoverageKernels::scalar.find_owners(a.visibility, owners_a.data());
+      CoverageKernels::of(isa).find_owners(b.visibility, owners_b.data());
       EXPECT_EQ(owners_a, owners_b);
       a.visibility.materialize_all();
       b.visibility.materialize_all();
@@ -319,7 +315,7 @@ TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
   for (const int samples : {1, 4, 8}) {
     const SamplePattern pattern = standard_pattern(samples);
     for (const Isa isa : supported_isas()) {
-      const CoverageKernels& kernels = coverage_kernels(isa);
+      const CoverageKernels& kernels = CoverageKernels::of(isa);
       Buffers held(samples);
       TileTriangle tile;
       for (std::uint32_t i = 0; i < 60; ++i) {
@@ -335,12 +331,12 @@ TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
           continue;
         }
         float nearest[2][TileVisibility::blocks];
-        scalar::coverage_kernels.find_nearest(held.visibility, nearest[0]);
+        CoverageKernels::scalar.find_nearest(held.visibility, nearest[0]);
         kernels.find_nearest(held.visibility, nearest[1]);
         ASSERT_TRUE(std::equal(nearest[0], nearest[0] + TileVisibility::blocks, nearest[1]));
         BlockLayer a[TileVisibility::blocks], b[TileVisibility::blocks];
         std::uint64_t others_a = 0, others_b = 0;
-        const int n = scalar::coverage_kernels.collect_blocks(tile, held.visibility, nearest[0], a, others_a);
+        const int n = CoverageKernels::scalar.collect_blocks(tile, held.visibility, nearest[0], a, others_a);
         ASSERT_EQ(n, kernels.collect_blocks(tile, held.visibility, nearest[0], b, others_b)) << i;
         std::uint64_t listed = 0;
         for (int k = 0; k < n; ++k) {

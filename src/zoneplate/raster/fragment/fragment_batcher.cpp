@@ -10,7 +10,7 @@ FragmentBatcher::FragmentBatcher(const ProjectedDraws& projected, const Fragment
                                  const Target& target)
     : projected_(projected),
       shader_(shader),
-      interpolate_(interpolate_kernels(isa)),
+      interpolate_(InterpolateKernels::of(isa)),
       target_(target),
       has_ends_(std::any_of(projected.draws.begin(), projected.draws.end(),
                             [](const Draw& d) { return d.quads != nullptr; })),

@@ -58,6 +58,12 @@ void divide(const float* sum, float weight, Linear8& out) {
 
 }  // namespace
 
-const FragmentListKernels fragment_list_kernels = {.list = list, .add = add, .divide = divide};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const FragmentListKernels PerIsa<FragmentListKernels>::scalar = {
+    .list = scalar::list, .add = scalar::add, .divide = scalar::divide};
+
+}  // namespace zoneplate

@@ -37,7 +37,7 @@ struct OwnerRow {
   bool is_per_sample;  ///< every sample is a fragment of its own, in the order of the samples
 };
 
-struct FragmentListKernels {
+struct FragmentListKernels : PerIsa<FragmentListKernels> {
   /// Appends one fragment for each triangle that owns samples of a pixel: at the pixel's centre if it owns all of them,
   /// otherwise where ShadedPlaces puts it. Requires: capacity for row_room more.
   void (*list)(const OwnerRow& row, FragmentList& out);
@@ -45,14 +45,6 @@ struct FragmentListKernels {
   void (*add)(const FragmentOutputs& color, const std::uint32_t* at, const float* weight, int count, float* sum);
   /// out = sum / weight, of eight pixels.
   void (*divide)(const float* sum, float weight, Linear8& out);
-
-  static const FragmentListKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
-      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const FragmentListKernels fragment_list_kernels;
-}
-inline const FragmentListKernels& fragment_list_kernels(Isa isa) { return pick(isa, scalar::fragment_list_kernels); }
 
 }  // namespace zoneplate

@@ -10,14 +10,14 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
-using I = hn::CappedTag<std::int32_t, 8>;
-using F = hn::CappedTag<float, 8>;
-using VI = hn::Vec<I>;
-using MI = hn::Mask<I>;
-using VF = hn::Vec<F>;
-constexpr I i32;
-constexpr F f32;
-constexpr int lanes = static_cast<int>(hn::MaxLanes(I()));
+using DI = hn::CappedTag<std::int32_t, 8>;
+using DF = hn::CappedTag<float, 8>;
+using VI = hn::Vec<DI>;
+using MI = hn::Mask<DI>;
+using VF = hn::Vec<DF>;
+constexpr DI i32;
+constexpr DF f32;
+constexpr int lanes = static_cast<int>(hn::MaxLanes(DI()));
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
 
@@ -63,7 +63,7 @@ HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, FragmentList& out) {
     out.count = count + lanes;
     return;
   }
-  const Packing<I> packing(mask);
+  const Packing<DI> packing(mask);
   packing.store(x, out.x + count), packing.store(y, out.y + count);
   packing.store(owner, out.id + count), packing.store(at, to);
   out.count = count + packing.count();
@@ -148,29 +148,29 @@ void list(const OwnerRow& row, FragmentList& out) {
   }
 }
 
-using Quad = hn::FixedTag<float, 4>;
-using VQ = hn::Vec<Quad>;
+using DF4 = hn::FixedTag<float, 4>;
+using VF4 = hn::Vec<DF4>;
 
 /// Four points' channels to four points and back.
 struct Turned {
-  VQ v[4];
-  HWY_INLINE Turned(VQ r, VQ g, VQ b, VQ a) {
-    const Quad d;
-    const VQ rb01 = hn::InterleaveLower(d, r, b), rb23 = hn::InterleaveUpper(d, r, b);
-    const VQ ga01 = hn::InterleaveLower(d, g, a), ga23 = hn::InterleaveUpper(d, g, a);
+  VF4 v[4];
+  HWY_INLINE Turned(VF4 r, VF4 g, VF4 b, VF4 a) {
+    const DF4 d;
+    const VF4 rb01 = hn::InterleaveLower(d, r, b), rb23 = hn::InterleaveUpper(d, r, b);
+    const VF4 ga01 = hn::InterleaveLower(d, g, a), ga23 = hn::InterleaveUpper(d, g, a);
     v[0] = hn::InterleaveLower(d, rb01, ga01), v[1] = hn::InterleaveUpper(d, rb01, ga01);
     v[2] = hn::InterleaveLower(d, rb23, ga23), v[3] = hn::InterleaveUpper(d, rb23, ga23);
   }
 };
 
-HWY_INLINE void add_one(VQ color, float weight, std::uint32_t at, float* sum) {
-  const Quad d;
+HWY_INLINE void add_one(VF4 color, float weight, std::uint32_t at, float* sum) {
+  const DF4 d;
   float* const to = sum + 4 * FragmentList::pixel(at);
   hn::StoreU(hn::Add(hn::LoadU(d, to), hn::Mul(color, hn::Set(d, weight))), d, to);
 }
 
 void add(const FragmentOutputs& color, const std::uint32_t* at, const float* weight, int count, float* sum) {
-  const Quad d;
+  const DF4 d;
   for (int i = 0; i < count; i += 4) {
     const Turned turned(hn::Load(d, color.r + i), hn::Load(d, color.g + i), hn::Load(d, color.b + i),
                         hn::Load(d, color.a + i));
@@ -180,8 +180,8 @@ void add(const FragmentOutputs& color, const std::uint32_t* at, const float* wei
 }
 
 void divide(const float* sum, float weight, Linear8& out) {
-  const Quad d;
-  const VQ by = hn::Set(d, weight);
+  const DF4 d;
+  const VF4 by = hn::Set(d, weight);
   for (int i = 0; i < Linear8::size; i += 4) {
     const float* const of = sum + 4 * i;
     const Turned turned(hn::LoadU(d, of), hn::LoadU(d, of + 4), hn::LoadU(d, of + 8), hn::LoadU(d, of + 12));
@@ -196,6 +196,7 @@ void divide(const float* sum, float weight, Linear8& out) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FragmentListKernels FragmentListKernels::HWY_NAMESPACE = {
+template <>
+const FragmentListKernels PerIsa<FragmentListKernels>::HWY_NAMESPACE = {
     .list = HWY_NAMESPACE::list, .add = HWY_NAMESPACE::add, .divide = HWY_NAMESPACE::divide};
 }  // namespace zoneplate

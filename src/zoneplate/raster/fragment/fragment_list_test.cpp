@@ -49,7 +49,7 @@ using Found = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::uint32_t
 
 std::vector<Found> listed(const OwnerRow& row, Isa isa) {
   const auto list = std::make_unique<FragmentList>();
-  fragment_list_kernels(isa).list(row, *list);
+  FragmentListKernels::of(isa).list(row, *list);
   std::vector<Found> out;
   for (int i = 0; i < list->count; ++i) out.emplace_back(list->x[i], list->y[i], list->id[i], list->at[i]);
   // Different pixels' points may come in any order.
@@ -115,12 +115,12 @@ TEST(FragmentList, KernelsGiveTheScalarTwinsBits) {
   for (const Isa isa : supported_isas())
     for (const int count : {1, 3, 8, 41, 128}) {
       std::vector<float> sum(32, 0.25f), expected = sum;
-      fragment_list_kernels(isa).add(color, at, weight, count, sum.data());
-      scalar::fragment_list_kernels.add(color, at, weight, count, expected.data());
+      FragmentListKernels::of(isa).add(color, at, weight, count, sum.data());
+      FragmentListKernels::scalar.add(color, at, weight, count, expected.data());
       EXPECT_EQ(sum, expected) << name_of(isa);
       Linear8 mean, expected_mean;
-      fragment_list_kernels(isa).divide(sum.data(), 3, mean);
-      scalar::fragment_list_kernels.divide(expected.data(), 3, expected_mean);
+      FragmentListKernels::of(isa).divide(sum.data(), 3, mean);
+      FragmentListKernels::scalar.divide(expected.data(), 3, expected_mean);
       EXPECT_EQ(mean, expected_mean) << name_of(isa);
       EXPECT_EQ(mean.g[7], sum[29] / 3);
     }

@@ -106,9 +106,11 @@ void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport
 
 }  // namespace
 
-const InterpolateKernels interpolate_kernels = {.interpolate = interpolate,
-                                                .interpolate_clipped = interpolate_clipped,
-                                                .interpolate_clipped_rows = interpolate_clipped_rows};
-
 }  // namespace scalar
+
+template <>
+const InterpolateKernels PerIsa<InterpolateKernels>::scalar = {
+    .interpolate = scalar::interpolate,
+    .interpolate_clipped = scalar::interpolate_clipped,
+    .interpolate_clipped_rows = scalar::interpolate_clipped_rows};
 }  // namespace zoneplate

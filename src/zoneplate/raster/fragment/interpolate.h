@@ -31,7 +31,7 @@ struct ClippedGroup {
 /// change of b_k per `spacing` pixels, but only if `spacing` is not 0. Weights are clamped: no attribute is
 /// extrapolated. If the vertices of a triangle have one w, as those of an orthographic camera have, w is left out: then
 /// q_k = E_k, and the sum of the q_k and the derivatives of b_k are constant over the triangle.
-struct InterpolateKernels {
+struct InterpolateKernels : PerIsa<InterpolateKernels> {
   /// Fills b, dbdx, dbdy, has_uniform_derivatives and is_front of all padded() entries from the snapped vertices, and x
   /// and y of flat groups from those of their first fragments. Returns a bit for each group in which a triangle needs
   /// clipping; the values of such a triangle's fragments are undefined.
@@ -45,14 +45,6 @@ struct InterpolateKernels {
   /// and dbdy.
   void (*interpolate_clipped_rows)(const BarycentricPlanes& planes, Viewport viewport, float spacing,
                                    FragmentBatch& batch, int first, int last);
-
-  static const InterpolateKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
-      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const InterpolateKernels interpolate_kernels;
-}
-inline const InterpolateKernels& interpolate_kernels(Isa isa) { return pick(isa, scalar::interpolate_kernels); }
 
 }  // namespace zoneplate

@@ -9,24 +9,24 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-using FloatTag = hn::CappedTag<float, 8>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-using F = hn::Vec<FloatTag>;
-using I = hn::Vec<IntTag>;
+using DF = hn::CappedTag<float, 8>;
+using DI = hn::RebindToSigned<DF>;
+using VF = hn::Vec<DF>;
+using VI = hn::Vec<DI>;
 
 template <class D>
 constexpr int lanes_of = static_cast<int>(hn::MaxLanes(D()));
 template <class D>
 using IntsOf = hn::Vec<hn::RebindToSigned<D>>;
-constexpr int lanes = lanes_of<FloatTag>;
+constexpr int lanes = lanes_of<DF>;
 
 /// As many doubles as a vector has floats: in two vectors, or in one where that has room for them.
 template <class D>
 struct DoublesOf {
   using Doubles = DoublesOf;
-  using Tag = hn::CappedTag<double, hn::MaxLanes(D())>;
-  static constexpr int size = lanes_of<Tag>, parts = lanes_of<D> / size;
-  hn::Vec<Tag> v[parts];
+  using DD = hn::CappedTag<double, hn::MaxLanes(D())>;
+  static constexpr int size = lanes_of<DD>, parts = lanes_of<D> / size;
+  hn::Vec<DD> v[parts];
 
   template <class Make>
   static HWY_INLINE Doubles make(Make part) {
@@ -35,24 +35,24 @@ struct DoublesOf {
     return out;
   }
   static HWY_INLINE Doubles all(double x) {
-    return make([&](int) HWY_ATTR { return hn::Set(Tag(), x); });
+    return make([&](int) HWY_ATTR { return hn::Set(DD(), x); });
   }
   /// 0, 1, 2 ...
   static HWY_INLINE Doubles steps() {
-    return make([&](int p) HWY_ATTR { return hn::Iota(Tag(), p * size); });
+    return make([&](int p) HWY_ATTR { return hn::Iota(DD(), p * size); });
   }
   static HWY_INLINE Doubles load(const double* from) {
-    return make([&](int p) HWY_ATTR { return hn::Load(Tag(), from + p * size); });
+    return make([&](int p) HWY_ATTR { return hn::Load(DD(), from + p * size); });
   }
   HWY_INLINE void store(double* to) const {
-    for (int p = 0; p < parts; ++p) hn::Store(v[p], Tag(), to + p * size);
+    for (int p = 0; p < parts; ++p) hn::Store(v[p], DD(), to + p * size);
   }
   static HWY_INLINE Doubles of(IntsOf<D> x) {
     if constexpr (parts == 1) {
-      return {{hn::PromoteTo(Tag(), x)}};
+      return {{hn::PromoteTo(DD(), x)}};
     } else {
       const hn::Half<hn::RebindToSigned<D>> half;
-      return {{hn::PromoteTo(Tag(), hn::LowerHalf(half, x)), hn::PromoteTo(Tag(), hn::UpperHalf(half, x))}};
+      return {{hn::PromoteTo(DD(), hn::LowerHalf(half, x)), hn::PromoteTo(DD(), hn::UpperHalf(half, x))}};
     }
   }
   HWY_INLINE hn::Vec<D> to_floats() const {
@@ -74,7 +74,7 @@ struct DoublesOf {
   }
 };
 
-using Doubles = DoublesOf<FloatTag>;
+using Doubles = DoublesOf<DF>;
 
 /// One corner of the triangles of several points.
 template <class D>
@@ -291,7 +291,8 @@ struct RowTriangle {
 };
 
 /// Edge function k at the points from i on of the group that begins at `first`.
-HWY_INLINE F edge_of_row(const RowTriangle& t, int k, Viewport viewport, const FragmentBatch& batch, int first, int i) {
+HWY_INLINE VF edge_of_row(const RowTriangle& t, int k, Viewport viewport, const FragmentBatch& batch, int first,
+                          int i) {
   const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
   const double px = static_cast<double>(batch.x[first] - viewport.width * 128 + (i - first) * 256);
   return (Doubles::all(t.a[k] * px + (t.b[k] * py + t.c[k])) + Doubles::load(t.way[k])).to_floats();
@@ -300,10 +301,10 @@ HWY_INLINE F edge_of_row(const RowTriangle& t, int k, Viewport viewport, const F
 /// The groups from `first` to `last` of an affine triangle.
 HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& screen, Viewport viewport,
                                        FragmentBatch& batch, int first, int last) {
-  const FloatTag d;
-  const F inverse = hn::Set(d, t.inverse), by = hn::Mul(inverse, hn::Set(FloatTag(), screen.step));
+  const DF d;
+  const VF inverse = hn::Set(d, t.inverse), by = hn::Mul(inverse, hn::Set(DF(), screen.step));
   const auto derivative = [&](float g) HWY_ATTR { return hn::Mul(hn::Set(d, g), by); };
-  const F dx1 = derivative(t.gx[1]), dx2 = derivative(t.gx[2]), dy1 = derivative(t.gy[1]), dy2 = derivative(t.gy[2]);
+  const VF dx1 = derivative(t.gx[1]), dx2 = derivative(t.gx[2]), dy1 = derivative(t.gy[1]), dy2 = derivative(t.gy[2]);
   for (int group = first; group < last; group += FragmentBatch::group)
     for (int i = group; i < group + FragmentBatch::group; i += lanes) {
       store_weights(edge_of_row(t, 1, viewport, batch, group, i), edge_of_row(t, 2, viewport, batch, group, i), inverse,
@@ -321,11 +322,11 @@ struct RunSlopes {
 
 /// Points from i on as long as they are a vector, of those before `last`, from their q_1 and q_2, which stand in b, and
 /// their sum. Gives the point after them.
-template <class Tag>
-HWY_INLINE int finish_vectors(Tag d, const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch,
+template <class DD>
+HWY_INLINE int finish_vectors(DD d, const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch,
                               int i, int last) {
-  using V = hn::Vec<Tag>;
-  constexpr int size = static_cast<int>(hn::MaxLanes(Tag()));
+  using V = hn::Vec<DD>;
+  constexpr int size = static_cast<int>(hn::MaxLanes(DD()));
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
   const V gx0 = same(t.gx[0]), gx1 = same(t.gx[1]), all_x = same(t.all_x);
   const V gy0 = same(t.gy[0]), gy1 = same(t.gy[1]), all_y = same(t.all_y), step = same(screen.step);
@@ -344,7 +345,7 @@ HWY_INLINE int finish_vectors(Tag d, const RunSlopes& t, const Screen& screen, c
 /// Points [first, last).
 HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch, int first,
                            int last) {
-  const FloatTag d;
+  const DF d;
   const hn::CappedTag<float, 16> wide;
   // Vectors of two groups begin at every second.
   constexpr int step = static_cast<int>(hn::MaxLanes(wide));
@@ -357,12 +358,12 @@ HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float
 /// The same of another. In two steps, because both are long chains of operations that wait for each other.
 HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, Viewport viewport, FragmentBatch& batch,
                                 int first, int last) {
-  const FloatTag d;
+  const DF d;
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
   alignas(64) float sum[FragmentBatch::padded_capacity];
   for (int group = first; group < last; group += FragmentBatch::group)
     for (int i = group; i < group + FragmentBatch::group; i += lanes) {
-      F q[3];
+      VF q[3];
       for (int k = 0; k < 3; ++k) q[k] = hn::Mul(edge_of_row(t, k, viewport, batch, group, i), same(t.inv_w[k]));
       hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
       hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
@@ -372,8 +373,8 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
 
 /// x and y of all points from those of each group's first.
 HWY_INLINE void spread_places(FragmentBatch& batch, int first, int last) {
-  const IntTag d;
-  const I steps = hn::Mul(hn::Iota(d, 0), hn::Set(d, 256));
+  const DI d;
+  const VI steps = hn::Mul(hn::Iota(d, 0), hn::Set(d, 256));
   for (int group = first; group < last; group += FragmentBatch::group) {
     const std::int32_t x = batch.x[group], y = batch.y[group];
     for (int i = group; i < group + FragmentBatch::group; i += lanes) {
@@ -425,7 +426,7 @@ bool interpolate_points(const BatchTriangles& corners, const Screen& screen, Fra
   const int begin = first * FragmentBatch::group, end = last * FragmentBatch::group;
   if (lanes_of < Wide >> FragmentBatch::group && end - begin == lanes_of<Wide>)
     return interpolate_vectors<Wide>(corners, screen, batch, begin, end);
-  return interpolate_vectors<FloatTag>(corners, screen, batch, begin, end);
+  return interpolate_vectors<DF>(corners, screen, batch, begin, end);
 }
 
 std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, float spacing, FragmentBatch& batch) {
@@ -449,25 +450,25 @@ std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, floa
 }
 
 /// x px + (y py + one), rounded once. The planes of some points, or of all.
-HWY_INLINE F plane_at(const Doubles& x, const Doubles& y, const Doubles& one, I px, I py) {
+HWY_INLINE VF plane_at(const Doubles& x, const Doubles& y, const Doubles& one, VI px, VI py) {
   return (x * Doubles::of(px) + (y * Doubles::of(py) + one)).to_floats();
 }
 
 void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
-  const IntTag di;
+  const DI di;
   const Screen screen(viewport, spacing);
   for (int i = 0; i < FragmentBatch::group; i += lanes) {
-    const I px = screen.x(di, g.px + i), py = screen.y(di, g.py + i);
-    F q[3], gx[3], gy[3];
+    const VI px = screen.x(di, g.px + i), py = screen.y(di, g.py + i);
+    VF q[3], gx[3], gy[3];
     for (int k = 0; k < 3; ++k) {
       const Doubles x = Doubles::load(g.x[k] + i), y = Doubles::load(g.y[k] + i);
       q[k] = plane_at(x, y, Doubles::load(g.one[k] + i), px, py);
       gx[k] = x.to_floats(), gy[k] = y.to_floats();
     }
-    const F inverse = inverse_of(hn::Add(hn::Add(q[0], q[1]), q[2]));
-    const Weights<F> w = store_weights(q[1], q[2], inverse, g.b[0] + i, g.b[1] + i);
+    const VF inverse = inverse_of(hn::Add(hn::Add(q[0], q[1]), q[2]));
+    const Weights<VF> w = store_weights(q[1], q[2], inverse, g.b[0] + i, g.b[1] + i);
     if (!screen.has_slopes) continue;
-    const F by = hn::Mul(inverse, hn::Set(FloatTag(), screen.step));
+    const VF by = hn::Mul(inverse, hn::Set(DF(), screen.step));
     store_slopes(w, by, gx[1], gx[2], hn::Add(hn::Add(gx[0], gx[1]), gx[2]), g.dbdx[0] + i, g.dbdx[1] + i);
     store_slopes(w, by, gy[1], gy[2], hn::Add(hn::Add(gy[0], gy[1]), gy[2]), g.dbdy[0] + i, g.dbdy[1] + i);
   }
@@ -475,8 +476,8 @@ void interpolate_clipped(Viewport viewport, float spacing, ClippedGroup& g) {
 
 void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport, float spacing, FragmentBatch& batch,
                               int first, int last) {
-  const FloatTag d;
-  const IntTag di;
+  const DF d;
+  const DI di;
   const Screen screen(viewport, spacing);
   Doubles x[3], y[3], one[3];
   float gx[3], gy[3];
@@ -486,8 +487,8 @@ void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport
   }
   alignas(64) float sum[FragmentBatch::padded_capacity];
   for (int i = first; i < last; i += lanes) {
-    const I px = screen.x(di, batch.x + i), py = screen.y(di, batch.y + i);
-    F q[3];
+    const VI px = screen.x(di, batch.x + i), py = screen.y(di, batch.y + i);
+    VF q[3];
     for (int k = 0; k < 3; ++k) q[k] = plane_at(x[k], y[k], one[k], px, py);
     hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
     hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
@@ -502,7 +503,8 @@ void interpolate_clipped_rows(const BarycentricPlanes& planes, Viewport viewport
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const InterpolateKernels InterpolateKernels::HWY_NAMESPACE = {
+template <>
+const InterpolateKernels PerIsa<InterpolateKernels>::HWY_NAMESPACE = {
     .interpolate = HWY_NAMESPACE::interpolate,
     .interpolate_clipped = HWY_NAMESPACE::interpolate_clipped,
     .interpolate_clipped_rows = HWY_NAMESPACE::interpolate_clipped_rows};

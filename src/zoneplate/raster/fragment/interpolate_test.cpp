@@ -55,10 +55,10 @@ bool same_floats(const FragmentBatch& p, const FragmentBatch& q) {
 TEST(Interpolate, RowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
   for (std::uint32_t key = 0; key < 200; ++key) {
     auto expected = std::make_unique<Rows>(key);
-    expected->interpolate(scalar::interpolate_kernels);
+    expected->interpolate(InterpolateKernels::scalar);
     for (const Isa isa : supported_isas()) {
       auto rows = std::make_unique<Rows>(key);
-      rows->interpolate(interpolate_kernels(isa));
+      rows->interpolate(InterpolateKernels::of(isa));
       ASSERT_TRUE(same_floats(rows->batch, expected->batch)) << key << ' ' << name_of(isa);
       ASSERT_EQ(std::memcmp(rows->batch.has_uniform_derivatives, expected->batch.has_uniform_derivatives,
                             sizeof(FragmentBatch::has_uniform_derivatives)),
@@ -68,7 +68,7 @@ TEST(Interpolate, RowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
       for (bool& one : points->batch.is_flat_run) one = false;
       std::memcpy(points->batch.x, expected->batch.x, sizeof points->batch.x);
       std::memcpy(points->batch.y, expected->batch.y, sizeof points->batch.y);
-      points->interpolate(interpolate_kernels(isa));
+      points->interpolate(InterpolateKernels::of(isa));
       ASSERT_TRUE(same_floats(points->batch, expected->batch)) << key << ' ' << name_of(isa);
     }
   }
@@ -82,11 +82,11 @@ TEST(Interpolate, ClippedRowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
     const auto corner = [&](std::uint32_t k) { return float4{number(k, 0), number(k, 1), 0, number(k, 2)}; };
     const BarycentricPlanes planes = barycentric_planes(corner(0), corner(1), corner(2), viewport);
     const auto rows = std::make_unique<Rows>(key), expected = std::make_unique<Rows>(key);
-    expected->interpolate(scalar::interpolate_kernels);  // for x and y of all points
+    expected->interpolate(InterpolateKernels::scalar);  // for x and y of all points
     rows->batch = expected->batch;
-    scalar::interpolate_kernels.interpolate_clipped_rows(planes, viewport, 1.0f, expected->batch, 8, 40);
+    InterpolateKernels::scalar.interpolate_clipped_rows(planes, viewport, 1.0f, expected->batch, 8, 40);
     for (const Isa isa : supported_isas()) {
-      interpolate_kernels(isa).interpolate_clipped_rows(planes, viewport, 1.0f, rows->batch, 8, 40);
+      InterpolateKernels::of(isa).interpolate_clipped_rows(planes, viewport, 1.0f, rows->batch, 8, 40);
       ASSERT_TRUE(same_floats(rows->batch, expected->batch)) << key << ' ' << name_of(isa);
 
       ClippedGroup group{};
@@ -95,7 +95,7 @@ TEST(Interpolate, ClippedRowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
           group.x[k][i] = planes.x[k], group.y[k][i] = planes.y[k], group.one[k][i] = planes.one[k];
         group.px[i] = rows->batch.x[16 + i], group.py[i] = rows->batch.y[16 + i];
       }
-      interpolate_kernels(isa).interpolate_clipped(viewport, 1.0f, group);
+      InterpolateKernels::of(isa).interpolate_clipped(viewport, 1.0f, group);
       for (int k = 0; k < 2; ++k)
         for (int i = 0; i < FragmentBatch::group; ++i) {
           ASSERT_EQ(group.b[k][i], expected->batch.b[k][16 + i]) << key << ' ' << name_of(isa);
@@ -108,7 +108,7 @@ TEST(Interpolate, ClippedRowsHaveTheBitsOfTheirPointsOnEveryInstructionSet) {
 
 TEST(Interpolate, AffineTrianglesRepeatTheirSlopes) {
   Rows rows(0);
-  rows.interpolate(interpolate_kernels(best_isa()));
+  rows.interpolate(InterpolateKernels::of());
   int repeated = 0;
   for (int g = 0; g < FragmentBatch::groups; ++g) {
     if (!rows.batch.has_uniform_derivatives[g]) continue;

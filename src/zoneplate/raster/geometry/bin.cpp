@@ -6,8 +6,7 @@
 
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/raster/geometry/clip.h"
-#include "zoneplate/raster/geometry/triangle_facing.h"
+#include "zoneplate/raster/geometry/clip_fan.h"
 #include "zoneplate/raster/types/tile_grid.h"
 
 namespace zoneplate {
@@ -79,10 +78,6 @@ class Binner {
     return run;
   }
 
-  static bool is_culled(const Draw& draw, bool is_clockwise) {
-    return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
-  }
-
   Extent extent_of(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) const {
     const std::int32_t cx = rules_.viewport.width * 128, cy = rules_.viewport.height * 128;
     return {std::min({p.x, q.x, r.x}) + cx, std::max({p.x, q.x, r.x}) + cx, std::min({p.y, q.y, r.y}) + cy,
@@ -125,19 +120,10 @@ class Binner {
 
   void add_clipped(std::size_t d, std::int32_t triangle, const std::uint32_t* v) {
     const Draw& draw = projected_.draws[d];
-    const ClippedPolygon polygon =
-        clip_triangle(draw.clip_position(v[0]), draw.clip_position(v[1]), draw.clip_position(v[2]), rules_.viewport);
-    if (polygon.count < 3) return;
-    const TriangleFacing facing = face_of(projected_, d, triangle, rules_.viewport);
-    if (facing.is_degenerate || is_culled(draw, facing.is_clockwise)) return;
-    for (int i = 2; i < polygon.count; ++i) {
-      const ScreenVertex& p = polygon.vertex[0];
-      const ScreenVertex& q = polygon.vertex[static_cast<std::size_t>(i - 1)];
-      const ScreenVertex& r = polygon.vertex[static_cast<std::size_t>(i)];
-      const std::int64_t area = doubled_area(p, q, r);
-      // Snapping may turn a sliver of the fan over; the pieces beside it cover its place.
-      if (area != 0 && (area > 0) == facing.is_clockwise && may_cover_a_sample(p, q, r)) emit(draw, p, q, r, triangle);
-    }
+    for_clipped_triangles(projected_, d, triangle, v, rules_.viewport,
+                          [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
+                            if (may_cover_a_sample(p, q, r)) emit(draw, p, q, r, triangle);
+                          });
   }
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
@@ -225,7 +211,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
       parts.push_back({d, t, t + std::min(part_size, end - t)});
   }
   const SampleArrays samples(target.samples);
-  const SmallTriangleKernels& kernels = small_triangle_kernels(isa);
+  const SmallTriangleKernels& kernels = SmallTriangleKernels::of(isa);
   parallel_for(parts.size(), [&](std::size_t i) {
     Binner binner(projected, target, rules, bins);
     growing("triangle bins", [&] { binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels); });

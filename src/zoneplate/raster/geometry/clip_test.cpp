@@ -90,8 +90,8 @@ TEST(Project, KernelsGiveTheScalarTwinsBits) {
   for (const Isa isa : supported_isas())
     for (std::size_t n = 0; n <= p.size(); ++n) {
       std::vector<ScreenVertex> expected(n + 1), actual(n + 1);
-      scalar::project_kernels.transform(m, p.data(), n, viewport, expected.data());
-      project_kernels(isa).transform(m, p.data(), n, viewport, actual.data());
+      ProjectKernels::scalar.transform(m, p.data(), n, viewport, expected.data());
+      ProjectKernels::of(isa).transform(m, p.data(), n, viewport, actual.data());
       for (std::size_t i = 0; i <= n; ++i) {
         ASSERT_EQ(expected[i].x, actual[i].x) << name_of(isa);
         ASSERT_EQ(expected[i].y, actual[i].y);

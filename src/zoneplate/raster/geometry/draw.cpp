@@ -103,7 +103,7 @@ std::size_t project_kept(ProjectedDraws& p, Isa isa) {
     p.screen[last] = {place, count};
     place += count, left -= count;
   }
-  project_batch(p, 0, last, project_kernels(isa));
+  project_batch(p, 0, last, ProjectKernels::of(isa));
   return last;
 }
 
@@ -121,7 +121,7 @@ void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::s
     ScreenVertex* place = screen_memory(p.batch_memory, count);
     for (std::size_t d = first; d < last; place += p.draws[d++].vertices())
       p.screen[d] = {place, p.draws[d].vertices()};
-    project_batch(p, first, last, project_kernels(isa));
+    project_batch(p, first, last, ProjectKernels::of(isa));
     use(first, last);
     for (std::size_t d = first; d < last; ++d) p.screen[d] = {};
   }

@@ -24,7 +24,8 @@ void transform(const float4x4& clip_from_object, const float3* p, std::size_t n,
 
 }  // namespace
 
-const ProjectKernels project_kernels = {.transform = transform};
-
 }  // namespace scalar
+
+template <>
+const ProjectKernels PerIsa<ProjectKernels>::scalar = {.transform = scalar::transform};
 }  // namespace zoneplate

@@ -31,17 +31,10 @@ inline constexpr std::int32_t guard_band = 1 << 22;
 /// reach.
 ScreenVertex project(float4 clip, Viewport viewport);
 
-struct ProjectKernels {
+struct ProjectKernels : PerIsa<ProjectKernels> {
   /// project(clip_from_object * p) for n positions.
   void (*transform)(const float4x4& clip_from_object, const float3* p, std::size_t n, Viewport viewport,
                     ScreenVertex* out);
-
-  static const ProjectKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const ProjectKernels project_kernels;
-}
-inline const ProjectKernels& project_kernels(Isa isa) { return pick(isa, scalar::project_kernels); }
 
 }  // namespace zoneplate

@@ -60,5 +60,6 @@ void transform(const float4x4& m, const float3* p, std::size_t n, Viewport viewp
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const ProjectKernels ProjectKernels::HWY_NAMESPACE = {.transform = HWY_NAMESPACE::transform};
+template <>
+const ProjectKernels PerIsa<ProjectKernels>::HWY_NAMESPACE = {.transform = HWY_NAMESPACE::transform};
 }  // namespace zoneplate

@@ -15,18 +15,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 // One triangle a lane.
-using F = hn::CappedTag<float, 16>;
-using I = hn::Rebind<std::int32_t, F>;
-using H = hn::Half<F>;
-using D = hn::Rebind<double, H>;
-using VF = hn::Vec<F>;
-using VI = hn::Vec<I>;
-using VD = hn::Vec<D>;
-using MI = hn::Mask<I>;
-constexpr std::int32_t lanes = static_cast<std::int32_t>(hn::MaxLanes(F()));
-constexpr F f;
-constexpr I i32;
-constexpr D f64;
+using DF = hn::CappedTag<float, 16>;
+using DI = hn::Rebind<std::int32_t, DF>;
+using DH = hn::Half<DF>;
+using DD = hn::Rebind<double, DH>;
+using VF = hn::Vec<DF>;
+using VI = hn::Vec<DI>;
+using VD = hn::Vec<DD>;
+using MI = hn::Mask<DI>;
+constexpr std::int32_t lanes = static_cast<std::int32_t>(hn::MaxLanes(DF()));
+constexpr DF f;
+constexpr DI i32;
+constexpr DD f64;
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
 
@@ -100,7 +100,7 @@ HWY_INLINE VD widened(V v) {
 }
 
 HWY_INLINE VF narrowed(VD lower, VD upper) {
-  const H h;
+  const DH h;
   return combined(f, hn::DemoteTo(h, upper), hn::DemoteTo(h, lower));
 }
 
@@ -163,12 +163,12 @@ struct RecordLanes {
   alignas(64) float z_low[lanes], z_high[lanes];
 
   static HWY_INLINE VI odd(VI v) {
-    const hn::Repartition<std::int64_t, I> i64;
+    const hn::Repartition<std::int64_t, DI> i64;
     return hn::BitCast(i32, hn::ShiftRight<32>(hn::BitCast(i64, v)));
   }
 
   /// Of the even lanes. Highway 1.0.3 leaves their signs out on WebAssembly.
-  static HWY_INLINE hn::Vec<hn::Repartition<std::int64_t, I>> products(VI p, VI q) {
+  static HWY_INLINE hn::Vec<hn::Repartition<std::int64_t, DI>> products(VI p, VI q) {
 #if HWY_TARGET == HWY_WASM
     const auto even = [](VI v) { return wasm_i64x2_shr(wasm_i64x2_shl(v.raw, 32), 32); };
     return {wasm_i64x2_mul(even(p), even(q))};
@@ -180,7 +180,7 @@ struct RecordLanes {
   template <int k>
   HWY_INLINE void store_edge(const Corners& corners, const SetUp& t) {
     constexpr int from = (k + 1) % 3;
-    const hn::Repartition<std::int64_t, I> i64;
+    const hn::Repartition<std::int64_t, DI> i64;
     const VI dx = t.dx[k], dy = t.dy[k], x = corners.x[from], y = corners.y[from];
     hn::Store(hn::Neg(dy), i32, a[k]);
     hn::Store(dx, i32, b[k]);

@@ -124,7 +124,7 @@ struct Append {
   VI first;  ///< what is said of fragments at the first candidates
 
   HWY_INLINE void operator()(MI mask, int i, int j, VF z) const {
-    const Packing<I> packing(mask);
+    const Packing<DI> packing(mask);
     const std::int32_t at = part->count;
     packing.store(z, part->depth + at);
     packing.store(hn::Add(first, set(j * 64 + i)), reinterpret_cast<std::int32_t*>(part->what) + at);
@@ -136,7 +136,7 @@ struct Append {
 HWY_INLINE void put_in_tile(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile, MI mask, VF z,
                             VI what) {
   SampleBin* const part = part_with_room(run, sink, tile, lanes);
-  const Packing<I> packing(mask);
+  const Packing<DI> packing(mask);
   const std::int32_t at = part->count;
   packing.store(z, part->depth + at);
   packing.store(hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part->first_id) << 16))),
@@ -203,7 +203,7 @@ struct Waiting {
   alignas(64) std::int32_t sample_x[room], sample_y[room];  ///< 1/256 pixel; of samples only
   alignas(64) float z[3][room];
 
-  HWY_INLINE void add(const Corners& c, const Packing<I>& packing) {
+  HWY_INLINE void add(const Corners& c, const Packing<DI>& packing) {
     const std::int32_t at = count;
     packing.store(c.x[0], x[0] + at), packing.store(c.y[0], y[0] + at), packing.store(c.z[0], z[0] + at);
     packing.store(c.x[1], x[1] + at), packing.store(c.y[1], y[1] + at), packing.store(c.z[1], z[1] + at);
@@ -211,7 +211,7 @@ struct Waiting {
     packing.store(c.id, id + at);
     count = at + packing.count();
   }
-  HWY_INLINE void add(const Corners& c, VI px, VI py, const Packing<I>& packing) {
+  HWY_INLINE void add(const Corners& c, VI px, VI py, const Packing<DI>& packing) {
     packing.store(px, sample_x + count), packing.store(py, sample_y + count);
     add(c, packing);
   }

@@ -93,6 +93,11 @@ void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangle
 
 }  // namespace
 
-const SmallTriangleKernels small_triangle_kernels = {.run = run_front};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const SmallTriangleKernels PerIsa<SmallTriangleKernels>::scalar = {.run = scalar::run_front};
+
+}  // namespace zoneplate

@@ -66,20 +66,12 @@ struct SmallTriangleResult {
                                                        ///< rectangle; not written where there is room for records
 };
 
-struct SmallTriangleKernels {
+struct SmallTriangleKernels : PerIsa<SmallTriangleKernels> {
   /// Culls a run of triangles, converts the small ones to samples, and sets up or lists the rest, in their order.
   ///
   /// The samples of small triangles and their depths are those of make_tile_triangle and depth_at, bit for bit.
   void (*run)(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result);
-
-  static const SmallTriangleKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
-      N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const SmallTriangleKernels small_triangle_kernels;
-}
-inline const SmallTriangleKernels& small_triangle_kernels(Isa isa) { return pick(isa, scalar::small_triangle_kernels); }
 
 inline constexpr std::int32_t large_extent = 16383;  ///< 1/256 pixel; products of two differences stay within 28 bits
 

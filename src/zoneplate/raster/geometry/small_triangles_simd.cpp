@@ -54,7 +54,7 @@ class Front {
 
  private:
   HWY_INLINE void list(MI mask, VI number, std::int32_t* to, std::int32_t& count) {
-    const Packing<I> packing(mask);
+    const Packing<DI> packing(mask);
     packing.store(number, to + count);
     count += packing.count();
   }
@@ -90,7 +90,7 @@ class Front {
     if (hn::AllFalse(i32, small)) return;
     result_.drawn += hn::CountTrue(i32, small);
     if (run_.sample_count == 1 && cover(c, e, width, height, hn::Abs(area), small)) return;
-    waiting_.add(c, Packing<I>(small));
+    waiting_.add(c, Packing<DI>(small));
     if (waiting_.count >= Waiting::enough) draw_waiting(false);
   }
 
@@ -152,7 +152,7 @@ class Front {
       const VI place = exponent_of(hn::Xor(bits, rest));
       const VI x = hn::Add(px, hn::And(hn::ShiftLeft<8>(place), step));
       const VI y = hn::Add(py, hn::And(hn::ShiftLeft<6>(place), step));
-      samples_.add(c, x, y, Packing<I>(mask));
+      samples_.add(c, x, y, Packing<DI>(mask));
       bits = rest;
     }
   }
@@ -334,5 +334,6 @@ void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangle
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SmallTriangleKernels SmallTriangleKernels::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
+template <>
+const SmallTriangleKernels PerIsa<SmallTriangleKernels>::HWY_NAMESPACE = {.run = HWY_NAMESPACE::run_front};
 }  // namespace zoneplate

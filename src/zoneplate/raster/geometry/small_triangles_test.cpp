@@ -145,7 +145,7 @@ Outcome outcome_of(const Soup& soup, const Case& c, Isa isa) {
                                .is_top_left = c.is_top_left,
                                .small_extent = c.small_extent,
                                .records = c.lists_kept ? nullptr : records.data()};
-    small_triangle_kernels(isa).run(run, lists.sink, result);
+    SmallTriangleKernels::of(isa).run(run, lists.sink, result);
     for (std::int32_t i = 0; i < result.general_count; ++i) out.general.push_back(first + result.general[i]);
     for (std::int32_t i = 0; i < result.kept_count; ++i) {
       out.kept.push_back(c.lists_kept ? first + result.kept[i] : records[static_cast<std::size_t>(i)].id);

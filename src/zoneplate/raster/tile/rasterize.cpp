@@ -36,19 +36,15 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
 
   const Stopwatch tiles;
   const TileSetup tile_setup(projected, bins, shader, rules, target);
-  std::vector<std::unique_ptr<TileBuffers>> buffers(static_cast<std::size_t>(thread_limit()));
+  PerThread<TileBuffers> buffers;
   parallel_for(bins.tiles(), [&](std::size_t tile) {
-    std::unique_ptr<TileBuffers>& mine = buffers[static_cast<std::size_t>(thread_index())];
-    growing("tile buffers", [&] {
-      if (!mine) mine = std::make_unique<TileBuffers>(tile_setup);
-      render_tile(tile, *mine);
-    });
+    growing("tile buffers", [&] { render_tile(tile, buffers.local(tile_setup)); });
   });
-  for (const auto& used : buffers)
-    if (used) {
-      counts.shaded += used->batcher.shaded(), counts.evaluated += used->batcher.evaluated();
-      counts.stages += used->times;
-    }
+  buffers.for_each([&](const TileBuffers& used) {
+    counts.shaded += used.batcher.shaded();
+    counts.evaluated += used.batcher.evaluated();
+    counts.stages += used.times;
+  });
   counts.tiles_ms = tiles.ms();
   return counts;
 }

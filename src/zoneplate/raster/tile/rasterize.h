@@ -16,7 +16,7 @@ namespace zoneplate {
 struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
-  Isa isa = best_isa();
+  Isa isa = current_isa();
   RasterRoom room;
 
   SetupRules setup(Viewport viewport) const {

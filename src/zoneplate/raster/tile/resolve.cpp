@@ -83,14 +83,15 @@ void put(const Linear8& color, Linear* out) {
 
 }  // namespace
 
-const ResolveKernels resolve_kernels = {.resolve = resolve,
-                                        .composite_under = composite_under,
-                                        .composite_spans_under = composite_spans_under,
-                                        .over = over,
-                                        .resolve_samples = resolve_samples,
-                                        .add = add,
-                                        .divide = divide,
-                                        .put = put};
-
 }  // namespace scalar
+
+template <>
+const ResolveKernels PerIsa<ResolveKernels>::scalar = {.resolve = scalar::resolve,
+                                                       .composite_under = scalar::composite_under,
+                                                       .composite_spans_under = scalar::composite_spans_under,
+                                                       .over = scalar::over,
+                                                       .resolve_samples = scalar::resolve_samples,
+                                                       .add = scalar::add,
+                                                       .divide = scalar::divide,
+                                                       .put = scalar::put};
 }  // namespace zoneplate

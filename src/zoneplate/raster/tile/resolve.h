@@ -38,7 +38,7 @@ struct alignas(64) TransparentStack8 {
 /// Sums and means of samples, for spans of eight pixels whose fragments are consecutive in `color`, from `first` on.
 ///
 /// Exact     in float, as written: products, sums from 0 on in the order of the samples, one division.
-struct ResolveKernels {
+struct ResolveKernels : PerIsa<ResolveKernels> {
   /// out = (0 + color × weight) / weight: one surface owns all samples. For consecutive spans.
   void (*resolve)(const FragmentOutputs& color, int first, int rows, float weight, Linear8* const* out);
   /// TransparentStack::composite_under for eight fragments.
@@ -55,13 +55,6 @@ struct ResolveKernels {
   void (*divide)(const Linear8& sum, float weight, Linear8& out);
   /// The pixels one by one.
   void (*put)(const Linear8& color, Linear* out);
-
-  static const ResolveKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const ResolveKernels resolve_kernels;
-}
-inline const ResolveKernels& resolve_kernels(Isa isa) { return pick(isa, scalar::resolve_kernels); }
 
 }  // namespace zoneplate

@@ -145,12 +145,14 @@ void put(const Linear8& color, Linear* out) {
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const ResolveKernels ResolveKernels::HWY_NAMESPACE = {.resolve = HWY_NAMESPACE::resolve,
-                                                      .composite_under = HWY_NAMESPACE::composite_under,
-                                                      .composite_spans_under = HWY_NAMESPACE::composite_spans_under,
-                                                      .over = HWY_NAMESPACE::over,
-                                                      .resolve_samples = HWY_NAMESPACE::resolve_samples,
-                                                      .add = HWY_NAMESPACE::add,
-                                                      .divide = HWY_NAMESPACE::divide,
-                                                      .put = HWY_NAMESPACE::put};
+template <>
+const ResolveKernels PerIsa<ResolveKernels>::HWY_NAMESPACE = {
+    .resolve = HWY_NAMESPACE::resolve,
+    .composite_under = HWY_NAMESPACE::composite_under,
+    .composite_spans_under = HWY_NAMESPACE::composite_spans_under,
+    .over = HWY_NAMESPACE::over,
+    .resolve_samples = HWY_NAMESPACE::resolve_samples,
+    .add = HWY_NAMESPACE::add,
+    .divide = HWY_NAMESPACE::divide,
+    .put = HWY_NAMESPACE::put};
 }  // namespace zoneplate

@@ -24,7 +24,7 @@ TEST(Resolve, KernelsGiveTheScalarTwinsBits) {
     points.set(i, {number(i + 2000), number(i + 2100), number(i + 2200), number(i + 2300)});
   const float weights[] = {0.3f, -0.1f, 0.7f}, least = least_transmittance(3);
   for (const Isa isa : supported_isas()) {
-    const ResolveKernels &one = scalar::resolve_kernels, &other = resolve_kernels(isa);
+    const ResolveKernels &one = ResolveKernels::scalar, &other = ResolveKernels::of(isa);
     Linear8 a{}, b{}, c{}, d{};
     Linear8 *const first[] = {&a, &c}, *const second[] = {&b, &d};
     for (const float weight : {1.0f, 0.7f, 4.0f, 6.0f}) {
@@ -83,14 +83,14 @@ TEST(Resolve, MeansAndLayersAreTheDefinitions) {
   color.r[8] = 0.5f, color.a[8] = 1;
   Linear8 out;
   Linear8* const row = &out;
-  scalar::resolve_kernels.resolve(color, 8, 1, 4, &row);
+  ResolveKernels::scalar.resolve(color, 8, 1, 4, &row);
   EXPECT_EQ(out.get(0), (Linear{0.5f, 0, 0, 1}));
   color.r[16] = 0.25f, color.a[16] = 0.5f;
   TransparentStack8 layers;
   layers.clear();
-  scalar::resolve_kernels.composite_under(color, 16, 0, layers);
+  ResolveKernels::scalar.composite_under(color, 16, 0, layers);
   out.set(0, {1, 0, 0, 1});
-  scalar::resolve_kernels.over(layers, out);
+  ResolveKernels::scalar.over(layers, out);
   EXPECT_EQ(out.get(0), (Linear{0.75f, 0, 0, 1}));
 }
 

@@ -9,13 +9,6 @@
 namespace zoneplate {
 namespace {
 
-/// The first element of the storage that begins a cache line. The vector has the elements of one line to spare.
-template <class T>
-T* aligned(std::vector<T>& storage) {
-  const auto address = reinterpret_cast<std::uintptr_t>(storage.data());
-  return storage.data() + ((64 - address % 64) % 64) / sizeof(T);
-}
-
 /// Materializes all blocks if the small triangles have so many samples that most blocks would be.
 bool materialize_if_most(const TileJob& job, TileVisibility& visibility) {
   constexpr std::int32_t enough = 2048;
@@ -48,10 +41,10 @@ void materialize_touched(const SampleBin& bin, TileVisibility& visibility) {
 }  // namespace
 
 VisibilityBuffer::VisibilityBuffer(int max_samples)
-    : depth_storage_(static_cast<std::size_t>(max_samples) * tile_pixels + 16),
-      id_storage_(static_cast<std::size_t>(max_samples) * tile_pixels + 16) {
-  depth = aligned(depth_storage_);
-  id = aligned(id_storage_);
+    : depth_storage_(static_cast<std::size_t>(max_samples) * tile_pixels),
+      id_storage_(static_cast<std::size_t>(max_samples) * tile_pixels) {
+  depth = depth_storage_.data();
+  id = id_storage_.data();
   block_min_depth = block_min_depth_storage_;
   block_primitive = block_primitive_storage_;
 }

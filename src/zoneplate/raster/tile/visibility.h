@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "zoneplate/base/aligned_array.h"
 #include "zoneplate/raster/coverage/coverage.h"
 #include "zoneplate/raster/tile/job.h"
 
@@ -15,8 +15,8 @@ class VisibilityBuffer : public TileVisibility {
   VisibilityBuffer(const VisibilityBuffer&) = delete;  // it refers to itself
 
  private:
-  std::vector<float> depth_storage_;
-  std::vector<std::int32_t> id_storage_;
+  AlignedArray<float> depth_storage_;
+  AlignedArray<std::int32_t> id_storage_;
   alignas(64) float block_min_depth_storage_[blocks];
   std::int32_t block_primitive_storage_[blocks];
 };

@@ -80,7 +80,7 @@ Scene sphere_scene(const char* name, int n) {
   return scene;
 }
 
-constexpr BuiltinParam params[] = {{"triangles", "rounded up to 12 n²", 10000, 12, 100'000'000}};
+constexpr Param params[] = {{"triangles", "rounded up to 12 n²", 10000, 12, 100'000'000}};
 
 Scene make_sphere(std::span<const std::int64_t> values) {
   int n = 1;

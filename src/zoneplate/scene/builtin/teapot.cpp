@@ -148,7 +148,7 @@ Mesh part(const std::vector<Patch>& patches, std::int64_t divisions) {
   return mesh;
 }
 
-constexpr BuiltinParam params[] = {{"divisions", "cells of a patch, per side", 16, 1, 512}};
+constexpr Param params[] = {{"divisions", "cells of a patch, per side", 16, 1, 512}};
 
 Scene make(std::span<const std::int64_t> values) {
   Scene scene;

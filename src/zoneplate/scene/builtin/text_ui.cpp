@@ -137,8 +137,8 @@ void draw_figures(Panel& p) {
     for (int x = y % 2; x < 130; x += 2) p.fill(496 + x, 458 + y, 1, 1, ink);
 }
 
-constexpr BuiltinParam params[] = {{"width", "of the panel, in texels", 640, 64, 8192},
-                                   {"height", "of the panel, in texels", 480, 64, 8192}};
+constexpr Param params[] = {{"width", "of the panel, in texels", 640, 64, 8192},
+                            {"height", "of the panel, in texels", 480, 64, 8192}};
 
 Scene make(std::span<const std::int64_t> values) {
   Panel panel(static_cast<int>(values[0]), static_cast<int>(values[1]));

@@ -200,9 +200,13 @@ Scene make(std::span<const std::int64_t> values) {
   return scene;
 }
 
-constexpr BuiltinParam params[] = {
-    {"spokes", "how many", 12, 1, 360},
-    {"turn", "how far it has turned clockwise, in spokes", 0, -1000 * micro, 1000 * micro, 6}};
+constexpr Param params[] = {{"spokes", "how many", 12, 1, 360},
+                            {.name = "turn",
+                             .meaning = "how far it has turned clockwise, in spokes",
+                             .value = 0,
+                             .low = -1000,
+                             .high = 1000,
+                             .decimals = 6}};
 
 }  // namespace
 

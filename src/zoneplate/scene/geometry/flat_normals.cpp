@@ -48,9 +48,10 @@ void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles
 
 }  // namespace
 
-const FlatNormalKernels flat_normal_kernels = {make};
-
 }  // namespace scalar
+
+template <>
+const FlatNormalKernels PerIsa<FlatNormalKernels>::scalar = {.make = scalar::make};
 
 void make_flat_normals(Mesh& mesh) {
   assert(mesh.topology == Topology::Triangles);
@@ -65,7 +66,7 @@ void make_flat_normals(Mesh& mesh) {
   constexpr std::size_t block = 4096;
   parallel_ranges(mesh.position.size() / 3, block, [&](std::size_t begin, std::size_t end) {
     const auto* const corners = reinterpret_cast<const std::uint8_t*>(&mesh.position[3 * begin]);
-    flat_normal_kernels(best_isa()).make(corners, 3 * sizeof(float3), end - begin, &mesh.normal[3 * begin].x);
+    FlatNormalKernels::of().make(corners, 3 * sizeof(float3), end - begin, &mesh.normal[3 * begin].x);
   });
 }
 

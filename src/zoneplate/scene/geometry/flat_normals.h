@@ -13,18 +13,11 @@ namespace zoneplate {
 float3 flat_normal(float3 a, float3 b, float3 c);
 
 /// That of many triangles.
-struct FlatNormalKernels {
+struct FlatNormalKernels : PerIsa<FlatNormalKernels> {
   /// Shape     a triangle's corners are nine floats, little-endian, at any address, `stride` >= 36 bytes after those of
   ///           the one before; its normal is written three times, once for each corner.
   void (*make)(const std::uint8_t* corners, std::size_t stride, std::size_t triangles, float* normal);
-
-  static const FlatNormalKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const FlatNormalKernels flat_normal_kernels;
-}
-inline const FlatNormalKernels& flat_normal_kernels(Isa isa) { return pick(isa, scalar::flat_normal_kernels); }
 
 /// Replaces the normals by flat ones: every triangle gets its own three vertices.
 ///

@@ -106,14 +106,14 @@ void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles
     put(hn::InterleaveUpper(four, xz_high, y_high), out + 27);
   }
   // Nothing is read behind the last triangle's corners, nor written behind its normals.
-  scalar::flat_normal_kernels.make(corners + i * stride, stride, triangles - i, normal + 9 * i);
+  FlatNormalKernels::scalar.make(corners + i * stride, stride, triangles - i, normal + 9 * i);
 }
 
 #else
 
 /// Highway has no vectors of doubles here.
 void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles, float* normal) {
-  scalar::flat_normal_kernels.make(corners, stride, triangles, normal);
+  FlatNormalKernels::scalar.make(corners, stride, triangles, normal);
 }
 
 #endif
@@ -123,5 +123,6 @@ void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FlatNormalKernels FlatNormalKernels::HWY_NAMESPACE = {HWY_NAMESPACE::make};
+template <>
+const FlatNormalKernels PerIsa<FlatNormalKernels>::HWY_NAMESPACE = {.make = HWY_NAMESPACE::make};
 }  // namespace zoneplate

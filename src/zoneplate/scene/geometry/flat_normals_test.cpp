@@ -50,11 +50,11 @@ TEST(FlatNormals, TwinsGiveTheSameBitsAndTouchNothingElse) {
         std::memcpy(&corners[i * stride], values, sizeof values);
       }
       std::vector<float> wanted(9 * triangles + 1, 7.0f);
-      flat_normal_kernels(Isa::Scalar).make(corners.data(), stride, triangles, wanted.data());
+      FlatNormalKernels::of(Isa::Scalar).make(corners.data(), stride, triangles, wanted.data());
       EXPECT_EQ(wanted.back(), 7);
       for (const Isa isa : supported_isas()) {
         std::vector<float> found(9 * triangles + 1, 7.0f);
-        flat_normal_kernels(isa).make(corners.data(), stride, triangles, found.data());
+        FlatNormalKernels::of(isa).make(corners.data(), stride, triangles, found.data());
         EXPECT_EQ(found, wanted) << name_of(isa) << " " << triangles;
       }
     }

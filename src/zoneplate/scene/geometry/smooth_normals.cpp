@@ -21,7 +21,7 @@ constexpr std::size_t most_compared = 256, block = 4096;
 
 /// The sums of the triangles about each vertex, in their order, as units; marked are vertices that want a closer look.
 void sum_all(Mesh& mesh, std::vector<char>& mark) {
-  const SmoothSumKernels& kernels = smooth_sum_kernels(best_isa());
+  const SmoothSumKernels& kernels = SmoothSumKernels::of();
   const std::size_t vertices = mesh.position.size(), triangles = mesh.index.size() / 3;
   const auto* const position = reinterpret_cast<const float*>(mesh.position.data());
   auto* const normal = reinterpret_cast<float*>(mesh.normal.data());

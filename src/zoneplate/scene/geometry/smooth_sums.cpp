@@ -68,6 +68,12 @@ void mark_turns(const float* position, const float* normal, std::size_t, const s
 
 }  // namespace
 
-const SmoothSumKernels smooth_sum_kernels = {add, normalize, mark_turns};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const SmoothSumKernels PerIsa<SmoothSumKernels>::scalar = {
+    .add = scalar::add, .normalize = scalar::normalize, .mark_turns = scalar::mark_turns};
+
+}  // namespace zoneplate

@@ -20,7 +20,7 @@ struct VertexRange {
 ///
 /// Shape     positions and normals are three floats a vertex, indices three a triangle.
 /// Requires  every index below `vertices`, all positions finite.
-struct SmoothSumKernels {
+struct SmoothSumKernels : PerIsa<SmoothSumKernels> {
   /// Adds the triangles, one after the other, to those of their vertices that lie in the range.
   void (*add)(const float* position, std::size_t vertices, const std::uint32_t* index, std::size_t triangles,
               VertexRange own, float* sum);
@@ -31,16 +31,9 @@ struct SmoothSumKernels {
   void (*mark_turns)(const float* position, const float* normal, std::size_t vertices, const std::uint32_t* index,
                      std::size_t triangles, char* mark);
 
-  static const SmoothSumKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
-
   static constexpr float least_square = 1e-36f, greatest_square = 1e36f;  ///< of products of two squared edges
   static constexpr float thin = 1e-6f;                                    ///< square of a height over that of an edge
   static constexpr float cos_25_squared = 0.82139381f;
 };
-
-namespace scalar {
-extern const SmoothSumKernels smooth_sum_kernels;
-}
-inline const SmoothSumKernels& smooth_sum_kernels(Isa isa) { return pick(isa, scalar::smooth_sum_kernels); }
 
 }  // namespace zoneplate

@@ -205,6 +205,7 @@ void mark_turns(const float* position, const float* normal, std::size_t vertices
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SmoothSumKernels SmoothSumKernels::HWY_NAMESPACE = {HWY_NAMESPACE::add, HWY_NAMESPACE::normalize,
-                                                          HWY_NAMESPACE::mark_turns};
+template <>
+const SmoothSumKernels PerIsa<SmoothSumKernels>::HWY_NAMESPACE = {
+    .add = HWY_NAMESPACE::add, .normalize = HWY_NAMESPACE::normalize, .mark_turns = HWY_NAMESPACE::mark_turns};
 }  // namespace zoneplate

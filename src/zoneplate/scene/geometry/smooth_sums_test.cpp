@@ -46,10 +46,10 @@ Found found_by(const SmoothSumKernels& kernels, const Heap& heap) {
 TEST(SmoothSums, TwinsGiveTheSameBits) {
   for (const std::uint32_t triangles : {1u, 2u, 7u, 8u, 9u, 40u, 200u, 1001u}) {
     const Heap heap(triangles);
-    const Found wanted = found_by(smooth_sum_kernels(Isa::Scalar), heap);
+    const Found wanted = found_by(SmoothSumKernels::of(Isa::Scalar), heap);
     for (const float n : wanted.normal) ASSERT_LE(std::abs(n), 1.0001f);
     for (const Isa isa : supported_isas())
-      EXPECT_EQ(found_by(smooth_sum_kernels(isa), heap), wanted) << name_of(isa) << triangles;
+      EXPECT_EQ(found_by(SmoothSumKernels::of(isa), heap), wanted) << name_of(isa) << triangles;
   }
 }
 
@@ -59,7 +59,7 @@ TEST(SmoothSums, WhatFloatsDoNotHoldIsMarked) {
     Heap heap(1);
     heap.position = {{0, 0, 0}, {0, 0, 0}, {wide, 0, 0}, {0, high, 0}, {0, 0, 0}};
     heap.index = {1, 2, 3};
-    const Found found = found_by(smooth_sum_kernels(best_isa()), heap);
+    const Found found = found_by(SmoothSumKernels::of(), heap);
     EXPECT_EQ(found.mark[1], found.mark[2]);
     EXPECT_NEAR(found.normal[found.mark[1] != 0 ? 4 : 5], 1, 1e-6f);
     return found.mark[1] != 0;

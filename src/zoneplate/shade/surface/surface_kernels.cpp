@@ -3,8 +3,9 @@
 #include "zoneplate/shade/lanes/lanes.h"
 #include "zoneplate/shade/surface/surface_stages.h"
 
-namespace zoneplate::scalar {
+namespace zoneplate {
 
-const SurfaceKernels surface_kernels = stages::all<Float, WideFloat>();
+template <>
+const SurfaceKernels PerIsa<SurfaceKernels>::scalar = stages::all<scalar::Float, scalar::WideFloat>();
 
-}  // namespace zoneplate::scalar
+}  // namespace zoneplate

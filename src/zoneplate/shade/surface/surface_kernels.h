@@ -1,5 +1,6 @@
 #pragma once
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/shade/surface/exponent.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/points.h"
@@ -54,7 +55,7 @@ struct Coordinates {
 ///
 /// Requires  counts are multiples of 8, at most ShadingState::capacity; arrays have room up to the next multiple of
 ///           FragmentBatch::max_lanes.
-struct SurfaceKernels {
+struct SurfaceKernels : PerIsa<SurfaceKernels> {
   // Arithmetic on single arrays: out = in × factor + offset; values ×= by; out = value; values clamped to [0, 1].
   void (*scale)(float* out, const float* in, float factor, float offset, int count);
   void (*multiply)(float* values, const float* by, int count);
@@ -94,12 +95,6 @@ struct SurfaceKernels {
   void (*light_metallic)(const ShadingUniforms& what, const FragmentBatch& batch, const ShadingState& points,
                          FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& points, FragmentOutputs& out);
-
-  static const SurfaceKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const SurfaceKernels surface_kernels;
-}
 
 }  // namespace zoneplate

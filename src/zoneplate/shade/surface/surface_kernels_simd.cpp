@@ -4,5 +4,7 @@
 #include "zoneplate/shade/surface/surface_stages.h"
 
 namespace zoneplate {
-const SurfaceKernels SurfaceKernels::HWY_NAMESPACE = stages::all<HWY_NAMESPACE::Float, HWY_NAMESPACE::WideFloat>();
+template <>
+const SurfaceKernels PerIsa<SurfaceKernels>::HWY_NAMESPACE =
+    stages::all<HWY_NAMESPACE::Float, HWY_NAMESPACE::WideFloat>();
 }  // namespace zoneplate

@@ -16,7 +16,7 @@
 namespace zoneplate {
 namespace {
 
-const SurfaceKernels& kernels(Isa isa) { return pick(isa, scalar::surface_kernels); }
+const SurfaceKernels& kernels(Isa isa) { return SurfaceKernels::of(isa); }
 
 /// Everything the stages touch, filled with numbers: mostly usual ones, some zeros, some large.
 struct Bench {

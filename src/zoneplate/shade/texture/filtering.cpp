@@ -85,7 +85,10 @@ void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footp
 
 }  // namespace
 
-const FilteringKernels filtering_kernels = {&find_taps<Float, TextureView>, &mix_taps, &sample_anisotropic};
-
 }  // namespace scalar
+
+template <>
+const FilteringKernels PerIsa<FilteringKernels>::scalar = {.find_taps = &find_taps<scalar::Float, TextureView>,
+                                                           .mix_taps = &scalar::mix_taps,
+                                                           .sample_anisotropic = &scalar::sample_anisotropic};
 }  // namespace zoneplate

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 struct Sampler;
@@ -73,7 +75,7 @@ struct Taps {
 ///           floats are mixed in floats, with the same weights.
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
-struct FilteringKernels {
+struct FilteringKernels : PerIsa<FilteringKernels> {
   void (*find_taps)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint, Taps& out,
                     int count);
   void (*mix_taps)(const TextureView& texture, const Taps& taps, float* const out[4], int count);
@@ -84,12 +86,6 @@ struct FilteringKernels {
   /// Source    EXT_texture_filter_anisotropic (but for the last bound, which only spares probes nearer than a texel).
   void (*sample_anisotropic)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint,
                              float* const out[4], int count);
-
-  static const FilteringKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const FilteringKernels filtering_kernels;
-}
 
 }  // namespace zoneplate

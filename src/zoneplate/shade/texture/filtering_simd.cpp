@@ -311,6 +311,9 @@ void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footp
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FilteringKernels FilteringKernels::HWY_NAMESPACE = {&zoneplate::find_taps<HWY_NAMESPACE::WideFloat, TextureView>,
-                                                          &HWY_NAMESPACE::mix_taps, &HWY_NAMESPACE::sample_anisotropic};
+template <>
+const FilteringKernels PerIsa<FilteringKernels>::HWY_NAMESPACE = {
+    .find_taps = &zoneplate::find_taps<HWY_NAMESPACE::WideFloat, TextureView>,
+    .mix_taps = &HWY_NAMESPACE::mix_taps,
+    .sample_anisotropic = &HWY_NAMESPACE::sample_anisotropic};
 }  // namespace zoneplate

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int capacity = Taps::capacity;
 
-const FilteringKernels& kernels(Isa isa) { return pick(isa, scalar::filtering_kernels); }
+const FilteringKernels& kernels(Isa isa) { return FilteringKernels::of(isa); }
 
 /// Places to look at, all with one footprint unless said otherwise.
 struct Points {

@@ -57,7 +57,7 @@ Plane<float> zone_plate(int size) {
       // r² in quarters of a pixel is an integer: the angle is reduced without error.
       const std::int64_t dx = 2 * x + 1 - size, dy = 2 * y + 1 - size;
       const auto turns = static_cast<std::uint64_t>((dx * dx + dy * dy) % (8 * std::int64_t{size}));
-      out(x, y) = static_cast<float>(0.5 + 0.5 * unit_root(turns, 8 * static_cast<std::uint64_t>(size)).cos);
+      out(x, y) = static_cast<float>(0.5 + 0.5 * unit_root(turns, 8 * static_cast<std::uint64_t>(size)).cosine);
     }
   return out;
 }
@@ -91,8 +91,8 @@ MeanResponse response_of(const std::vector<PixelWeights>& phases, const std::vec
   for (std::size_t p = 0; p < phases.size(); ++p) {
     double re = 0, im = 0;
     for (std::size_t t = 0; t < phases[p].weights.size(); ++t) {
-      const SinCos wave = sin_cos_pi(2 * f * (phases[p].first + static_cast<int>(t) - centres[p]));
-      re += phases[p].weights[t] * wave.cos, im += phases[p].weights[t] * wave.sin;
+      const SineCosine wave = sin_cos_pi(2 * f * (phases[p].first + static_cast<int>(t) - centres[p]));
+      re += phases[p].weights[t] * wave.cosine, im += phases[p].weights[t] * wave.sine;
     }
     sum.square += re * re + im * im, sum.real += re;
   }

@@ -5,23 +5,13 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/channels.h"
 #include "zoneplate/signal/filter/row_sum.h"
 #include "zoneplate/signal/fourier/fourier.h"
 #include "zoneplate/signal/fourier/fourier_plan.h"
 
 namespace zoneplate {
 namespace {
-
-const RowSumKernels& kernels_of(Isa isa) { return pick(isa, scalar::row_sum_kernels); }
-
-// The floats of a pixel follow one another, so that a row of pixels is a row of channels × width floats.
-template <class T>
-constexpr std::size_t channels = sizeof(T) / sizeof(float);
-
-float* floats(std::span<float> row) { return row.data(); }
-float* floats(std::span<Linear> row) { return &row.data()->r; }
-const float* floats(std::span<const float> row) { return row.data(); }
-const float* floats(std::span<const Linear> row) { return &row.data()->r; }
 
 // What a kernel reaches on each side: left and top see the taps after the origin.
 Margins margins_of(const Plane<float>& kernel) {
@@ -42,9 +32,8 @@ Plane<T> direct(const Plane<T>& plane, const Plane<float>& kernel, const Convolv
     for (int j = kernel.height() - 1; j >= 0; --j)
       for (int i = kernel.width() - 1; i >= 0; --i)
         rows.push_back(floats(std::as_const(wide).row(y + j).subspan(static_cast<std::size_t>(i))));
-    kernels_of(options.isa)
-        .wide(rows.data(), 0, weights.data(), weights.size(), floats(out.row(y)),
-              static_cast<std::size_t>(plane.width()) * channels<T>);
+    RowSumKernels::of().wide(rows.data(), 0, weights.data(), weights.size(), floats(out.row(y)),
+                             static_cast<std::size_t>(plane.width()) * channels<T>);
   });
   return out;
 }

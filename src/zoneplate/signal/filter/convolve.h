@@ -15,7 +15,6 @@ namespace zoneplate {
 /// as premultiplied colour wants; nothing is clamped.
 struct ConvolveOptions {
   Border border = Border::Clamp;  ///< not Cut
-  Isa isa = best_isa();
 };
 
 /// Along rows, then along columns. Not empty: a single tap of 1 leaves a direction as it is.

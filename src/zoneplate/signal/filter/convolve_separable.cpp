@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/channels.h"
 #include "zoneplate/signal/filter/convolve.h"
 #include "zoneplate/signal/filter/row_sum.h"
 
@@ -26,15 +27,6 @@ struct alignas(64) StripRow {
   float values[strip_floats] = {};
 };
 
-// The floats of a pixel follow one another, so that a row of pixels is a row of channels × width floats.
-template <class T>
-constexpr std::size_t channels = sizeof(T) / sizeof(float);
-
-float* floats(std::span<float> row) { return row.data(); }
-float* floats(std::span<Linear> row) { return &row.data()->r; }
-const float* floats(std::span<const float> row) { return row.data(); }
-const float* floats(std::span<const Linear> row) { return &row.data()->r; }
-
 template <class T>
 constexpr T nothing = T{};
 template <>
@@ -48,8 +40,6 @@ std::vector<float> as_floats(std::span<const double> taps) {
   return out;
 }
 
-const RowSumKernels& kernels_of(Isa isa) { return pick(isa, scalar::row_sum_kernels); }
-
 // The filter along x. Pixels [0, low) see the left border and [high, w) the right one: their source is copied out, with
 // its border, first. Those between read the plane itself.
 template <class T>
@@ -60,7 +50,7 @@ class RowFilter {
         weights_(as_floats(taps)),
         border_(options.border),
         is_copy_(is_identity(taps)),
-        kernels_(kernels_of(options.isa)) {
+        kernels_(RowSumKernels::of()) {
     const std::size_t n = taps.size(), w = static_cast<std::size_t>(plane.width());
     before_ = n - 1 - n / 2;
     // In whole strips, so that no vector is left over between the parts.
@@ -176,7 +166,7 @@ void sweep(const RowFilter<T>& filter, std::span<const double> taps, const Convo
   const std::vector<float> weights = as_floats(taps);
   const std::size_t n = taps.size(), step = step_rows;
   Window<T> window(filter, n - 1 + step, first_x, end_x);
-  const RowSumKernels& kernels = kernels_of(options.isa);
+  const RowSumKernels& kernels = RowSumKernels::of();
   std::vector<const float*> rows(n);
   const auto fill = [&](std::size_t i, std::size_t y) {
     const int above = static_cast<int>(n - 1 - n / 2);

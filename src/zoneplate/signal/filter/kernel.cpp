@@ -1,13 +1,10 @@
 #include "zoneplate/signal/filter/kernel.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
-#include "zoneplate/base/error.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate {
@@ -170,7 +167,7 @@ Kernel make_kaiser(std::span<const double> p) {
   });
 }
 
-const SpecParam lobes_param = {"lobes", "lobes on each side, its radius", 3, 1, 16};
+const Param lobes_param = real_param("lobes", "lobes on each side, its radius", 3, 1, 16);
 
 }  // namespace
 
@@ -179,22 +176,23 @@ std::span<const KernelEntry> kernels() {
       {"box",
        "the mean over a width",
        "area sampling: Catmull, SIGGRAPH 1978",
-       {{"width", "in samples", 1, 0.01, 4096}},
+       {real_param("width", "in samples", 1, 0.01, 4096)},
        make_box},
       {"tent",
        "linear interpolation (Bartlett, triangle)",
        "the box with itself",
-       {{"radius", "in samples", 1, 0.01, 4096}},
+       {real_param("radius", "in samples", 1, 0.01, 4096)},
        make_tent},
       {"gaussian",
        "the bell of the normal distribution, cut off and scaled to integral 1",
        "Gauss 1809",
-       {{"sigma", "standard deviation, in samples", 1, 0.05, 1000}, {"extent", "radius in sigmas", 3, 1, 8}},
+       {real_param("sigma", "standard deviation, in samples", 1, 0.05, 1000),
+        real_param("extent", "radius in sigmas", 3, 1, 8)},
        make_gaussian},
       {"mitchell",
        "the cubic between blur, ringing and anisotropy",
        "Mitchell and Netravali, Reconstruction Filters in Computer Graphics, SIGGRAPH 1988",
-       {{"b", "B", 1.0 / 3, -2, 2}, {"c", "C", 1.0 / 3, -2, 2}},
+       {real_param("b", "B", 1.0 / 3, -2, 2), real_param("c", "C", 1.0 / 3, -2, 2)},
        make_mitchell},
       {"catmull-rom",
        "the cubic that interpolates (B = 0, C = ½)",
@@ -216,29 +214,22 @@ std::span<const KernelEntry> kernels() {
       {"blackman-harris",
        "four cosines, side lobes 92 dB down",
        "Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978",
-       {{"radius", "in samples", 2, 0.5, 4096}},
+       {real_param("radius", "in samples", 2, 0.5, 4096)},
        make_blackman_harris},
       {"kaiser",
        "sinc under Kaiser's window",
        "Kaiser, Nonrecursive digital filter design using the I0-sinh window function, ISCAS 1974",
-       {{"radius", "in samples", 3, 1, 64}, {"beta", "the window's shape", 6.5, 0, 40}},
+       {real_param("radius", "in samples", 3, 1, 64), real_param("beta", "the window's shape", 6.5, 0, 40)},
        make_kaiser},
   };
   return table;
 }
 
 Kernel make_kernel(std::string_view text) {
-  const Spec spec = parse_spec(text);
-  std::string known;
-  for (const KernelEntry& entry : kernels()) {
-    if (entry.name == spec.name) {
-      Kernel kernel = entry.make(settle(spec, entry.params));
-      kernel.name = text_of(spec);
-      return kernel;
-    }
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw Error(ErrorKind::Usage, fmt::format("no kernel '{}'; wants one of {}", spec.name, known));
+  const auto spec = parse_spec("kernel", kernels(), text);
+  Kernel kernel = spec.row.make(spec.settings.numbers());
+  kernel.name = spec.text();
+  return kernel;
 }
 
 Kernel stretched(Kernel kernel, double factor) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/signal/spec.h"
+#include "zoneplate/base/spec.h"
 
 namespace zoneplate {
 
@@ -31,7 +31,7 @@ struct KernelEntry {
   std::string_view name;
   std::string_view summary;
   std::string_view source;
-  std::vector<SpecParam> params;
+  std::vector<Param> params;
   Kernel (*make)(std::span<const double> params);  ///< all but its name
 };
 

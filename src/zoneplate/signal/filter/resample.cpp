@@ -6,20 +6,13 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/channels.h"
 #include "zoneplate/signal/filter/row_sum.h"
 #include "zoneplate/signal/fourier/fourier.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate {
 namespace {
-
-template <class T>
-constexpr std::size_t channels = sizeof(T) / sizeof(float);
-
-float* floats(std::span<float> row) { return row.data(); }
-float* floats(std::span<Linear> row) { return &row.data()->r; }
-const float* floats(std::span<const float> row) { return row.data(); }
-const float* floats(std::span<const Linear> row) { return &row.data()->r; }
 
 struct Axis {
   int size = 0;  // of the output
@@ -62,7 +55,7 @@ void cut_weights(PixelWeights& w, int size) {
 // Along columns: each output row is a weighted sum of input rows.
 template <class T>
 Plane<T> along_columns(const Plane<T>& plane, const Axis& axis, const Kernel& kernel, const ResampleOptions& options) {
-  const RowSumKernels& kernels = pick(options.isa, scalar::row_sum_kernels);
+  const RowSumKernels& kernels = RowSumKernels::of();
   const std::size_t width = static_cast<std::size_t>(plane.width()) * channels<T>;
   const std::vector<float> zeros(width);
   Plane<T> out(plane.width(), axis.size);
@@ -113,8 +106,8 @@ void move_bins(int in, int out, const Take& take, const Put& put) {
   const int common = std::min(in, out);
   for (int k = -((common - 1) / 2); 2 * k < common; ++k) {
     // e^(2πi k (in/out - 1) / (2 in)) = e^(πi k (in - out) / (in out))
-    const SinCos turn = sin_cos_pi(static_cast<double>(k) * (in - out) / (static_cast<double>(in) * out));
-    put(k < 0 ? k + out : k, take(k < 0 ? k + in : k) * Complex{turn.cos, turn.sin});
+    const SineCosine turn = sin_cos_pi(static_cast<double>(k) * (in - out) / (static_cast<double>(in) * out));
+    put(k < 0 ? k + out : k, take(k < 0 ? k + in : k) * Complex{turn.cosine, turn.sine});
   }
   if (in == out && in % 2 == 0) put(in / 2, take(in / 2));
 }

@@ -12,7 +12,6 @@ namespace zoneplate {
 
 struct ResampleOptions {
   Border border = Border::Clamp;
-  Isa isa = best_isa();
   /// Input pixels from one output pixel to the next; 0: the input's size over the output's.
   double step_x = 0, step_y = 0;
   /// How far the output looks to the right and below of where it would, in input pixels.

@@ -133,15 +133,17 @@ TEST(Resample, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
   const Plane<float> plane = noise_plane(53, 41);
   LinearImage image(53, 41);
   for (std::size_t i = 0; i < plane.values().size(); ++i) image.values()[i].b = plane.values()[i];
-  const auto expected = resample(plane, 31, 67, kernel, {.isa = Isa::Scalar});
-  const auto expected_image = resample(image, 31, 67, kernel, {.isa = Isa::Scalar});
+  const auto expected = with_isa(Isa::Scalar, [&] { return resample(plane, 31, 67, kernel); });
+  const auto expected_image = with_isa(Isa::Scalar, [&] { return resample(image, 31, 67, kernel); });
   for (std::size_t i = 0; i < expected.values().size(); ++i)
     EXPECT_EQ(expected_image.values()[i].b, expected.values()[i]);
   for (const Isa isa : supported_isas())
     for (const int threads : {1, 2, 3, 7})
-      with_threads(threads, [&] {
-        EXPECT_EQ(resample(plane, 31, 67, kernel, {.isa = isa}), expected);
-        EXPECT_EQ(resample(image, 31, 67, kernel, {.isa = isa}), expected_image);
+      with_isa(isa, [&] {
+        with_threads(threads, [&] {
+          EXPECT_EQ(resample(plane, 31, 67, kernel), expected);
+          EXPECT_EQ(resample(image, 31, 67, kernel), expected_image);
+        });
       });
 }
 

@@ -23,6 +23,11 @@ void wide(const float* const* rows, std::size_t first, const double* weights, st
 
 }  // namespace
 
-const RowSumKernels row_sum_kernels = {narrow, wide};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const RowSumKernels PerIsa<RowSumKernels>::scalar = {.narrow = scalar::narrow, .wide = scalar::wide};
+
+}  // namespace zoneplate

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// The one inner loop of every filter in space: weighted sums of rows.
@@ -14,17 +16,11 @@ namespace zoneplate {
 /// Requires  taps >= 1; `out` overlaps no row.
 /// Exact     each element alone, products and sums separate and in the order of the taps: the same bits on every
 ///           instruction set.
-struct RowSumKernels {
+struct RowSumKernels : PerIsa<RowSumKernels> {
   void (*narrow)(const float* const* rows, std::size_t first, const float* weights, std::size_t taps, float* out,
                  std::size_t n);
   void (*wide)(const float* const* rows, std::size_t first, const double* weights, std::size_t taps, float* out,
                std::size_t n);
-
-  static const RowSumKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const RowSumKernels row_sum_kernels;
-}
 
 }  // namespace zoneplate

@@ -96,5 +96,7 @@ void wide(const float* const* rows, std::size_t first, const double* weights, st
 }  // namespace zoneplate::HWY_NAMESPACE
 
 namespace zoneplate {
-const RowSumKernels RowSumKernels::HWY_NAMESPACE = {HWY_NAMESPACE::narrow, HWY_NAMESPACE::wide};
+template <>
+const RowSumKernels PerIsa<RowSumKernels>::HWY_NAMESPACE = {.narrow = HWY_NAMESPACE::narrow,
+                                                            .wide = HWY_NAMESPACE::wide};
 }  // namespace zoneplate

@@ -14,7 +14,7 @@ TEST(RowSum, EveryInstructionSetGivesTheScalarBits) {
   std::vector<float> values(900);
   for (std::uint32_t i = 0; float& v : values) v = unit_float(hash(i++)) * 3 - 1;
   for (const Isa isa : supported_isas()) {
-    const RowSumKernels& kernels = pick(isa, scalar::row_sum_kernels);
+    const RowSumKernels& kernels = RowSumKernels::of(isa);
     for (std::size_t n = 0; n <= 200; ++n)
       for (std::size_t taps : {1u, 2u, 7u, 65u}) {
         std::vector<const float*> rows;
@@ -26,10 +26,10 @@ TEST(RowSum, EveryInstructionSetGivesTheScalarBits) {
           weights.push_back(static_cast<float>(wide_weights.back()));
         }
         std::vector<float> expected(n + 1, 7), found(n + 1, 7);
-        scalar::row_sum_kernels.narrow(rows.data(), n % 3, weights.data(), taps, expected.data(), n);
+        RowSumKernels::scalar.narrow(rows.data(), n % 3, weights.data(), taps, expected.data(), n);
         kernels.narrow(rows.data(), n % 3, weights.data(), taps, found.data(), n);
         ASSERT_EQ(expected, found) << name_of(isa) << " narrow " << n << " " << taps;
-        scalar::row_sum_kernels.wide(rows.data(), n % 3, wide_weights.data(), taps, expected.data(), n);
+        RowSumKernels::scalar.wide(rows.data(), n % 3, wide_weights.data(), taps, expected.data(), n);
         kernels.wide(rows.data(), n % 3, wide_weights.data(), taps, found.data(), n);
         ASSERT_EQ(expected, found) << name_of(isa) << " wide " << n << " " << taps;
         ASSERT_EQ(found[n], 7.0f);
@@ -43,9 +43,9 @@ TEST(RowSum, ScalarTwinIsTheDefinition) {
   const float weights[] = {2, -1};
   const double wide_weights[] = {2, -1};
   float out[3];
-  scalar::row_sum_kernels.narrow(rows, 0, weights, 2, out, 3);
+  RowSumKernels::scalar.narrow(rows, 0, weights, 2, out, 3);
   EXPECT_EQ(out[2], -24.0f);
-  scalar::row_sum_kernels.wide(rows, 0, wide_weights, 2, out, 3);
+  RowSumKernels::scalar.wide(rows, 0, wide_weights, 2, out, 3);
   EXPECT_EQ(out[1], -16.0f);
 }
 

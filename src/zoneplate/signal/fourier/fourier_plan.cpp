@@ -178,8 +178,8 @@ FourierPlan::FourierPlan(std::size_t n) : n_(n), scratch_size_(2 * n * lanes) {
       done *= p;
     }
     for (std::size_t k = 0; k < n; ++k) {
-      const SinCos w = unit_root(k, n);
-      cos_.push_back(w.cos), sin_.push_back(-w.sin);
+      const SineCosine w = unit_root(k, n);
+      cos_.push_back(w.cosine), sin_.push_back(-w.sine);
     }
     return;
   }
@@ -187,8 +187,8 @@ FourierPlan::FourierPlan(std::size_t n) : n_(n), scratch_size_(2 * n * lanes) {
   // Bluestein: jk = (j² + k² - (k - j)²) / 2 makes the transform a convolution with the chirp e^(+πi j²/n),
   // between two multiplications with its conjugate. The chirp's angles are reduced in integers.
   for (std::size_t k = 0; k < n; ++k) {
-    const SinCos w = unit_root(k * k % (2 * n), 2 * n);
-    cos_.push_back(w.cos), sin_.push_back(-w.sin);
+    const SineCosine w = unit_root(k * k % (2 * n), 2 * n);
+    cos_.push_back(w.cosine), sin_.push_back(-w.sine);
   }
   const std::size_t m = fast_size(2 * n - 1);
   padded_ = std::make_unique<FourierPlan>(m);

@@ -1,15 +1,12 @@
 #include "zoneplate/signal/fourier/frequency_filter.h"
 
-#include <fmt/format.h>
-
 #include <cassert>
 #include <cmath>
 
-#include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/spec.h"
 #include "zoneplate/signal/fourier/fourier.h"
 #include "zoneplate/signal/functions.h"
-#include "zoneplate/signal/spec.h"
 
 namespace zoneplate {
 namespace {
@@ -29,15 +26,22 @@ double fall(const FilterShape& shape, double u) {
   return 1 / (1 + natural_exp(2 * shape.order * natural_log(u)));
 }
 
+constexpr Param butterworth_params[] = {real_param("order", "steepness", 2, 0.5, 50)};
+
+struct ShapeEntry {
+  std::string_view name;
+  FilterShape::Kind kind;
+  std::span<const Param> params = {};
+};
+constexpr ShapeEntry shapes[] = {{"ideal", FilterShape::Kind::Ideal},
+                                 {"gaussian", FilterShape::Kind::Gaussian},
+                                 {"butterworth", FilterShape::Kind::Butterworth, butterworth_params}};
+
 }  // namespace
 
 FilterShape parse_filter_shape(std::string_view text) {
-  const Spec spec = parse_spec(text);
-  if (spec.name == "ideal") return settle(spec, {}), FilterShape{FilterShape::Kind::Ideal, 0};
-  if (spec.name == "gaussian") return settle(spec, {}), FilterShape{FilterShape::Kind::Gaussian, 0};
-  if (spec.name == "butterworth")
-    return {FilterShape::Kind::Butterworth, settle(spec, {{"order", "steepness", 2, 0.5, 50}})[0]};
-  throw Error(ErrorKind::Usage, fmt::format("no filter shape '{}'; wants ideal, gaussian or butterworth", spec.name));
+  const auto spec = parse_spec("filter shape", std::span<const ShapeEntry>(shapes), text);
+  return {spec.row.kind, spec.row.params.empty() ? 0 : spec.settings.number("order")};
 }
 
 double response(const FrequencyFilter& filter, double f) {

@@ -23,7 +23,7 @@ PeriodicSmooth split_periodic_smooth(const Plane<float>& plane) {
     for (int x = 0; x < spectrum.half.width(); ++x) {
       // The periodic Laplacian turns bin (x, y) by this factor; the mean stays with the periodic part.
       const auto cosine = [](int k, int n) {
-        return unit_root(static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n)).cos;
+        return unit_root(static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n)).cosine;
       };
       const double laplacian = 2 * cosine(x, w) + 2 * cosine(y, h) - 4;
       spectrum.half(x, y) = x == 0 && y == 0 ? Complex{} : spectrum.half(x, y) * (1 / laplacian);

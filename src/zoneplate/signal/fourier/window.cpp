@@ -1,11 +1,8 @@
 #include "zoneplate/signal/fourier/window.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/signal/functions.h"
 
@@ -55,25 +52,20 @@ std::span<const WindowEntry> windows() {
       {"kaiser",
        "the most energy in the main lobe, by choice of beta",
        "Kaiser, ISCAS 1974",
-       {{"beta", "the window's shape: wider and cleaner as it grows", 8.6, 0, 40}},
+       {real_param("beta", "the window's shape: wider and cleaner as it grows", 8.6, 0, 40)},
        make_kaiser},
       {"tukey",
        "flat, with cosine ends",
        harris,
-       {{"alpha", "share of the length that the ends take", 0.5, 0, 1}},
+       {real_param("alpha", "share of the length that the ends take", 0.5, 0, 1)},
        make_tukey},
   };
   return table;
 }
 
 Window make_window(std::string_view text) {
-  const Spec spec = parse_spec(text);
-  std::string known;
-  for (const WindowEntry& entry : windows()) {
-    if (entry.name == spec.name) return {text_of(spec), entry.make(settle(spec, entry.params))};
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw Error(ErrorKind::Usage, fmt::format("no window '{}'; wants one of {}", spec.name, known));
+  const auto spec = parse_spec("window", windows(), text);
+  return {spec.text(), spec.row.make(spec.settings.numbers())};
 }
 
 std::vector<double> sampled(const Window& window, int n) {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/spec.h"
 #include "zoneplate/image/plane.h"
-#include "zoneplate/signal/spec.h"
 
 namespace zoneplate {
 
@@ -21,7 +21,7 @@ struct WindowEntry {
   std::string_view name;
   std::string_view summary;
   std::string_view source;
-  std::vector<SpecParam> params;
+  std::vector<Param> params;
   std::function<double(double t)> (*make)(std::span<const double> params);
 };
 

@@ -1,13 +1,10 @@
 #include "zoneplate/signal/pattern/pattern.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/signal/filter/aliasing.h"
@@ -18,7 +15,7 @@ namespace {
 
 using Params = std::span<const double>;
 
-const SpecParam size_param = {"size", "pixels on each side", 512, 2, 8192};
+const Param size_param = real_param("size", "pixels on each side", 512, 2, 8192);
 
 Linear grey(double value) {
   const float v = static_cast<float>(value);
@@ -48,13 +45,13 @@ LinearImage make_sweep(Params p) {
   const auto period = 16 * static_cast<std::uint64_t>(size_of(p));
   return filled(p, [&](int x, int) {
     const auto odd = static_cast<std::uint64_t>(2 * x + 1);
-    return grey(0.5 + 0.5 * unit_root(odd * odd % period, period).cos);
+    return grey(0.5 + 0.5 * unit_root(odd * odd % period, period).cosine);
   });
 }
 
 LinearImage make_sine(Params p) {
-  const SinCos along = sin_cos_pi(p[2] / 180);
-  const double fx = p[1] * along.cos, fy = p[1] * along.sin;
+  const SineCosine along = sin_cos_pi(p[2] / 180);
+  const double fx = p[1] * along.cosine, fy = p[1] * along.sine;
   return filled(p, [&](int x, int y) { return grey(0.5 + 0.5 * cos_pi(2 * (fx * x + fy * y))); });
 }
 
@@ -90,9 +87,9 @@ LinearImage make_star(Params p) {
 
 LinearImage make_edge(Params p) {
   const double centre = size_of(p) / 2.0;
-  const SinCos along = sin_cos_pi(p[1] / 180);
+  const SineCosine along = sin_cos_pi(p[1] / 180);
   return filled(p, [&](int x, int y) {
-    return grey((x + 0.5 - centre) * along.cos + (y + 0.5 - centre) * along.sin < 0 ? 0.05 : 0.8);
+    return grey((x + 0.5 - centre) * along.cosine + (y + 0.5 - centre) * along.sine < 0 ? 0.05 : 0.8);
   });
 }
 
@@ -109,8 +106,6 @@ LinearImage make_noise(Params p) {
   });
 }
 
-std::string_view name_of(std::string_view text) { return text.substr(0, text.find(':')); }
-
 }  // namespace
 
 std::span<const PatternEntry> patterns() {
@@ -119,39 +114,40 @@ std::span<const PatternEntry> patterns() {
       {"sweep", "bars, from frequency 0 at the left to Nyquist's at the right", {size_param}, make_sweep},
       {"sine",
        "one wave",
-       {size_param, {"frequency", "cycles per pixel", 0.1, 0, 4}, {"angle", "of its direction", 0, -360, 360}},
+       {size_param, real_param("frequency", "cycles per pixel", 0.1, 0, 4),
+        real_param("angle", "of its direction", 0, -360, 360)},
        make_sine},
       {"checkerboard",
        "light and dark squares",
-       {size_param, {"cell", "side of a square", 16, 0.1, 8192}},
+       {size_param, real_param("cell", "side of a square", 16, 0.1, 8192)},
        make_checkerboard},
       {"bricks",
        "a wall, in colour",
-       {size_param, {"height", "of a course", 11, 2, 8192}, {"joint", "of mortar, width", 1.6, 0, 100}},
+       {size_param, real_param("height", "of a course", 11, 2, 8192),
+        real_param("joint", "of mortar, width", 1.6, 0, 100)},
        make_bricks},
-      {"star", "spokes that meet (Siemens star)", {size_param, {"spokes", "their number", 48, 1, 4096}}, make_star},
-      {"edge", "dark and light side by side", {size_param, {"angle", "of its normal", 5, -360, 360}}, make_edge},
+      {"star",
+       "spokes that meet (Siemens star)",
+       {size_param, real_param("spokes", "their number", 48, 1, 4096)},
+       make_star},
+      {"edge",
+       "dark and light side by side",
+       {size_param, real_param("angle", "of its normal", 5, -360, 360)},
+       make_edge},
       {"impulse", "one white pixel in the middle", {size_param}, make_impulse},
       {"noise",
        "every pixel on its own, evenly from 0 to 1",
-       {size_param, {"seed", "which", 1, 0, 4294967295.0}},
+       {size_param, real_param("seed", "which", 1, 0, 4294967295.0)},
        make_noise},
   };
   return table;
 }
 
-bool is_pattern(std::string_view text) {
-  return std::ranges::any_of(patterns(), [&](const PatternEntry& entry) { return entry.name == name_of(text); });
-}
+bool is_pattern(std::string_view text) { return find_row(patterns(), text) != nullptr; }
 
 LinearImage make_pattern(std::string_view text) {
-  const Spec spec = parse_spec(text);
-  std::string known;
-  for (const PatternEntry& entry : patterns()) {
-    if (entry.name == spec.name) return entry.make(settle(spec, entry.params));
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw Error(ErrorKind::Usage, fmt::format("no pattern '{}'; wants one of {}", spec.name, known));
+  const auto spec = parse_spec("pattern", patterns(), text);
+  return spec.row.make(spec.settings.numbers());
 }
 
 }  // namespace zoneplate

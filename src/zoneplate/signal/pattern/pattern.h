@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/spec.h"
 #include "zoneplate/image/rgb.h"
-#include "zoneplate/signal/spec.h"
 
 namespace zoneplate {
 
@@ -13,7 +13,7 @@ namespace zoneplate {
 struct PatternEntry {
   std::string_view name;
   std::string_view summary;
-  std::vector<SpecParam> params;
+  std::vector<Param> params;
   LinearImage (*make)(std::span<const double> params);
 };
 

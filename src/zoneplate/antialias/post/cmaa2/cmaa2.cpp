@@ -14,10 +14,10 @@
 
 #include "zoneplate/antialias/post/bordered.h"
 #include "zoneplate/antialias/post/cmaa2/cmaa2_kernels.h"
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/row_window.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -51,9 +51,10 @@ void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_
 
 }  // namespace
 
-const Cmaa2Kernels cmaa2_kernels = {.edge_row = edge_row, .shape_row = shape_row};
-
 }  // namespace scalar
+
+template <>
+const Cmaa2Kernels PerIsa<Cmaa2Kernels>::scalar = {.edge_row = scalar::edge_row, .shape_row = scalar::shape_row};
 
 namespace antialias {
 namespace {
@@ -115,7 +116,7 @@ struct LumaTables {
 /// Finds the shapes around every pixel, and in bit x of a row of `corners` whether there is one.
 Shapes find_shapes(const Rgba8Image& image, const Cmaa2Options& options, Plane<std::uint64_t>& corners) {
   const int width = image.width(), height = image.height();
-  const Cmaa2Kernels& kernels = pick(options.isa, scalar::cmaa2_kernels);
+  const Cmaa2Kernels& kernels = Cmaa2Kernels::of();
   const LumaTables tables;
   const float contrast = options.is_sharp ? sharp.contrast : usual.contrast;
   const auto n = static_cast<std::size_t>(width);
@@ -172,7 +173,7 @@ class Corners {
   };
 
   Linear color(int x, int y) const {
-    return light_of(image_(std::clamp(x, 0, image_.width() - 1), std::clamp(y, 0, image_.height() - 1)));
+    return decode_pixel(image_(std::clamp(x, 0, image_.width() - 1), std::clamp(y, 0, image_.height() - 1)));
   }
   void emit(int x, int y, float weight, const Linear& c) {
     const int at = y / static_cast<int>(rows_a_block) - block_ + BlockItems::around;
@@ -315,7 +316,8 @@ void apply_items(const std::vector<BlockItems>& blocks, int block, std::span<Rgb
       sum.color = sum.color + item.color * item.weight;
     }
   for (const Sum& s : sums)
-    out[s.pixel] = codes_of({s.color.r / s.weight, s.color.g / s.weight, s.color.b / s.weight, s.color.a / s.weight});
+    out[s.pixel] =
+        encode_pixel({s.color.r / s.weight, s.color.g / s.weight, s.color.b / s.weight, s.color.a / s.weight});
 }
 
 }  // namespace
@@ -345,31 +347,12 @@ constexpr Param params[] = {
     {.name = "sharp", .meaning = "1: the original's extra sharpness", .value = 0, .low = 0, .high = 1},
 };
 
-class Cmaa2 : public Resolver {
- public:
-  explicit Cmaa2(const Cmaa2Options& options) : options_(options) {}
-  Request request(const FrameContext&) override {
-    Request request;
-    request.halo = reach;
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    return filter_codes(std::move(image), Mixing::Light, [&](const Rgba8Image& i) { return apply_cmaa2(i, options_); });
-  }
-
- private:
-  Cmaa2Options options_;
-};
-
 std::unique_ptr<Resolver> make(const Settings& s) {
-  return std::make_unique<Cmaa2>(
-      Cmaa2Options{.threshold = thresholds[s.integer("preset")], .is_sharp = s.integer("sharp") == 1});
+  const Cmaa2Options options{.threshold = thresholds[s.integer("preset")], .is_sharp = s.integer("sharp") == 1};
+  return make_post_process(reach, Mixing::Linear, [options](const Rgba8Image& i) { return apply_cmaa2(i, options); });
 }
 
 }  // namespace
-
-Method cmaa2();
 
 Method cmaa2() {
   return {.name = "cmaa2",

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -8,7 +7,6 @@ namespace zoneplate::antialias {
 struct Cmaa2Options {
   float threshold = 0.07f;  ///< least difference of luma; the presets: 0.15, 0.10, 0.07, 0.05
   bool is_sharp = false;    ///< the original's extra sharpness
-  Isa isa = best_isa();
 };
 
 /// CMAA2 of a picture of codes; `memory` may be any picture, whose storage is reused where its size fits.

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
-struct Cmaa2Kernels {
+struct Cmaa2Kernels : PerIsa<Cmaa2Kernels> {
   /// For n pixels of luma: bit 0 where the border to the right, bit 1 where that below exceeds `threshold` by more than
   /// `contrast` times the greatest of the four borders that touch it at its ends.
   ///
@@ -19,12 +21,6 @@ struct Cmaa2Kernels {
   ///           after the n-th; `bits` has room for n rounded up to 64.
   void (*shape_row)(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_t* shapes, std::uint8_t* bits,
                     std::size_t n);
-
-  static const Cmaa2Kernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const Cmaa2Kernels cmaa2_kernels;
-}
 
 }  // namespace zoneplate

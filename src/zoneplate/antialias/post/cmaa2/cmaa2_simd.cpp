@@ -1,6 +1,7 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/cmaa2/cmaa2_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -28,11 +29,7 @@ HWY_INLINE void edge_some(D d, const float* const (&rows)[4], float threshold, f
 }
 
 void edge_row(const float* const (&rows)[4], float threshold, float contrast, std::uint8_t* edges, std::size_t n) {
-  const hn::CappedTag<float, 8> full;
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) edge_some(full, rows, threshold, contrast, edges, i);
-  for (; i < n; ++i) edge_some(one, rows, threshold, contrast, edges, i);
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { edge_some(d, rows, threshold, contrast, edges, i); });
 }
 
 void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_t* shapes, std::uint8_t* bits,
@@ -59,6 +56,7 @@ void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const Cmaa2Kernels Cmaa2Kernels::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
-                                                  .shape_row = HWY_NAMESPACE::shape_row};
+template <>
+const Cmaa2Kernels PerIsa<Cmaa2Kernels>::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
+                                                          .shape_row = HWY_NAMESPACE::shape_row};
 }  // namespace zoneplate

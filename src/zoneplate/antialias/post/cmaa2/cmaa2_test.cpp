@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/post/cmaa2/cmaa2_kernels.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -19,10 +20,12 @@ TEST(Cmaa2, OutputsHaveTheirBits) {
 
 TEST(Cmaa2, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
-  const Rgba8Image expected = apply_cmaa2(image, {.isa = Isa::Scalar});
+  const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_cmaa2(image, {}); });
   for (const Isa isa : supported_isas())
     for (const int threads : {1, 2, 7})
-      with_threads(threads, [&] { EXPECT_EQ(apply_cmaa2(image, {.isa = isa}), expected) << name_of(isa) << threads; });
+      with_isa(isa, [&] {
+        with_threads(threads, [&] { EXPECT_EQ(apply_cmaa2(image, {}), expected) << name_of(isa) << threads; });
+      });
 }
 
 TEST(Cmaa2, KernelsFindWhatTheirTwinsFind) {
@@ -32,14 +35,14 @@ TEST(Cmaa2, KernelsFindWhatTheirTwinsFind) {
   std::vector<std::uint8_t> edges(300), above(300);
   for (std::uint32_t i = 0; i < 300; ++i) edges[i] = hash(i) & 3, above[i] = hash(i + 1000) & 3;
   for (const Isa isa : supported_isas()) {
-    const Cmaa2Kernels& kernels = pick(isa, scalar::cmaa2_kernels);
+    const Cmaa2Kernels& kernels = Cmaa2Kernels::of(isa);
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found(n + 1, 9);
-      scalar::cmaa2_kernels.edge_row(rows, 0.07f, 0.1f, expected.data(), n);
+      Cmaa2Kernels::scalar.edge_row(rows, 0.07f, 0.1f, expected.data(), n);
       kernels.edge_row(rows, 0.07f, 0.1f, found.data(), n);
       ASSERT_EQ(found, expected);
       std::vector<std::uint8_t> shapes(n + 64), bits(64), shapes2(n + 64), bits2(64);
-      scalar::cmaa2_kernels.shape_row(&edges[1], &above[1], shapes.data(), bits.data(), n);
+      Cmaa2Kernels::scalar.shape_row(&edges[1], &above[1], shapes.data(), bits.data(), n);
       kernels.shape_row(&edges[1], &above[1], shapes2.data(), bits2.data(), n);
       for (std::size_t i = 0; i < n; ++i) {
         ASSERT_EQ(shapes[i], shapes2[i]);

@@ -9,12 +9,12 @@
 #include <array>
 #include <vector>
 
-#include "zoneplate/antialias/post/codes.h"
 #include "zoneplate/antialias/post/ddaa/ddaa_kernels.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/antialias/post/rolling_rows.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -25,14 +25,14 @@ constexpr int reach = DdaaConstants::search + 2;
 
 Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
-  const DdaaKernels& kernels = pick(options.isa, scalar::ddaa_kernels);
+  const DdaaKernels& kernels = DdaaKernels::of();
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
   // Blocks are large, for the power within reach of both is made by each of two.
   constexpr std::size_t rows = 128;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
     RollingRows<float> power(image.width(), image.height(), reach, static_cast<int>(begin));
-    ResultRow result(image, out, options.isa);
+    ResultRow result(image, out);
     std::vector<std::uint8_t> seen(room);
     std::vector<float> taps(4 * room);
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
@@ -63,32 +63,14 @@ constexpr Param params[] = {
     {.name = "strength", .meaning = "of the blur along edges", .value = 3, .low = 0, .high = 9},
 };
 
-class Ddaa : public Resolver {
- public:
-  explicit Ddaa(const DdaaOptions& options) : options_(options) {}
-  Request request(const FrameContext&) override {
-    Request request;
-    request.halo = reach;
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    return filter_codes(std::move(image), Mixing::Codes, [&](const Rgba8Image& i) { return apply_ddaa(i, options_); });
-  }
-
- private:
-  DdaaOptions options_;
-};
-
 std::unique_ptr<Resolver> make(const Settings& s) {
   const Threshold& t = thresholds[s.integer("threshold")];
-  return std::make_unique<Ddaa>(
-      DdaaOptions{.threshold = t.share, .least = t.least, .strength = static_cast<float>(s.integer("strength"))});
+  const DdaaOptions options{
+      .threshold = t.share, .least = t.least, .strength = static_cast<float>(s.integer("strength"))};
+  return make_post_process(reach, Mixing::Encoded, [options](const Rgba8Image& i) { return apply_ddaa(i, options); });
 }
 
 }  // namespace
-
-Method ddaa();
 
 Method ddaa() {
   return {.name = "ddaa",

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -9,7 +8,6 @@ struct DdaaOptions {
   float threshold = 0.166f;  ///< least contrast, as a share of the brightest luma around
   float least = 0.0625f;     ///< least contrast at all
   float strength = 3;        ///< of the blur along edges
-  Isa isa = best_isa();
 };
 
 /// Directional diffusion antialiasing of a picture of codes; `memory` may be any picture, whose storage is reused.

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// The constants of the method, as published.
@@ -16,7 +18,7 @@ struct DdaaConstants {
 ///
 /// Shape     rows of power are `stride` apart and valid `search` + 1 values around; reads and writes go in whole
 ///           vectors, up to 31 values after the n-th, and arrays have room for n rounded up to 64.
-struct DdaaKernels {
+struct DdaaKernels : PerIsa<DdaaKernels> {
   /// (299 R + 587 G + 114 B) / 255000 of n pixels of four codes.
   void (*power_row)(const std::uint8_t* rgba, float* power, std::size_t n);
   /// 1 where lumas of a pixel and its four neighbours differ, and by `least` and the share `threshold` of the greatest
@@ -30,12 +32,6 @@ struct DdaaKernels {
   /// Fetches seen pixels; `rows` are five rows of codes, the pixels' own in the middle, whose outermost pixels go on.
   void (*fetch_row)(const std::uint8_t* const* rows, const float* taps, const std::uint8_t* seen, std::uint8_t* out,
                     std::size_t n);
-
-  static const DdaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const DdaaKernels ddaa_kernels;
-}
 
 }  // namespace zoneplate

@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/post/fxaa/fxaa.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -20,14 +21,12 @@ TEST(Ddaa, InstructionSetsAndThreadsLeaveNoTrace) {
   for (const int width : {1, 5, 64, 203}) {
     const Rgba8Image image = random_shapes(width, 177, 2);
     for (const DdaaOptions& options : {DdaaOptions{}, DdaaOptions{.threshold = 0.031f, .least = 0.0078f}}) {
-      DdaaOptions o = options;
-      o.isa = Isa::Scalar;
-      const Rgba8Image expected = apply_ddaa(image, o);
+      const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_ddaa(image, options); });
       for (const Isa isa : supported_isas())
-        for (const int threads : {1, 2, 7}) {
-          o.isa = isa;
-          with_threads(threads, [&] { EXPECT_EQ(apply_ddaa(image, o), expected) << name_of(isa) << threads; });
-        }
+        for (const int threads : {1, 2, 7})
+          with_isa(isa, [&] {
+            with_threads(threads, [&] { EXPECT_EQ(apply_ddaa(image, options), expected) << name_of(isa) << threads; });
+          });
     }
   }
 }

@@ -137,7 +137,14 @@ void fetch_row(const std::uint8_t* const* rows, const float* taps, const std::ui
 
 }  // namespace
 
-const DdaaKernels ddaa_kernels = {
-    .power_row = power_row, .seen_row = seen_row, .taps_row = taps_row, .fetch_row = fetch_row};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const DdaaKernels PerIsa<DdaaKernels>::scalar = {.power_row = scalar::power_row,
+                                                 .seen_row = scalar::seen_row,
+                                                 .taps_row = scalar::taps_row,
+                                                 .fetch_row = scalar::fetch_row};
+
+}  // namespace zoneplate

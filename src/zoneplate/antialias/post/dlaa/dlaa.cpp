@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "zoneplate/antialias/post/bordered.h"
-#include "zoneplate/antialias/post/codes.h"
 #include "zoneplate/antialias/post/dlaa/dlaa_kernels.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/math/vec.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -129,10 +129,14 @@ void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out,
 
 }  // namespace
 
-const DlaaKernels dlaa_kernels = {
-    .edge_row = edge_row, .sum_row = sum_row, .slide_row = slide_row, .seen_row = seen_row, .blur_row = blur_row};
-
 }  // namespace scalar
+
+template <>
+const DlaaKernels PerIsa<DlaaKernels>::scalar = {.edge_row = scalar::edge_row,
+                                                 .sum_row = scalar::sum_row,
+                                                 .slide_row = scalar::slide_row,
+                                                 .seen_row = scalar::seen_row,
+                                                 .blur_row = scalar::blur_row};
 
 namespace antialias {
 namespace {
@@ -160,9 +164,9 @@ struct Source {
 
 }  // namespace
 
-Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
+Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
   if (image.empty()) return image;
-  const DlaaKernels& kernels = pick(isa, scalar::dlaa_kernels);
+  const DlaaKernels& kernels = DlaaKernels::of();
   const Source source(image, kernels);
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
@@ -170,7 +174,7 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
     // The sums of the edge codes of eight rows above and below move down with the rows.
     std::vector<std::int16_t> level(room), upright(room);
     std::vector<std::uint8_t> seen(room), nothing(room);
-    ResultRow result(image, out, isa);
+    ResultRow result(image, out);
     constexpr int half_blur = Constants::half_blur;
     const int first = static_cast<int>(begin);
     for (int y = first - half_blur; y < first + half_blur; ++y)
@@ -190,30 +194,13 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory, Isa isa) {
   return out;
 }
 
-namespace {
-
-class Dlaa : public Resolver {
- public:
-  Request request(const FrameContext&) override {
-    Request request;
-    request.halo = reach;
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    return filter_codes(std::move(image), Mixing::Codes, [](const Rgba8Image& i) { return apply_dlaa(i); });
-  }
-};
-
-}  // namespace
-
-Method dlaa();
-
 Method dlaa() {
   return {.name = "dlaa",
           .summary = "short and long blurs along edges, without a search",
           .source = "Andreev 2011",
-          .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Dlaa>(); },
+          .make = [](const Settings&) -> std::unique_ptr<Resolver> {
+            return make_post_process(reach, Mixing::Encoded, [](const Rgba8Image& i) { return apply_dlaa(i); });
+          },
           .is_specification_only = true};
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -10,6 +9,6 @@ namespace zoneplate::antialias {
 /// Space     codes are mixed, as in the original; luma is their mean.
 /// Edges     beyond the sides the outermost pixels go on; a division by zero gives the pixel's own colour.
 /// Source    Andreev, Directionally Localized Anti-Aliasing, GDC 2011: with its first pass, which many ports leave out.
-Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory = {}, Isa isa = best_isa());
+Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory = {});
 
 }  // namespace zoneplate::antialias

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// The constants of the method, as published.
@@ -28,7 +30,7 @@ struct DlaaRows {
 /// Shape     rows of colours are four codes a pixel, those of `here` valid from one pixel before the first to one after
 ///           the last. Sums are made in whole vectors: rows of codes are read up to 31 values after the n-th, and
 ///           arrays have room for n rounded up to 64.
-struct DlaaKernels {
+struct DlaaKernels : PerIsa<DlaaKernels> {
   /// A third of four times the sum of |l + r + t + b - 4 c| over red, green and blue, rounded, at most 255.
   void (*edge_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
                    std::size_t n);
@@ -43,12 +45,6 @@ struct DlaaKernels {
                    std::size_t n);
   /// Blurs the pixels that are seen; others of `out` are left alone.
   void (*blur_row)(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out, std::size_t n);
-
-  static const DlaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const DlaaKernels dlaa_kernels;
-}
 
 }  // namespace zoneplate

@@ -1,6 +1,7 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/dlaa/dlaa_kernels.h"
+#include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -42,9 +43,6 @@ HWY_INLINE void store_bytes(D d, hn::Vec<D> v, std::uint8_t* to) {
   hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
 }
 
-using Full = hn::CappedTag<std::int32_t, 8>;
-using One = hn::CappedTag<std::int32_t, 1>;
-
 template <class D>
 HWY_INLINE void edge_some(D d, const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                           std::uint8_t* edges, std::size_t i) {
@@ -64,20 +62,17 @@ HWY_INLINE void edge_some(D d, const std::uint8_t* above, const std::uint8_t* he
 
 void edge_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, std::uint8_t* edges,
               std::size_t n) {
-  const Full full;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) edge_some(full, above, here, below, edges, i);
-  for (; i < n; ++i) edge_some(One(), above, here, below, edges, i);
+  for_lanes<std::int32_t>(n, [&](auto d, std::size_t i) HWY_ATTR { edge_some(d, above, here, below, edges, i); });
 }
 
-using Sums = hn::CappedTag<std::int16_t, 16>;
-HWY_INLINE hn::Vec<Sums> load_codes(const std::uint8_t* p) {
-  const hn::Rebind<std::uint8_t, Sums> bytes;
-  return hn::PromoteTo(Sums(), hn::LoadU(bytes, p));
+using DSums = hn::CappedTag<std::int16_t, 16>;
+HWY_INLINE hn::Vec<DSums> load_codes(const std::uint8_t* p) {
+  const hn::Rebind<std::uint8_t, DSums> bytes;
+  return hn::PromoteTo(DSums(), hn::LoadU(bytes, p));
 }
 
 void sum_row(const std::uint8_t* edges, std::int16_t* sums, std::size_t n) {
-  const Sums d;
+  const DSums d;
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     auto sum = load_codes(edges + i);
     for (int k = 1; k <= 8; ++k) sum = hn::Add(sum, hn::Add(load_codes(edges + i - k), load_codes(edges + i + k)));
@@ -86,7 +81,7 @@ void sum_row(const std::uint8_t* edges, std::int16_t* sums, std::size_t n) {
 }
 
 void slide_row(const std::uint8_t* added, const std::uint8_t* removed, std::int16_t* sums, std::size_t n) {
-  const Sums d;
+  const DSums d;
   for (std::size_t i = 0; i < n; i += hn::Lanes(d))
     hn::StoreU(hn::Add(hn::LoadU(d, sums + i), hn::Sub(load_codes(added + i), load_codes(removed + i))), d, sums + i);
 }
@@ -109,42 +104,40 @@ HWY_INLINE void seen_some(D d, const std::uint8_t* above, const std::uint8_t* he
 
 void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
               const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
-  const Full full;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full))
-    seen_some(full, above, here, below, level, upright, least_bend, least_sum, seen, i);
-  for (; i < n; ++i) seen_some(One(), above, here, below, level, upright, least_bend, least_sum, seen, i);
+  for_lanes<std::int32_t>(n, [&](auto d, std::size_t i) HWY_ATTR {
+    seen_some(d, above, here, below, level, upright, least_bend, least_sum, seen, i);
+  });
 }
 
 // The four channels of one pixel, and what follows from its luma.
-using Four = hn::CappedTag<float, 4>;
-using Ints = hn::RebindToSigned<Four>;
-using F = hn::Vec<Four>;
-using I = hn::Vec<Ints>;
-constexpr Four d4;
-constexpr Ints di4;
+using DF4 = hn::CappedTag<float, 4>;
+using DI4 = hn::RebindToSigned<DF4>;
+using VF4 = hn::Vec<DF4>;
+using VI4 = hn::Vec<DI4>;
+constexpr DF4 d4;
+constexpr DI4 di4;
 using Constants = DlaaConstants;
 
-HWY_INLINE I load_codes4(const std::uint8_t* p) {
-  const hn::Rebind<std::uint8_t, Four> bytes;
+HWY_INLINE VI4 load_codes4(const std::uint8_t* p) {
+  const hn::Rebind<std::uint8_t, DF4> bytes;
   return hn::PromoteTo(di4, hn::LoadU(bytes, p));
 }
 
 struct Value {
-  F rgba;
+  VF4 rgba;
   float luma;
-  HWY_INLINE explicit Value(F v) : rgba(v) {
+  HWY_INLINE explicit Value(VF4 v) : rgba(v) {
     alignas(16) float c[4];
     hn::Store(v, d4, c);
     luma = (c[0] + c[1] + c[2]) / 3;
   }
 };
-HWY_INLINE F shares_of(I codes) { return hn::Div(hn::ConvertTo(d4, codes), hn::Set(d4, 255.0f)); }
-HWY_INLINE F mixed(F a, F b, float t) { return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d4, t))); }
+HWY_INLINE VF4 shares_of(VI4 codes) { return hn::Div(hn::ConvertTo(d4, codes), hn::Set(d4, 255.0f)); }
+HWY_INLINE VF4 mixed(VF4 a, VF4 b, float t) { return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d4, t))); }
 HWY_INLINE float saturated(float v) { return v > 0 ? (v < 1 ? v : 1.0f) : 0.0f; }
 
 /// The sum of |a + b - 2 c| over the colours.
-HWY_INLINE int bend4(I a, I b, I c) {
+HWY_INLINE int bend4(VI4 a, VI4 b, VI4 c) {
   alignas(16) std::int32_t sums[4];
   hn::Store(hn::Abs(hn::Sub(hn::Add(a, b), hn::Add(c, c))), di4, sums);
   return sums[0] + sums[1] + sums[2];
@@ -153,7 +146,7 @@ HWY_INLINE float edge_of(int bend) {
   return Constants::lambda * (static_cast<float>(bend) / (3 * 2 * 255)) - Constants::epsilon;
 }
 
-HWY_INLINE F between(F first_value, const Value& c, F last_value, const Value& blur) {
+HWY_INLINE VF4 between(VF4 first_value, const Value& c, VF4 last_value, const Value& blur) {
   const Value first(first_value), last(last_value);
   const float to_first = c.luma - first.luma, to_last = c.luma - last.luma;
   const float a = to_first == 0 ? 1.0f : saturated((blur.luma - first.luma) / to_first);
@@ -162,7 +155,7 @@ HWY_INLINE F between(F first_value, const Value& c, F last_value, const Value& b
 }
 
 HWY_INLINE Value long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
-  I sum = hn::Zero(di4);
+  VI4 sum = hn::Zero(di4);
   for (int i = 1; i <= Constants::half_blur; ++i)
     sum = hn::Add(sum, hn::Add(load_codes4(pixel - i * step), load_codes4(pixel + i * step)));
   return Value(hn::Div(hn::ConvertTo(d4, sum), hn::Set(d4, static_cast<float>(Constants::whole))));
@@ -172,31 +165,31 @@ HWY_INLINE float mask_of(int sum) {
   return 2 * sum <= Constants::whole ? 0 : static_cast<float>(2 * sum) / Constants::whole - 1;
 }
 
-HWY_INLINE F blurred(F two, F one, F next, F after, F c) {
-  const F sum = hn::Add(hn::Add(hn::Add(two, one), next), after);
+HWY_INLINE VF4 blurred(VF4 two, VF4 one, VF4 next, VF4 after, VF4 c) {
+  const VF4 sum = hn::Add(hn::Add(hn::Add(two, one), next), after);
   return hn::Mul(hn::Add(sum, hn::Mul(c, hn::Set(d4, 2.0f))), hn::Set(d4, 1.0f / 6));
 }
 
 void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float upright_mask, std::uint8_t* to) {
-  const I ci = load_codes4(p), li = load_codes4(p - 4), ri = load_codes4(p + 4), ti = load_codes4(p - s),
-          bi = load_codes4(p + s);
+  const VI4 ci = load_codes4(p), li = load_codes4(p - 4), ri = load_codes4(p + 4), ti = load_codes4(p - s),
+            bi = load_codes4(p + s);
   const int level_bend = bend4(li, ri, ci), upright_bend = bend4(ti, bi, ci);
   const float unlike = level_mask - upright_mask;
   const bool has_long = (unlike < 0 ? -unlike : unlike) > Constants::least_unlike;
   if (level_bend <= Constants::unseen_bend && upright_bend <= Constants::unseen_bend && !has_long) return;
   const float level = edge_of(level_bend), upright = edge_of(upright_bend);
-  const F c = shares_of(ci), l = shares_of(li), r = shares_of(ri), t = shares_of(ti), b = shares_of(bi);
+  const VF4 c = shares_of(ci), l = shares_of(li), r = shares_of(ri), t = shares_of(ti), b = shares_of(bi);
   const Value along(blurred(shares_of(load_codes4(p - 8)), l, r, shares_of(load_codes4(p + 8)), c));
   const Value down(blurred(shares_of(load_codes4(p - 2 * s)), t, b, shares_of(load_codes4(p + 2 * s)), c));
-  F out = mixed(c, along.rgba, saturated(upright / along.luma));
+  VF4 out = mixed(c, along.rgba, saturated(upright / along.luma));
   out = mixed(out, down.rgba, 0.5f * saturated(level / down.luma));
   if (has_long) {
     const Value here(c);
     out = mixed(out, between(l, here, r, long_blur(p, s)), upright_mask);
     out = mixed(out, between(t, here, b, long_blur(p, 4)), level_mask);
   }
-  const hn::Rebind<std::uint8_t, Four> bytes;
-  const F rounded = hn::Add(hn::Mul(out, hn::Set(d4, 255.0f)), hn::Set(d4, 0.5f));
+  const hn::Rebind<std::uint8_t, DF4> bytes;
+  const VF4 rounded = hn::Add(hn::Mul(out, hn::Set(d4, 255.0f)), hn::Set(d4, 0.5f));
   hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(di4, rounded)), bytes, to);
 }
 
@@ -213,9 +206,10 @@ void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out,
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const DlaaKernels DlaaKernels::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
-                                                .sum_row = HWY_NAMESPACE::sum_row,
-                                                .slide_row = HWY_NAMESPACE::slide_row,
-                                                .seen_row = HWY_NAMESPACE::seen_row,
-                                                .blur_row = HWY_NAMESPACE::blur_row};
+template <>
+const DlaaKernels PerIsa<DlaaKernels>::HWY_NAMESPACE = {.edge_row = HWY_NAMESPACE::edge_row,
+                                                        .sum_row = HWY_NAMESPACE::sum_row,
+                                                        .slide_row = HWY_NAMESPACE::slide_row,
+                                                        .seen_row = HWY_NAMESPACE::seen_row,
+                                                        .blur_row = HWY_NAMESPACE::blur_row};
 }  // namespace zoneplate

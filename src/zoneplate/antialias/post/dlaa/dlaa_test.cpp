@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/post/dlaa/dlaa_kernels.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -17,10 +18,12 @@ TEST(Dlaa, OutputsHaveTheirBits) {
 
 TEST(Dlaa, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
-  const Rgba8Image expected = apply_dlaa(image, {}, Isa::Scalar);
+  const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_dlaa(image); });
   for (const Isa isa : supported_isas())
     for (const int threads : {1, 2, 7})
-      with_threads(threads, [&] { EXPECT_EQ(apply_dlaa(image, {}, isa), expected) << name_of(isa) << threads; });
+      with_isa(isa, [&] {
+        with_threads(threads, [&] { EXPECT_EQ(apply_dlaa(image), expected) << name_of(isa) << threads; });
+      });
 }
 
 TEST(Dlaa, KernelsFindWhatTheirTwinsFind) {
@@ -37,7 +40,7 @@ TEST(Dlaa, KernelsFindWhatTheirTwinsFind) {
     upright[i] = static_cast<std::int16_t>(hash(i + 6000) % 2060);
   }
   for (const Isa isa : supported_isas()) {
-    const DlaaKernels &kernels = pick(isa, scalar::dlaa_kernels), &twin = scalar::dlaa_kernels;
+    const DlaaKernels &kernels = DlaaKernels::of(isa), &twin = DlaaKernels::scalar;
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found(n + 1, 9);
       twin.edge_row(above, here, below, expected.data(), n);

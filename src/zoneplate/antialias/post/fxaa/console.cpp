@@ -86,6 +86,12 @@ void mix_row(const FxaaConsoleRows& rows, float sharpness, const std::uint8_t* s
 
 }  // namespace
 
-const FxaaConsoleKernels fxaa_console_kernels = {.seen_row = seen_row, .mix_row = mix_row};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const FxaaConsoleKernels PerIsa<FxaaConsoleKernels>::scalar = {.seen_row = scalar::seen_row,
+                                                               .mix_row = scalar::mix_row};
+
+}  // namespace zoneplate

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// What the console path reads around the pixels of a row.
@@ -14,7 +16,7 @@ struct FxaaConsoleRows {
                                              ///< their outermost go on
 };
 
-struct FxaaConsoleKernels {
+struct FxaaConsoleKernels : PerIsa<FxaaConsoleKernels> {
   static constexpr float nudge = 255.0f / 384;  ///< of one of four lumas, which keeps the direction from being zero
 
   /// 1 where the lumas around a pixel differ by `least` and by the share
@@ -26,13 +28,6 @@ struct FxaaConsoleKernels {
   /// Mixes the pixels that are seen; others of `out` are left alone.
   void (*mix_row)(const FxaaConsoleRows& rows, float sharpness, const std::uint8_t* seen, std::uint8_t* out,
                   std::size_t n);
-
-  static const FxaaConsoleKernels N_SSE4, N_AVX2, N_AVX3, N_NEON,
-      N_WASM;  ///< one for each set (base/isa.h)
 };
-
-namespace scalar {
-extern const FxaaConsoleKernels fxaa_console_kernels;
-}
 
 }  // namespace zoneplate

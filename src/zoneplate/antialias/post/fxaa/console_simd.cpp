@@ -46,16 +46,16 @@ void seen_row(const FxaaConsoleRows& rows, float threshold, float least, std::ui
 }
 
 // The four channels of one pixel.
-using Four = hn::CappedTag<float, 4>;
-using F = hn::Vec<Four>;
-constexpr Four d4;
+using DF4 = hn::CappedTag<float, 4>;
+using VF4 = hn::Vec<DF4>;
+constexpr DF4 d4;
 
 HWY_INLINE float least_of(float a, float b) { return b < a ? b : a; }
 HWY_INLINE float size_of(float v) { return v < 0 ? -v : v; }
 
-HWY_INLINE F load_codes(const std::uint8_t* p) {
-  const hn::Rebind<std::uint8_t, Four> bytes;
-  return hn::ConvertTo(d4, hn::PromoteTo(hn::RebindToSigned<Four>(), hn::LoadU(bytes, p)));
+HWY_INLINE VF4 load_codes(const std::uint8_t* p) {
+  const hn::Rebind<std::uint8_t, DF4> bytes;
+  return hn::ConvertTo(d4, hn::PromoteTo(hn::RebindToSigned<DF4>(), hn::LoadU(bytes, p)));
 }
 
 /// A point between four pixels.
@@ -74,11 +74,11 @@ struct Point {
     const float upper = a + (b - a) * u, lower = c + (d - c) * u;
     return upper + (lower - upper) * v;
   }
-  HWY_INLINE F color(const FxaaConsoleRows& rows, std::ptrdiff_t n) const {
+  HWY_INLINE VF4 color(const FxaaConsoleRows& rows, std::ptrdiff_t n) const {
     const auto inside = [n](std::ptrdiff_t i) { return 4 * (i < 0 ? 0 : i < n ? i : n - 1); };
     const std::uint8_t *above = rows.codes[rows.reach + y], *below = rows.codes[rows.reach + y + 1];
     const std::ptrdiff_t first = inside(x), second = inside(x + 1);
-    const F upper = mixed(load_codes(above + first), load_codes(above + second), u);
+    const VF4 upper = mixed(load_codes(above + first), load_codes(above + second), u);
     return mixed(upper, mixed(load_codes(below + first), load_codes(below + second), u), v);
   }
 
@@ -87,10 +87,10 @@ struct Point {
     const int whole = static_cast<int>(w);
     return static_cast<float>(whole) > w ? whole - 1 : whole;
   }
-  static HWY_INLINE F mixed(F a, F b, float t) { return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d4, t))); }
+  static HWY_INLINE VF4 mixed(VF4 a, VF4 b, float t) { return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d4, t))); }
 };
 
-HWY_INLINE F mean(F a, F b) { return hn::Mul(hn::Add(a, b), hn::Set(d4, 0.5f)); }
+HWY_INLINE VF4 mean(VF4 a, VF4 b) { return hn::Mul(hn::Add(a, b), hn::Set(d4, 0.5f)); }
 
 HWY_INLINE float stretched(float v, float scale) {
   if (v == 0) return 0;
@@ -112,14 +112,14 @@ void mix_pixel(const FxaaConsoleRows& rows, float sharpness, std::ptrdiff_t x, s
   const float fx = stretched(dx, scale), fy = stretched(dy, scale);
   const Point far_before(x, -fx, -fy), far_after(x, fx, fy);
 
-  F out = mean(before.color(rows, n), after.color(rows, n));
+  VF4 out = mean(before.color(rows, n), after.color(rows, n));
   const float near_luma = (before.luma(rows) + after.luma(rows)) * 0.5f;
   const float far_luma = (near_luma + (far_before.luma(rows) + far_after.luma(rows)) * 0.5f) * 0.5f;
   if (!(far_luma < hn::GetLane(corner.low)) && !(far_luma > hn::GetLane(corner.high)))
     out = mean(out, mean(far_before.color(rows, n), far_after.color(rows, n)));
-  const hn::Rebind<std::uint8_t, Four> bytes;
-  const F rounded = hn::Add(out, hn::Set(d4, 0.5f));
-  hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(hn::RebindToSigned<Four>(), rounded)), bytes, to);
+  const hn::Rebind<std::uint8_t, DF4> bytes;
+  const VF4 rounded = hn::Add(out, hn::Set(d4, 0.5f));
+  hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(hn::RebindToSigned<DF4>(), rounded)), bytes, to);
 }
 
 void mix_row(const FxaaConsoleRows& rows, float sharpness, const std::uint8_t* seen, std::uint8_t* out, std::size_t n) {
@@ -134,6 +134,7 @@ void mix_row(const FxaaConsoleRows& rows, float sharpness, const std::uint8_t* s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const FxaaConsoleKernels FxaaConsoleKernels::HWY_NAMESPACE = {.seen_row = HWY_NAMESPACE::seen_row,
-                                                              .mix_row = HWY_NAMESPACE::mix_row};
+template <>
+const FxaaConsoleKernels PerIsa<FxaaConsoleKernels>::HWY_NAMESPACE = {.seen_row = HWY_NAMESPACE::seen_row,
+                                                                      .mix_row = HWY_NAMESPACE::mix_row};
 }  // namespace zoneplate

@@ -17,13 +17,13 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/fxaa/console_kernels.h"
 #include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/antialias/post/rolling_rows.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 namespace antialias {
@@ -88,8 +88,7 @@ class Luma {
  public:
   Luma(const Rgba8Image& image, const FxaaOptions& options, int first)
       : image_(image),
-        row_of_(options.is_green_luma ? pick(options.isa, scalar::fxaa_kernels).green_row
-                                      : pick(options.isa, scalar::fxaa_kernels).luma_row),
+        row_of_(options.is_green_luma ? FxaaKernels::of().green_row : FxaaKernels::of().luma_row),
         rows_(image.width(), image.height(), fxaa_reach(options), first) {}
 
   std::ptrdiff_t stride() const { return rows_.stride(); }
@@ -165,17 +164,17 @@ void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& optio
     const int x = static_cast<int>(i), side = row.flags[i] & FxaaEnds::second_side ? 1 : -1;
     const bool is_level = row.flags[i] & FxaaEnds::level;
     const Rgba8 there = pixel_at(image, x + (is_level ? 0 : side), y + (is_level ? side : 0));
-    out[i] = mixed_light(image(x, y), there, row.shift[i]);
+    out[i] = mix_linear(image(x, y), there, row.shift[i]);
   });
 }
 
 /// The console path: its pixels have no ends to be found.
 Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image out) {
-  const FxaaConsoleKernels& kernels = pick(options.isa, scalar::fxaa_console_kernels);
+  const FxaaConsoleKernels& kernels = FxaaConsoleKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
   const auto threshold = static_cast<float>(options.threshold), least = static_cast<float>(options.least) * 255;
   for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
-    ResultRow result(image, out, options.isa);
+    ResultRow result(image, out);
     std::vector<std::uint8_t> seen((width + 63) / 64 * 64);
     for (int y = begin; y < end; ++y) {
       luma.make_around(y);
@@ -201,7 +200,7 @@ int fxaa_reach(const FxaaOptions& options) {
 
 Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory) {
   if (image.empty()) return image;
-  const FxaaKernels& kernels = pick(options.isa, scalar::fxaa_kernels);
+  const FxaaKernels& kernels = FxaaKernels::of();
   Rgba8Image out = sized_like(image, std::move(memory));
   if (options.preset == FxaaOptions::console) return apply_console(image, options, std::move(out));
 
@@ -211,7 +210,7 @@ Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8
   const auto width = static_cast<std::size_t>(image.width());
   for_luma_blocks(image, options, [&](Luma& luma, int begin, int end) {
     RowMemory row(image.width());
-    ResultRow result(image, out, options.isa);
+    ResultRow result(image, out);
     for (int y = begin; y < end; ++y) {
       luma.make_around(y);
       kernels.contrast_row(luma.at(0, y), luma.stride(), contrast, row.bits.data(), width);
@@ -265,36 +264,22 @@ FxaaOptions options_of(const Settings& s) {
   return o;
 }
 
-class Fxaa : public Resolver {
- public:
-  explicit Fxaa(const FxaaOptions& options) : options_(options) {}
-  Request request(const FrameContext&) override {
-    Request request;
-    request.halo = fxaa_reach(options_);
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
-    return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_fxaa(i, options_); });
-  }
-
- private:
-  FxaaOptions options_;
-};
+std::unique_ptr<Resolver> make(const Settings& s) {
+  const FxaaOptions options = options_of(s);
+  return make_post_process(fxaa_reach(options), options.mixes_light ? Mixing::Linear : Mixing::Encoded,
+                           [options](const Rgba8Image& i) { return apply_fxaa(i, options); });
+}
 
 constexpr std::string_view variants[] = {"preset=39", "preset=console"};
 
 }  // namespace
-
-Method fxaa();
 
 Method fxaa() {
   return {.name = "fxaa",
           .summary = "one fetch across each edge, as far as its ends are near",
           .source = "Lottes 2011, FXAA 3.11",
           .params = params,
-          .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<Fxaa>(options_of(s)); },
+          .make = make,
           .variants = variants};
 }
 

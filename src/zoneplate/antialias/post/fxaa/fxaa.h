@@ -1,6 +1,5 @@
 #pragma once
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -15,7 +14,6 @@ struct FxaaOptions {
   float sharpness = 8;         ///< of edges (console)
   bool is_green_luma = false;  ///< luma is the green code, not 0.299 R + 0.587 G + 0.114 B
   bool mixes_light = false;    ///< mix linear light instead of codes (quality)
-  Isa isa = best_isa();
 };
 
 /// FXAA 3.11 of a picture of codes; `memory` may be any picture, whose storage is reused where its size fits.

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// What contrast FXAA leaves alone: the greater of `least` and the share factor / 65536 of the greatest luma.
@@ -29,7 +31,7 @@ struct FxaaSearch {
   float subpixel;  ///< how much a pixel unlike its neighbours is taken towards them
 };
 
-struct FxaaKernels {
+struct FxaaKernels : PerIsa<FxaaKernels> {
   /// Luma codes, (299 R + 587 G + 114 B) / 1000 rounded, of n pixels of four codes.
   void (*luma_row)(const std::uint8_t* rgba, std::uint8_t* luma, std::size_t n);
   /// The green codes of n pixels.
@@ -49,13 +51,7 @@ struct FxaaKernels {
   /// below it. Bits as above.
   void (*mix_row)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                   const std::uint8_t* bits, const FxaaEnds& ends, std::uint8_t* out, std::size_t n);
-
-  static const FxaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const FxaaKernels fxaa_kernels;
-}
 
 namespace antialias {
 

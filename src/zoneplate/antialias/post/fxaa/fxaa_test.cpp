@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -101,9 +102,10 @@ TEST(Fxaa, OutputsHaveTheirBits) {
 TEST(Fxaa, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
   for (const int preset : all_presets) {
-    const Rgba8Image expected = apply_fxaa(image, {.preset = preset, .isa = Isa::Scalar});
+    const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_fxaa(image, {.preset = preset}); });
     for (const Isa isa : supported_isas())
-      EXPECT_EQ(apply_fxaa(image, {.preset = preset, .isa = isa}), expected) << preset << ", " << name_of(isa);
+      with_isa(isa,
+               [&] { EXPECT_EQ(apply_fxaa(image, {.preset = preset}), expected) << preset << ", " << name_of(isa); });
     for (const int threads : {1, 2, 7})
       with_threads(threads, [&] { EXPECT_EQ(apply_fxaa(image, {.preset = preset}), expected) << preset << threads; });
   }
@@ -116,7 +118,7 @@ TEST(Fxaa, LumaIsRec601Rounded) {
     p = {static_cast<std::uint8_t>(h), static_cast<std::uint8_t>(h >> 8), static_cast<std::uint8_t>(h >> 16)};
   }
   for (const Isa isa : supported_isas()) {
-    const FxaaKernels& kernels = pick(isa, scalar::fxaa_kernels);
+    const FxaaKernels& kernels = FxaaKernels::of(isa);
     for (std::size_t n = 0; n <= pixels.size(); ++n) {
       std::vector<std::uint8_t> luma(n + 1, 7), green = luma;
       kernels.luma_row(&pixels[0].r, luma.data(), n);

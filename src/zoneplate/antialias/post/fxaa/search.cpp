@@ -149,13 +149,14 @@ void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uin
 
 }  // namespace
 
-const FxaaKernels fxaa_kernels = {.luma_row = luma_row,
-                                  .green_row = green_row,
-                                  .contrast_row = contrast_row,
-                                  .ends_row = ends_row,
-                                  .mix_row = mix_row};
-
 }  // namespace scalar
+
+template <>
+const FxaaKernels PerIsa<FxaaKernels>::scalar = {.luma_row = scalar::luma_row,
+                                                 .green_row = scalar::green_row,
+                                                 .contrast_row = scalar::contrast_row,
+                                                 .ends_row = scalar::ends_row,
+                                                 .mix_row = scalar::mix_row};
 
 namespace antialias {
 

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
-#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+#include "zoneplate/antialias/post/post_process.h"
+#include "zoneplate/antialias/post/row_kernels.h"
 #include "zoneplate/antialias/post/smaa/tables.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -48,11 +48,11 @@ EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int bo
   constexpr float white = 255 * 10000;
   const float threshold = std::round(static_cast<float>(options.threshold) * white);
   const auto width = static_cast<std::size_t>(image.width());
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
-  const MlaaKernels& edge_kernels = pick(options.isa, scalar::mlaa_kernels);
+  const RowKernels& kernels = RowKernels::of();
+  const MlaaKernels& edge_kernels = MlaaKernels::of();
   EdgePlane edges(image.width(), image.height(), border);
   detect_edges<float>(
-      edges, [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); },
+      edges, [&](int y, float* row) { kernels.luma(&image.row(y)[0].r, row, width); },
       [&](const EdgeRows<float>& rows, std::uint8_t* out) { edge_kernels.luma_edges(rows, threshold, out, width); });
   edges.extend();
   return edges;
@@ -87,7 +87,7 @@ struct Line {
 Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
   const auto at = [&](int i, int j) {
     const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
-    if (mixes_light) return light_of(c);
+    if (mixes_light) return decode_pixel(c);
     return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
   };
   const Linear here = at(x, y), others[4] = {at(x, y - 1), at(x, y + 1), at(x - 1, y), at(x + 1, y)};
@@ -95,13 +95,13 @@ Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& tak
   Linear sum{0, 0, 0, 0};
   float total = 0;
   for (int i = 0; i < 4; ++i) {
-    const float a = code_share[weights[i]];
+    const float a = unorm8_value[weights[i]];
     sum = sum + (here * (1 - a) + others[i] * a) * a;
     total += a;
   }
   const Linear out{sum.r / total, sum.g / total, sum.b / total, sum.a / total};
-  if (mixes_light) return codes_of(out);
-  return {rounded_code(out.r), rounded_code(out.g), rounded_code(out.b), rounded_code(out.a)};
+  if (mixes_light) return encode_pixel(out);
+  return {round_unorm8(out.r), round_unorm8(out.g), round_unorm8(out.b), round_unorm8(out.a)};
 }
 
 int reach_of(const MlaaOptions& options) {
@@ -140,7 +140,7 @@ Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8
     return mixed_pixel(image, x, y, taken, options.mixes_light);
   };
   if (options.kind == MlaaOptions::Kind::Reshetov) {
-    const WeightPlane weights = mlaa_reshetov_weights(image, options.isa);
+    const WeightPlane weights = mlaa_reshetov_weights(image);
     mix_by_weights(
         image, out, [&](int y, WeightRow& row) { row.assign(weights.at(0, y)); }, mix);
     return out;
@@ -169,35 +169,17 @@ constexpr Param params[] = {
     {.name = "mix", .meaning = "in what colours are mixed", .value = 0, .names = mixings},
 };
 
-class Mlaa : public Resolver {
- public:
-  explicit Mlaa(const MlaaOptions& options) : options_(options) {}
-  Request request(const FrameContext&) override {
-    Request request;
-    request.halo = reach_of(options_);
-    request.is_display_referred = true;
-    return request;
-  }
-  DisplayImage post_process(DisplayImage image, const Frame&) override {
-    const Mixing mixing = options_.mixes_light ? Mixing::Light : Mixing::Codes;
-    return filter_codes(std::move(image), mixing, [&](const Rgba8Image& i) { return apply_mlaa(i, options_); });
-  }
-
- private:
-  MlaaOptions options_;
-};
-
 std::unique_ptr<Resolver> make(const Settings& s) {
-  return std::make_unique<Mlaa>(MlaaOptions{.kind = static_cast<MlaaOptions::Kind>(s.integer("kind")),
-                                            .steps = s.integer("steps"),
-                                            .mixes_light = s.chosen("mix") == "light"});
+  const MlaaOptions options{.kind = static_cast<MlaaOptions::Kind>(s.integer("kind")),
+                            .steps = s.integer("steps"),
+                            .mixes_light = s.chosen("mix") == "light"};
+  return make_post_process(reach_of(options), options.mixes_light ? Mixing::Linear : Mixing::Encoded,
+                           [options](const Rgba8Image& i) { return apply_mlaa(i, options); });
 }
 
 constexpr std::string_view variants[] = {"kind=reshetov"};
 
 }  // namespace
-
-Method mlaa();
 
 Method mlaa() {
   return {.name = "mlaa",

@@ -14,7 +14,6 @@ struct MlaaOptions {
   double threshold = 0.1;   ///< Jimenez: least difference of luma, code / 255
   int steps = 16;           ///< Jimenez: of two pixels, along an edge; 4, 8 or 16 in the original
   bool mixes_light = true;  ///< mix linear light; else codes
-  Isa isa = best_isa();
 };
 
 /// Morphological antialiasing of a picture of codes; `memory` as for apply_smaa.
@@ -26,7 +25,7 @@ Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8
 
 /// The weights of all edges of the first kind, which have no order of rows.
 using WeightPlane = Bordered<EdgeWeights>;
-WeightPlane mlaa_reshetov_weights(const Rgba8Image& image, Isa isa);
+WeightPlane mlaa_reshetov_weights(const Rgba8Image& image);
 
 /// The height in [0, 1] at which a line crosses the step between two columns, so that the mixed colours of both sides
 /// meet: ½ where none does. `near` and `across` are lumas at the line's end, this side of its border and the other;

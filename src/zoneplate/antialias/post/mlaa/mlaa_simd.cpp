@@ -22,7 +22,7 @@ HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, float threshol
 }
 
 void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 template <class D>
@@ -68,6 +68,7 @@ void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, s
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const MlaaKernels MlaaKernels::HWY_NAMESPACE = {.luma_edges = HWY_NAMESPACE::luma_edges,
-                                                .edges_row = HWY_NAMESPACE::edges_row};
+template <>
+const MlaaKernels PerIsa<MlaaKernels>::HWY_NAMESPACE = {.luma_edges = HWY_NAMESPACE::luma_edges,
+                                                        .edges_row = HWY_NAMESPACE::edges_row};
 }  // namespace zoneplate

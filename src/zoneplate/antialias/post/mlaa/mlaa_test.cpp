@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -22,10 +23,13 @@ TEST(Mlaa, OutputsHaveTheirBits) {
 TEST(Mlaa, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
   for (const Kind kind : {Kind::Jimenez, Kind::Reshetov}) {
-    const Rgba8Image expected = apply_mlaa(image, {.kind = kind, .isa = Isa::Scalar});
+    const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_mlaa(image, {.kind = kind}); });
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 2, 7})
-        with_threads(threads, [&] { EXPECT_EQ(apply_mlaa(image, {.kind = kind, .isa = isa}), expected) << threads; });
+        with_isa(isa, [&] {
+          with_threads(threads,
+                       [&] { EXPECT_EQ(apply_mlaa(image, {.kind = kind}), expected) << name_of(isa) << threads; });
+        });
   }
 }
 
@@ -40,12 +44,12 @@ TEST(Mlaa, KernelsFindTheEdgesOfTheirTwins) {
   for (const Isa isa : supported_isas())
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found = expected;
-      scalar::mlaa_kernels.edges_row(above, here, 16, expected.data(), n);
-      pick(isa, scalar::mlaa_kernels).edges_row(above, here, 16, found.data(), n);
+      MlaaKernels::scalar.edges_row(above, here, 16, expected.data(), n);
+      MlaaKernels::of(isa).edges_row(above, here, 16, found.data(), n);
       ASSERT_EQ(found, expected) << name_of(isa);
       std::vector<std::uint8_t> lines(n + 1, 9), others = lines;
-      scalar::mlaa_kernels.luma_edges(rows, 25, lines.data(), n);
-      pick(isa, scalar::mlaa_kernels).luma_edges(rows, 25, others.data(), n);
+      MlaaKernels::scalar.luma_edges(rows, 25, lines.data(), n);
+      MlaaKernels::of(isa).luma_edges(rows, 25, others.data(), n);
       ASSERT_EQ(others, lines) << name_of(isa);
       if (n < 200) continue;
       for (const int edges : {0, 1, 2, 3}) EXPECT_GT(std::ranges::count(lines, edges), 5);

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/mlaa/mlaa.h"
 #include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
 
@@ -43,9 +43,10 @@ void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, s
 
 }  // namespace
 
-const MlaaKernels mlaa_kernels = {.luma_edges = luma_edges, .edges_row = edges_row};
-
 }  // namespace scalar
+
+template <>
+const MlaaKernels PerIsa<MlaaKernels>::scalar = {.luma_edges = scalar::luma_edges, .edges_row = scalar::edges_row};
 
 namespace antialias {
 
@@ -61,8 +62,8 @@ namespace {
 /// A difference in the upper four bits of a channel.
 constexpr int least_difference = 16;
 
-EdgePlane find_edges(const Rgba8Image& image, Isa isa) {
-  const MlaaKernels& kernels = pick(isa, scalar::mlaa_kernels);
+EdgePlane find_edges(const Rgba8Image& image) {
+  const MlaaKernels& kernels = MlaaKernels::of();
   EdgePlane edges(image.width(), image.height(), 1);
   for_rows(image.height(), [&](int y) {
     const auto row = image.row(y), above = image.row(std::max(y - 1, 0));
@@ -186,7 +187,7 @@ class Lines {
     EdgeWeights& w = *(is_horizontal_ ? weights_.at(i, j) : weights_.at(j, i));
     std::uint8_t& weight = is_horizontal_ ? (side == Side::Below ? w.from_above : w.to_above)
                                           : (side == Side::Below ? w.from_left : w.to_left);
-    weight = static_cast<std::uint8_t>(std::min(255, weight + rounded_code(255 * area)));
+    weight = static_cast<std::uint8_t>(std::min(255, weight + round_unorm8(255 * area)));
   }
 
   const Rgba8Image& image_;
@@ -197,8 +198,8 @@ class Lines {
 
 }  // namespace
 
-WeightPlane mlaa_reshetov_weights(const Rgba8Image& image, Isa isa) {
-  const EdgePlane edges = find_edges(image, isa);
+WeightPlane mlaa_reshetov_weights(const Rgba8Image& image) {
+  const EdgePlane edges = find_edges(image);
   WeightPlane weights(image.width(), image.height(), 1);
   for_rows(image.height(), [&](int y) {
     std::memset(static_cast<void*>(weights.at(0, y)), 0, sizeof(EdgeWeights) * static_cast<std::size_t>(image.width()));

@@ -18,47 +18,20 @@
 #include <algorithm>
 #include <limits>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
-#include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
-namespace {
-
-/// A pixel mixed with its neighbours on the axis of its greater weight.
-Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
-  const auto at = [&](int i, int j) {
-    const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
-    if (mixes_light) return light_of(c);
-    return Linear{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
-  };
-  const bool is_horizontal = std::max(taken.right, taken.left) > std::max(taken.below, taken.above);
-  const float first = code_share[is_horizontal ? taken.right : taken.below];
-  const float second = code_share[is_horizontal ? taken.left : taken.above];
-  const Linear here = at(x, y);
-  const Linear a = is_horizontal ? at(x + 1, y) : at(x, y + 1), b = is_horizontal ? at(x - 1, y) : at(x, y - 1);
-  const float sum = first + second, u = first / sum, v = second / sum;
-  const auto mix = [&](float c, float p, float q) { return u * (c + (p - c) * first) + v * (c + (q - c) * second); };
-  const Linear out{mix(here.r, a.r, b.r), mix(here.g, a.g, b.g), mix(here.b, a.b, b.b), mix(here.a, a.a, b.a)};
-  if (mixes_light) return codes_of(out);
-  return {rounded_code(out.r), rounded_code(out.g), rounded_code(out.b), rounded_code(out.a)};
-}
-
-}  // namespace
-
 Rgba8Image apply_smaa(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options,
                       Rgba8Image memory) {
   if (image.empty()) return image;
-  const EdgePlane edges = smaa_edges(image, depth, options);
-  const SmaaWeigher weigher(edges, options);
-  Rgba8Image out = sized_like(image, std::move(memory));
-  mix_by_weights(
-      image, out, [&](int y, WeightRow& row) { weigher.weigh(y, row); },
-      [&](int x, int y, const TakenWeights& taken) { return mixed_pixel(image, x, y, taken, options.mixes_light); });
-  return out;
+  const EdgePlane edges = smaa_edge_detection(image, depth, options);
+  const SmaaBlendingWeights weights(edges, options);
+  return smaa_neighborhood_blending(image, weights, options, std::move(memory));
 }
 
 namespace {
@@ -81,12 +54,12 @@ constexpr Param params[] = {
     {.name = "predication", .meaning = "what lowers the threshold where it changes", .value = 0, .names = predications},
     {.name = "pthreshold",
      .meaning = "least change of the logarithm of depth, or of object ids",
-     .value = 10,
+     .value = 0.01,
      .low = 0,
-     .high = 1000,
+     .high = 1,
      .decimals = 3},
-    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 20, .low = 10, .high = 50, .decimals = 1},
-    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 40, .low = 0, .high = 100, .decimals = 2},
+    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 2, .low = 1, .high = 5, .decimals = 1},
+    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 0.4, .low = 0, .high = 1, .decimals = 2},
 };
 
 /// What the predication buffer is made of.
@@ -118,18 +91,16 @@ class Smaa : public Resolver {
  public:
   Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
   Request request(const FrameContext&) override {
-    Request request;
+    Request request = display_referred_request(smaa_reach(options_));
     request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
     request.planes.object_id = predication_ == Predication::Objects;
-    request.halo = smaa_reach(options_);
-    request.is_display_referred = true;
     return request;
   }
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     const Plane<float> predicate = predication_buffer(frame);
     const Plane<float>& depth = options_.is_predicated ? predicate : frame.reversed_depth;
-    return filter_codes(std::move(image), Mixing::Light,
-                        [&](const Rgba8Image& i) { return apply_smaa(i, &depth, options_); });
+    return filter_encoded(std::move(image), Mixing::Linear,
+                          [&](const Rgba8Image& i) { return apply_smaa(i, &depth, options_); });
   }
 
  private:
@@ -146,7 +117,7 @@ class Smaa : public Resolver {
   Predication predication_;
 };
 
-/// The mean of two shown pictures in linear light, premultiplied.
+/// The mean of two display-referred pictures in linear light, premultiplied.
 Display mean_light(const Display& a, const Display& b) {
   if (a == b) return a;
   const float alpha = (a.a + b.a) / 2;
@@ -157,16 +128,15 @@ Display mean_light(const Display& a, const Display& b) {
   return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
 }
 
-/// S2x: both samples of the standard pattern of two are shown and treated by themselves, with the areas of their
-/// places.
+/// S2x: each sample of the standard pattern of two makes a display-referred picture, which is treated by itself, with
+/// the areas of the sample's place.
 class SmaaS2x : public Resolver {
  public:
   explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
   Request request(const FrameContext&) override {
-    Request request{.samples = standard_pattern(2), .rate = Rate::Surface, .weights = {}, .planes = {}};
+    Request request = display_referred_request(smaa_reach(options_));
+    request.samples = standard_pattern(2);
     request.planes.samples = true;
-    request.halo = smaa_reach(options_);
-    request.is_display_referred = true;
     return request;
   }
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
@@ -175,8 +145,8 @@ class SmaaS2x : public Resolver {
     for (std::size_t s = 0; s < 2; ++s) {
       SmaaOptions options = options_;
       options.slots = slots[s];
-      treated[s] = filter_codes(make_display(frame.sample_color[s], frame.display), Mixing::Light,
-                                [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
+      treated[s] = filter_encoded(make_display(frame.sample_color[s], frame.display), Mixing::Linear,
+                                  [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
     }
     for_rows(image.height(), [&](int y) {
       for (int x = 0; x < image.width(); ++x) image(x, y) = mean_light(treated[0](x, y), treated[1](x, y));
@@ -202,8 +172,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "predication=depth"};
 
 }  // namespace
-
-Method smaa();
 
 Method smaa() {
   return {.name = "smaa",

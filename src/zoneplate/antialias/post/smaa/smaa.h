@@ -5,7 +5,6 @@
 
 #include "zoneplate/antialias/post/edge_rows.h"
 #include "zoneplate/antialias/post/weight_rows.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {
@@ -25,29 +24,46 @@ struct SmaaOptions {
   std::array<int, 4> slots = {};        ///< of the areas for left edges, top edges and the two diagonals
   bool mixes_light = true;              ///< mix linear light; else codes
   bool is_postprocessing = false;       ///< for tests: the rounded areas and signed corner distances of another program
-  Isa isa = best_isa();
 };
 
-/// The first pass, on codes or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer where
-/// `is_predicated` is set, of any unit; a difference that is not a number (of two infinities) crosses nothing.
-EdgePlane smaa_edges(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options);
+// The three passes, by the names of the paper and its code:
+//
+//   picture, sRGB-encoded --+--> edge detection ------------------> edges: left, top of each pixel
+//   depth, ids (optional) --'                                         |
+//                                                                      v
+//   areas under lines (tables.h), search steps ---> blending weight calculation, row by row
+//                                                                      |
+//                                                                      v  weights: shares of the four neighbours
+//   picture, sRGB-encoded ------------------------> neighborhood blending ---> picture, sRGB-encoded
+//                                                   (decodes the pixels that it mixes, mixes linear light, encodes)
+//
+// Luma and colour differences are those of sRGB-encoded values: a threshold is then about as visible in the dark as in
+// the light. Only the last pass needs linear light.
+
+/// Edge detection, on the sRGB-encoded picture or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer
+/// where `is_predicated` is set, of any unit; a difference that is not a number (of two infinities) crosses nothing.
+EdgePlane smaa_edge_detection(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options);
 
 struct SmaaTables;
 
-/// The second pass, row by row. What it is made of outlives it.
-class SmaaWeigher {
+/// Blending weight calculation, row by row. The edges and options outlive it.
+class SmaaBlendingWeights {
  public:
-  SmaaWeigher(const EdgePlane& edges, const SmaaOptions& options);
-  ~SmaaWeigher();
+  SmaaBlendingWeights(const EdgePlane& edges, const SmaaOptions& options);
+  ~SmaaBlendingWeights();
 
   /// Puts the weights of row y into a cleared row.
-  void weigh(int y, WeightRow& out) const;
+  void find(int y, WeightRow& out) const;
 
  private:
   const EdgePlane& edges_;
   const SmaaOptions& options_;
   std::unique_ptr<const SmaaTables> tables_;
 };
+
+/// Neighborhood blending; `memory` as for apply_smaa.
+Rgba8Image smaa_neighborhood_blending(const Rgba8Image& image, const SmaaBlendingWeights& weights,
+                                      const SmaaOptions& options, Rgba8Image memory);
 
 /// SMAA 1x; `memory` may be any picture, whose storage is reused where its size fits.
 ///

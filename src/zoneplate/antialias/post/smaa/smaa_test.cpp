@@ -7,8 +7,9 @@
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
@@ -94,10 +95,10 @@ Rgba8Image shown(const EdgePlane& edges) {
 }
 
 Rgba8Image shown_weights(const EdgePlane& edges, const SmaaOptions& options) {
-  const SmaaWeigher weigher(edges, options);
+  const SmaaBlendingWeights weigher(edges, options);
   WeightRow row(edges.width());
   return make_codes(edges.width(), edges.height(), [&](int x, int y) {
-    if (x == 0) row.clear(), weigher.weigh(y, row);
+    if (x == 0) row.clear(), weigher.find(y, row);
     return Rgba8{row[x].from_above, row[x].to_above, row[x].from_left, row[x].to_left};
   });
 }
@@ -107,7 +108,7 @@ TEST(Smaa, EveryPassEqualsAnotherImplementation) {
   for (const Case& run : runs)
     for (const auto& [edges, passes] : {std::pair{Edges::Luma, run.luma}, {Edges::Color, run.color}}) {
       const SmaaOptions options = options_of(run, edges);
-      const EdgePlane found = smaa_edges(chart, nullptr, options);
+      const EdgePlane found = smaa_edge_detection(chart, nullptr, options);
       EXPECT_EQ(hash_of_colors(shown(found)), passes.edges) << run.name;
       EXPECT_EQ(hash_of(shown_weights(found, options)), passes.weights) << run.name;
       EXPECT_EQ(hash_of_colors(apply_smaa(chart, nullptr, options)), passes.picture) << run.name;
@@ -196,7 +197,7 @@ TEST(Smaa, PredicatedEdgesAreTheShaders) {
       for (const double strength : {0.4, 1.0}) {
         SmaaOptions options{.edges = edges, .threshold = threshold, .is_predicated = true};
         options.predication_strength = strength;
-        const EdgePlane found = smaa_edges(scene.image, &scene.buffer, options);
+        const EdgePlane found = smaa_edge_detection(scene.image, &scene.buffer, options);
         const ShaderEdges shader(scene, options);
         int counts[4] = {};
         for (int y = 0; y < 77; ++y)
@@ -222,9 +223,11 @@ TEST(Smaa, PredicationChangesThresholdsAndNothingElse) {
     const Rgba8Image expected = out(0.1, 2, 0.4);
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 3})
-        with_threads(threads, [&] {
-          const SmaaOptions options{.edges = edges, .is_predicated = true, .isa = isa};
-          EXPECT_EQ(apply_smaa(scene.image, &scene.buffer, options), expected) << name_of(isa);
+        with_isa(isa, [&] {
+          with_threads(threads, [&] {
+            const SmaaOptions options{.edges = edges, .is_predicated = true};
+            EXPECT_EQ(apply_smaa(scene.image, &scene.buffer, options), expected) << name_of(isa);
+          });
         });
   }
 }
@@ -275,11 +278,13 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
 TEST(Smaa, InstructionSetsAndThreadsLeaveNoTrace) {
   const Rgba8Image image = random_shapes(203, 77, 2);
   for (const Edges edges : {Edges::Luma, Edges::Color}) {
-    const Rgba8Image expected = apply_smaa(image, nullptr, {.edges = edges, .isa = Isa::Scalar});
+    const Rgba8Image expected = with_isa(Isa::Scalar, [&] { return apply_smaa(image, nullptr, {.edges = edges}); });
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 2, 7})
-        with_threads(threads, [&] {
-          EXPECT_EQ(apply_smaa(image, nullptr, {.edges = edges, .isa = isa}), expected) << name_of(isa) << threads;
+        with_isa(isa, [&] {
+          with_threads(threads, [&] {
+            EXPECT_EQ(apply_smaa(image, nullptr, {.edges = edges}), expected) << name_of(isa) << threads;
+          });
         });
   }
 }
@@ -288,21 +293,21 @@ TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
   std::vector<std::uint32_t> codes(4 * 300);
   for (std::uint32_t i = 0; std::uint32_t & c : codes) c = hash(i++) & 0x3f7f3f3f;
   std::vector<float> lumas(codes.size());
-  scalar::smaa_kernels.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), lumas.data(), lumas.size());
+  RowKernels::scalar.luma(reinterpret_cast<const std::uint8_t*>(codes.data()), lumas.data(), lumas.size());
   for (const Isa isa : supported_isas()) {
-    const SmaaKernels& kernels = pick(isa, scalar::smaa_kernels);
+    const SmaaKernels& kernels = SmaaKernels::of(isa);
     std::vector<float> row(lumas.size());
-    kernels.luma_row(reinterpret_cast<const std::uint8_t*>(codes.data()), row.data(), row.size());
+    RowKernels::of(isa).luma(reinterpret_cast<const std::uint8_t*>(codes.data()), row.data(), row.size());
     EXPECT_EQ(row, lumas);
     const auto rows = [](const auto& v) {
       return EdgeRows<std::decay_t<decltype(v[0])>>{{&v[2], &v[302], &v[602], &v[902]}};
     };
     for (std::size_t n = 0; n <= 200; ++n) {
       std::vector<std::uint8_t> expected(n + 1, 9), found(n + 1, 9);
-      scalar::smaa_kernels.luma_edges(rows(lumas), 100000, expected.data(), n);
+      SmaaKernels::scalar.luma_edges(rows(lumas), 100000, expected.data(), n);
       kernels.luma_edges(rows(lumas), 100000, found.data(), n);
       ASSERT_EQ(found, expected);
-      scalar::smaa_kernels.color_edges(rows(codes), 26, expected.data(), n);
+      SmaaKernels::scalar.color_edges(rows(codes), 26, expected.data(), n);
       kernels.color_edges(rows(codes), 26, found.data(), n);
       ASSERT_EQ(found, expected);
       const auto crossed = [&](std::vector<std::uint8_t>& edges) {
@@ -310,11 +315,11 @@ TEST(Smaa, KernelsFindWhatTheirTwinsFind) {
           edges[i] = static_cast<std::uint8_t>(hash(static_cast<std::uint32_t>(i)) >> 9 & 3);
       };
       crossed(expected), crossed(found);
-      scalar::smaa_kernels.predicated_luma_edges(rows(lumas), {150000, 70000}, expected.data(), n);
+      SmaaKernels::scalar.predicated_luma_edges(rows(lumas), {150000, 70000}, expected.data(), n);
       kernels.predicated_luma_edges(rows(lumas), {150000, 70000}, found.data(), n);
       ASSERT_EQ(found, expected);
       crossed(expected), crossed(found);
-      scalar::smaa_kernels.predicated_color_edges(rows(codes), {40, 20}, expected.data(), n);
+      SmaaKernels::scalar.predicated_color_edges(rows(codes), {40, 20}, expected.data(), n);
       kernels.predicated_color_edges(rows(codes), {40, 20}, found.data(), n);
       ASSERT_EQ(found, expected);
       if (n == 200) {
@@ -439,7 +444,7 @@ TEST(Smaa, DepthEdgesAreFoundWhereColourHasNone) {
   Plane<float> depth(40, 30, 0.25f);
   for (int y = 0; y < 30; ++y)
     for (int x = 12 + y / 3; x < 40; ++x) depth(x, y) = 0.5f;
-  const EdgePlane edges = smaa_edges(image, &depth, {.edges = Edges::Depth});
+  const EdgePlane edges = smaa_edge_detection(image, &depth, {.edges = Edges::Depth});
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
       EXPECT_EQ((*edges.at(x, y) & left_edge) != 0, x == 12 + y / 3);

@@ -28,7 +28,7 @@ class Analytic : public Resolver {
     return request;
   }
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
-    return options_.order == FilterOrder::Scene ? image : display_shown_light(light_, frame.display);
+    return options_.order == FilterOrder::Scene ? image : encode_display_light(light_, frame.display);
   }
   LinearImage resolve(Frame& frame) override {
     if (options_.order == FilterOrder::Display) light_ = frame.color;
@@ -37,7 +37,7 @@ class Analytic : public Resolver {
 
  private:
   AnalyticOptions options_;
-  LinearImage light_;  ///< as shown, kept for `finish`
+  LinearImage light_;  ///< display-referred, kept for `post_process`
 };
 
 constexpr std::string_view filters[] = {"box", "tent", "quadratic", "b-spline", "mitchell", "catmull-rom"};
@@ -69,8 +69,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 }
 
 }  // namespace
-
-Method analytic();
 
 Method analytic() {
   return {.name = "analytic",

@@ -45,9 +45,9 @@ CrowdSampler::CrowdSampler(const ProjectedDraws& projected, const FragmentShader
   });
 }
 
-void CrowdSampler::find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* shown) {
+void CrowdSampler::find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* display_light) {
   x_ = x, y_ = y;
-  triangles_ = triangles, shown_ = shown;
+  triangles_ = triangles, display_light_ = display_light;
   const auto across = static_cast<std::uint32_t>(x), down = static_cast<std::uint32_t>(y);
   shift_ = {hash(across, down, 0), hash(across, down, 1)};
   table_.clear();
@@ -213,7 +213,7 @@ void CrowdSampler::fold() {
   for (std::size_t i = 0; i < table_.fragments().size(); ++i) {
     const AreaFragment& f = table_.fragments()[i];
     if (table_.layers_of(f).back().alpha_mode != AlphaMode::Blend) covered_ += f.moments.area;
-    const Linear c = shown_ ? (*shown_)(colors_.color(i)) : colors_.color(i);
+    const Linear c = display_light_ ? (*display_light_)(colors_.color(i)) : colors_.color(i);
     const std::span<const double> w = table_.weights_of(i);
     for (std::size_t k = 0; k < sum_.size(); ++k) {
       Share& s = sum_[k];

@@ -39,7 +39,7 @@ class CrowdSampler {
                const PolynomialFilter& filter, int shading, int grid, Footprints footprints);
 
   /// Samples the pixel (x, y).
-  void find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* shown);
+  void find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* display_light);
 
   /// By pixel around, rows from the top.
   std::span<const Share> shares() const { return shares_; }
@@ -102,7 +102,7 @@ class CrowdSampler {
   std::size_t layers_shaded_ = 0;
   std::vector<Share> shares_;
   double covered_ = 0;
-  const DisplayLight* shown_ = nullptr;
+  const DisplayLight* display_light_ = nullptr;
   std::uint64_t samples_taken_ = 0;
 };
 

@@ -33,7 +33,7 @@ struct Whole {
   const Target& target;
   const PolynomialFilter& filter;
   const AnalyticOptions& options;
-  std::optional<DisplayLight> shown;
+  std::optional<DisplayLight> display_light;
 };
 
 /// The part of a tile that is drawn, and the pixels around that count for it.
@@ -173,7 +173,7 @@ class TileIntegrator {
 
   void add_samples(int x, int y) {
     if (whole_.filter.reach() > 0) add_fragments();  // what a pixel gets comes in the order of the pixels around
-    crowd_.find(here_, x, y, whole_.shown ? &*whole_.shown : nullptr);
+    crowd_.find(here_, x, y, whole_.display_light ? &*whole_.display_light : nullptr);
     if (drawn_.contains(x, y)) sum_at(x, y).covered += crowd_.covered();
     for_around(x, y, [&](PixelSum& s, std::size_t k) {
       const CrowdSampler::Share& share = crowd_.shares()[k];
@@ -204,7 +204,7 @@ class TileIntegrator {
     const AreaFragment& f = list.fragments()[i];
     if (list.table().layers_of(f).back().alpha_mode != AlphaMode::Blend && drawn_.contains(f.x, f.y))
       sum_at(f.x, f.y).covered += f.moments.area;
-    const Linear color = whole_.shown ? (*whole_.shown)(colors.color(i)) : colors.color(i);
+    const Linear color = whole_.display_light ? (*whole_.display_light)(colors.color(i)) : colors.color(i);
     const double* weight = list.weights_of(i).data();
     for_around(f.x, f.y, [&](PixelSum& s, std::size_t k) {
       s.r += weight[k] * color.r, s.g += weight[k] * color.g, s.b += weight[k] * color.b, s.a += weight[k] * color.a;
@@ -273,20 +273,16 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
 
   const Stopwatch tiles;
   Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
-  if (options.order == FilterOrder::Display) whole.shown.emplace(drawing.options.display);
-  std::vector<std::unique_ptr<TileIntegrator>> integrators(static_cast<std::size_t>(thread_limit()));
+  if (options.order == FilterOrder::Display) whole.display_light.emplace(drawing.options.display);
+  PerThread<TileIntegrator> integrators;
   for (int row = 0; row < triangles.rows();) {
     const auto columns = static_cast<std::size_t>(triangles.columns());
     const std::size_t first = static_cast<std::size_t>(row) * columns;
     row = triangles.list_rows(row);
-    parallel_for(static_cast<std::size_t>(row) * columns - first, [&](std::size_t tile) {
-      std::unique_ptr<TileIntegrator>& mine = integrators[static_cast<std::size_t>(thread_index())];
-      if (!mine) mine = std::make_unique<TileIntegrator>(whole);
-      mine->draw(first + tile);
-    });
+    parallel_for(static_cast<std::size_t>(row) * columns - first,
+                 [&](std::size_t tile) { integrators.local(whole).draw(first + tile); });
   }
-  for (const auto& integrator : integrators)
-    if (integrator) drawing.counts.shaded += integrator->shaded();
+  integrators.for_each([&](const TileIntegrator& each) { drawing.counts.shaded += each.shaded(); });
   drawing.counts.tiles_ms = tiles.ms();
 }
 

@@ -64,7 +64,7 @@ class FlatTriangles : public FragmentShader {
     });
   }
   RenderOptions render_options;
-  Isa isa = best_isa();
+  Isa isa = current_isa();
   mutable RasterCounts counts;  ///< of the last picture that `analytic` or `converged` drew
 
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {

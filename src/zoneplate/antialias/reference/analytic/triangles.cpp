@@ -5,17 +5,12 @@
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/coverage/coverage.h"
-#include "zoneplate/raster/geometry/clip.h"
-#include "zoneplate/raster/geometry/triangle_facing.h"
+#include "zoneplate/raster/geometry/clip_fan.h"
 
 namespace zoneplate::antialias {
 namespace {
 
 constexpr std::int32_t part_size = 4096;
-
-bool is_culled(const Draw& draw, bool is_clockwise) {
-  return draw.culls_back_faces && is_clockwise != draw.is_mirrored;
-}
 
 }  // namespace
 
@@ -46,8 +41,7 @@ TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& targ
   for (std::size_t i = 0; i < tiles; ++i) first_[i + 1] = first_[i] + counter_[i];
 }
 
-/// Calls use(p, q, r, is_piece) for what is left of a triangle after culling and clipping. Of a clipped one, a sliver
-/// that snapping turned over is covered by the pieces beside it.
+/// Calls use(p, q, r, is_piece) for what is left of a triangle after culling and clipping.
 template <class Use>
 void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) const {
   const Draw& draw = projected_.draws[number];
@@ -59,18 +53,10 @@ void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) con
     if (area != 0 && !is_culled(draw, area > 0)) use(p, q, r, false);
     return;
   }
-  const ClippedPolygon polygon =
-      clip_triangle(draw.clip_position(v[0]), draw.clip_position(v[1]), draw.clip_position(v[2]), rules_.viewport);
-  if (polygon.count < 3) return;
-  const TriangleFacing facing = face_of(projected_, number, id, rules_.viewport);
-  if (facing.is_degenerate || is_culled(draw, facing.is_clockwise)) return;
-  for (int i = 2; i < polygon.count; ++i) {
-    const ScreenVertex& first = polygon.vertex[0];
-    const ScreenVertex& second = polygon.vertex[static_cast<std::size_t>(i - 1)];
-    const ScreenVertex& third = polygon.vertex[static_cast<std::size_t>(i)];
-    const std::int64_t area = doubled_area(first, second, third);
-    if (area != 0 && (area > 0) == facing.is_clockwise) use(first, second, third, true);
-  }
+  for_clipped_triangles(projected_, number, id, v, rules_.viewport,
+                        [&](const ScreenVertex& first, const ScreenVertex& second, const ScreenVertex& third) {
+                          use(first, second, third, true);
+                        });
 }
 
 /// Calls use(id, box) for the triangles of a part that touch the target; the box is that of all pieces.

@@ -26,12 +26,12 @@ class Converged : public Resolver {
     return std::move(frame.color);
   }
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
-    return options_.order == FilterOrder::Scene ? image : display_shown_light(light_, frame.display);
+    return options_.order == FilterOrder::Scene ? image : encode_display_light(light_, frame.display);
   }
 
  private:
   ConvergedOptions options_;
-  LinearImage light_;  ///< as shown, kept for `finish`
+  LinearImage light_;  ///< display-referred, kept for `post_process`
 };
 
 constexpr int counts[] = {64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384};
@@ -57,8 +57,6 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 }
 
 }  // namespace
-
-Method converged();
 
 Method converged() {
   return {.name = "converged",

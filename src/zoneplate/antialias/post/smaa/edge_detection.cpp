@@ -1,26 +1,20 @@
-// SMAA's first pass: a border is an edge where its difference reaches the threshold and half of the greatest difference
-// around it (local contrast adaptation). With predication a border's threshold depends on whether a second buffer
-// crosses it, which is found out first and noted in the edges themselves.
+// SMAA's first pass, edge detection: a border is an edge where its difference reaches the threshold and half of the
+// greatest difference around it (local contrast adaptation). With predication a border's threshold depends on whether a
+// second buffer crosses it, which is found out first and noted in the edges themselves.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstring>
 
-#include "zoneplate/antialias/post/codes.h"
 #include "zoneplate/antialias/post/edge_rows.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/row_kernels.h"
+#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
 #include "zoneplate/antialias/post/smaa/smaa.h"
-#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
 
 namespace zoneplate {
 namespace scalar {
 namespace {
-
-void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
-    luma[i] = 2126 * r + 7152 * g + 722 * b;
-  }
-}
 
 /// The thresholds of a pixel's left and top border.
 template <class T>
@@ -98,13 +92,13 @@ void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const Predicate
 
 }  // namespace
 
-const SmaaKernels smaa_kernels = {.luma_row = luma_row,
-                                  .luma_edges = luma_edges,
-                                  .color_edges = color_edges,
-                                  .predicated_luma_edges = predicated_luma_edges,
-                                  .predicated_color_edges = predicated_color_edges};
-
 }  // namespace scalar
+
+template <>
+const SmaaKernels PerIsa<SmaaKernels>::scalar = {.luma_edges = scalar::luma_edges,
+                                                 .color_edges = scalar::color_edges,
+                                                 .predicated_luma_edges = scalar::predicated_luma_edges,
+                                                 .predicated_color_edges = scalar::predicated_color_edges};
 
 namespace antialias {
 namespace {
@@ -129,9 +123,9 @@ PredicatedThreshold<T> predicated(const SmaaOptions& options, Rounded rounded) {
 }
 
 void detect_luma_edges(const Rgba8Image& image, const SmaaOptions& options, EdgePlane& edges) {
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const SmaaKernels& kernels = SmaaKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
-  const auto fill = [&](int y, float* row) { kernels.luma_row(&image.row(y)[0].r, row, width); };
+  const auto fill = [&, luma = RowKernels::of().luma](int y, float* row) { luma(&image.row(y)[0].r, row, width); };
   const auto rounded = [](double threshold) {
     constexpr double white = 255 * 10000;
     return static_cast<float>(std::round(threshold * white));
@@ -150,7 +144,7 @@ void detect_luma_edges(const Rgba8Image& image, const SmaaOptions& options, Edge
 }
 
 void detect_color_edges(const Rgba8Image& image, const SmaaOptions& options, EdgePlane& edges) {
-  const SmaaKernels& kernels = pick(options.isa, scalar::smaa_kernels);
+  const SmaaKernels& kernels = SmaaKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
   const auto fill = [&](int y, std::uint32_t* row) { std::memcpy(row, image.row(y).data(), width * sizeof(Rgba8)); };
   const auto rounded = [](double threshold) { return static_cast<std::uint32_t>(std::ceil(threshold * 255)); };
@@ -169,7 +163,7 @@ void detect_color_edges(const Rgba8Image& image, const SmaaOptions& options, Edg
 
 }  // namespace
 
-EdgePlane smaa_edges(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options) {
+EdgePlane smaa_edge_detection(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options) {
   EdgePlane edges(image.width(), image.height(), smaa_reach(options));
   const bool is_depth = options.edges == SmaaOptions::Edges::Depth;
   assert(!(is_depth && options.is_predicated));

@@ -1,4 +1,5 @@
-// SMAA's second pass: how far each edge goes and what crosses its ends, and with that the areas of its pixels.
+// SMAA's second pass, blending weight calculation: how far each edge goes and what crosses its ends, and with that the
+// areas of its pixels.
 //
 // The shaders fetch between four or two pixels and decode what they find; here the pixels' bits are read themselves.
 // Left edges are top edges with x and y exchanged, so that one walk serves both.
@@ -8,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/smaa/smaa.h"
 #include "zoneplate/antialias/post/smaa/tables.h"
 
@@ -141,7 +142,7 @@ class Line {
   static Areas fetch(const AreaSlot& slot, int x, float u, int y, float v) {
     const int right = std::min(x + 1, AreaSlot::size - 1), lower = std::min(y + 1, AreaSlot::size - 1);
     const auto at = [&](int column, int row, int c) {
-      return code_share[slot.orthogonal[static_cast<std::size_t>(2 * (row * AreaSlot::size + column) + c)]];
+      return unorm8_value[slot.orthogonal[static_cast<std::size_t>(2 * (row * AreaSlot::size + column) + c)]];
     };
     const auto mixed = [&](int c) {
       const float above = at(x, y, c) + (at(right, y, c) - at(x, y, c)) * u;
@@ -210,7 +211,7 @@ class Diagonals {
   static Areas fetch(const AreaSlot& slot, const Found& a, const Found& b, int code_a, int code_b) {
     const int x = 20 * (a.goes_on ? 0 : code_a) + a.distance, y = 20 * (b.goes_on ? 0 : code_b) + b.distance;
     const std::size_t at = static_cast<std::size_t>(2 * (y * AreaSlot::size + x));
-    return {code_share[slot.diagonal[at]], code_share[slot.diagonal[at + 1]]};
+    return {unorm8_value[slot.diagonal[at]], unorm8_value[slot.diagonal[at + 1]]};
   }
 
   Areas rising_areas(const AreaSlot& slot) const {
@@ -243,7 +244,7 @@ class Diagonals {
   int steps_;
 };
 
-std::uint8_t weight_of(float area) { return rounded_code(std::min(area, 1.0f) * 255); }
+std::uint8_t weight_of(float area) { return round_unorm8(std::min(area, 1.0f) * 255); }
 
 EdgeWeights weights_of(const std::uint8_t* pixel, std::ptrdiff_t stride, const SmaaTables& tables,
                        const SmaaOptions& options) {
@@ -265,11 +266,11 @@ EdgeWeights weights_of(const std::uint8_t* pixel, std::ptrdiff_t stride, const S
 
 }  // namespace
 
-SmaaWeigher::SmaaWeigher(const EdgePlane& edges, const SmaaOptions& options)
+SmaaBlendingWeights::SmaaBlendingWeights(const EdgePlane& edges, const SmaaOptions& options)
     : edges_(edges), options_(options), tables_(std::make_unique<SmaaTables>(options)) {}
-SmaaWeigher::~SmaaWeigher() = default;
+SmaaBlendingWeights::~SmaaBlendingWeights() = default;
 
-void SmaaWeigher::weigh(int y, WeightRow& out) const {
+void SmaaBlendingWeights::find(int y, WeightRow& out) const {
   const std::uint8_t* row = edges_.at(0, y);
   for (int block = 0; block < edges_.width(); block += 8) {
     std::uint64_t any = 0;

@@ -1,9 +1,9 @@
-#include "zoneplate/antialias/sampling/gather_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate_kernels.h"
 
 namespace zoneplate::scalar {
 namespace {
 
-using Kernels = GatherKernels;
+using Kernels = AccumulateKernels;
 
 float greater(float a, float b) { return a > b ? a : b; }
 
@@ -52,7 +52,15 @@ void mean(const float* color, const float* weight, bool is_max3, float* out, std
 
 }  // namespace
 
-const GatherKernels gather_kernels = {
-    .weigh_karis = weigh_karis, .map_max3 = map_max3, .premultiply = premultiply, .spread = spread, .mean = mean};
-
 }  // namespace zoneplate::scalar
+
+namespace zoneplate {
+
+template <>
+const AccumulateKernels PerIsa<AccumulateKernels>::scalar = {.weigh_karis = scalar::weigh_karis,
+                                                             .map_max3 = scalar::map_max3,
+                                                             .premultiply = scalar::premultiply,
+                                                             .spread = scalar::spread,
+                                                             .mean = scalar::mean};
+
+}  // namespace zoneplate

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "zoneplate/antialias/post/edge_stencil.h"
+#include "zoneplate/base/isa.h"
 
 namespace zoneplate {
 
@@ -13,9 +14,7 @@ struct PredicatedThreshold {
   T plain, crossed;
 };
 
-struct SmaaKernels {
-  /// 2126 R + 7152 G + 722 B, exactly, of n pixels of four codes.
-  void (*luma_row)(const std::uint8_t* rgba, float* luma, std::size_t n);
+struct SmaaKernels : PerIsa<SmaaKernels> {
   /// Bit 0 of `edges`: left, bit 1: top, by luma; with local contrast adaptation.
   void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
   /// The same by the greatest difference of red, green and blue codes.
@@ -26,12 +25,6 @@ struct SmaaKernels {
   void (*predicated_color_edges)(const EdgeRows<std::uint32_t>& rows,
                                  const PredicatedThreshold<std::uint32_t>& threshold, std::uint8_t* edges,
                                  std::size_t n);
-
-  static const SmaaKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
 };
-
-namespace scalar {
-extern const SmaaKernels smaa_kernels;
-}
 
 }  // namespace zoneplate

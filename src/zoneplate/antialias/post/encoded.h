@@ -9,34 +9,37 @@
 
 namespace zoneplate::antialias {
 
-/// In what a method mixes colours, and so in what a transparent picture is premultiplied.
-enum class Mixing { Codes, Light };
+/// The values that a method mixes, in which a transparent picture is premultiplied.
+enum class Mixing {
+  Encoded,  ///< of sRGB-encoded values
+  Linear,   ///< of linear light
+};
 
-using CodeFilter = std::function<Rgba8Image(const Rgba8Image&)>;
+using EncodedFilter = std::function<Rgba8Image(const Rgba8Image&)>;
 
-/// Applies a method that is defined on 8-bit codes to a shown picture.
+/// Applies a filter that is defined on sRGB-encoded 8-bit pictures to a display-referred picture.
 ///
 /// Edges     a transparent picture is filtered premultiplied, colour and alpha together, on black and on white, so that
 ///           silhouettes of every colour are found.
 /// Exact     a pixel whose codes the filter leaves alone keeps its bits; another becomes code / 255.
-DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& filter);
+DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilter& filter);
 
 /// `v` rounded to a code, for v in [0, 255].
-inline std::uint8_t rounded_code(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
+inline std::uint8_t round_unorm8(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
 
 /// code / 255, without the division.
-inline constexpr std::array<float, 256> code_share = [] {
+inline constexpr std::array<float, 256> unorm8_value = [] {
   std::array<float, 256> out{};
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(i) / 255;
   return out;
 }();
 
 /// A pixel's linear light and alpha in [0, 1], from its codes and back.
-Linear light_of(Rgba8 codes);
-Rgba8 codes_of(Linear light);
+Linear decode_pixel(Rgba8 codes);
+Rgba8 encode_pixel(Linear light);
 
 /// The pixel (1 - t) a + t b of the light that the codes stand for.
-Rgba8 mixed_light(Rgba8 a, Rgba8 b, float t);
+Rgba8 mix_linear(Rgba8 a, Rgba8 b, float t);
 
 /// Rows of one block of work: the picture is cut the same way for every number of threads.
 inline constexpr std::size_t rows_a_block = 16;

@@ -1,30 +1,12 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/edges_simd.h"
-#include "zoneplate/antialias/post/smaa/smaa_kernels.h"
+#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// Every product and sum is a whole number below 2^24, so that floats are exact.
-template <class D>
-HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_t i) {
-  const hn::RebindToSigned<D> di;
-  const hn::Repartition<std::uint8_t, D> bytes;
-  const auto pixels = hn::BitCast(di, hn::LoadU(bytes, rgba + 4 * i));
-  const auto mask = hn::Set(di, 255);
-  const auto r = hn::ConvertTo(d, hn::And(pixels, mask));
-  const auto g = hn::ConvertTo(d, hn::And(hn::ShiftRight<8>(pixels), mask));
-  const auto b = hn::ConvertTo(d, hn::And(hn::ShiftRight<16>(pixels), mask));
-  const auto rg = hn::Add(hn::Mul(r, hn::Set(d, 2126.0f)), hn::Mul(g, hn::Set(d, 7152.0f)));
-  hn::StoreU(hn::Add(rg, hn::Mul(b, hn::Set(d, 722.0f))), d, luma + i);
-}
-
-void luma_row(const std::uint8_t* rgba, float* luma, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_some(d, rgba, luma, i); });
-}
 
 /// The thresholds of the left and top borders of some pixels.
 template <class V>
@@ -72,12 +54,12 @@ HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, const Threshol
 }
 
 void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 void predicated_luma_edges(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
                            std::uint8_t* edges, std::size_t n) {
-  along_row(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
+  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 /// The greatest difference of the three colours of each pixel.
@@ -114,11 +96,7 @@ HWY_INLINE void color_edges_some(D d, const EdgeRows<std::uint32_t>& rows, const
 template <class Threshold>
 HWY_INLINE void find_color_edges(const EdgeRows<std::uint32_t>& rows, const Threshold& threshold, std::uint8_t* edges,
                                  std::size_t n) {
-  const hn::CappedTag<std::uint32_t, 8> full;
-  const hn::CappedTag<std::uint32_t, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(full) <= n; i += hn::Lanes(full)) color_edges_some(full, rows, threshold, edges, i);
-  for (; i < n; ++i) color_edges_some(one, rows, threshold, edges, i);
+  for_lanes<std::uint32_t>(n, [&](auto d, std::size_t i) HWY_ATTR { color_edges_some(d, rows, threshold, edges, i); });
 }
 
 void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n) {
@@ -136,9 +114,10 @@ void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const Predicate
 HWY_AFTER_NAMESPACE();
 
 namespace zoneplate {
-const SmaaKernels SmaaKernels::HWY_NAMESPACE = {.luma_row = HWY_NAMESPACE::luma_row,
-                                                .luma_edges = HWY_NAMESPACE::luma_edges,
-                                                .color_edges = HWY_NAMESPACE::color_edges,
-                                                .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,
-                                                .predicated_color_edges = HWY_NAMESPACE::predicated_color_edges};
+template <>
+const SmaaKernels PerIsa<SmaaKernels>::HWY_NAMESPACE = {
+    .luma_edges = HWY_NAMESPACE::luma_edges,
+    .color_edges = HWY_NAMESPACE::color_edges,
+    .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,
+    .predicated_color_edges = HWY_NAMESPACE::predicated_color_edges};
 }  // namespace zoneplate

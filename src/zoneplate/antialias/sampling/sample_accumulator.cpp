@@ -1,11 +1,11 @@
-#include "zoneplate/antialias/sampling/sample_gather.h"
+#include "zoneplate/antialias/sampling/sample_accumulator.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include "zoneplate/antialias/sampling/gather_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate_kernels.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -18,16 +18,14 @@ constexpr std::size_t rows_of_a_part = 32;  // that one thread fills
 constexpr int greatest_reach = 4;           // of a filter of radius 4
 
 /// The kernel's values at a sample's distances from the centres of the pixels around, the farthest to the left first.
-std::vector<float> taps_of(const Gathering& gathering, std::uint8_t offset) {
-  const int reach = gathering.reach();
-  if (!gathering.kernel) return {1};
+std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
+  const int reach = filter.reach();
+  if (!filter.kernel) return {1};
   std::vector<float> taps;
   for (int d = -reach; d <= reach; ++d)
-    taps.push_back(static_cast<float>(gathering.kernel->value(d + offset / 256.0 - 0.5)));
+    taps.push_back(static_cast<float>(filter.kernel->value(d + offset / 256.0 - 0.5)));
   return taps;
 }
-
-const GatherKernels& kernels() { return pick(best_isa(), scalar::gather_kernels); }
 
 }  // namespace
 
@@ -46,12 +44,12 @@ class SampleRow {
     float* const color = color_.data() + 4 * before_;
     if (weight == SampleWeight::Display) {
       show_light(samples, display, color);
-      return kernels().premultiply(color, width_);
+      return AccumulateKernels::of().premultiply(color, width_);
     }
     std::copy_n(&samples.data()->r, 4 * width_, color);
-    if (weight == SampleWeight::Max3) kernels().map_max3(color, width_);
+    if (weight == SampleWeight::Max3) AccumulateKernels::of().map_max3(color, width_);
     if (weight != SampleWeight::Karis) return;
-    kernels().weigh_karis(display.exposure, color, weight_.data() + before_, width_);
+    AccumulateKernels::of().weigh_karis(display.exposure, color, weight_.data() + before_, width_);
     std::fill(weight_.begin() + static_cast<std::ptrdiff_t>(before_ + width_), weight_.end(), 0.0f);
   }
 
@@ -63,10 +61,10 @@ class SampleRow {
   std::vector<float> color_, weight_;
 };
 
-int Gathering::reach() const { return kernel ? static_cast<int>(std::ceil(kernel->radius + 0.5)) - 1 : 0; }
+int ResolveFilter::reach() const { return kernel ? static_cast<int>(std::ceil(kernel->radius + 0.5)) - 1 : 0; }
 
-Gathering gathering_of(std::string_view method, const Settings& settings) {
-  Gathering out{.weight = static_cast<SampleWeight>(settings.integer("resolve")), .kernel = {}};
+ResolveFilter resolve_filter_of(std::string_view method, const Settings& settings) {
+  ResolveFilter out{.weight = static_cast<SampleWeight>(settings.integer("resolve")), .kernel = {}};
   const double radius = settings.number("radius");
   if (settings.integer("filter") == 0) {
     if (settings.is_given("radius"))
@@ -78,38 +76,38 @@ Gathering gathering_of(std::string_view method, const Settings& settings) {
   return out;
 }
 
-void SampleGather::begin(int width, int height) {
+void SampleAccumulator::begin(int width, int height) {
   width_ = width, height_ = height;
   stride_ = (static_cast<std::size_t>(width) + room - 1) / room * room;
   sum_.assign(4 * stride_ * static_cast<std::size_t>(height), 0);
   weight_.assign(stride_ * static_cast<std::size_t>(height), 0);
 }
 
-void SampleGather::add(const Frame& frame, std::span<const SamplePosition> positions) {
+void SampleAccumulator::add(const Frame& frame, std::span<const SamplePosition> positions) {
   if (sum_.empty()) begin(frame.sample_color[0].width(), frame.sample_color[0].height());
   std::vector<Taps> taps;
-  for (const SamplePosition p : positions) taps.push_back({taps_of(gathering_, p.x), taps_of(gathering_, p.y)});
+  for (const SamplePosition p : positions) taps.push_back({taps_of(filter_, p.x), taps_of(filter_, p.y)});
   parallel_ranges(static_cast<std::size_t>(height_), rows_of_a_part, [&](std::size_t first, std::size_t last) {
     add_rows(frame, taps, static_cast<int>(first), static_cast<int>(last));
   });
 }
 
 /// Rows [first, last) of the sums get what all samples give them.
-void SampleGather::add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last) {
-  const int reach = gathering_.reach();
+void SampleAccumulator::add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last) {
+  const int reach = filter_.reach();
   SampleRow row(width_, reach);
   for (std::size_t s = 0; s < taps.size(); ++s)
     for (int y = std::max(first - reach, 0); y < std::min(last + reach, height_); ++y) {
-      row.take(frame.sample_color[s].row(y), gathering_.weight, frame.display);
+      row.take(frame.sample_color[s].row(y), filter_.weight, frame.display);
       spread(row, taps[s], y, std::max(first, y - reach), std::min(last, y + reach + 1));
     }
 }
 
 /// Adds row y of samples to rows [first, last) of the sums.
-void SampleGather::spread(const SampleRow& row, const Taps& taps, int y, int first, int last) {
+void SampleAccumulator::spread(const SampleRow& row, const Taps& taps, int y, int first, int last) {
   std::array<float*, 2 * greatest_reach + 1> colors, weights;
   std::array<float, 2 * greatest_reach + 1> down;
-  const int reach = gathering_.reach(), count = last - first, wide = static_cast<int>(taps.across.size());
+  const int reach = filter_.reach(), count = last - first, wide = static_cast<int>(taps.across.size());
   assert(reach <= greatest_reach);
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i), to = static_cast<std::size_t>(first + i) * stride_;
@@ -117,22 +115,22 @@ void SampleGather::spread(const SampleRow& row, const Taps& taps, int y, int fir
     down[at] = taps.down[static_cast<std::size_t>(y - (first + i) + reach)];
   }
   const auto n = static_cast<std::size_t>(width_);
-  kernels().spread(row.color(), 4, taps.across.data(), wide, down.data(), colors.data(), count, 4 * n);
-  kernels().spread(row.weight(), 1, taps.across.data(), wide, down.data(), weights.data(), count, n);
+  AccumulateKernels::of().spread(row.color(), 4, taps.across.data(), wide, down.data(), colors.data(), count, 4 * n);
+  AccumulateKernels::of().spread(row.weight(), 1, taps.across.data(), wide, down.data(), weights.data(), count, n);
 }
 
-LinearImage SampleGather::light() const {
+LinearImage SampleAccumulator::light() const {
   LinearImage out(width_, height_);
   parallel_ranges(static_cast<std::size_t>(height_), rows_of_a_part, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y)
-      kernels().mean(&sum_[4 * y * stride_], &weight_[y * stride_], gathering_.weight == SampleWeight::Max3,
-                     &out.row(static_cast<int>(y)).data()->r, static_cast<std::size_t>(width_));
+      AccumulateKernels::of().mean(&sum_[4 * y * stride_], &weight_[y * stride_], filter_.weight == SampleWeight::Max3,
+                                   &out.row(static_cast<int>(y)).data()->r, static_cast<std::size_t>(width_));
   });
   return out;
 }
 
-DisplayImage SampleGather::shown(DisplayImage image, const DisplayOptions& display) const {
-  if (gathering_.weight != SampleWeight::Display) return image;
+DisplayImage SampleAccumulator::display_referred(DisplayImage image, const DisplayOptions& display) const {
+  if (filter_.weight != SampleWeight::Display) return image;
   return make_display(light(), {.is_transparent = true, .raw = display.raw});
 }
 

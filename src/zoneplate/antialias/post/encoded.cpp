@@ -1,4 +1,4 @@
-#include "zoneplate/antialias/post/codes.h"
+#include "zoneplate/antialias/post/encoded.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,7 +15,7 @@ enum class Backdrop { Black, White };
 Display laid_on(const Display& c, Backdrop backdrop, Mixing mixing) {
   const float rest = backdrop == Backdrop::White ? 1 - c.a : 0.0f;
   const auto lay = [&](float code) {
-    return mixing == Mixing::Codes ? code * c.a + rest : encode_srgb(decode_srgb(code) * c.a + rest);
+    return mixing == Mixing::Encoded ? code * c.a + rest : encode_srgb(decode_srgb(code) * c.a + rest);
   };
   return {lay(c.r), lay(c.g), lay(c.b), c.a};
 }
@@ -24,14 +24,14 @@ Display lifted_from(Rgba8 c, Backdrop backdrop, Mixing mixing) {
   if (c.a == 0) return {0, 0, 0, 0};
   const float a = static_cast<float>(c.a) / 255, rest = backdrop == Backdrop::White ? 1 - a : 0.0f;
   const auto lift = [&](std::uint8_t code) {
-    const float v = mixing == Mixing::Codes ? (static_cast<float>(code) / 255 - rest) / a
-                                            : encode_srgb((decode_srgb8(code) - rest) / a);
+    const float v = mixing == Mixing::Encoded ? (static_cast<float>(code) / 255 - rest) / a
+                                              : encode_srgb((decode_srgb8(code) - rest) / a);
     return std::clamp(v, 0.0f, 1.0f);
   };
   return {lift(c.r), lift(c.g), lift(c.b), a};
 }
 
-Display shown(Rgba8 c) {
+Display from_unorm8(Rgba8 c) {
   return {static_cast<float>(c.r) / 255, static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255,
           static_cast<float>(c.a) / 255};
 }
@@ -53,7 +53,7 @@ struct Filtered {
   int alpha_change(std::size_t i) const { return std::abs(before.values()[i].a - after.values()[i].a); }
 };
 
-Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, const CodeFilter& filter) {
+Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, const EncodedFilter& filter) {
   DisplayImage laid(image.width(), image.height());
   for_pixels(image.values().size(),
              [&](std::size_t i) { laid.values()[i] = laid_on(image.values()[i], backdrop, mixing); });
@@ -64,7 +64,7 @@ Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, 
 
 /// What is as dark as nothing shows on white, and what is as bright on black: where a silhouette was smoothed more,
 /// that result is taken.
-DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const CodeFilter& filter) {
+DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const EncodedFilter& filter) {
   const Filtered black = filter_on(image, Backdrop::Black, mixing, filter);
   const Filtered white = filter_on(image, Backdrop::White, mixing, filter);
   for_pixels(image.values().size(), [&](std::size_t i) {
@@ -78,31 +78,31 @@ DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const CodeFil
 
 }  // namespace
 
-DisplayImage filter_codes(DisplayImage image, Mixing mixing, const CodeFilter& filter) {
+DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilter& filter) {
   if (image.empty()) return image;
   if (std::ranges::any_of(image.values(), [](const Display& c) { return c.a < 1; }))
     return filter_transparent(std::move(image), mixing, filter);
   Filtered f{quantize8(image), {}};
   f.after = filter(f.before);
   for_pixels(image.values().size(), [&](std::size_t i) {
-    if (f.is_changed(i)) image.values()[i] = shown(f.after.values()[i]);
+    if (f.is_changed(i)) image.values()[i] = from_unorm8(f.after.values()[i]);
   });
   return image;
 }
 
-Linear light_of(Rgba8 codes) {
-  return {decode_srgb8(codes.r), decode_srgb8(codes.g), decode_srgb8(codes.b), code_share[codes.a]};
+Linear decode_pixel(Rgba8 codes) {
+  return {decode_srgb8(codes.r), decode_srgb8(codes.g), decode_srgb8(codes.b), unorm8_value[codes.a]};
 }
 
-Rgba8 codes_of(Linear light) {
+Rgba8 encode_pixel(Linear light) {
   return {encode_srgb8(light.r), encode_srgb8(light.g), encode_srgb8(light.b),
-          rounded_code(std::clamp(light.a, 0.0f, 1.0f) * 255)};
+          round_unorm8(std::clamp(light.a, 0.0f, 1.0f) * 255)};
 }
 
-Rgba8 mixed_light(Rgba8 a, Rgba8 b, float t) {
-  const Linear from = light_of(a), to = light_of(b);
-  return codes_of({from.r + (to.r - from.r) * t, from.g + (to.g - from.g) * t, from.b + (to.b - from.b) * t,
-                   from.a + (to.a - from.a) * t});
+Rgba8 mix_linear(Rgba8 a, Rgba8 b, float t) {
+  const Linear from = decode_pixel(a), to = decode_pixel(b);
+  return encode_pixel({from.r + (to.r - from.r) * t, from.g + (to.g - from.g) * t, from.b + (to.b - from.b) * t,
+                       from.a + (to.a - from.a) * t});
 }
 
 void for_rows(int height, const std::function<void(int)>& body) {

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 
+#include "zoneplate/base/isa.h"
+
 namespace zoneplate {
 
 /// Where eight lanes' room is said, arrays are read and written in whole vectors: up to seven pixels after the n-th.
-struct GatherKernels {
+struct AccumulateKernels : PerIsa<AccumulateKernels> {
   /// Weighs n pixels of four floats by 1 / (1 + luma × exposure); `weight` gets the weights. Eight lanes' room.
   void (*weigh_karis)(float exposure, float* color, float* weight, std::size_t n);
   /// Maps the light of n pixels by c / (1 + max(c)); alpha stays. Eight lanes' room.
@@ -23,15 +25,9 @@ struct GatherKernels {
   /// none in `out`.
   void (*mean)(const float* color, const float* weight, bool is_max3, float* out, std::size_t n);
 
-  static const GatherKernels N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< one for each instruction set (base/isa.h)
-
   /// The greatest mean that is mapped back: 2^21 times white.
   static constexpr float greatest_mapped = 1 - 0x1p-21f;
   static constexpr float luma[3] = {0.2126f, 0.7152f, 0.0722f};  ///< Rec.709
 };
-
-namespace scalar {
-extern const GatherKernels gather_kernels;
-}
 
 }  // namespace zoneplate

@@ -13,11 +13,11 @@ enum class SampleWeight {
   Even,     ///< linear light as it is
   Karis,    ///< less the brighter it is: 1 / (1 + luma × exposure)
   Max3,     ///< mapped by c / (1 + max(c)), the mean mapped back
-  Display,  ///< as it is shown, tone mapped over the background: the mean of what a screen would show
+  Display,  ///< display-referred: tone mapped over the background
 };
 
-/// How a method makes one colour of many samples.
-struct Gathering {
+/// The filter by which a method makes one colour of many samples.
+struct ResolveFilter {
   SampleWeight weight = SampleWeight::Even;
   std::optional<Kernel> kernel;  ///< of pixels; none: the samples of the pixel alone count, all alike
 
@@ -27,16 +27,16 @@ struct Gathering {
   int reach() const;
 };
 
-/// The parameters `resolve`, `filter` and `radius` of methods that gather samples, and what they say.
+/// The parameters `resolve`, `filter` and `radius` of methods that accumulate samples, and the filter that they name.
 ///
-/// `radius` is the filter's in hundredths of a pixel; 0 leaves it as the kernel has it.
+/// `radius` is the filter's, in pixels; 0 leaves it as the kernel has it.
 /// Errors    ErrorKind::Usage where the radius has no filter.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
 inline constexpr Param resolve_param = {
     .name = "resolve",
-    .meaning = "averages light, light that weighs less the brighter, or what is shown",
+    .meaning = "averages light, light that weighs less the brighter, or display-referred colour",
     .names = resolve_names};
 inline constexpr Param filter_param = {
     .name = "filter", .meaning = "over samples of pixels around too, or the pixel's own", .names = filter_names};
@@ -44,9 +44,9 @@ inline constexpr Param radius_param = {.name = "radius",
                                        .meaning = "of the filter, in pixels; 0: its own",
                                        .value = 0,
                                        .low = 0,
-                                       .high = 400,
+                                       .high = 4,
                                        .decimals = 2};
-Gathering gathering_of(std::string_view method, const Settings& settings);
+ResolveFilter resolve_filter_of(std::string_view method, const Settings& settings);
 
 class SampleRow;
 
@@ -58,9 +58,9 @@ class SampleRow;
 /// Cost      a sample takes as many products a channel as the filter is wide and high, not as it has pixels.
 /// Source    wide resolves and weights: Pettineo, Experimenting with Reconstruction Filters for MSAA Resolve, 2012;
 ///           Karis, Tone Mapping, 2013; Lottes, Optimized Reversible Tonemapper for Resolve, 2016.
-class SampleGather {
+class SampleAccumulator {
  public:
-  explicit SampleGather(Gathering gathering) : gathering_(std::move(gathering)) {}
+  explicit SampleAccumulator(ResolveFilter filter) : filter_(std::move(filter)) {}
 
   /// Takes a frame's samples; `positions` are theirs.
   void add(const Frame& frame, std::span<const SamplePosition> positions);
@@ -68,8 +68,8 @@ class SampleGather {
 
   /// The mean in linear light; for SampleWeight::Display it has no meaning.
   LinearImage light() const;
-  /// The mean of what is shown, in place of `image`, for SampleWeight::Display; else `image`.
-  DisplayImage shown(DisplayImage image, const DisplayOptions& display) const;
+  /// The mean of the display-referred colours, in place of `image`, for SampleWeight::Display; else `image`.
+  DisplayImage display_referred(DisplayImage image, const DisplayOptions& display) const;
 
  private:
   struct Taps {
@@ -79,7 +79,7 @@ class SampleGather {
   void add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last);
   void spread(const SampleRow& row, const Taps& taps, int y, int first, int last);
 
-  Gathering gathering_;
+  ResolveFilter filter_;
   int width_ = 0, height_ = 0;
   std::size_t stride_ = 0;           ///< pixels a row, in whole vectors
   std::vector<float> sum_, weight_;  ///< four floats a pixel, and one

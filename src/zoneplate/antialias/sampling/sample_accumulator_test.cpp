@@ -1,8 +1,8 @@
-#include "zoneplate/antialias/sampling/sample_gather.h"
+#include "zoneplate/antialias/sampling/sample_accumulator.h"
 
 #include <gtest/gtest.h>
 
-#include "zoneplate/antialias/sampling/gather_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate_kernels.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
@@ -20,96 +20,98 @@ Frame frame_of(const std::vector<Linear>& samples, int side = 7) {
   return frame;
 }
 
-SampleGather gathered(Gathering gathering, const Frame& frame, const SamplePattern& pattern) {
-  SampleGather gather(std::move(gathering));
-  gather.add(frame, pattern);
-  return gather;
+SampleAccumulator accumulated(ResolveFilter filter, const Frame& frame, const SamplePattern& pattern) {
+  SampleAccumulator accumulator(std::move(filter));
+  accumulator.add(frame, pattern);
+  return accumulator;
 }
 
 const SamplePattern two = {{64, 128}, {192, 128}};
 
-TEST(SampleGather, ResolvesAreWhatTheyAreByHand) {
+TEST(SampleAccumulator, ResolvesAreWhatTheyAreByHand) {
   const Frame frame = frame_of({grey(0), grey(1)});
-  EXPECT_FLOAT_EQ(gathered({}, frame, two).light()(3, 3).g, 0.5f);
+  EXPECT_FLOAT_EQ(accumulated({}, frame, two).light()(3, 3).g, 0.5f);
   // Weights 1 and ½; and 0 and ½ on average a quarter, mapped back ¼ / ¾.
-  EXPECT_FLOAT_EQ(gathered({.weight = SampleWeight::Karis}, frame, two).light()(3, 3).g, 1 / 3.0f);
-  EXPECT_FLOAT_EQ(gathered({.weight = SampleWeight::Max3}, frame, two).light()(3, 3).g, 1 / 3.0f);
+  EXPECT_FLOAT_EQ(accumulated({.weight = SampleWeight::Karis}, frame, two).light()(3, 3).g, 1 / 3.0f);
+  EXPECT_FLOAT_EQ(accumulated({.weight = SampleWeight::Max3}, frame, two).light()(3, 3).g, 1 / 3.0f);
   // A colour of one channel: the greatest counts, luma does not.
   const Frame blue = frame_of({grey(0), Linear{0, 0, 1, 1}});
-  EXPECT_FLOAT_EQ(gathered({.weight = SampleWeight::Max3}, blue, two).light()(3, 3).b, 1 / 3.0f);
-  EXPECT_NEAR(gathered({.weight = SampleWeight::Karis}, blue, two).light()(3, 3).b, 1 / (2 + 0.0722), 1e-6);
+  EXPECT_FLOAT_EQ(accumulated({.weight = SampleWeight::Max3}, blue, two).light()(3, 3).b, 1 / 3.0f);
+  EXPECT_NEAR(accumulated({.weight = SampleWeight::Karis}, blue, two).light()(3, 3).b, 1 / (2 + 0.0722), 1e-6);
 }
 
-TEST(SampleGather, WhatIsShownIsAveragedAsItIsShown) {
+TEST(SampleAccumulator, WhatIsShownIsAveragedAsItIsShown) {
   for (const float sun : {1.0f, 100.0f}) {
     Frame frame = frame_of({grey(0), grey(sun)});
-    const SampleGather gather = gathered({.weight = SampleWeight::Display}, frame, two);
-    const DisplayImage image = gather.shown(DisplayImage(7, 7), frame.display);
+    const SampleAccumulator accumulator = accumulated({.weight = SampleWeight::Display}, frame, two);
+    const DisplayImage image = accumulator.display_referred(DisplayImage(7, 7), frame.display);
     EXPECT_NEAR(image(3, 3).g, encode_srgb(0.5f), 1e-6) << sun;
     EXPECT_EQ(image(3, 3).a, 1);
   }
   // Half of nothing over a background: as the background's light says; transparent: half there, in its own colour.
   Frame frame = frame_of({grey(1), Linear{0, 0, 0, 0}});
   frame.display.background = {0, 0, 0, 1};
-  EXPECT_NEAR(gathered({.weight = SampleWeight::Display}, frame, two).shown(DisplayImage(7, 7), frame.display)(3, 3).g,
+  EXPECT_NEAR(accumulated({.weight = SampleWeight::Display}, frame, two)
+                  .display_referred(DisplayImage(7, 7), frame.display)(3, 3)
+                  .g,
               encode_srgb(0.5f), 1e-6);
   frame.display.is_transparent = true;
-  const Display half =
-      gathered({.weight = SampleWeight::Display}, frame, two).shown(DisplayImage(7, 7), frame.display)(3, 3);
+  const Display half = accumulated({.weight = SampleWeight::Display}, frame, two)
+                           .display_referred(DisplayImage(7, 7), frame.display)(3, 3);
   EXPECT_NEAR(half.g, 1, 1e-6);
   EXPECT_NEAR(half.a, 0.5, 1e-6);
 }
 
-TEST(SampleGather, AConstantStaysOne) {
+TEST(SampleAccumulator, AConstantStaysOne) {
   for (const SampleWeight weight : {SampleWeight::Even, SampleWeight::Karis, SampleWeight::Max3})
-    for (const std::string_view filter : filter_names) {
-      Gathering gathering{.weight = weight, .kernel = {}};
-      if (filter != "pixel") gathering.kernel = make_kernel(filter);
+    for (const std::string_view name : filter_names) {
+      ResolveFilter filter{.weight = weight, .kernel = {}};
+      if (name != "pixel") filter.kernel = make_kernel(name);
       const Frame frame = frame_of({{0.25f, 3, 0.5f, 1}, {0.25f, 3, 0.5f, 1}});
-      const LinearImage image = gathered(gathering, frame, two).light();
+      const LinearImage image = accumulated(filter, frame, two).light();
       for (const Linear& c : image.values()) {
-        ASSERT_NEAR(c.r, 0.25f, 2e-6f) << filter;
-        ASSERT_NEAR(c.g, 3, 2e-5f) << filter;
-        ASSERT_NEAR(c.a, 1, 2e-6f) << filter;
+        ASSERT_NEAR(c.r, 0.25f, 2e-6f) << name;
+        ASSERT_NEAR(c.g, 3, 2e-5f) << name;
+        ASSERT_NEAR(c.a, 1, 2e-6f) << name;
       }
     }
 }
 
-TEST(SampleGather, FiltersReachAsFarAsTheirRadius) {
+TEST(SampleAccumulator, FiltersReachAsFarAsTheirRadius) {
   Frame frame = frame_of({Linear{0, 0, 0, 0}}, 9);
   frame.sample_color[0](4, 4) = grey(1);
   const SamplePattern centre = {SamplePosition{}};
   // A tent of radius 2 at 0 and 1 pixels: 1 and ½ of a sum of 2 in each direction.
-  Gathering wide{.weight = {}, .kernel = stretched(make_kernel("tent"), 2 / make_kernel("tent").radius)};
+  ResolveFilter wide{.weight = {}, .kernel = stretched(make_kernel("tent"), 2 / make_kernel("tent").radius)};
   EXPECT_EQ(wide.reach(), 2);
-  const LinearImage image = gathered(wide, frame, centre).light();
+  const LinearImage image = accumulated(wide, frame, centre).light();
   EXPECT_FLOAT_EQ(image(4, 4).g, 0.25f);
   EXPECT_FLOAT_EQ(image(5, 4).g, 0.125f);
   EXPECT_FLOAT_EQ(image(3, 5).g, 0.0625f);
   EXPECT_FLOAT_EQ(image(6, 4).g, 0);
   // A sample at the pixel's right is nearer to the right neighbour.
-  const LinearImage right = gathered(wide, frame, {{224, 128}}).light();
+  const LinearImage right = accumulated(wide, frame, {{224, 128}}).light();
   EXPECT_GT(right(5, 4).g, right(3, 4).g);
   EXPECT_GT(right(4, 4).g, right(5, 4).g);
 }
 
-TEST(SampleGather, RoundsAddUpAndThreadsLeaveNoTrace) {
+TEST(SampleAccumulator, RoundsAddUpAndThreadsLeaveNoTrace) {
   Frame frame = frame_of({grey(0), grey(1)}, 40);
   for (int i = 0; i < 40; ++i) frame.sample_color[0](i, i) = grey(5);
-  const Gathering mitchell{.weight = SampleWeight::Karis, .kernel = make_kernel("mitchell")};
-  SampleGather rounds(mitchell);
+  const ResolveFilter mitchell{.weight = SampleWeight::Karis, .kernel = make_kernel("mitchell")};
+  SampleAccumulator rounds(mitchell);
   for (std::size_t s = 0; s < 2; ++s) {
     Frame one;
     one.sample_color.push_back(frame.sample_color[s]);
     rounds.add(one, std::span(two).subspan(s, 1));
   }
   LinearImage many;
-  with_threads(3, [&] { many = gathered(mitchell, frame, two).light(); });
+  with_threads(3, [&] { many = accumulated(mitchell, frame, two).light(); });
   EXPECT_EQ(rounds.light(), many);
 }
 
 /// Every kernel of the set on rows of n pixels, one after the other.
-std::vector<float> kernel_results(const GatherKernels& kernels, std::size_t n) {
+std::vector<float> kernel_results(const AccumulateKernels& kernels, std::size_t n) {
   std::vector<float> color(4 * (n + 12)), weight(n + 12), out;
   for (std::size_t i = 0; i < 4 * n; ++i) color[8 + i] = unit_float(hash(static_cast<std::uint32_t>(i), 7)) * 3 - 0.5f;
   const auto keep = [&](const std::vector<float>& v, std::size_t first, std::size_t count) {
@@ -140,14 +142,14 @@ std::vector<float> kernel_results(const GatherKernels& kernels, std::size_t n) {
   return out;
 }
 
-TEST(SampleGather, KernelsGiveTheScalarTwinsBits) {
+TEST(SampleAccumulator, KernelsGiveTheScalarTwinsBits) {
   for (const Isa isa : supported_isas())
     for (const std::size_t n : {1u, 2u, 7u, 8u, 9u, 31u, 64u})
-      EXPECT_EQ(kernel_results(pick(isa, scalar::gather_kernels), n), kernel_results(scalar::gather_kernels, n))
+      EXPECT_EQ(kernel_results(AccumulateKernels::of(isa), n), kernel_results(AccumulateKernels::scalar, n))
           << name_of(isa) << ", " << n;
 }
 
-TEST(SampleGather, IsTheSumOfAllProducts) {
+TEST(SampleAccumulator, IsTheSumOfAllProducts) {
   // As the definition says, pixel by pixel, on a picture narrower than the filter and on one of several parts.
   for (const int side : {3, 70}) {
     Frame frame = frame_of({grey(0), grey(0)}, side);
@@ -156,7 +158,7 @@ TEST(SampleGather, IsTheSumOfAllProducts) {
         for (float* v : {&frame.sample_color[s].values()[i].r, &frame.sample_color[s].values()[i].a})
           *v = unit_float(hash(i, s));
     const Kernel kernel = make_kernel("catmull-rom");
-    const LinearImage image = gathered({.weight = SampleWeight::Karis, .kernel = kernel}, frame, two).light();
+    const LinearImage image = accumulated({.weight = SampleWeight::Karis, .kernel = kernel}, frame, two).light();
     for (int y = 0; y < side; y += 1 + side / 9)
       for (int x = 0; x < side; ++x) {
         double red = 0, weight = 0;

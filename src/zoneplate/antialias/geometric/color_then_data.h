@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+
+/// A method that renders a frame twice: its colour at one sample a pixel, then, unshaded, other data of the same view
+/// (Content), and makes the picture of both. A pixel depends on the eight around it.
+class ColorThenData : public Resolver {
+ public:
+  Request request(const FrameContext&) final {
+    color_ = {};
+    return with_halo({});
+  }
+  std::optional<Request> refine(Frame& frame) final {
+    if (!color_.empty()) return std::nullopt;
+    color_ = std::move(frame.color);
+    return with_halo(data_request());
+  }
+  LinearImage resolve(Frame& frame) final { return color_.empty() ? std::move(frame.color) : combined(color_, frame); }
+
+ private:
+  static Request with_halo(Request request) {
+    request.halo = 1;
+    return request;
+  }
+
+  virtual Request data_request() const = 0;
+  /// `data` is the frame that was rendered for data_request().
+  virtual LinearImage combined(const LinearImage& color, const Frame& data) const = 0;
+
+  LinearImage color_;
+};
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,36 @@
+#include "zoneplate/antialias/post/post_process.h"
+
+#include <utility>
+
+namespace zoneplate::antialias {
+namespace {
+
+class PostProcess : public Resolver {
+ public:
+  PostProcess(int reach, Mixing mixing, EncodedFilter filter)
+      : reach_(reach), mixing_(mixing), filter_(std::move(filter)) {}
+  Request request(const FrameContext&) override { return display_referred_request(reach_); }
+  DisplayImage post_process(DisplayImage image, const Frame&) override {
+    return filter_encoded(std::move(image), mixing_, filter_);
+  }
+
+ private:
+  int reach_;
+  Mixing mixing_;
+  EncodedFilter filter_;
+};
+
+}  // namespace
+
+Request display_referred_request(int reach) {
+  Request request;
+  request.halo = reach;
+  request.is_display_referred = true;
+  return request;
+}
+
+std::unique_ptr<Resolver> make_post_process(int reach, Mixing mixing, EncodedFilter filter) {
+  return std::make_unique<PostProcess>(reach, mixing, std::move(filter));
+}
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,78 @@
+#include "zoneplate/base/isa.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <stdexcept>
+#include <string>
+
+#include "zoneplate/base/parallel.h"
+
+namespace zoneplate {
+
+/// Kernels that do nothing but name the set of their table.
+struct NamedKernels : PerIsa<NamedKernels> {
+  Isa isa;
+};
+
+template <>
+const NamedKernels PerIsa<NamedKernels>::scalar = {.isa = Isa::Scalar};
+template <>
+const NamedKernels PerIsa<NamedKernels>::N_SSE4 = {.isa = Isa::Sse4};
+template <>
+const NamedKernels PerIsa<NamedKernels>::N_AVX2 = {.isa = Isa::Avx2};
+template <>
+const NamedKernels PerIsa<NamedKernels>::N_AVX3 = {.isa = Isa::Avx512};
+template <>
+const NamedKernels PerIsa<NamedKernels>::N_NEON = {.isa = Isa::Neon};
+template <>
+const NamedKernels PerIsa<NamedKernels>::N_WASM = {.isa = Isa::Wasm};
+
+namespace {
+
+TEST(Isa, EveryItemOfALoopTakesTheTableOfTheEnclosingWithIsa) {
+  EXPECT_EQ(NamedKernels::of().isa, best_isa());
+  for (const Isa isa : supported_isas())
+    for (const int threads : {1, 2, 7})
+      with_threads(threads, [&] {
+        std::array<Isa, 100> taken{};
+        with_isa(isa, [&] { parallel_for(taken.size(), [&](std::size_t i) { taken[i] = NamedKernels::of().isa; }); });
+        for (const Isa each : taken) EXPECT_EQ(each, isa) << threads;
+        // The threads of the team are left with the set that they had.
+        parallel_for(taken.size(), [&](std::size_t i) { taken[i] = NamedKernels::of().isa; });
+        for (const Isa each : taken) EXPECT_EQ(each, best_isa()) << threads;
+      });
+}
+
+TEST(Isa, TheInnermostWithIsaHoldsAndItsEndBringsTheOuterOneBack) {
+  with_isa(Isa::Scalar, [] {
+    EXPECT_EQ(with_isa(best_isa(), [] { return NamedKernels::of().isa; }), best_isa());
+    EXPECT_EQ(current_isa(), Isa::Scalar);
+    EXPECT_THROW(with_isa(best_isa(), [] { throw std::runtime_error("stop"); }), std::runtime_error);
+    EXPECT_EQ(current_isa(), Isa::Scalar);
+  });
+  EXPECT_EQ(current_isa(), best_isa());
+}
+
+/// Without this, `--isa` would not reach every kernel of a run.
+TEST(Isa, NoSourceOfTheLibraryTakesATableForAnIsaOfItsOwn) {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::path(ZONEPLATE_SOURCE_DIR) / "src/zoneplate";
+  const std::regex own_choice(R"(best_isa\(\)|::of\(Isa::)");
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    const std::string path = entry.path().lexically_relative(root).string();
+    if (!entry.is_regular_file() || path.starts_with("base/isa") || path == "cli/version.cpp" ||
+        path.find("_test.") != std::string::npos)
+      continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_FALSE(std::regex_search(text, own_choice)) << path;
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate {
+
+/// A row of pixels as floats: those of a pixel follow one another, so that it has channels × width of them.
+template <class Pixel>
+inline constexpr std::size_t channels = sizeof(Pixel) / sizeof(float);
+
+inline float* floats(std::span<float> row) { return row.data(); }
+inline float* floats(std::span<Linear> row) { return &row.data()->r; }
+inline const float* floats(std::span<const float> row) { return row.data(); }
+inline const float* floats(std::span<const Linear> row) { return &row.data()->r; }
+
+}  // namespace zoneplate
