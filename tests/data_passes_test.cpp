@@ -108,7 +108,7 @@ TEST_F(DataPasses, MotionWantsFrames) {
   EXPECT_EQ(WEXITSTATUS(run("cyclic -o a.exr --aov motion")), 2);
   const Bytes complaint = file("complaint");
   EXPECT_EQ(std::string(complaint.begin(), complaint.end()),
-            "zoneplate: error: --aov motion wants a sequence, or a frame of one: -s 5 -e 5\n");
+            "zoneplate: error: --aov motion requires a sequence, or a frame of one: -s 5 -e 5\n");
   EXPECT_TRUE(files().empty());
 }
 

@@ -16,7 +16,7 @@ enum class ErrorKind {
 /// The one exception of the library: the world (a file, a scene, an argument) is wrong.
 ///
 /// The message is one line that names the place, what was found and what was wanted:
-/// `chair.gltf: mesh 3: POSITION holds 12 bytes, wants 36 (3 vertices)`.
+/// `chair.gltf: mesh 3: POSITION holds 12 bytes, expected 36 (3 vertices)`.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind trouble, const std::string& message) : std::runtime_error(message), trouble_(trouble) {}

@@ -55,7 +55,7 @@ std::string alternatives(const List& list) {
                                 : "a number from ";
   const std::string_view near = closest(value, param.names);
   throw Error(ErrorKind::Usage,
-              fmt::format("{}: {} is '{}', wants {}{}{}", owner, param.name, value, kind, values_of(param),
+              fmt::format("{}: {} is '{}', expected {}{}{}", owner, param.name, value, kind, values_of(param),
                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 

@@ -75,18 +75,18 @@ TEST(Spec, MessagesNameWhatWasFoundWhatIsWantedAndTheClosest) {
   EXPECT_EQ(refusal("copy:"), "filter copy: unknown parameter ''; it has none");
   EXPECT_EQ(refusal("blur:n=2,"), "filter blur: unknown parameter ''; it has sigma, radius, n, pattern, turn");
   EXPECT_EQ(refusal("blur:n=2,n=4"), "filter blur: n is given twice");
-  EXPECT_EQ(refusal("blur:n=3"), "filter blur: n is '3', wants 2, 4 or 8");
+  EXPECT_EQ(refusal("blur:n=3"), "filter blur: n is '3', expected 2, 4 or 8");
   EXPECT_EQ(refusal("blur:pattern=sobl"),
-            "filter blur: pattern is 'sobl', wants grid, halton or sobol; did you mean 'sobol'?");
-  EXPECT_EQ(refusal("blur:radius=1.5"), "filter blur: radius is '1.5', wants a whole number from 1 to 8");
-  EXPECT_EQ(refusal("blur:radius=9"), "filter blur: radius is '9', wants a whole number from 1 to 8");
-  EXPECT_EQ(refusal("blur:radius"), "filter blur: radius is '', wants a whole number from 1 to 8");
+            "filter blur: pattern is 'sobl', expected grid, halton or sobol; did you mean 'sobol'?");
+  EXPECT_EQ(refusal("blur:radius=1.5"), "filter blur: radius is '1.5', expected a whole number from 1 to 8");
+  EXPECT_EQ(refusal("blur:radius=9"), "filter blur: radius is '9', expected a whole number from 1 to 8");
+  EXPECT_EQ(refusal("blur:radius"), "filter blur: radius is '', expected a whole number from 1 to 8");
   for (const char* value : {"0", "2x", "nan", "inf", "1e400", "", "0x1p3", " 2"})
     EXPECT_EQ(refusal(std::string("blur:sigma=") + value),
-              "filter blur: sigma is '" + std::string(value) + "', wants a number from 0.1 to 100");
+              "filter blur: sigma is '" + std::string(value) + "', expected a number from 0.1 to 100");
   for (const char* value : {"", ".", "-", "1e0", "0.1234", "3", "+1", "99999999999999999999"})
     EXPECT_EQ(refusal(std::string("blur:turn=") + value),
-              "filter blur: turn is '" + std::string(value) + "', wants a number of 3 decimals from -2 to 2");
+              "filter blur: turn is '" + std::string(value) + "', expected a number of 3 decimals from -2 to 2");
 }
 
 }  // namespace

@@ -238,7 +238,7 @@ void run(std::span<const std::string> arguments) {
   Comparison comparison;
   with_threads(args.threads,
                [&] { comparison = compare_operands(reference, test, choices, !args.metric_names.empty()); });
-  if (comparison.results.empty()) throw Error(ErrorKind::Input, test + ": wants the size of " + reference);
+  if (comparison.results.empty()) throw Error(ErrorKind::Input, test + ": expected the size of " + reference);
   if (!args.map_path.empty()) save_map(args.map_path, comparison);
   const std::string missing = shortfall(comparison, bounds);
   print(args.wants_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));

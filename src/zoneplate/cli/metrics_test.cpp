@@ -105,8 +105,8 @@ TEST_F(MetricsVerb, LumaAndWindowsAreParameters) {
   };
   EXPECT_NEAR(psnr(""), -20 * std::log10(0.2126), 1e-6);
   EXPECT_NEAR(psnr(":rec=601"), -20 * std::log10(0.299), 1e-6);
-  EXPECT_TRUE(contains(run("none.png red.png --metric psnr_luma:rec=650").out, "rec is '650', wants 601 or 709"));
-  EXPECT_TRUE(contains(run("none.png red.png --metric ssim:window=7.5").out, "window is '7.5', wants 0, 2, 3"));
+  EXPECT_TRUE(contains(run("none.png red.png --metric psnr_luma:rec=650").out, "rec is '650', expected 601 or 709"));
+  EXPECT_TRUE(contains(run("none.png red.png --metric ssim:window=7.5").out, "window is '7.5', expected 0, 2, 3"));
 }
 
 TEST_F(MetricsVerb, TroubleIsTwo) {
@@ -123,7 +123,7 @@ TEST_F(MetricsVerb, SizesHaveToAgree) {
   save("small.png", 0, 8);
   const Answer answer = run("grey.png small.png");
   EXPECT_EQ(answer.code, 2);
-  EXPECT_TRUE(contains(answer.out, "picture 1 has 8 × 8 pixels, wants 16 × 16 as the reference")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "picture 1 has 8 × 8 pixels, expected 16 × 16 as the reference")) << answer.out;
 }
 
 TEST_F(MetricsVerb, WritesTheMapInMagma) {

@@ -29,7 +29,7 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   const auto fail = [&](const std::string& cause) { throw Error(ErrorKind::Input, name + ": " + cause); };
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) fail("not a sound WebP file");
-  if (features.has_animation != 0) fail("is an animated WebP, wants a still one");
+  if (features.has_animation != 0) fail("is an animated WebP, expected a still one");
   const auto pixels = static_cast<std::uint64_t>(features.width) * static_cast<std::uint64_t>(features.height);
   if (pixels > max_pixels)
     fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");

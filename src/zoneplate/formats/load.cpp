@@ -69,7 +69,7 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
   std::string wanted;
   for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
-    throw Error(ErrorKind::Usage, "standard input wants --format (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "standard input requires --format (" + wanted + ")");
   const std::string extension = extension_of(name, options.format);
   for (std::size_t i = 0; i < std::size(formats); ++i)
     if (extension == formats[i].extension) return loaders[i](name, options);

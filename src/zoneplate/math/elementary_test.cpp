@@ -206,7 +206,7 @@ TEST(Elementary, EveryInstructionSetGivesTheSameBits) {
         const bool is_same = std::bit_cast<std::uint32_t>(wanted[i]) == std::bit_cast<std::uint32_t>(found[i]);
         if (!is_same && !(std::isnan(wanted[i]) && std::isnan(found[i])) && different++ < 5) {
           ADD_FAILURE() << name_of(isa) << " function " << f << " of " << a[i] << ", " << b[i] << ": " << found[i]
-                        << ", wants " << wanted[i];
+                        << ", expected " << wanted[i];
         }
       }
       EXPECT_EQ(different, 0u);

@@ -24,12 +24,12 @@ std::string size_of(const Picture& picture) { return fmt::format("{} × {}", pic
 /// Why a metric cannot judge two pictures of these sizes; empty where it can.
 std::string objection(const Metric& metric, const Picture& reference, const Picture& test) {
   if (std::min(test.width(), test.height()) < metric.smallest) {
-    return fmt::format("has {} pixels, wants {} × {} at least", size_of(test), metric.smallest, metric.smallest);
+    return fmt::format("has {} pixels, expected {} × {} at least", size_of(test), metric.smallest, metric.smallest);
   }
   const int n = reference.width() / test.width();
   const bool is_multiple = n >= 1 && reference.width() == n * test.width() && reference.height() == n * test.height();
   if (!is_multiple || (metric.sizes == Sizes::Same && n != 1)) {
-    return fmt::format("has {} pixels, wants {} as the reference", size_of(test), size_of(reference));
+    return fmt::format("has {} pixels, expected {} as the reference", size_of(test), size_of(reference));
   }
   return {};
 }
@@ -39,7 +39,7 @@ void check_pair(std::span<const Choice> choices, const Picture& reference, const
   const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
   const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
   if (is_equal || std::ranges::any_of(choices, takes_any)) return;
-  throw Error(ErrorKind::Input, fmt::format("picture {} has {} pixels, wants {} as the reference", index + 1,
+  throw Error(ErrorKind::Input, fmt::format("picture {} has {} pixels, expected {} as the reference", index + 1,
                                             size_of(test), size_of(reference)));
 }
 
@@ -75,7 +75,7 @@ void measure(Measurement& m, Frames reference, Frames test, std::size_t index, U
 
 void check_sizes(const Picture& first, const Picture& next, std::size_t index, std::string_view which) {
   if (first.width() == next.width() && first.height() == next.height()) return;
-  throw Error(ErrorKind::Input, fmt::format("{} frame {}: has {} pixels, wants {} as the frame before it", which,
+  throw Error(ErrorKind::Input, fmt::format("{} frame {}: has {} pixels, expected {} as the frame before it", which,
                                             index + 1, size_of(next), size_of(first)));
 }
 

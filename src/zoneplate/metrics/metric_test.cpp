@@ -30,9 +30,9 @@ TEST(ChooseMetric, ReadsParameters) {
 TEST(ChooseMetric, SaysWhatThereIs) {
   EXPECT_EQ(message_of("mse:n=3"), "metric mse: unknown parameter 'n'; it has none");
   EXPECT_EQ(message_of("flip:pd=3"), "metric flip: unknown parameter 'pd'; did you mean 'ppd'?");
-  EXPECT_EQ(message_of("flip:ppd=0"), "metric flip: ppd is '0', wants a number from 1 to 1000");
-  EXPECT_EQ(message_of("flip:ppd=x"), "metric flip: ppd is 'x', wants a number from 1 to 1000");
-  EXPECT_EQ(message_of("flip:ppd"), "metric flip: ppd is '', wants a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd=0"), "metric flip: ppd is '0', expected a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd=x"), "metric flip: ppd is 'x', expected a number from 1 to 1000");
+  EXPECT_EQ(message_of("flip:ppd"), "metric flip: ppd is '', expected a number from 1 to 1000");
   EXPECT_EQ(message_of("flop"), "unknown metric 'flop'; did you mean 'flip'?");
   EXPECT_EQ(message_of("butteraugli").find("unknown metric 'butteraugli'; there are mse, mae,"), 0u);
 }

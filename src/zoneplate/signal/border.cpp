@@ -18,7 +18,7 @@ const char* name_of(Border border) {
 Border parse_border(std::string_view name) {
   for (const Border border : {Border::Clamp, Border::Reflect, Border::Wrap, Border::Zero, Border::Cut})
     if (name == name_of(border)) return border;
-  throw Error(ErrorKind::Usage, fmt::format("no border rule '{}'; wants clamp, reflect, wrap, zero or cut", name));
+  throw Error(ErrorKind::Usage, fmt::format("no border rule '{}'; expected clamp, reflect, wrap, zero or cut", name));
 }
 
 int border_index(int i, int n, Border border) {

@@ -348,14 +348,16 @@ void check_args(RenderArgs& args) {
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
   if (args.sequence.shutter && !args.sequence.is_wanted())
-    throw Error(ErrorKind::Usage, "--shutter wants a sequence: --frames, --frame-start, --frame-end or --turntable");
+    throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
     throw Error(ErrorKind::Usage, "--shutter goes with neither --aov nor --crop");
   for (const Aov* aov : args.aovs) {
     if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_wanted())
-      throw Error(ErrorKind::Usage, fmt::format("--aov {} wants a sequence, or a frame of one: -s 5 -e 5", aov->name));
+      throw Error(ErrorKind::Usage,
+                  fmt::format("--aov {} requires a sequence, or a frame of one: -s 5 -e 5", aov->name));
     if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
-      throw Error(ErrorKind::Usage, fmt::format("--aov {} wants an .exr, or a picture of it beside a .png", aov->name));
+      throw Error(ErrorKind::Usage,
+                  fmt::format("--aov {} requires an .exr, or a picture of it beside a .png", aov->name));
   }
   if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
     args.load.choice.animation = SceneChoice::all_animations;

@@ -35,7 +35,7 @@ Animation film_of(double rate) {
   film.seconds = is_whole ? 1 : 1000;
   film.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
   if (film.per < 1 || film.per > 65535)
-    throw Error(ErrorKind::Usage, "--frame-rate: wants a whole number, or one up to 65");
+    throw Error(ErrorKind::Usage, "--frame-rate: expected a whole number, or one up to 65");
   return film;
 }
 

@@ -117,7 +117,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
 }
 
 void check_film(const RenderArgs& args, std::size_t frames) {
-  if (!args.aovs.empty()) throw Error(ErrorKind::Usage, "--aov wants numbered frames, as chair.####.png");
+  if (!args.aovs.empty()) throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
   const std::uint64_t bytes = std::uint64_t{4} * frames * static_cast<std::uint64_t>(args.options.width) *
                               static_cast<std::uint64_t>(args.options.height);
   if (!is_encoded_by_ffmpeg(args.output) && bytes > args.load.limits.memory)

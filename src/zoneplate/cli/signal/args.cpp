@@ -23,7 +23,7 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
   for (const std::string_view ending : endings)
     if (path.ends_with(ending)) return;
   throw Error(ErrorKind::Usage,
-              fmt::format("--output: {}: wants a name that ends in {}, or -", path, fmt::join(endings, " or ")));
+              fmt::format("--output: {}: expected a name that ends in {}, or -", path, fmt::join(endings, " or ")));
 }
 
 }  // namespace
@@ -49,14 +49,14 @@ Option border_option(Border& border, const std::string& rules) {
           [&border, rules](auto& text) {
             border = parse_border(text);
             if (rules.find(text) == std::string::npos)
-              throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be used here; wants {}", text, rules));
+              throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be used here; expected {}", text, rules));
           }};
 }
 
 const std::string& only_operand(const Syntax& syntax, const std::string& what) {
   if (syntax.found_operands.size() == 1) return syntax.found_operands[0];
-  throw Error(ErrorKind::Usage,
-              fmt::format("zoneplate {} wants {}; found {} operands", syntax.verb, what, syntax.found_operands.size()));
+  throw Error(ErrorKind::Usage, fmt::format("zoneplate {} requires {}; found {} operands", syntax.verb, what,
+                                            syntax.found_operands.size()));
 }
 
 std::string image_notes() {

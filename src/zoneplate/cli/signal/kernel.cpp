@@ -100,7 +100,7 @@ KernelChoice parse_kernel_choice(const std::string& text) {
     choice = {text, taps, outer_product(taps, taps)};
   }
   if (choice.weights.width() > greatest_side || choice.weights.height() > greatest_side)
-    throw Error(ErrorKind::Usage, fmt::format("{}: a kernel of {} × {} weights is too large, wants {} at most", text,
+    throw Error(ErrorKind::Usage, fmt::format("{}: a kernel of {} × {} weights is too large, expected {} at most", text,
                                               choice.weights.width(), choice.weights.height(), greatest_side));
   return choice;
 }

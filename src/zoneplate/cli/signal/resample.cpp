@@ -31,7 +31,7 @@ int2 size_from(const std::string& text, int width, int height) {
   const auto scaled = [&](int n) { return static_cast<int>(std::clamp(std::floor(n * factor + 0.5), 1.0, 1e9)); };
   const int2 size{scaled(width), scaled(height)};
   if (factor <= 0 || size.x > greatest_side || size.y > greatest_side)
-    throw Error(ErrorKind::Usage, fmt::format("--size: {} gives {} × {}, wants 1 to {} pixels a side", text, size.x,
+    throw Error(ErrorKind::Usage, fmt::format("--size: {} gives {} × {}, expected 1 to {} pixels a side", text, size.x,
                                               size.y, greatest_side));
   return size;
 }

@@ -41,8 +41,8 @@ TEST_F(SignalSeries, DrawsSvgAndPng) {
 }
 
 TEST_F(SignalSeries, Refuses) {
-  EXPECT_TRUE(contains(refusal(run_signal_series, {"sine"}), "wants square, sawtooth or triangle"));
-  EXPECT_TRUE(contains(refusal(run_signal_series, {}), "wants a wave"));
+  EXPECT_TRUE(contains(refusal(run_signal_series, {"sine"}), "expected square, sawtooth or triangle"));
+  EXPECT_TRUE(contains(refusal(run_signal_series, {}), "requires a wave"));
   EXPECT_TRUE(contains(refusal(run_signal_series, {"square", "--terms", "0"}), "--terms: "));
   EXPECT_TRUE(contains(refusal(run_signal_series, {"square", "--terms", ""}), "--terms"));
   EXPECT_TRUE(contains(refusal(run_signal_series, {"square", "-o", "x.pdf"}), ".svg or .png"));

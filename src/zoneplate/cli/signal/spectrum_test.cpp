@@ -91,7 +91,7 @@ TEST_F(SignalSpectrum, TheSmallestImages) {
 }
 
 TEST_F(SignalSpectrum, RefusesWhatMakesNoSense) {
-  EXPECT_TRUE(contains(refusal(run_signal_spectrum, {}), "wants one IMAGE"));
+  EXPECT_TRUE(contains(refusal(run_signal_spectrum, {}), "requires one IMAGE"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "--window", "hat"}), "--window: "));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "--window", "hann", "--periodic"}), "take one"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "-o", "x.jpg"}), "ends in .png"));

@@ -33,7 +33,7 @@ struct Layout {
 int read_component_type(const JsonView& json) {
   const auto type = static_cast<int>(json.whole("componentType", std::nullopt, 1 << 20));
   if (type < Int8 || type > Float || type == 5124)
-    json.fail("componentType is " + std::to_string(type) + ", wants 5120 to 5123, 5125 or 5126");
+    json.fail("componentType is " + std::to_string(type) + ", expected 5120 to 5123, 5125 or 5126");
   return type;
 }
 
@@ -45,7 +45,7 @@ std::uint64_t read_components(const JsonView& json) {
   const std::string type = json.text("type");
   for (const auto& t : types)
     if (type == t.name) return t.components;
-  json.fail("type is " + quoted(type) + ", wants SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
+  json.fail("type is " + quoted(type) + ", expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
 }
 
 /// Puts the elements into the buffer view that `json` names, and checks that they fit.
@@ -61,7 +61,7 @@ void place_in_view(GltfFile& file, const JsonView& json, const std::string& what
   // count is below 2^53 and the stride below 2^9, so that the product stays within 64 bits.
   const std::uint64_t wanted = layout.count == 0 ? 0 : (layout.count - 1) * layout.stride + size;
   if (wanted > held)
-    json.fail(what + " holds " + std::to_string(held) + " bytes, wants " + std::to_string(wanted) + " (" +
+    json.fail(what + " holds " + std::to_string(held) + " bytes, expected " + std::to_string(wanted) + " (" +
               std::to_string(layout.count) + " elements)");
   layout.bytes = all.subspan(static_cast<std::size_t>(std::min<std::uint64_t>(offset, all.size())),
                              static_cast<std::size_t>(wanted));
@@ -157,7 +157,7 @@ void widen_as(const Layout& from, std::vector<std::uint32_t>& to) {
 /// Unsigned integers, widened.
 std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, const Layout& from) {
   if (from.type != Uint8 && from.type != Uint16 && from.type != Uint32)
-    json.fail("componentType is " + std::to_string(from.type) + ", wants 5121, 5123 or 5125");
+    json.fail("componentType is " + std::to_string(from.type) + ", expected 5121, 5123 or 5125");
   if (from.bytes.empty()) file.take_zeros(json, from.count);
   file.budget().take(from.count * sizeof(std::uint32_t));
   std::vector<std::uint32_t> out;
@@ -194,7 +194,7 @@ Sparse read_sparse(GltfFile& file, const Accessor& a) {
   for (std::size_t i = 0; i < out.index.size(); ++i)
     if (out.index[i] >= a.layout.count || (i > 0 && out.index[i] <= out.index[i - 1]))
       index_json.fail("entry " + std::to_string(i) + " is " + std::to_string(out.index[i]) +
-                      ", wants growing numbers below " + std::to_string(a.layout.count));
+                      ", expected growing numbers below " + std::to_string(a.layout.count));
   return out;
 }
 
@@ -229,8 +229,8 @@ std::vector<V> read_vectors(GltfFile& file, const Accessor& a, ElementRange rang
 Accessor find_vectors(GltfFile& file, const JsonView& owner, const char* key, const char* type, const char* or_type) {
   Accessor a = find_accessor(file, owner, key);
   const std::string found = a.json.text("type");
-  if (found != type && found != or_type) a.json.fail("type is " + found + ", wants " + type);
-  if (a.layout.type == Uint32) a.json.fail("componentType is 5125, wants floats or integers of 8 or 16 bits");
+  if (found != type && found != or_type) a.json.fail("type is " + found + ", expected " + type);
+  if (a.layout.type == Uint32) a.json.fail("componentType is 5125, expected floats or integers of 8 or 16 bits");
   return a;
 }
 
@@ -272,8 +272,8 @@ std::vector<float4> read_color_change(GltfFile& file, const JsonView& owner, con
 std::vector<float4> read_joints(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {
   const Accessor a = find_vectors(file, owner, key, "VEC4", "VEC4");
   if (a.layout.type != Uint8 && a.layout.type != Uint16)
-    a.json.fail("componentType is " + std::to_string(a.layout.type) + ", wants 5121 or 5123");
-  if (a.layout.is_normalized) a.json.fail("is normalized, wants numbers of joints");
+    a.json.fail("componentType is " + std::to_string(a.layout.type) + ", expected 5121 or 5123");
+  if (a.layout.is_normalized) a.json.fail("is normalized, expected numbers of joints");
   return read_vectors<float4>(file, a, range, {});
 }
 
@@ -285,7 +285,7 @@ std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const
 
 std::vector<std::uint32_t> read_indices(GltfFile& file, const JsonView& owner, const char* key) {
   const Accessor a = find_accessor(file, owner, key);
-  if (a.layout.components != 1) a.json.fail("type is " + a.json.text("type") + ", wants SCALAR");
+  if (a.layout.components != 1) a.json.fail("type is " + a.json.text("type") + ", expected SCALAR");
   std::vector<std::uint32_t> out = read_unsigned(file, a.json, a.layout);
   if (a.json.has("sparse")) {
     const Sparse sparse = read_sparse(file, a);

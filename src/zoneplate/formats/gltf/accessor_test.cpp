@@ -122,12 +122,12 @@ TEST(GltfAccessor, SparseErrors) {
                     read_float2);
   };
   EXPECT_EQ(error({1, 3}, 2), "no error");
-  EXPECT_NE(error({1, 4}, 2).find("entry 1 is 4, wants growing numbers below 4"), std::string::npos);
-  EXPECT_NE(error({2, 1}, 2).find("entry 1 is 1, wants growing"), std::string::npos);
-  EXPECT_NE(error({1, 1}, 2).find("entry 1 is 1, wants growing"), std::string::npos);
+  EXPECT_NE(error({1, 4}, 2).find("entry 1 is 4, expected growing numbers below 4"), std::string::npos);
+  EXPECT_NE(error({2, 1}, 2).find("entry 1 is 1, expected growing"), std::string::npos);
+  EXPECT_NE(error({1, 1}, 2).find("entry 1 is 1, expected growing"), std::string::npos);
   EXPECT_NE(error({0, 1, 2, 3, 4}, 5).find("count is 5 of 4"), std::string::npos);
-  EXPECT_NE(error({0, 1, 2}, 3).find("holds 16 bytes, wants 24"), std::string::npos);
-  EXPECT_NE(error({0}, 2).find("holds 1 bytes, wants 2"), std::string::npos);
+  EXPECT_NE(error({0, 1, 2}, 3).find("holds 16 bytes, expected 24"), std::string::npos);
+  EXPECT_NE(error({0}, 2).find("holds 1 bytes, expected 2"), std::string::npos);
 }
 
 TEST(GltfAccessor, Matrices) {
@@ -147,14 +147,14 @@ TEST(GltfAccessor, ElementsMustFit) {
   const auto at = [](const std::string& v) { return R"("bufferView":)" + v; };
   EXPECT_EQ(error(at(view) + R"(,"count":1)"), "no error");
   EXPECT_EQ(error(at(view) + R"(,"count":3)"),
-            "f.glb: mesh 3: X (accessor 0): it holds 12 bytes, wants 36 (3 elements)");
+            "f.glb: mesh 3: X (accessor 0): it holds 12 bytes, expected 36 (3 elements)");
   EXPECT_EQ(error(at(view) + R"(,"count":1,"byteOffset":4)"),
-            "f.glb: mesh 3: X (accessor 0): it holds 8 bytes, wants 12 (1 elements)");
+            "f.glb: mesh 3: X (accessor 0): it holds 8 bytes, expected 12 (1 elements)");
   EXPECT_NE(error(at(view) + R"(,"count":1,"byteOffset":9007199254740992)"), "no error");
   EXPECT_NE(error(at(view) + R"(,"count":9007199254740992)"), "no error");
   EXPECT_EQ(error(at(wide) + R"(,"count":2)"), "no error");
   EXPECT_NE(error(at(wide) + R"(,"count":2,"byteOffset":4)"), "no error");
-  EXPECT_NE(error(at("7") + R"(,"count":1)").find("bufferView is 7, wants an index below 2"), std::string::npos);
+  EXPECT_NE(error(at("7") + R"(,"count":1)").find("bufferView is 7, expected an index below 2"), std::string::npos);
   EXPECT_NE(error(at(view) + R"(,"count":-1)"), "no error");
   EXPECT_NE(error(at(view)).find("count is missing"), std::string::npos);
 }
@@ -162,14 +162,14 @@ TEST(GltfAccessor, ElementsMustFit) {
 TEST(GltfAccessor, TypesMustBeThoseWanted) {
   GltfMaker m;
   const std::string vec2 = m.floats("VEC2", {1, 2});
-  EXPECT_EQ(error_of(m, vec2, read_float3), "f.glb: mesh 3: X (accessor 0): type is VEC2, wants VEC3");
-  EXPECT_NE(error_of(m, vec2, indices).find("wants SCALAR"), std::string::npos);
-  EXPECT_NE(error_of(m, "9", read_float2).find("X is 9, wants an index below 1"), std::string::npos);
+  EXPECT_EQ(error_of(m, vec2, read_float3), "f.glb: mesh 3: X (accessor 0): type is VEC2, expected VEC3");
+  EXPECT_NE(error_of(m, vec2, indices).find("expected SCALAR"), std::string::npos);
+  EXPECT_NE(error_of(m, "9", read_float2).find("X is 9, expected an index below 1"), std::string::npos);
   EXPECT_NE(error_of(m, m.values<std::uint32_t>("VEC2", {1, 2}), read_float2).find("5125"), std::string::npos);
   for (const char* type : {"VEC5", "", "scalar"})
     EXPECT_NE(
         error_of(m, m.accessor(R"({"componentType":5126,"count":1,"type":")" + std::string(type) + "\"}"), read_float2)
-            .find("wants SCALAR, VEC2"),
+            .find("expected SCALAR, VEC2"),
         std::string::npos);
   for (const char* number : {"5119", "5124", "5127", "0"})
     EXPECT_NE(error_of(m, m.accessor(R"({"componentType":)" + std::string(number) + R"(,"count":1,"type":"VEC2"})"),
@@ -208,7 +208,7 @@ TEST(GltfAccessor, BufferViewsMustLieInTheirBuffer) {
   EXPECT_NE(error(R"({"buffer":0,"byteOffset":53,"byteLength":12})").find("bufferView 0: ends at byte 65"),
             std::string::npos);
   EXPECT_NE(error(R"({"buffer":0,"byteOffset":9007199254740992,"byteLength":9007199254740992})"), "no error");
-  EXPECT_NE(error(R"({"buffer":1,"byteLength":12})").find("buffer is 1, wants an index below 1"), std::string::npos);
+  EXPECT_NE(error(R"({"buffer":1,"byteLength":12})").find("buffer is 1, expected an index below 1"), std::string::npos);
   EXPECT_NE(error(R"({"buffer":0})").find("byteLength is missing"), std::string::npos);
 }
 

@@ -37,7 +37,8 @@ std::vector<float> read_times(GltfFile& file, const JsonView& sampler) {
   if (times.empty()) sampler.fail("input has no elements");
   for (std::size_t i = 0; i < times.size(); ++i)
     if (!(times[i] >= 0 && std::isfinite(times[i])) || (i > 0 && !(times[i] > times[i - 1])))
-      sampler.fail("input " + std::to_string(i) + " is " + std::to_string(times[i]) + ", wants growing times from 0");
+      sampler.fail("input " + std::to_string(i) + " is " + std::to_string(times[i]) +
+                   ", expected growing times from 0");
   return times;
 }
 
@@ -87,7 +88,8 @@ Interpolation read_interpolation(const JsonView& sampler) {
   const std::string word = sampler.text("interpolation", "LINEAR");
   if (word == "STEP") return Interpolation::Step;
   if (word == "LINEAR") return Interpolation::Linear;
-  if (word != "CUBICSPLINE") sampler.fail("interpolation is " + quoted(word) + ", wants STEP, LINEAR or CUBICSPLINE");
+  if (word != "CUBICSPLINE")
+    sampler.fail("interpolation is " + quoted(word) + ", expected STEP, LINEAR or CUBICSPLINE");
   return Interpolation::CubicSpline;
 }
 
@@ -110,7 +112,7 @@ std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, 
   const std::uint64_t elements = count_elements(file, sampler, "output");
   const std::uint64_t per_key = path == Path::Weights ? elements / keys : 1;
   if (elements < keys || per_key == 0)
-    sampler.fail("output has " + std::to_string(elements) + " elements, wants " + std::to_string(keys));
+    sampler.fail("output has " + std::to_string(elements) + " elements, expected " + std::to_string(keys));
 
   const Moment m = of_input.moment;
   const std::uint64_t used = (m.t > 0 ? 2 : 1) * parts * per_key;

@@ -110,11 +110,11 @@ std::string refusal(const GltfMaker& m) {
 
 TEST(GltfAnimation, Refusals) {
   EXPECT_EQ(refusal(animated("translation", "LINEAR", "VEC3", {0, 0, 0, 1, 1, 1}, {3, 1})),
-            "animation 0 sampler 0: input 1 is 1.000000, wants growing times from 0");
+            "animation 0 sampler 0: input 1 is 1.000000, expected growing times from 0");
   EXPECT_EQ(refusal(animated("translation", "CUBICSPLINE", "VEC3", {0, 0, 0, 1, 1, 1})),
-            "animation 0 sampler 0: output has 2 elements, wants 6");
+            "animation 0 sampler 0: output has 2 elements, expected 6");
   EXPECT_EQ(refusal(animated("translation", "SMOOTH", "VEC3", {0, 0, 0, 1, 1, 1})),
-            "animation 0 sampler 0: interpolation is 'SMOOTH', wants STEP, LINEAR or CUBICSPLINE");
+            "animation 0 sampler 0: interpolation is 'SMOOTH', expected STEP, LINEAR or CUBICSPLINE");
   EXPECT_EQ(refusal(animated("translation", "LINEAR", "VEC3", {0, 0, 0, INFINITY, 1, 1})),
             "animation 0 sampler 0: output is not finite");
 }

@@ -43,9 +43,9 @@ GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
 
 void GltfFile::read_chunks(std::span<const std::uint8_t> bytes) {
   const auto fail = [&](const std::string& cause) { throw Error(ErrorKind::Input, path_ + ": " + cause); };
-  if (bytes.size() < 20) fail("GLB of " + bytes_text(bytes.size()) + ", wants 20 at least");
+  if (bytes.size() < 20) fail("GLB of " + bytes_text(bytes.size()) + ", expected at least 20");
   if (const std::uint32_t version = read_u32(bytes, 4); version != 2)
-    fail("GLB version " + std::to_string(version) + ", wants 2");
+    fail("GLB version " + std::to_string(version) + ", expected 2");
   const std::uint32_t length = read_u32(bytes, 8);
   if (length > bytes.size())
     fail("GLB says it has " + bytes_text(length) + ", the file has " + std::to_string(bytes.size()));
@@ -76,7 +76,7 @@ void GltfFile::check_asset() const {
   const JsonView asset = root_->object("asset");
   const std::string version = asset.text("version"), least = asset.text("minVersion", "2.0");
   if (version.empty()) asset.fail("version is missing: not a glTF 2 file");
-  if (major(version) != "2") asset.fail("version is " + quoted(version) + ", wants 2.0");
+  if (major(version) != "2") asset.fail("version is " + quoted(version) + ", expected 2.0");
   if (least != "2.0") asset.fail("minVersion is " + quoted(least) + ", 2.0 is supported");
 }
 
@@ -93,7 +93,7 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
   else
     json.fail("uri is missing" + std::string(i == 0 ? ", and so is the GLB's binary chunk" : ""));
   if (data.bytes.size() < wanted)
-    json.fail("holds " + bytes_text(data.bytes.size()) + ", wants " + std::to_string(wanted));
+    json.fail("holds " + bytes_text(data.bytes.size()) + ", expected " + std::to_string(wanted));
   data.bytes = data.bytes.first(static_cast<std::size_t>(wanted));
   return (buffers_[i] = std::move(data)).bytes;
 }
@@ -118,7 +118,7 @@ std::uint64_t GltfFile::view_stride(std::size_t i) const {
   const JsonView json = root_->element("bufferViews", i, "bufferView");
   const std::uint64_t stride = json.whole("byteStride", 0, 65536);
   if (json.has("byteStride") && (stride < 4 || stride > 252))
-    json.fail("byteStride is " + std::to_string(stride) + ", wants 4 to 252");
+    json.fail("byteStride is " + std::to_string(stride) + ", expected 4 to 252");
   return stride;
 }
 
@@ -141,7 +141,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
     out.bytes = out.decoded;
     return out;
   }
-  if (has_scheme(uri)) owner.fail("uri is " + quoted(uri) + ", wants a relative path or a data: URI");
+  if (has_scheme(uri)) owner.fail("uri is " + quoted(uri) + ", expected a relative path or a data: URI");
 
   const std::string folder = std::filesystem::path(path_).parent_path().string();
   const auto path = find_path(folder, uri, budget_.limits().allowed_paths);

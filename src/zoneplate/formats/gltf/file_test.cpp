@@ -72,13 +72,13 @@ TEST(GltfFile, BufferErrors) {
   folder.write("out.bin", m.binary);
   folder.write("m/short.bin", std::string(35, 'x'));
   EXPECT_TRUE(has(error("none.bin"), "buffer 0: ")) << error("none.bin");
-  EXPECT_TRUE(has(error("short.bin"), "buffer 0: holds 35 bytes, wants 36"));
+  EXPECT_TRUE(has(error("short.bin"), "buffer 0: holds 35 bytes, expected 36"));
   EXPECT_TRUE(has(error("../out.bin"), "--allow-path"));
-  EXPECT_TRUE(has(error("http://localhost/x.bin"), "wants a relative path or a data: URI"));
-  EXPECT_TRUE(has(error("file:///etc/passwd"), "wants a relative path or a data: URI"));
+  EXPECT_TRUE(has(error("http://localhost/x.bin"), "expected a relative path or a data: URI"));
+  EXPECT_TRUE(has(error("file:///etc/passwd"), "expected a relative path or a data: URI"));
   EXPECT_TRUE(has(error("data:application/octet-stream;base64"), "no comma"));
   EXPECT_TRUE(has(error("data:application/octet-stream;base64,*"), "not base64"));
-  EXPECT_TRUE(has(error("data:;base64,AAAA"), "holds 3 bytes, wants 36"));
+  EXPECT_TRUE(has(error("data:;base64,AAAA"), "holds 3 bytes, expected 36"));
   EXPECT_TRUE(has(error("."), "leads out of"));
   EXPECT_TRUE(has(error_of(folder.write("m/g.gltf", m.json())), "uri is missing"));
   expect_triangle(load_gltf(folder.write("m/f.gltf", m.json(R"(,"uri":"../out.bin")")), {.allowed_paths = {"/"}}));
@@ -89,7 +89,7 @@ TEST(GltfFile, ChunksAreChecked) {
   const std::vector<std::uint8_t> good = triangle_maker().glb();
   const auto error = [&](std::vector<std::uint8_t> bytes) { return error_of(folder.write("f.glb", bytes)); };
   EXPECT_EQ(error(good), "no error");
-  EXPECT_TRUE(has(error(with_u32(good, 4, 1)), "GLB version 1, wants 2"));
+  EXPECT_TRUE(has(error(with_u32(good, 4, 1)), "GLB version 1, expected 2"));
   EXPECT_TRUE(has(error(with_u32(good, 8, 0x7fffffff)), "GLB says it has 2147483647 bytes"));
   EXPECT_TRUE(has(error(with_u32(good, 12, 0xfffffff0)), "GLB chunk at byte 12"));
   EXPECT_TRUE(has(error(with_u32(good, 16, 5)), "the first GLB chunk is not JSON"));
@@ -120,7 +120,7 @@ TEST(GltfFile, AnEmptyBinaryChunkHoldsNothing) {
   std::vector<std::uint8_t> bytes = GltfMaker::glb(m.json(), {});
   for (const int b : {0, 0, 0, 0, int{'B'}, int{'I'}, int{'N'}, 0}) bytes.push_back(static_cast<std::uint8_t>(b));
   bytes = with_u32(bytes, 8, static_cast<std::uint32_t>(bytes.size()));
-  EXPECT_TRUE(has(error_of(folder.write("f.glb", bytes)), "buffer 0: holds 0 bytes, wants 36"));
+  EXPECT_TRUE(has(error_of(folder.write("f.glb", bytes)), "buffer 0: holds 0 bytes, expected 36"));
 }
 
 TEST(GltfFile, VersionMustBeTwo) {
@@ -128,13 +128,13 @@ TEST(GltfFile, VersionMustBeTwo) {
   const auto error = [&](const std::string& json) { return error_of(folder.write("f.gltf", json)); };
   EXPECT_EQ(error(R"({"asset":{"version":"2.0"}})"), "no error");
   EXPECT_EQ(error(R"({"asset":{"version":"2.1"}})"), "no error");
-  EXPECT_TRUE(has(error(R"({"asset":{"version":"1.0"}})"), "asset: version is '1.0', wants 2.0"));
-  EXPECT_TRUE(has(error(R"({"asset":{"version":2}})"), "asset: version is a number, wants a string"));
+  EXPECT_TRUE(has(error(R"({"asset":{"version":"1.0"}})"), "asset: version is '1.0', expected 2.0"));
+  EXPECT_TRUE(has(error(R"({"asset":{"version":2}})"), "asset: version is a number, expected a string"));
   EXPECT_TRUE(has(error(R"({"asset":{"version":"2.1","minVersion":"2.1"}})"), "minVersion is '2.1'"));
   EXPECT_TRUE(has(error(R"({"asset":{}})"), "version is missing"));
   EXPECT_TRUE(has(error(R"({})"), "version is missing"));
-  EXPECT_TRUE(has(error(R"([])"), "is an array, wants an object"));
-  EXPECT_TRUE(has(error(R"({"asset":[]})"), "asset is an array, wants an object"));
+  EXPECT_TRUE(has(error(R"([])"), "is an array, expected an object"));
+  EXPECT_TRUE(has(error(R"({"asset":[]})"), "asset is an array, expected an object"));
 }
 
 TEST(GltfFile, TimeIsLimited) {

@@ -65,7 +65,7 @@ Camera read_camera(const JsonView& json, const float4x4& world_from_node) {
   c.world_from_camera = rigid(world_from_node);
   const std::string type = json.text("type");
   if (type != "perspective" && type != "orthographic")
-    json.fail("type is " + quoted(type) + ", wants perspective or orthographic");
+    json.fail("type is " + quoted(type) + ", expected perspective or orthographic");
   c.is_orthographic = type == "orthographic";
   const JsonView lens = json.object(type.c_str());
   c.near = lens.number("znear");
@@ -92,7 +92,7 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   light.name = json.text("name");
   const std::string type = json.text("type");
   if (type != "directional" && type != "point" && type != "spot")
-    json.fail("type is " + quoted(type) + ", wants directional, point or spot");
+    json.fail("type is " + quoted(type) + ", expected directional, point or spot");
   light.kind = type == "directional" ? LightKind::Directional : type == "point" ? LightKind::Point : LightKind::Spot;
   if (const std::vector<float> c = json.numbers("color", 3); !c.empty())
     light.color = {std::max(c[0], 0.0f), std::max(c[1], 0.0f), std::max(c[2], 0.0f)};

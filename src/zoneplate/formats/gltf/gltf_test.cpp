@@ -101,16 +101,16 @@ TEST(Gltf, NodeTreesAreChecked) {
   m.nodes = R"({"children":[1,2]},{"children":[2]},{})";
   EXPECT_EQ(error_of(m), "node 2: is reached twice, a node may have one parent only");
   m.nodes = R"({"children":[3]})";
-  EXPECT_EQ(error_of(m), "node 0: children holds 3, wants indices below 1");
+  EXPECT_EQ(error_of(m), "node 0: children holds 3, expected indices below 1");
   m.nodes = R"({"children":[1]},{"children":[2]},{"mesh":0})";
   EXPECT_EQ(error_of(m, {.node_depth = 2}), "node 2: lies deeper than the limit of 2 nodes");
   EXPECT_EQ(error_of(m, {.node_depth = 3}), "no error");
   m.nodes = R"({"mesh":1})";
-  EXPECT_EQ(error_of(m), "node 0: mesh is 1, wants an index below 1");
+  EXPECT_EQ(error_of(m), "node 0: mesh is 1, expected an index below 1");
   m.nodes = R"({"mesh":0,"matrix":[1,2]})";
-  EXPECT_EQ(error_of(m), "node 0: matrix holds 2 numbers, wants 16");
+  EXPECT_EQ(error_of(m), "node 0: matrix holds 2 numbers, expected 16");
   m.nodes = R"({"mesh":0,"scale":[1,2,"x"]})";
-  EXPECT_EQ(error_of(m), "node 0: scale holds a string, wants numbers");
+  EXPECT_EQ(error_of(m), "node 0: scale holds a string, expected numbers");
 }
 
 TEST(Gltf, WhatLiesNowhereIsDropped) {
@@ -201,7 +201,7 @@ TEST(Gltf, Lights) {
   EXPECT_EQ(s.lights[2].outer_cone, 0.2f);
   m.nodes = node(3, "");
   m.scene_nodes = "0";
-  EXPECT_EQ(error_of(m), "node 0 KHR_lights_punctual: light is 3, wants an index below 3");
+  EXPECT_EQ(error_of(m), "node 0 KHR_lights_punctual: light is 3, expected an index below 3");
 }
 
 TEST(Gltf, ExtensionsAreNamed) {

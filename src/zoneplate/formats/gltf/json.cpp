@@ -144,7 +144,7 @@ JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget) 
 }
 
 JsonView::JsonView(const JsonValue& value, std::string place) : value_(&value), place_(std::move(place)) {
-  if (value.kind != JsonValue::Kind::Object) fail(std::string("is ") + name_of(value.kind) + ", wants an object");
+  if (value.kind != JsonValue::Kind::Object) fail(std::string("is ") + name_of(value.kind) + ", expected an object");
 }
 
 void JsonView::fail(const std::string& cause) const {
@@ -165,7 +165,7 @@ const JsonValue* JsonView::find(const char* key) const {
 
 const JsonValue* JsonView::find(const char* key, JsonValue::Kind kind) const {
   const JsonValue* v = find(key);
-  if (v && v->kind != kind) fail(std::string(key) + " is " + name_of(v->kind) + ", wants " + name_of(kind));
+  if (v && v->kind != kind) fail(std::string(key) + " is " + name_of(v->kind) + ", expected " + name_of(kind));
   return v;
 }
 
@@ -208,7 +208,7 @@ float JsonView::number(const char* key, std::optional<float> otherwise) const {
   if (!v && !otherwise) fail(std::string(key) + " is missing");
   if (!v) return *otherwise;
   if (!(std::abs(v->number) <= static_cast<double>(std::numeric_limits<float>::max())))
-    fail(std::string(key) + " is " + text_of(v->number) + ", wants a number within a float's range");
+    fail(std::string(key) + " is " + text_of(v->number) + ", expected a number within a float's range");
   return static_cast<float>(v->number);
 }
 
@@ -217,7 +217,8 @@ std::uint64_t JsonView::whole(const char* key, std::optional<std::uint64_t> othe
   if (!v && !otherwise) fail(std::string(key) + " is missing");
   if (!v) return *otherwise;
   if (!(v->number >= 0 && v->number <= static_cast<double>(limit)) || v->number != std::floor(v->number))
-    fail(std::string(key) + " is " + text_of(v->number) + ", wants a whole number from 0 to " + std::to_string(limit));
+    fail(std::string(key) + " is " + text_of(v->number) + ", expected a whole number from 0 to " +
+         std::to_string(limit));
   return static_cast<std::uint64_t>(v->number);
 }
 
@@ -225,7 +226,7 @@ std::optional<std::size_t> JsonView::find_index(const char* key, std::size_t cou
   if (!has(key)) return std::nullopt;
   const std::uint64_t i = whole(key);
   if (i >= count)
-    fail(std::string(key) + " is " + std::to_string(i) + ", wants an index below " + std::to_string(count));
+    fail(std::string(key) + " is " + std::to_string(i) + ", expected an index below " + std::to_string(count));
   return static_cast<std::size_t>(i);
 }
 
@@ -238,13 +239,13 @@ std::vector<float> JsonView::numbers(const char* key, std::size_t wanted) const 
   if (!has(key)) return {};
   std::vector<float> out;
   for (const JsonValue& v : list(key)) {
-    if (v.kind != JsonValue::Kind::Number) fail(std::string(key) + " holds " + name_of(v.kind) + ", wants numbers");
+    if (v.kind != JsonValue::Kind::Number) fail(std::string(key) + " holds " + name_of(v.kind) + ", expected numbers");
     if (!(std::abs(v.number) <= static_cast<double>(std::numeric_limits<float>::max())))
-      fail(std::string(key) + " holds " + text_of(v.number) + ", wants numbers within a float's range");
+      fail(std::string(key) + " holds " + text_of(v.number) + ", expected numbers within a float's range");
     out.push_back(static_cast<float>(v.number));
   }
   if (wanted != 0 && out.size() != wanted)
-    fail(std::string(key) + " holds " + std::to_string(out.size()) + " numbers, wants " + std::to_string(wanted));
+    fail(std::string(key) + " holds " + std::to_string(out.size()) + " numbers, expected " + std::to_string(wanted));
   return out;
 }
 
@@ -254,7 +255,7 @@ std::vector<std::size_t> JsonView::indices(const char* key, std::size_t count) c
     if (v.kind != JsonValue::Kind::Number || !(v.number >= 0 && v.number < static_cast<double>(count)) ||
         v.number != std::floor(v.number))
       fail(std::string(key) + " holds " + (v.kind == JsonValue::Kind::Number ? text_of(v.number) : name_of(v.kind)) +
-           ", wants indices below " + std::to_string(count));
+           ", expected indices below " + std::to_string(count));
     out.push_back(static_cast<std::size_t>(v.number));
   }
   return out;
@@ -263,7 +264,7 @@ std::vector<std::size_t> JsonView::indices(const char* key, std::size_t count) c
 std::vector<std::string> JsonView::texts(const char* key) const {
   std::vector<std::string> out;
   for (const JsonValue& v : list(key)) {
-    if (v.kind != JsonValue::Kind::Text) fail(std::string(key) + " holds " + name_of(v.kind) + ", wants strings");
+    if (v.kind != JsonValue::Kind::Text) fail(std::string(key) + " holds " + name_of(v.kind) + ", expected strings");
     out.push_back(v.text);
   }
   return out;

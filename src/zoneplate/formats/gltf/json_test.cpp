@@ -90,21 +90,24 @@ TEST(GltfJson, MessagesNameThePlaceTheFoundAndTheWanted) {
   const std::string text = R"({"a":[{"n":-1,"f":1.5,"t":"x","big":1e300}],"l":[1,"x"]})";
   const auto first = [](const JsonView& j) { return j.element("a", 0, "thing"); };
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { first(j).whole("n"); }),
-            "f.gltf: thing 0: n is -1, wants a whole number from 0 to 9007199254740992");
+            "f.gltf: thing 0: n is -1, expected a whole number from 0 to 9007199254740992");
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { first(j).whole("f"); }),
-            "f.gltf: thing 0: f is 1.5, wants a whole number from 0 to 9007199254740992");
+            "f.gltf: thing 0: f is 1.5, expected a whole number from 0 to 9007199254740992");
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { first(j).number("t"); }),
-            "f.gltf: thing 0: t is a string, wants a number");
+            "f.gltf: thing 0: t is a string, expected a number");
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { first(j).number("big"); }),
-            "f.gltf: thing 0: big is 1e+300, wants a number within a float's range");
+            "f.gltf: thing 0: big is 1e+300, expected a number within a float's range");
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { first(j).number("none"); }), "f.gltf: thing 0: none is missing");
-  EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.numbers("l", 2); }), "f.gltf: l holds a string, wants numbers");
-  EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.numbers("a", 0); }), "f.gltf: a holds an object, wants numbers");
-  EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.indices("l", 1); }), "f.gltf: l holds 1, wants indices below 1");
+  EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.numbers("l", 2); }),
+            "f.gltf: l holds a string, expected numbers");
+  EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.numbers("a", 0); }),
+            "f.gltf: a holds an object, expected numbers");
+  EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.indices("l", 1); }),
+            "f.gltf: l holds 1, expected indices below 1");
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.count("n"), j.object("a"); }),
-            "f.gltf: a is an array, wants an object");
+            "f.gltf: a is an array, expected an object");
   EXPECT_EQ(error_in(text, [&](const JsonView& j) { j.element("l", 0, "thing"); }),
-            "f.gltf: thing 0: is a number, wants an object");
+            "f.gltf: thing 0: is a number, expected an object");
 }
 
 TEST(GltfJson, QuotedTextsStayOnOneLine) {

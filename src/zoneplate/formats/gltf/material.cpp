@@ -27,16 +27,17 @@ struct UsedImages {
 Wrap read_wrap(const JsonView& json, const char* key) {
   const std::uint64_t v = json.whole(key, 10497);
   if (v != 10497 && v != 33071 && v != 33648)
-    json.fail(std::string(key) + " is " + std::to_string(v) + ", wants 10497, 33071 or 33648");
+    json.fail(std::string(key) + " is " + std::to_string(v) + ", expected 10497, 33071 or 33648");
   return v == 33071 ? Wrap::Clamp : v == 33648 ? Wrap::Mirror : Wrap::Repeat;
 }
 
 Sampler read_sampler(const JsonView& json) {
   Sampler s{.wrap_u = read_wrap(json, "wrapS"), .wrap_v = read_wrap(json, "wrapT")};
   const std::uint64_t magnify = json.whole("magFilter", 9729), minify = json.whole("minFilter", 9987);
-  if (magnify != 9728 && magnify != 9729) json.fail("magFilter is " + std::to_string(magnify) + ", wants 9728 or 9729");
+  if (magnify != 9728 && magnify != 9729)
+    json.fail("magFilter is " + std::to_string(magnify) + ", expected 9728 or 9729");
   if (minify != 9728 && minify != 9729 && (minify < 9984 || minify > 9987))
-    json.fail("minFilter is " + std::to_string(minify) + ", wants 9728, 9729 or 9984 to 9987");
+    json.fail("minFilter is " + std::to_string(minify) + ", expected 9728, 9729 or 9984 to 9987");
   // The numbers are OpenGL's: odd ones are linear within a level, 9986 and 9987 between levels.
   s.magnify = magnify == 9728 ? TexelFilter::Nearest : TexelFilter::Linear;
   s.minify = minify % 2 == 0 ? TexelFilter::Nearest : TexelFilter::Linear;
@@ -136,7 +137,7 @@ void MaterialReader::read_metallic_roughness(const JsonView& json, Material& m) 
 void MaterialReader::read_alpha(const JsonView& json, Material& m) {
   const std::string mode = json.text("alphaMode", "OPAQUE");
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
-    json.fail("alphaMode is " + quoted(mode) + ", wants OPAQUE, MASK or BLEND");
+    json.fail("alphaMode is " + quoted(mode) + ", expected OPAQUE, MASK or BLEND");
   m.alpha_mode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
   m.alpha_cutoff = factor(json, "alphaCutoff", 0.5f, std::numeric_limits<float>::max());
 }

@@ -90,7 +90,7 @@ TEST(GltfMaterial, AlphaModes) {
   EXPECT_EQ(load(painted(R"({"alphaMode":"BLEND"})")).materials.at(0).alpha_mode, AlphaMode::Blend);
   EXPECT_EQ(load(painted(R"({"alphaMode":"OPAQUE"})")).materials.at(0).alpha_mode, AlphaMode::Opaque);
   EXPECT_EQ(error_of(painted(R"({"alphaMode":"blend"})")),
-            "material 0: alphaMode is 'blend', wants OPAQUE, MASK or BLEND");
+            "material 0: alphaMode is 'blend', expected OPAQUE, MASK or BLEND");
 }
 
 TEST(GltfMaterial, TextureTransformAndItsUvSet) {
@@ -157,13 +157,13 @@ TEST(GltfMaterial, TexturesWithoutASupportedImageAreLeftOut) {
 
 TEST(GltfMaterial, IndicesMustBeInRange) {
   EXPECT_EQ(error_of(painted(R"({"emissiveTexture":{"index":2}})")),
-            "material 0 emissiveTexture: index is 2, wants an index below 2");
+            "material 0 emissiveTexture: index is 2, expected an index below 2");
   EXPECT_EQ(error_of(painted(R"({"emissiveTexture":{}})")), "material 0 emissiveTexture: index is missing");
   EXPECT_EQ(error_of(painted(R"({"emissiveTexture":{"index":0}})", R"({"source":2})")),
-            "texture 0: source is 2, wants an index below 2");
+            "texture 0: source is 2, expected an index below 2");
   EXPECT_EQ(error_of(painted(R"({"emissiveTexture":{"index":0}})", R"({"source":0,"sampler":0})")),
-            "texture 0: sampler is 0, wants an index below 0");
-  EXPECT_EQ(error_of(painted(R"({"emissiveFactor":[1,1]})")), "material 0: emissiveFactor holds 2 numbers, wants 3");
+            "texture 0: sampler is 0, expected an index below 0");
+  EXPECT_EQ(error_of(painted(R"({"emissiveFactor":[1,1]})")), "material 0: emissiveFactor holds 2 numbers, expected 3");
 }
 
 TEST(GltfMaterial, ImagesThatNobodyUsesAreNotRead) {
@@ -175,7 +175,7 @@ TEST(GltfMaterial, ImagesThatNobodyUsesAreNotRead) {
 TEST(GltfMaterial, ImageErrorsNameTheFirstImage) {
   GltfMaker m = painted(R"({"emissiveTexture":{"index":0},"occlusionTexture":{"index":1}})");
   m.rest = R"(,"images":[{"bufferView":0,"name":"x"},{"bufferView":0}],"textures":[{"source":0},{"source":1}])";
-  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, wants PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, expected PNG, JPEG, WebP, HDR or EXR");
   m.rest = R"(,"images":[{"uri":"none.png"},{}],"textures":[{"source":0},{"source":1}])";
   EXPECT_EQ(error_of(m).rfind("image 0: ", 0), 0u);
   m.rest = R"(,"images":[{"bufferView":1},{}],"textures":[{"source":0},{"source":1}])";

@@ -105,7 +105,7 @@ void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mes
       p.file.budget().give_back(deltas.size() * sizeof(deltas[0]));
       if (deltas.size() != mesh.position.size())
         target.fail(std::string(key) + " has " + std::to_string(count_elements(p.file, target, key)) +
-                    " elements, wants " + std::to_string(count_elements(p.file, p.attributes, "POSITION")));
+                    " elements, expected " + std::to_string(count_elements(p.file, p.attributes, "POSITION")));
       return deltas;
     };
     add_scaled(mesh.position, read("POSITION", read_float3), weights[t]);
@@ -245,7 +245,7 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
                     std::span<const Material> materials) {
   Primitive p{file, json, json.object("attributes").renamed(json.place()), {}};
   const std::uint64_t mode = json.whole("mode", 4, 255);
-  if (mode > 6) json.fail("mode is " + std::to_string(mode) + ", wants 0 to 6");
+  if (mode > 6) json.fail("mode is " + std::to_string(mode) + ", expected 0 to 6");
   const auto material = find_material(json, pose, materials.size());
   decode_draco_primitive(file, json);
   Mesh m;

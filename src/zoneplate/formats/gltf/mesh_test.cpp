@@ -75,7 +75,7 @@ TEST(GltfMesh, ModesBecomeLists) {
   GltfMaker m = triangle_maker();
   m.meshes.clear();
   m.mesh(R"("POSITION":0)", R"(,"mode":7)");
-  EXPECT_EQ(error_of(m), "mesh 0 primitive 0: mode is 7, wants 0 to 6");
+  EXPECT_EQ(error_of(m), "mesh 0 primitive 0: mode is 7, expected 0 to 6");
 }
 
 TEST(GltfMesh, OnlyTheVerticesInTheIndicesRangeAreRead) {
@@ -210,7 +210,7 @@ TEST(GltfMesh, MorphTargetErrors) {
   m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
   m.floats("VEC3", {0, 0, 2, 0, 0, 2});
   m.meshes = R"({"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1}]}],"weights":[1]})";
-  EXPECT_EQ(error_of(m), "mesh 0 primitive 0 target 0: POSITION has 2 elements, wants 3");
+  EXPECT_EQ(error_of(m), "mesh 0 primitive 0 target 0: POSITION has 2 elements, expected 3");
   m.meshes = R"({"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1}]}],"weights":[1,1]})";
   EXPECT_EQ(error_of(m), "mesh 0 primitive 0: has 1 morph targets, but 2 weights are given");
 }
@@ -238,7 +238,7 @@ TEST(GltfMesh, VerticesThatAreNotThereTakeNoMemory) {
   GltfMaker m = triangle_maker();
   m.accessors = R"({"bufferView":0,"componentType":5126,"count":4000000000,"type":"VEC3"})";
   EXPECT_EQ(error_of(m),
-            "mesh 0 primitive 0: POSITION (accessor 0): it holds 36 bytes, wants 48000000000 (4000000000 "
+            "mesh 0 primitive 0: POSITION (accessor 0): it holds 36 bytes, expected 48000000000 (4000000000 "
             "elements)");
   m.accessors = R"({"componentType":5126,"count":4200000,"type":"VEC3"})";
   EXPECT_EQ(error_of(m),
@@ -250,10 +250,10 @@ TEST(GltfMesh, SkinErrors) {
   EXPECT_EQ(error_of(skinned({0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})),
             "mesh 0 primitive 0: vertex 1 uses joint 2 of 2");
   EXPECT_EQ(error_of(skinned<float>({0, 0, 0, 0, 1e30f, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0})),
-            "mesh 0 primitive 0: JOINTS_0 (accessor 1): componentType is 5126, wants 5121 or 5123");
+            "mesh 0 primitive 0: JOINTS_0 (accessor 1): componentType is 5126, expected 5121 or 5123");
   GltfMaker m = skinned({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   m.rest = R"(,"skins":[{"joints":[1,2,0],"inverseBindMatrices":3}])";
-  EXPECT_EQ(error_of(m), "skin 0: inverseBindMatrices has 2 elements, wants 3");
+  EXPECT_EQ(error_of(m), "skin 0: inverseBindMatrices has 2 elements, expected 3");
   m.rest = R"(,"skins":[{"joints":[]}])";
   EXPECT_EQ(error_of(m), "skin 0: has no joints");
 }

@@ -45,9 +45,9 @@ std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const s
                                          ImportBudget& budget) {
   const std::string mode = json.text("mode"), filter = json.text("filter", "NONE");
   if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES")
-    json.fail("mode is " + quoted(mode) + ", wants ATTRIBUTES, TRIANGLES or INDICES");
+    json.fail("mode is " + quoted(mode) + ", expected ATTRIBUTES, TRIANGLES or INDICES");
   if (filter != "NONE" && filter != "OCTAHEDRAL" && filter != "QUATERNION" && filter != "EXPONENTIAL")
-    json.fail("filter is " + quoted(filter) + ", wants NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
+    json.fail("filter is " + quoted(filter) + ", expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL");
   const std::uint64_t count = json.whole("count", std::nullopt, std::uint64_t{1} << 32);
   const std::uint64_t stride = json.whole("byteStride", std::nullopt, 256);
   check_stride(json, mode, filter, stride);

@@ -86,7 +86,7 @@ TEST(GltfMeshopt, Refusals) {
     return error.substr(error.find("bufferView"));
   };
   EXPECT_EQ(refusal("\"ATTRIBUTES\"", "\"ATTRIBUTE_\""),
-            "bufferView 0 EXT_meshopt_compression: mode is 'ATTRIBUTE_', wants ATTRIBUTES, TRIANGLES or INDICES");
+            "bufferView 0 EXT_meshopt_compression: mode is 'ATTRIBUTE_', expected ATTRIBUTES, TRIANGLES or INDICES");
   EXPECT_EQ(refusal("\"byteStride\":4,", "\"byteStride\":8,"),
             "bufferView 1 EXT_meshopt_compression: byteStride is 8, which does not go with TRIANGLES and NONE");
 }

@@ -99,7 +99,7 @@ std::vector<float4x4> GltfNodes::joints(const GltfNode& node) const {
   std::vector<float4x4> out;
   if (skin.has("inverseBindMatrices")) out = read_float4x4(file_, skin, "inverseBindMatrices");
   if (!out.empty() && out.size() < numbers.size())
-    skin.fail("inverseBindMatrices has " + std::to_string(out.size()) + " elements, wants " +
+    skin.fail("inverseBindMatrices has " + std::to_string(out.size()) + " elements, expected " +
               std::to_string(numbers.size()));
   out.resize(numbers.size());
   for (std::size_t j = 0; j < numbers.size(); ++j) {

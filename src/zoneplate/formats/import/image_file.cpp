@@ -105,7 +105,7 @@ TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& 
   if (is_exr(bytes)) return decode_exr_light(bytes, name, max_pixels / 4);
   if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
   throw Error(ErrorKind::Input,
-              name + ": is " + std::string(known_format(bytes)) + " image, wants PNG, JPEG, WebP, HDR or EXR");
+              name + ": is " + std::string(known_format(bytes)) + " image, expected PNG, JPEG, WebP, HDR or EXR");
 }
 
 std::optional<std::string> size_warning(const TextureImage& image) {

@@ -128,9 +128,9 @@ TEST(ImageFile, WarnsOfWhatIsDrawnSmaller) {
 TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
   EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
-  EXPECT_EQ(error_of(bytes("\xabKTX 20\xbb\r\n\x1a\n")), "tex: is a KTX image, wants PNG, JPEG, WebP, HDR or EXR");
-  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, wants PNG, JPEG, WebP, HDR or EXR");
-  EXPECT_EQ(error_of({}), "tex: is no known image, wants PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of(bytes("\xabKTX 20\xbb\r\n\x1a\n")), "tex: is a KTX image, expected PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, expected PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR or EXR");
   EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
   EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
 }

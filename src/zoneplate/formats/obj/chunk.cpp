@@ -208,7 +208,7 @@ class PartReader {
       if (!number) fail(fmt::format("{}: '{}' is not a number", what, word.substr(0, 40)));
       out[i] = *number;
     }
-    if (i < least) fail(fmt::format("{} has {} numbers, wants {}", what, i, least));
+    if (i < least) fail(fmt::format("{} has {} numbers, expected {}", what, i, least));
     return i;
   }
 

@@ -256,7 +256,7 @@ TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(refusal(square + "f 1 2 \\\n3\nf -5 1 2\n"), "model.obj: line 7: face index -5 out of range (4 vertices)");
   EXPECT_EQ(refusal(square + "l 1 x\n"), "model.obj: line 5: line: 'x' is not an index");
   EXPECT_EQ(refusal(square + "f 1/2/3/4 2 3\n"), "model.obj: line 5: face: '1/2/3/4' is not v, v/vt, v//vn or v/vt/vn");
-  EXPECT_EQ(refusal("v 1 2\n"), "model.obj: line 1: vertex has 2 numbers, wants 3");
+  EXPECT_EQ(refusal("v 1 2\n"), "model.obj: line 1: vertex has 2 numbers, expected 3");
   EXPECT_EQ(refusal("v 1 2 3,5\n"), "model.obj: line 1: vertex: '3,5' is not a number");
   EXPECT_EQ(refusal(""), "model.obj: holds no faces, lines or points");
   EXPECT_EQ(

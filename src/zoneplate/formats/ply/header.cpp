@@ -83,17 +83,18 @@ class HeaderReader {
   }
 
   void read_format() {
-    if (words_.size() != 3) fail("format wants a name and a version");
+    if (words_.size() != 3) fail("format requires a name and a version");
     static constexpr std::string_view names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     const auto found = std::find(std::begin(names), std::end(names), words_[1]);
     if (found == std::end(names))
-      fail(fmt::format("format '{}', wants ascii, binary_little_endian or binary_big_endian", words_[1].substr(0, 40)));
+      fail(fmt::format("format '{}', expected ascii, binary_little_endian or binary_big_endian",
+                       words_[1].substr(0, 40)));
     header_.order = static_cast<PlyOrder>(found - names);
-    if (words_[2] != "1.0") fail(fmt::format("version '{}', wants 1.0", words_[2].substr(0, 40)));
+    if (words_[2] != "1.0") fail(fmt::format("version '{}', expected 1.0", words_[2].substr(0, 40)));
   }
 
   void read_element() {
-    if (words_.size() != 3) fail("element wants a name and a number");
+    if (words_.size() != 3) fail("element requires a name and a number");
     PlyElement element;
     element.name = words_[1];
     const char* const end = words_[2].data() + words_[2].size();
@@ -115,7 +116,8 @@ class HeaderReader {
     if (header_.elements.back().properties.size() == most_properties) fail("too many properties");
     PlyProperty p;
     p.is_list = words_.size() > 1 && words_[1] == "list";
-    if (words_.size() != (p.is_list ? 5u : 3u)) fail("property wants a type and a name, or list, two types and a name");
+    if (words_.size() != (p.is_list ? 5u : 3u))
+      fail("property requires a type and a name, or list, two types and a name");
     if (p.is_list) p.count_type = type(words_[2]);
     if (p.count_type >= PlyType::Float) fail("the count of a list is not an integer type");
     p.type = p.stated = type(words_[words_.size() - 2]);

@@ -175,7 +175,7 @@ TEST(Ply, WhatIsNotFiniteIsDropped) {
 
 TEST(Ply, Refusals) {
   EXPECT_EQ(refusal("plyx\n"), "line 1: does not begin with 'ply'");
-  EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "line 2: version '2.0', wants 1.0");
+  EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "line 2: version '2.0', expected 1.0");
   EXPECT_EQ(refusal(ascii + "element vertex many\n"), "line 3: element vertex: 'many' is not a number of elements");
   EXPECT_EQ(refusal(ascii + "property float x\n"), "line 3: a property before the first element");
   EXPECT_EQ(refusal(ascii + "element vertex 1\nproperty real x\n"), "line 4: property: 'real' is not a type");

@@ -132,7 +132,7 @@ void add_mesh(Scene& scene, Mesh mesh, std::string name, ImportBudget& budget) {
 
 void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudget& budget) {
   if (bytes.size() < header_bytes)
-    throw Error(ErrorKind::Input, fmt::format("{}: neither ASCII STL nor binary STL: {} bytes, wants {} at least",
+    throw Error(ErrorKind::Input, fmt::format("{}: neither ASCII STL nor binary STL: {} bytes, expected {} at least",
                                               budget.file(), bytes.size(), header_bytes));
   const std::uint64_t said = read_u32(&bytes[80]), held = (bytes.size() - header_bytes) / facet_bytes;
   if (said > held)

@@ -89,10 +89,11 @@ TEST(BuiltinScenes, RefuseWhatTheyDoNotKnow) {
   EXPECT_FALSE(make_builtin_scene("teapots").has_value());
   EXPECT_FALSE(make_builtin_scene("").has_value());
   EXPECT_EQ(message_of("teapot:division=3"), "scene teapot: unknown parameter 'division'; did you mean 'divisions'?");
-  EXPECT_EQ(message_of("teapot:divisions=0"), "scene teapot: divisions is '0', wants a whole number from 1 to 512");
+  EXPECT_EQ(message_of("teapot:divisions=0"), "scene teapot: divisions is '0', expected a whole number from 1 to 512");
   EXPECT_EQ(message_of("sphere:triangles=1e6"),
-            "scene sphere: triangles is '1e6', wants a whole number from 12 to 100000000");
-  EXPECT_EQ(message_of("sphere:triangles"), "scene sphere: triangles is '', wants a whole number from 12 to 100000000");
+            "scene sphere: triangles is '1e6', expected a whole number from 12 to 100000000");
+  EXPECT_EQ(message_of("sphere:triangles"),
+            "scene sphere: triangles is '', expected a whole number from 12 to 100000000");
   EXPECT_EQ(message_of("city:"), "scene city: unknown parameter ''; it has none");
 }
 

@@ -87,11 +87,11 @@ TEST(Wheel, TurnsClockwiseBySharesOfASpoke) {
 }
 
 TEST(Wheel, TakesDecimalsOnlyWhereTheyAreMeant) {
-  EXPECT_EQ(message_of("wheel:spokes=1.5"), "scene wheel: spokes is '1.5', wants a whole number from 1 to 360");
+  EXPECT_EQ(message_of("wheel:spokes=1.5"), "scene wheel: spokes is '1.5', expected a whole number from 1 to 360");
   for (const char* value : {"", ".", "-", "1e3", "0.1234567", "1001", "+1"}) {
-    EXPECT_EQ(message_of(std::string("wheel:turn=") + value), std::string("scene wheel: turn is '") +
-                                                                  (value == std::string("0,5") ? "0" : value) +
-                                                                  "', wants a number of 6 decimals from -1000 to 1000")
+    EXPECT_EQ(message_of(std::string("wheel:turn=") + value),
+              std::string("scene wheel: turn is '") + (value == std::string("0,5") ? "0" : value) +
+                  "', expected a number of 6 decimals from -1000 to 1000")
         << value;
   }
   EXPECT_EQ(message_of("wheel:turn=1."), "no error");

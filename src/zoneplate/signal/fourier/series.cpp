@@ -23,7 +23,7 @@ const char* name_of(Wave wave) {
 Wave parse_wave(std::string_view name) {
   for (const Wave wave : {Wave::Square, Wave::Sawtooth, Wave::Triangle})
     if (name == name_of(wave)) return wave;
-  throw Error(ErrorKind::Usage, fmt::format("no wave '{}'; wants square, sawtooth or triangle", name));
+  throw Error(ErrorKind::Usage, fmt::format("no wave '{}'; expected square, sawtooth or triangle", name));
 }
 
 double wave_value(Wave wave, double x) {
