@@ -19,7 +19,7 @@ float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 
   Array red(0), green(0), blue(0), alpha(0);
   float* const out[4] = {red.value, green.value, blue.value, alpha.value};
   const SamplerState state = make_filtering(sampler);
-  const FilteringKernels& kernels = scalar::filtering_kernels;
+  const FilteringKernels& kernels = FilteringKernels::scalar;
   if (state.anisotropy > 1) {
     kernels.sample_anisotropic(texture.view(), state, footprint, out, count);
   } else {
