@@ -65,8 +65,8 @@ TEST_F(SignalFilter, WantsOneFilter) {
   EXPECT_TRUE(contains(refusal(run_signal_filter, {"noise", "--low-pass", "0"}), "--low-pass: "));
   EXPECT_TRUE(contains(refusal(run_signal_filter, {"noise", "--band-pass", "0.2"}), "LOW:HIGH"));
   EXPECT_TRUE(contains(refusal(run_signal_filter, {"noise", "--band-pass", "0.2:0.1"}), "lower frequency"));
-  EXPECT_TRUE(
-      contains(refusal(run_signal_filter, {"noise", "--low-pass", "0.1", "--border", "clamp"}), "expected reflect, wrap"));
+  EXPECT_TRUE(contains(refusal(run_signal_filter, {"noise", "--low-pass", "0.1", "--border", "clamp"}),
+                       "expected reflect, wrap"));
   EXPECT_TRUE(contains(refusal(run_signal_filter, {"noise", "--low-pass", "0.1", "--shape", "brick"}), "--shape: "));
 }
 

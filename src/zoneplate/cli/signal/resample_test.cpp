@@ -103,7 +103,8 @@ TEST_F(SignalResample, ShowsBothAndRefuses) {
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "-o", at("r.png")}), "--size is missing"));
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "2"}), "--output is missing"));
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "0", "-o", at("r.png")}), "expected 1 to"));
-  EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "1000000", "-o", at("r.png")}), "expected 1 to"));
+  EXPECT_TRUE(
+      contains(refusal(run_signal_resample, {"noise", "--size", "1000000", "-o", at("r.png")}), "expected 1 to"));
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--size", "half", "-o", at("r.png")}), "not a number"));
   EXPECT_TRUE(contains(refusal(run_signal_resample, {"noise", "--kernel", "blob"}), "--kernel: "));
 }
