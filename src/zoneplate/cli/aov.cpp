@@ -200,8 +200,8 @@ std::vector<std::uint8_t> encode_data_png(const Aov& aov, const Frame& frame, co
   return std::ranges::find(encoders, aov.name, &Encoder::name)->encode(frame, scene);
 }
 
-void add_exr_channels(const DataChannels& data, std::vector<ExrChannel>& out) {
-  for (const DataChannel& c : data.list) {
+void add_exr_channels(const DataChannels& channels, std::vector<ExrChannel>& out) {
+  for (const DataChannel& c : channels.list) {
     const ExrType type = c.precision == ChannelPrecision::Number ? ExrType::Number
                          : c.precision == ChannelPrecision::Half ? ExrType::Half
                                                                  : ExrType::Float;

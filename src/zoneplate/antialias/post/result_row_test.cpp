@@ -25,7 +25,8 @@ TEST(ResultRow, KernelsCopyEveryByteAndNoOther) {
 
 TEST(ResultRow, ResultsOfAnySizeGetWhatTheRowHolds) {
   // The second one is of those that go past the caches.
-  for (const auto& [width, height] : {std::pair{31, 7}, {2053, 1025}}) {
+  for (const auto& size : {std::pair{31, 7}, {2053, 1025}}) {
+    const int width = size.first, height = size.second;
     const Rgba8Image image = make_codes(width, height, [](int x, int y) {
       return Rgba8{static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 7};
     });

@@ -47,7 +47,8 @@ std::uint32_t gather(const std::uint32_t* table, const std::int32_t* index, std:
 }  // namespace zoneplate::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-namespace zoneplate::cli {
+namespace zoneplate {
 template <>
-const LimitKernels PerIsa<LimitKernels>::HWY_NAMESPACE = {.sum = HWY_NAMESPACE::sum, .gather = HWY_NAMESPACE::gather};
-}  // namespace zoneplate::cli
+const cli::LimitKernels PerIsa<cli::LimitKernels>::HWY_NAMESPACE = {.sum = HWY_NAMESPACE::sum,
+                                                                    .gather = HWY_NAMESPACE::gather};
+}  // namespace zoneplate

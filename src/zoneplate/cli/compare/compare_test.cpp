@@ -130,7 +130,7 @@ TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
     for (const auto& stage : method["ms_by_stage"]) sum += stage.get<double>();
     EXPECT_LE(sum, method["ms"].get<double>()) << method["method"];
   }
-  const auto stage = [&](int method, const char* name) {
+  const auto stage = [&](std::size_t method, const char* name) {
     return scene["methods"][method]["ms_by_stage"][name].get<double>();
   };
   EXPECT_EQ(stage(0, "filter"), 0);  // the tiles make the picture
