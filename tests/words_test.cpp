@@ -26,7 +26,7 @@ constexpr const char* retired =
 TEST(Words, RetiredIdentifiersDoNotComeBack) {
   const std::regex word(std::string("\\b(") + retired + ")\\b");
   int files = 0;
-  for (const char* folder : {"src", "tests", "bench", "fuzz", "docs"}) {
+  for (const char* folder : {"include", "src", "tests", "bench", "fuzz", "docs"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension();
       if ((extension != ".h" && extension != ".cpp" && extension != ".md") || entry.path().stem() == "words_test")

@@ -4,7 +4,8 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/tonemap_kernels.h"
+#include "zoneplate/image/display_transform.h"
+#include "zoneplate/image/tone_curves.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/image/transfer_kernels.h"
 

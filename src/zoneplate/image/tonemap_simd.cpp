@@ -1,4 +1,5 @@
-#include "zoneplate/image/tonemap_kernels.h"
+#include "zoneplate/image/display_transform.h"
+#include "zoneplate/image/tone_curves.h"
 #include "zoneplate/image/transfer_simd.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -37,7 +37,7 @@ TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const Frag
       resolve(ResolveKernels::of(rules.isa)),
       fragment_lists(FragmentListKernels::of(rules.isa)),
       triangle_rules(rules.setup(planes.viewport)),
-      room(rules.room),
+      capacities(rules.capacities),
       min_transmittance(least_transmittance(fragment_shader.brightest())),
       places(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
       weights(planes.weights) {

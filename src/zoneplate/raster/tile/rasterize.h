@@ -6,8 +6,8 @@
 #include "zoneplate/raster/geometry/bin.h"
 #include "zoneplate/raster/geometry/draw.h"
 #include "zoneplate/raster/geometry/setup.h"
+#include "zoneplate/raster/types/capacities.h"
 #include "zoneplate/raster/types/fragment_shader.h"
-#include "zoneplate/raster/types/room.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/raster/types/target.h"
 
@@ -17,7 +17,7 @@ struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
   Isa isa = current_isa();
-  RasterRoom room;
+  RasterCapacities capacities;
 
   SetupRules setup(Viewport viewport) const {
     return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/image/rgb.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// A decoded PNG: codes as stored, widened to four channels; 16-bit files keep their precision in `pixels16`.
+struct PngImage {
+  Rgba8Image pixels;
+  Rgba16Image pixels16;  ///< empty unless the file has 16 bits a channel
+};
+
+bool is_png(std::span<const std::uint8_t> bytes);
+
+/// Errors    ErrorKind::Input with `name` in front: not a PNG, truncated, corrupt, more than `max_pixels` pixels.
+PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name,
+                    std::uint64_t max_pixels = std::uint64_t{1} << 28);
+/// The same in the file's own depth alone: of `pixels` and `pixels16` one is empty.
+PngImage decode_png_as_stored(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+
+/// True for a PNG whose header states 16 bits a channel.
+bool has_16_bits(std::span<const std::uint8_t> png);
+
+struct PngOptions {
+  bool has_alpha = true;        ///< false: RGB is written
+  bool is_srgb = true;          ///< writes the sRGB chunk; false for data (depth, normals, ids)
+  bool is_small = false;        ///< slower, smaller
+  bool may_be_indexed = false;  ///< an opaque picture of at most 256 colours is written as numbers of them
+  std::vector<std::pair<std::string, std::string>> text = {};  ///< tEXt chunks (iTXt where not ASCII)
+};
+
+/// No time stamp is written: the same picture gives the same bytes.
+std::vector<std::uint8_t> encode_png(const Rgba8Image& image, const PngOptions& options = {});
+std::vector<std::uint8_t> encode_png(const Rgba16Image& image, const PngOptions& options = {});
+/// 16-bit grey.
+std::vector<std::uint8_t> encode_png(const Plane<std::uint16_t>& image, const PngOptions& options = {});
+
+}  // namespace zoneplate

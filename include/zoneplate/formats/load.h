@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/formats/import/load_options.h"
+#include "zoneplate/scene/scene.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// The file formats that `load_scene` reads by itself. Those of assimp.h it reads too.
+std::span<const SceneFormat> scene_formats();
+
+/// True for the name of a built-in scene, with or without parameters.
+bool is_builtin_scene(std::string_view name);
+
+/// How a scene is loaded.
+struct LoadOptions {
+  LoadLimits limits;
+  std::string format;  ///< an extension without its dot, "stl"; empty: that of the name
+  SceneChoice choice;
+  bool is_sandboxed = false;  ///< reads in a child process with limits (import_child.h), whatever the format
+};
+
+/// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".
+///
+/// A built-in scene goes before a file of the same name, which is reached as "./teapot". "-" is standard input, and
+/// wants a format; what it refers to is looked for in the working directory.
+/// Errors    ErrorKind::Input naming a file that is missing, of an unknown format or wrong inside; ErrorKind::Usage for
+///           parameters of a built-in scene, a format that is not read, and standard input without one.
+Scene load_scene(const std::string& name, const LoadOptions& options = {});
+
+/// The files and folders that loading this scene may read: the model, its folder (the working directory where the model
+/// is standard input) and LoadLimits::allowed_paths; none for a built-in scene.
+std::vector<std::string> readable_paths(const std::string& name, const LoadOptions& options);
+
+/// A model that stays open, to be loaded at several moments of its animation.
+///
+/// Errors    as load_scene, in the constructor or later.
+class SceneSource {
+ public:
+  SceneSource(std::string name, LoadOptions options);
+  ~SceneSource();
+
+  Scene load(const SceneChoice& choice);
+  /// The same without images.
+  Scene load_shape(const SceneChoice& choice);
+
+ private:
+  struct OpenFile;
+  std::string name_;
+  LoadOptions options_;
+  std::unique_ptr<const OpenFile> file_;
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/metrics/metric.h"
+
+namespace zoneplate {
+namespace ZONEPLATE_API metrics {
+
+/// The catalogue, in the order of metrics.txt.
+std::span<const Metric> metrics();
+
+}  // namespace metrics
+}  // namespace zoneplate

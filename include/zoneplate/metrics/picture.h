@@ -1,0 +1,50 @@
+#pragma once
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate {
+namespace ZONEPLATE_API metrics {
+
+/// A picture as metrics see it: the same picture as codes and as light.
+struct Picture {
+  DisplayImage display;  ///< straight alpha
+  LinearImage linear;    ///< premultiplied
+
+  int width() const { return display.width(); }
+  int height() const { return display.height(); }
+};
+
+/// The picture of display codes; its light is what they decode to.
+Picture make_picture(DisplayImage display);
+
+/// The picture of linear light; its codes are what a screen shows of it: clamped, without tone mapping.
+Picture make_picture(LinearImage linear);
+
+/// The codes of a picture that lies on black: each code times alpha. Metrics that do not speak of alpha judge this.
+struct Codes {
+  double r = 0, g = 0, b = 0;
+};
+constexpr Codes codes_on_black(Display c) {
+  const double alpha = c.a;
+  return {c.r * alpha, c.g * alpha, c.b * alpha};
+}
+
+/// The weights of a sum of the three codes.
+struct LumaWeights {
+  double r = 0, g = 0, b = 0;
+};
+constexpr LumaWeights rec709_luma{0.2126, 0.7152, 0.0722};  ///< ITU-R BT.709-6
+constexpr LumaWeights rec601_luma{0.299, 0.587, 0.114};     ///< ITU-R BT.601-7
+
+/// Luma: the weighted sum of codes (not of light).
+constexpr double luma(Codes c, LumaWeights w = rec709_luma) { return w.r * c.r + w.g * c.g + w.b * c.b; }
+
+/// The luma of every pixel of a picture on black.
+Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights = rec709_luma);
+
+/// Rec.709 luminance of every pixel of a picture on black, in linear light.
+Plane<double> luminance_plane(const LinearImage& image);
+
+}  // namespace metrics
+}  // namespace zoneplate

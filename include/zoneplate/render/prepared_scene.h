@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/render/lighting.h"
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+class TextureSet;
+class InterleavedVertices;
+}  // namespace zoneplate
+
+namespace ZONEPLATE_API zoneplate {
+
+/// A scene with all that rendering makes of it once: texture levels and vertex buffers. What it makes of the materials
+/// depends on the lights and the camera, and is made for each frame.
+///
+/// Copies share what was made; none of it changes. A copy may be used by several threads.
+class PreparedScene {
+ public:
+  /// Makes texture levels and vertex buffers, on the threads of the innermost `with_threads`. With `raw_colors` the
+  /// codes of images are taken as linear values, not decoded from sRGB. The images of the scene are freed as soon as
+  /// their levels are made.
+  ///
+  /// Requires  what Scene requires.
+  /// Errors    ErrorKind::Input where an image that a material uses is empty; OutOfMemory.
+  explicit PreparedScene(Scene scene, bool raw_colors = false);
+
+  /// The same scene at another moment: it takes the texture levels of `other` and makes its own vertex buffers.
+  ///
+  /// Requires  the materials use the same images as those of `other`.
+  PreparedScene(Scene scene, const PreparedScene& other);
+
+  /// The same scene under other lights.
+  PreparedScene lit(Lighting lighting) const;
+
+  /// The scene without the texels of its images. Its lighting is `lighting()`.
+  const Scene& scene() const { return *scene_; }
+  std::shared_ptr<const Scene> shared_scene() const { return scene_; }
+  const Lighting& lighting() const { return lighting_; }
+  const TextureSet& textures() const { return *textures_; }
+  const InterleavedVertices& vertices() const { return *vertices_; }
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const TextureSet> textures_;
+  std::shared_ptr<const InterleavedVertices> vertices_;
+  Lighting lighting_;
+};
+
+}  // namespace zoneplate
