@@ -54,7 +54,7 @@ class SceneSource {
   struct OpenFile;
   std::string name_;
   LoadOptions options_;
-  std::unique_ptr<const OpenFile> file_;
+  std::unique_ptr<OpenFile> file_;
 };
 
 }  // namespace zoneplate

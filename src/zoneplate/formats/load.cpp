@@ -133,7 +133,7 @@ std::vector<std::string> readable_paths(const std::string& name, const LoadOptio
 
 struct SceneSource::OpenFile {
   MappedFileWatch watch;
-  std::unique_ptr<const GltfModel> gltf;  ///< null: the file is read anew for each scene
+  std::unique_ptr<GltfModel> gltf;  ///< null: the file is read anew for each scene
 };
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {

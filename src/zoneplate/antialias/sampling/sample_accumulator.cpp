@@ -9,6 +9,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/display_transform.h"
 
 namespace zoneplate::antialias {
 namespace {
