@@ -16,7 +16,7 @@ run_quietly() {
   return "$status"
 }
 
-# The packages of packages.txt for the given purposes (build, check, all), one a line.
+# The packages of packages.txt for the given purposes (build, check, all, ...), one a line.
 wanted_packages() {
   awk -v purposes=" $* " '
     /^#/ || NF == 0 { next }

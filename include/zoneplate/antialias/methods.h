@@ -6,6 +6,7 @@
 #include "zoneplate/render/method.h"
 
 namespace zoneplate {
+/// Antialiasing methods, by name.
 namespace ZONEPLATE_API antialias {
 
 /// The catalogue, in the order of methods.txt.

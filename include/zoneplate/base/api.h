@@ -4,3 +4,6 @@
 /// visibility, and every public header opens its namespace with this macro, so that exactly what the public headers
 /// declare is exported.
 #define ZONEPLATE_API [[gnu::visibility("default")]]
+
+/// @namespace zoneplate
+/// The renderer: scenes, cameras, antialiasing methods, frames, images and files.

@@ -21,7 +21,9 @@ enum class ErrorKind {
 /// `chair.gltf: mesh 3: POSITION holds 12 bytes, expected 36 (3 vertices)`.
 class Error : public std::runtime_error {
  public:
+  /// An error with its message, one line without a line end.
   Error(ErrorKind trouble, const std::string& message) : std::runtime_error(message), trouble_(trouble) {}
+  /// The kind of the error; `what()` is its message.
   ErrorKind trouble() const { return trouble_; }
 
  private:

@@ -7,7 +7,14 @@
 namespace ZONEPLATE_API zoneplate {
 
 /// An instruction set for which kernels are built. Scalar is the plain C++ twin; every one gives the same bits.
-enum class Isa { Scalar, Sse4, Avx2, Avx512, Neon, Wasm };
+enum class Isa {
+  Scalar,  ///< plain C++, on every processor
+  Sse4,    ///< x86-64 with SSE4.2
+  Avx2,    ///< x86-64 with AVX2
+  Avx512,  ///< x86-64 with AVX-512 F, BW, DQ and VL
+  Neon,    ///< 64-bit ARM
+  Wasm,    ///< WebAssembly with simd128
+};
 
 /// Every set there is: those of x86-64 in order, then AArch64's and WebAssembly's.
 inline constexpr Isa all_isas[] = {Isa::Scalar, Isa::Sse4, Isa::Avx2, Isa::Avx512, Isa::Neon, Isa::Wasm};
@@ -55,6 +62,7 @@ template <class Table>
 struct PerIsa {
   static const Table scalar, N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< those of other architectures are not defined
 
+  /// The table of one instruction set.
   static const Table& of([[maybe_unused]] Isa isa = current_isa()) {
 #if defined(__x86_64__)
     if (isa == Isa::Avx512) return N_AVX3;

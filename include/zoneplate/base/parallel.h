@@ -38,6 +38,7 @@ int thread_limit();
 template <class T>
 class PerThread {
  public:
+  /// Makes no object yet. It must be constructed inside the `with_threads` in which it is used.
   PerThread() : objects_(static_cast<std::size_t>(thread_limit())) {}
 
   /// The calling thread's own, which the first call on the thread makes from `arguments`.

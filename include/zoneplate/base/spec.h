@@ -17,12 +17,13 @@ namespace ZONEPLATE_API zoneplate {
 struct Param {
   static constexpr int real = -1;  ///< of `decimals`: any number of decimals, and an exponent
 
-  std::string_view name, meaning;
-  double value = 0;  ///< the default; among names, its index
-  double low = 0, high = 0;
-  std::span<const int> choices = {};
-  std::span<const std::string_view> names = {};
-  int decimals = 0;  ///< 0: a whole number
+  std::string_view name;                         ///< n of `msaa:n=4`
+  std::string_view meaning;                      ///< one line of help
+  double value = 0;                              ///< the default; among names, its index
+  double low = 0, high = 0;                      ///< the range, both ends included
+  std::span<const int> choices = {};             ///< the only values; empty: any number in the range
+  std::span<const std::string_view> names = {};  ///< the words that are the values; empty: numbers
+  int decimals = 0;                              ///< 0: a whole number
 };
 
 /// A parameter that takes any number in [low, high].
@@ -38,16 +39,17 @@ std::string values_of(const Param& param);
 /// Requires  the parameters outlive it.
 class Settings {
  public:
+  /// All parameters with their default values.
   explicit Settings(std::span<const Param> params = {});
   /// Parses a text such as `msaa` or `msaa:n=4,resolve=karis`; `kind` is what msaa is, for messages ("method").
   ///
   /// Errors    ErrorKind::Usage naming a parameter that is unknown or given twice, or a value that it does not take.
   Settings(std::string_view kind, std::span<const Param> params, std::string_view text);
 
-  int integer(std::string_view name) const;  ///< a whole number, or the index of a name
-  double number(std::string_view name) const;
+  int integer(std::string_view name) const;              ///< a whole number, or the index of a name
+  double number(std::string_view name) const;            ///< the value, or the index of a name
   std::string_view chosen(std::string_view name) const;  ///< the name itself
-  bool is_given(std::string_view name) const;
+  bool is_given(std::string_view name) const;  ///< true if the text has this parameter, even with its default value
 
   /// All values in the order of the parameters.
   std::vector<double> numbers() const;
@@ -82,14 +84,15 @@ const Row* find_row(std::span<const Row> rows, std::string_view text) {
   return nullptr;
 }
 
+/// Throws the error for a name that is in no catalogue.
 /// Errors    ErrorKind::Usage: there is no such `kind` as the text names; with the closest of `names`, or all of them.
 [[noreturn]] void refuse_name(std::string_view kind, std::string_view text, std::span<const std::string_view> names);
 
 /// A row of a catalogue and the values of its parameters.
 template <class Row>
 struct Spec {
-  const Row& row;
-  Settings settings;
+  const Row& row;     ///< of the catalogue, which outlives the Spec
+  Settings settings;  ///< the values of the row's parameters
 
   /// What it was parsed from, in one form: `name` or `name:a=1,b=2`.
   std::string text() const {

@@ -20,9 +20,9 @@ bool is_builtin_scene(std::string_view name);
 
 /// How a scene is loaded.
 struct LoadOptions {
-  LoadLimits limits;
-  std::string format;  ///< an extension without its dot, "stl"; empty: that of the name
-  SceneChoice choice;
+  LoadLimits limits;          ///< of memory, time and files
+  std::string format;         ///< an extension without its dot, "stl"; empty: that of the name
+  SceneChoice choice;         ///< scene, variant and moment of a glTF file
   bool is_sandboxed = false;  ///< reads in a child process with limits (import_child.h), whatever the format
 };
 
@@ -43,9 +43,11 @@ std::vector<std::string> readable_paths(const std::string& name, const LoadOptio
 /// Errors    as load_scene, in the constructor or later.
 class SceneSource {
  public:
+  /// Opens the file, by a name as for load_scene. `options.choice` is replaced by that of each call.
   SceneSource(std::string name, LoadOptions options);
   ~SceneSource();
 
+  /// The scene at the chosen moment, with its images.
   Scene load(const SceneChoice& choice);
   /// The same without images.
   Scene load_shape(const SceneChoice& choice);

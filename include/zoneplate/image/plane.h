@@ -15,7 +15,9 @@ namespace ZONEPLATE_API zoneplate {
 template <class T>
 class Plane {
  public:
+  /// A plane without elements.
   Plane() = default;
+  /// A plane of width × height elements, all equal to `value`.
   Plane(int width, int height, T value = T{}) : width_(width), height_(height) {
     assert(width >= 0 && height >= 0);
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -23,16 +25,30 @@ class Plane {
     values_.assign(count, value);
   }
 
+  /// Elements in a row.
   int width() const { return width_; }
+  /// The number of rows.
   int height() const { return height_; }
+  /// True if the plane has no elements, as planes of a Frame that no request names.
   bool empty() const { return values_.empty(); }
 
+  ///@{
+  /// The element in column x from the left and row y from the top.
+  /// Requires  0 <= x < width(), 0 <= y < height().
   T& operator()(int x, int y) { return values_[index(x, y)]; }
   const T& operator()(int x, int y) const { return values_[index(x, y)]; }
+  ///@}
+  ///@{
+  /// Row y from the top, left to right.
+  /// Requires  0 <= y < height().
   std::span<T> row(int y) { return {values_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
   std::span<const T> row(int y) const { return {values_.data() + index(0, y), static_cast<std::size_t>(width_)}; }
+  ///@}
+  ///@{
+  /// All elements: (x, y) is number y width() + x.
   std::span<T> values() { return values_; }
   std::span<const T> values() const { return values_; }
+  ///@}
 
   bool operator==(const Plane&) const = default;
 

@@ -9,12 +9,14 @@
 
 namespace ZONEPLATE_API zoneplate {
 
+///@{
 /// The sRGB transfer curve (IEC 61966-2-1) between linear light and code.
 ///
 /// Edges     arguments are clamped to [0, 1], 0 where they are not numbers; 0 and 1 are kept.
 /// Exact     computed with + - × / only, so the same bits everywhere; within 1e-6 of the definition.
 float encode_srgb(float linear);
 float decode_srgb(float code);
+///@}
 
 /// The curve's value for code / 255, rounded to float.
 float decode_srgb8(std::uint8_t code);
@@ -29,8 +31,10 @@ std::vector<float> decoded_srgb16();
 ///           quantize8 of encode_srgb may differ by one.
 std::uint8_t encode_srgb8(float linear);
 
+///@{
 /// Display codes rounded to 8 and 16 bits: floor(255 x + 0.5), floor(65535 x + 0.5) on values clamped to [0, 1].
 Rgba8Image quantize8(const DisplayImage& image);
 Rgba16Image quantize16(const DisplayImage& image);
+///@}
 
 }  // namespace zoneplate

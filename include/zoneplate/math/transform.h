@@ -5,11 +5,14 @@
 
 namespace ZONEPLATE_API zoneplate {
 
+/// A rotation as a quaternion x i + y j + z k + w, in glTF's order of components.
 struct Quaternion {
-  float x = 0, y = 0, z = 0, w = 1;
+  float x = 0, y = 0, z = 0, w = 1;  ///< x, y, z: the vector part; w: the scalar part
 };
 
+/// Moves points by `t`.
 float4x4 translation(float3 t);
+/// Multiplies x, y and z by the components of `s`.
 float4x4 scaling(float3 s);
 /// Rotation by a unit quaternion (it is normalised first; zero gives the identity).
 float4x4 rotation(Quaternion q);

@@ -12,8 +12,8 @@ namespace ZONEPLATE_API metrics {
 
 /// Pictures to compare, the i-th with the i-th; each is asked for once, in order, and let go when it has been judged.
 struct Comparands {
-  std::size_t count = 0;
-  std::function<Picture(std::size_t)> reference, test;
+  std::size_t count = 0;                                ///< the number of pairs
+  std::function<Picture(std::size_t)> reference, test;  ///< make picture i of [0, count)
   bool are_frames = false;  ///< of one sequence: metrics that look at several frames have a meaning
 };
 
@@ -25,17 +25,18 @@ enum class Unfit {
 
 /// One metric's answer.
 struct Result {
-  const Metric* metric = nullptr;
-  double value = 0;            ///< pooled over all pictures
-  std::vector<double> values;  ///< of each picture, or of each run of `metric->frames` frames
-  std::size_t worst = 0;       ///< the index of the worst of `values`
-  Score score;                 ///< of the worst: its map, curves and further figures
+  const Metric* metric = nullptr;  ///< a row of the catalogue, never null in a Comparison
+  double value = 0;                ///< pooled over all pictures
+  std::vector<double> values;      ///< of each picture, or of each run of `metric->frames` frames
+  std::size_t worst = 0;           ///< the index of the worst of `values`
+  Score score;                     ///< of the worst: its map, curves and further figures
 };
 
+/// The results of all metrics.
 struct Comparison {
-  bool are_same = true;  ///< every pair has the same codes, alpha included
-  int width = 0, height = 0;
-  std::size_t count = 0;
+  bool are_same = true;         ///< every pair has the same codes, alpha included
+  int width = 0, height = 0;    ///< pixels of the last test picture
+  std::size_t count = 0;        ///< the number of pairs that were compared
   std::vector<Result> results;  ///< in the order of the choices, without those left out
 };
 

@@ -6,6 +6,7 @@
 #include "zoneplate/metrics/metric.h"
 
 namespace zoneplate {
+/// Image metrics: what they measure, by name, and comparisons of images.
 namespace ZONEPLATE_API metrics {
 
 /// The catalogue, in the order of metrics.txt.

@@ -11,7 +11,9 @@ struct Picture {
   DisplayImage display;  ///< straight alpha
   LinearImage linear;    ///< premultiplied
 
+  /// Pixels in a row; both images have the same size.
   int width() const { return display.width(); }
+  /// Rows of pixels.
   int height() const { return display.height(); }
 };
 
@@ -23,8 +25,9 @@ Picture make_picture(LinearImage linear);
 
 /// The codes of a picture that lies on black: each code times alpha. Metrics that do not speak of alpha judge this.
 struct Codes {
-  double r = 0, g = 0, b = 0;
+  double r = 0, g = 0, b = 0;  ///< sRGB values times alpha, in [0, 1]
 };
+/// A colour over black, composited in codes.
 constexpr Codes codes_on_black(Display c) {
   const double alpha = c.a;
   return {c.r * alpha, c.g * alpha, c.b * alpha};
@@ -32,7 +35,7 @@ constexpr Codes codes_on_black(Display c) {
 
 /// The weights of a sum of the three codes.
 struct LumaWeights {
-  double r = 0, g = 0, b = 0;
+  double r = 0, g = 0, b = 0;  ///< they sum to 1
 };
 constexpr LumaWeights rec709_luma{0.2126, 0.7152, 0.0722};  ///< ITU-R BT.709-6
 constexpr LumaWeights rec601_luma{0.299, 0.587, 0.114};     ///< ITU-R BT.601-7

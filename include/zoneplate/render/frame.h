@@ -13,20 +13,23 @@ namespace ZONEPLATE_API zoneplate {
 
 /// The data passes that may be stored beside the colour; what nobody asks for costs nothing.
 struct Planes {
-  bool depth = false, normal = false, albedo = false, uv = false;
-  bool object_id = false, material_id = false, primitive_id = false, coverage = false;
-  bool position = false, motion = false, flow = false;
-  bool error = false;             ///< of methods that estimate it
+  bool depth = false;                               ///< Frame::depth and Frame::reversed_depth
+  bool normal = false, albedo = false, uv = false;  ///< as in Frame
+  bool object_id = false, material_id = false, primitive_id = false, coverage = false;  ///< as in Frame
+  bool position = false, motion = false, flow = false;                                  ///< as in Frame
+  bool error = false;                                                                   ///< of methods that estimate it
   bool samples = false;           ///< colour, depth and triangle id of every sample
   bool sample_triangles = false;  ///< triangle id of every sample alone
   bool sample_colors = false;     ///< colour of every sample alone
 
   /// What is found from the pixels' primitives.
   bool any_point_plane() const { return position || motion || flow; }
+  /// True if a plane by pixel is requested that visibility decides: all but `error`, `samples` and `sample_colors`.
   bool any_pixel_plane() const {
     return depth || normal || albedo || uv || object_id || material_id || primitive_id || coverage ||
            any_point_plane() || sample_triangles;
   }
+  /// True if anything is requested.
   bool any() const { return any_pixel_plane() || error || samples || sample_colors; }
   /// The planes of either.
   Planes operator|(const Planes& o) const;
@@ -42,7 +45,7 @@ struct Planes {
 ///           Depth, normal, albedo, uv, position, motion and flow are all of that point. `coverage` is the share of the
 ///           pixel's samples that any such surface owns. Blended surfaces write colour only.
 struct Frame {
-  static constexpr std::uint32_t no_id = 0xffffffffu;
+  static constexpr std::uint32_t no_id = 0xffffffffu;  ///< no surface at a pixel or sample
 
   int x = 0, y = 0;             ///< of its first pixel in the whole picture; not 0 where it is cropped
   LinearImage color;            ///< resolved inside the tiles with the method's weights
@@ -52,14 +55,14 @@ struct Frame {
   Plane<float> reversed_depth;  ///< as tested: 1 near, 0 far
   Plane<float3> normal;         ///< world space, unit length, towards the viewer
   Plane<float3> albedo;         ///< linear base colour
-  Plane<float2> uv;
+  Plane<float2> uv;             ///< texture coordinates of the base colour
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id where nothing is
   Plane<std::uint32_t> instance;                              ///< index into Scene::instances
   Plane<float3> position;                                     ///< world space
-  Plane<float2> motion;  ///< pixels, x right, y down: the surface point now minus at the last moment, no jitter
-  Plane<float2> flow;    ///< the same at the next moment minus now
-  Plane<float> coverage;
-  Plane<float> error;  ///< estimated standard error of the colour, the greatest of its channels
+  Plane<float2> motion;   ///< pixels, x right, y down: the surface point now minus at the last moment, no jitter
+  Plane<float2> flow;     ///< the same at the next moment minus now
+  Plane<float> coverage;  ///< in [0, 1]
+  Plane<float> error;     ///< estimated standard error of the colour, the greatest of its channels
 
   DisplayOptions display;  ///< how the picture is to be shown; set before `Resolver::resolve`
 
@@ -77,7 +80,7 @@ struct Frame {
   /// y: along the column, positive downwards; pixels, rounded to 16-bit floats. The other axis has no_edge, and both
   /// have it where nothing is.
   Plane<float2> edge_distance;
-  static constexpr float no_edge = 0.5f;
+  static constexpr float no_edge = 0.5f;  ///< of an axis along which there is no edge in the pixel
 
   /// Calls use(plane) for every plane of data by pixel and every one of triangles by sample, empty or not: all but the
   /// colours and what Content other than Colour makes.

@@ -10,8 +10,8 @@ namespace ZONEPLATE_API zoneplate {
 
 /// All that lights a scene.
 struct Lighting {
-  std::vector<Light> lights;
-  Environment environment;
+  std::vector<Light> lights;      ///< in world space or camera space
+  Environment environment;        ///< without an image: constant radiance
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
 };
 

@@ -39,15 +39,15 @@ enum class Content {
 /// The tile resolves colour while it is in cache: the mean of the samples with `weights`. A method that needs more than
 /// the pixel asks for planes, and only then are they stored.
 struct Request {
-  SamplePattern samples = {SamplePosition{}};
-  Content content = Content::Colour;  ///< without colour, Frame::color and the data passes of a pixel stay empty
-  Rate rate = Rate::Surface;
+  SamplePattern samples = {SamplePosition{}};  ///< positions in every pixel; by default one, in the centre
+  Content content = Content::Colour;   ///< without colour, Frame::color and the data passes of a pixel stay empty
+  Rate rate = Rate::Surface;           ///< how often surfaces are shaded
   std::vector<float> weights;          ///< one a sample; empty: all equal
   AlphaTest alpha = AlphaTest::Pixel;  ///< of masked surfaces at rate *surface*
   Centroid centroid = Centroid::Mean;  ///< where surfaces are shaded at rate *surface*
-  Planes planes;
-  Plane<std::uint8_t> pixel_mask;   ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
-  float footprint = 0;              ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  Planes planes;                       ///< the data that `resolve` and `post_process` read
+  Plane<std::uint8_t> pixel_mask;      ///< the frame's size: only pixels that are not 0 here are drawn; empty: all
+  float footprint = 0;                 ///< of a sample at rate *sample*, in pixels; 0: 1 / √(number of samples)
   bool resolves_per_pixel = false;  ///< the mean is the method's last word: `resolve` and `post_process` change nothing
   bool is_display_referred = false;  ///< on the picture after tone mapping: what is written as light would not have it
   int halo =
@@ -85,19 +85,24 @@ struct FrameContext {
 class Resolver {
  public:
   virtual ~Resolver() = default;
+  /// What to render for a frame; one shaded sample at each pixel's centre by default.
   virtual Request request(const FrameContext& /*context*/) { return {}; }
   /// What to render more after a look at this frame, from which the method takes what it keeps; nothing when it has
   /// seen enough. `resolve` gets the last frame.
   virtual std::optional<Request> refine(Frame& /*frame*/) { return std::nullopt; }
-  virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }  ///< before tone mapping
-  virtual DisplayImage post_process(DisplayImage image, const Frame& /*frame*/) { return image; }  ///< after it
+  /// Makes the scene-linear image from the last frame, before tone mapping. By default it is Frame::color.
+  virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }
+  /// Filters the display-referred image, after tone mapping. By default it stays as it is.
+  virtual DisplayImage post_process(DisplayImage image, const Frame& /*frame*/) { return image; }
 };
 
 /// A row of the catalogue; each method's file makes its own.
 struct Method {
-  std::string_view name, summary, source;
-  std::span<const Param> params = {};
-  std::function<std::unique_ptr<Resolver>(const Settings&)> make;
+  std::string_view name;               ///< in lower case: "msaa" of `msaa:n=4`
+  std::string_view summary;            ///< one line for listings
+  std::string_view source;             ///< the publication or implementation that defines the method
+  std::span<const Param> params = {};  ///< what may follow the name: n of `msaa:n=4`
+  std::function<std::unique_ptr<Resolver>(const Settings&)> make;  ///< makes a resolver from the values of `params`
   std::span<const std::string_view> variants = {};  ///< parameters worth comparing beside the defaults: "n=8"
   bool is_reference = false;                        ///< what others are measured against: not one of `compare --aa all`
   bool is_specification_only = false;  ///< held to its text alone: there was no other implementation to compare with

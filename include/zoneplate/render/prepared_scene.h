@@ -37,10 +37,15 @@ class PreparedScene {
 
   /// The scene without the texels of its images. Its lighting is `lighting()`.
   const Scene& scene() const { return *scene_; }
+  /// The same object as `scene`, for those that outlive this PreparedScene.
   std::shared_ptr<const Scene> shared_scene() const { return scene_; }
+  /// The lights that frames are rendered with.
   const Lighting& lighting() const { return lighting_; }
+  ///@{
+  /// What backends render from. The types are not part of the public headers.
   const TextureSet& textures() const { return *textures_; }
   const InterleavedVertices& vertices() const { return *vertices_; }
+  ///@}
 
  private:
   std::shared_ptr<const Scene> scene_;

@@ -21,9 +21,9 @@ enum class ImageForm {
 
 /// What is rendered of each frame.
 struct RenderSettings {
-  RenderOptions options;
-  Planes planes;  ///< data passes; not `samples` or `sample_colors`
-  ImageForm form = ImageForm::Display8;
+  RenderOptions options;                 ///< size, crop, display transform and the rules of rasterization
+  Planes planes;                         ///< data passes; not `samples` or `sample_colors`
+  ImageForm form = ImageForm::Display8;  ///< which image of RenderedImage is made
 };
 
 /// A finished picture with its data passes, all of the size of the crop, or else of the picture.
@@ -37,8 +37,8 @@ struct RenderedImage {
 
 /// A scene and the camera that sees it, at one moment.
 struct SceneView {
-  PreparedScene scene;
-  Camera camera;
+  PreparedScene scene;  ///< with its lights
+  Camera camera;        ///< its pose at the same moment
 };
 
 /// Renders frames of a scene by an antialiasing method: all of the method's rounds, data passes, motion, and as much
@@ -48,6 +48,7 @@ struct SceneView {
 /// and the renderer keep of the last frame.
 class Renderer {
  public:
+  /// A renderer of one scene by one method, at the beginning of a sequence.
   Renderer(PreparedScene scene, std::unique_ptr<Resolver> method,
            std::unique_ptr<Backend> backend = make_cpu_backend());
   ~Renderer();

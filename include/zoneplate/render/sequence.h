@@ -21,7 +21,7 @@ struct SequenceTiming {
 
 /// Makes the scene at a time in seconds.
 struct SceneLoader {
-  std::function<Scene(double)> load;
+  std::function<Scene(double)> load;        ///< the whole scene at a time
   std::function<Scene(double)> load_shape;  ///< the same without images
 };
 
@@ -43,10 +43,12 @@ class Sequence {
   /// Errors    those of choose_camera.
   void set_view(const View& view, float aspect);
 
+  /// The time of a frame, in seconds of the animation.
   double seconds_of(double frame) const { return timing_.start + frame / timing_.rate; }
 
   /// The scene at a frame, with its textures, which are made once, and its vertices. The last one is kept.
   const PreparedScene& scene(double frame);
+  /// The scene at a frame and the camera then, for Renderer.
   SceneView view(double frame);
   /// The shape of the scene at a frame, and the camera then: what Frame::motion and Frame::flow are counted from. The
   /// scene of `scene` stays.

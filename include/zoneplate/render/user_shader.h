@@ -21,7 +21,7 @@ namespace ZONEPLATE_API zoneplate {
 
 /// A vertex as a user's shader sees it: its index into the arrays that the shader itself holds.
 struct Vertex {
-  std::uint32_t index = 0;
+  std::uint32_t index = 0;  ///< in [0, vertices) of `draw`
 };
 
 /// A user's shader: pure functions, compiled into the batched loops that call them.
@@ -37,10 +37,10 @@ concept Shader = requires(const S& s, const Vertex& v, const typename S::Varying
 
 /// How `draw` rasterizes.
 struct DrawOptions {
-  SamplePattern samples = standard_pattern(4);
-  bool is_per_sample = false;  ///< run the fragment part once per sample, not once per triangle and pixel
-  bool culls_back_faces = false;
-  AlphaMode alpha_mode = AlphaMode::Opaque;
+  SamplePattern samples = standard_pattern(4);  ///< positions in every pixel, whose mean is its colour
+  bool is_per_sample = false;                ///< run the fragment part once per sample, not once per triangle and pixel
+  bool culls_back_faces = false;             ///< skips triangles whose vertices run clockwise in the image
+  AlphaMode alpha_mode = AlphaMode::Opaque;  ///< Mask: a surface is present where alpha is at least 0.5
 };
 
 /// Draws indexed triangles, given by their clip positions, with a shader of batches; returns the linear, premultiplied
@@ -55,17 +55,20 @@ LinearImage draw_triangles(std::span<const float4> clip, std::span<const std::ui
 template <Shader S>
 class BatchedShader : public FragmentShader {
  public:
-  using Varyings = typename S::Varyings;
-  static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);
+  using Varyings = typename S::Varyings;                                   ///< what the shader interpolates
+  static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);  ///< the number of floats in Varyings
   static_assert(std::is_trivially_copyable_v<Varyings> && sizeof(Varyings) % sizeof(float) == 0 &&
                     alignof(Varyings) == alignof(float),
                 "varyings are a struct of floats");
 
+  /// Keeps a reference to the shader, which outlives this object.
   explicit BatchedShader(const S& shader) : shader_(shader) {}
 
+  /// Runs `fragment` for every fragment; only the colour is written.
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for_fragments(batch, [&](int i, float4 c) { out.r[i] = c.x, out.g[i] = c.y, out.b[i] = c.z, out.a[i] = c.w; });
   }
+  /// Runs `fragment` for its alpha; the cutoff is 0.5.
   float alpha(const FragmentBatch& batch, float* out) const override {
     for_fragments(batch, [&](int i, float4 c) { out[i] = c.w; });
     return 0.5f;

@@ -9,11 +9,14 @@ namespace ZONEPLATE_API zoneplate {
 
 /// Which camera a picture has; angles in radians.
 struct View {
-  std::optional<int> index;  ///< a camera of the scene
-  std::optional<float3> position, focal_point, view_up;
-  std::optional<float> view_angle, azimuth, elevation;
-  bool is_orthographic = false;
-  float3 up{0, 1, 0};  ///< the scene's upward axis
+  std::optional<int> index;                 ///< a camera of the scene
+  std::optional<float3> position;           ///< of the eye, in world space
+  std::optional<float3> focal_point;        ///< the point that the camera looks at
+  std::optional<float3> view_up;            ///< the direction that is upwards in the image
+  std::optional<float> view_angle;          ///< vertical field of view
+  std::optional<float> azimuth, elevation;  ///< of the whole-scene view, or a turn about the focal point
+  bool is_orthographic = false;             ///< a parallel projection that shows the same height at the focal point
+  float3 up{0, 1, 0};                       ///< the scene's upward axis
 };
 
 /// The camera for a picture of the given aspect (width / height).

@@ -11,9 +11,9 @@ namespace ZONEPLATE_API zoneplate {
 
 /// A camera in the world. It looks along its own -Z with +Y up.
 struct Camera {
-  std::string name;
-  float4x4 world_from_camera;
-  bool is_orthographic = false;
+  std::string name;                 ///< from the file, for listings; may be empty
+  float4x4 world_from_camera;       ///< rigid; the identity by default: at the origin, looking along -Z
+  bool is_orthographic = false;     ///< `half_height` then sets the scale in place of `vertical_fov`
   float vertical_fov = 0.5235988f;  ///< radians (30°)
   float half_height = 1;            ///< orthographic: half the picture's height, world units
   float aspect = 0;                 ///< the file's own width / height; 0: the picture's
@@ -25,12 +25,12 @@ struct Camera {
 
 /// The default view: three-quarter, from the front right and above, the whole scene in the picture.
 struct AutoFit {
-  float azimuth = 0.5235988f;    ///< radians about +Y from the front (+Z), towards +X
-  float elevation = 0.3490659f;  ///< radians above the horizon
-  float vertical_fov = 0.5235988f;
-  bool is_orthographic = false;
-  float margin = 0.05f;  ///< share of the picture left free on the tightest side
-  float3 up{0, 1, 0};
+  float azimuth = 0.5235988f;       ///< radians about +Y from the front (+Z), towards +X
+  float elevation = 0.3490659f;     ///< radians above the horizon
+  float vertical_fov = 0.5235988f;  ///< radians (30°)
+  bool is_orthographic = false;     ///< a parallel projection from the same direction
+  float margin = 0.05f;             ///< share of the picture left free on the tightest side
+  float3 up{0, 1, 0};               ///< the scene's upward axis
 };
 
 /// The camera that shows all of `points` in the given direction, as near as the margin allows.

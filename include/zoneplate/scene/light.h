@@ -9,7 +9,12 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-enum class LightKind { Directional, Point, Spot };
+/// The shape of a light's emission.
+enum class LightKind {
+  Directional,  ///< parallel light along `direction`, the same everywhere
+  Point,        ///< light from `position`, equal in all directions
+  Spot,         ///< light from `position` within a cone about `direction`
+};
 
 /// How a point or spot light fades with the distance d.
 enum class Falloff {
@@ -22,17 +27,18 @@ enum class Falloff {
 /// Units     `color` linear; `intensity` in lux (directional) or candela (point, spot), as KHR_lights_punctual;
 ///           angles from the axis in radians.
 struct Light {
-  std::string name;
-  LightKind kind = LightKind::Directional;
+  std::string name;                         ///< from the file, for listings; may be empty
+  LightKind kind = LightKind::Directional;  ///< decides which of the following members count
   bool is_in_camera_space = false;  ///< `position` and `direction` are in the space of the camera that sees the scene
-  float3 color{1, 1, 1};
-  float intensity = 1;
-  float3 position{0, 0, 0};
-  float3 direction{0, 0, -1};  ///< the way the light travels; of unit length where the light is in world space
-  float range = std::numeric_limits<float>::infinity();
-  Falloff falloff = Falloff::InverseSquare;
-  float3 attenuation{1, 0, 0};  ///< a0, a1, a2 of Falloff::Quadratic
-  float inner_cone = 0, outer_cone = 0.7853982f;
+  float3 color{1, 1, 1};            ///< multiplies `intensity`
+  float intensity = 1;              ///< lux, or candela
+  float3 position{0, 0, 0};         ///< of point and spot lights
+  float3 direction{0, 0, -1};       ///< the way the light travels; of unit length where the light is in world space
+  float range = std::numeric_limits<float>::infinity();  ///< where Falloff::InverseSquare ends; infinite: nowhere
+  Falloff falloff = Falloff::InverseSquare;              ///< of point and spot lights
+  float3 attenuation{1, 0, 0};                           ///< a0, a1, a2 of Falloff::Quadratic
+  float inner_cone = 0;                                  ///< of spot lights: full intensity up to this angle
+  float outer_cone = 0.7853982f;                         ///< of spot lights: no light beyond this angle
 };
 
 /// The light as `world_from_camera` places it: a light in camera space becomes one in world space, others stay.

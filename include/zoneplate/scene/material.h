@@ -12,17 +12,31 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-enum class Wrap { Repeat, Mirror, Clamp };
+/// How a texture continues outside of [0, 1].
+enum class Wrap {
+  Repeat,  ///< the image repeats
+  Mirror,  ///< the image repeats, every second time mirrored
+  Clamp,   ///< the texels of the border continue
+};
 
-/// How texels of one level are combined, and how levels are (None: level 0 only).
-enum class TexelFilter { Nearest, Linear };
-enum class LevelFilter { None, Nearest, Linear };
+/// How texels of one mip level are combined.
+enum class TexelFilter {
+  Nearest,  ///< the texel that contains the coordinate
+  Linear,   ///< the bilinear mean of the four nearest texels
+};
+/// How mip levels are combined.
+enum class LevelFilter {
+  None,     ///< the full image only, which aliases where it is minified
+  Nearest,  ///< the level nearest to the level of detail
+  Linear,   ///< the weighted mean of the two nearest levels
+};
 
+/// How a texture is addressed and filtered.
 struct Sampler {
-  Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;
-  TexelFilter magnify = TexelFilter::Linear;
-  TexelFilter minify = TexelFilter::Linear;
-  LevelFilter level = LevelFilter::Linear;
+  Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;  ///< along u, along v
+  TexelFilter magnify = TexelFilter::Linear;          ///< where a texel is larger than a pixel
+  TexelFilter minify = TexelFilter::Linear;           ///< within a mip level, where texels are smaller than pixels
+  LevelFilter level = LevelFilter::Linear;            ///< between mip levels, where texels are smaller than pixels
   int anisotropy = 1;  ///< probes along a footprint that is longer than wide, at most 16; for linear filters
   bool operator==(const Sampler&) const = default;
 };
@@ -32,8 +46,8 @@ struct TextureImage {
   /// Texels along a side. Images that are wider or higher are drawn at a half, a quarter, ... of that side.
   static constexpr int most_side = 32768;
 
-  std::string name;  ///< the file or image it came from, for messages
-  TexelImage pixels;
+  std::string name;   ///< the file or image it came from, for messages
+  TexelImage pixels;  ///< in the file's own precision, row 0 at the top
 };
 
 /// A use of an image in one slot of a material. `image` < 0: no texture, the factor stands alone.
@@ -41,32 +55,38 @@ struct TextureImage {
 /// The coordinate is (offset + rotation(angle) * (scale * uv)), KHR_texture_transform's order: uv is scaled, then
 /// rotated counter-clockwise in a +v-up sense as the extension's matrix says, then moved.
 struct TextureUse {
-  int image = -1;  ///< index into Scene::images
-  Sampler sampler;
-  int uv_set = 0;  ///< 0 or 1
-  float2 offset{0, 0}, scale{1, 1};
-  float rotation = 0;
+  int image = -1;                    ///< index into Scene::images
+  Sampler sampler;                   ///< the wrap modes and filters of this use
+  int uv_set = 0;                    ///< 0 or 1
+  float2 offset{0, 0}, scale{1, 1};  ///< in texture coordinates
+  float rotation = 0;                ///< radians
 };
 
-enum class ShadingModel { MetallicRoughness, BlinnPhong, Phong, Unlit };
+/// The reflection model of a material.
+enum class ShadingModel {
+  MetallicRoughness,  ///< glTF 2.0's metallic-roughness BRDF
+  BlinnPhong,         ///< a specular lobe about the half vector, as of OBJ's MTL files
+  Phong,              ///< a specular lobe about the mirrored direction
+  Unlit,              ///< the base colour, without lights
+};
 
 /// What a surface is made of. Factors are linear; codes of base colour and emissive images are sRGB, those of the
 /// others linear.
 struct Material {
-  std::string name;
-  ShadingModel model = ShadingModel::MetallicRoughness;
-  AlphaMode alpha_mode = AlphaMode::Opaque;
-  float alpha_cutoff = 0.5f;  ///< a masked surface is there where alpha >= cutoff
-  bool double_sided = false;
+  std::string name;                                      ///< need not be unique; Cryptomatte identifies materials by it
+  ShadingModel model = ShadingModel::MetallicRoughness;  ///< decides which of the factors below count
+  AlphaMode alpha_mode = AlphaMode::Opaque;              ///< what the alpha of the base colour means
+  float alpha_cutoff = 0.5f;                             ///< a masked surface is there where alpha >= cutoff
+  bool double_sided = false;                             ///< back faces are drawn too
 
   float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
-  TextureUse base_color_texture;
-  float3 emissive{0, 0, 0};
-  TextureUse emissive_texture;
-  TextureUse normal_texture;
-  float normal_scale = 1;
-  TextureUse occlusion_texture;  ///< red channel
-  float occlusion_strength = 1;
+  TextureUse base_color_texture;  ///< multiplies `base_color`
+  float3 emissive{0, 0, 0};       ///< radiance that the surface emits, unbounded
+  TextureUse emissive_texture;    ///< multiplies `emissive`
+  TextureUse normal_texture;      ///< normals in tangent space: red, green and blue in [0, 1] are x, y and z in [-1, 1]
+  float normal_scale = 1;         ///< multiplies x and y of the normal texture
+  TextureUse occlusion_texture;   ///< red channel
+  float occlusion_strength = 1;   ///< 0: no occlusion; 1: as the texture has it
 
   float metallic = 1, roughness = 1;      ///< metallic-roughness only
   TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
@@ -78,14 +98,22 @@ struct Material {
 /// A place for a texture in a material.
 struct MaterialTextureSlot {
   std::string_view gltf_name;  ///< of the property that holds the texture in a glTF material
-  TextureUse Material::*use;
+  TextureUse Material::*use;   ///< the member of Material that is the slot
   bool is_color;               ///< its codes are sRGB, else linear
   bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
 };
 
-/// The texture slots of every material, in the order of this list.
+/// The number of texture slots of a material.
 inline constexpr std::size_t texture_slot_count = 5;
-enum class TextureSlotIndex { BaseColor, MetallicRoughness, Emissive, Normal, Occlusion };
+/// Indices into `material_texture_slots`.
+enum class TextureSlotIndex {
+  BaseColor,          ///< Material::base_color_texture
+  MetallicRoughness,  ///< Material::metallic_roughness_texture
+  Emissive,           ///< Material::emissive_texture
+  Normal,             ///< Material::normal_texture
+  Occlusion,          ///< Material::occlusion_texture
+};
+/// The texture slots of every material, by TextureSlotIndex.
 inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_texture_slots = {
     {{"baseColorTexture", &Material::base_color_texture, true, true},
      {"metallicRoughnessTexture", &Material::metallic_roughness_texture, false, true},

@@ -15,17 +15,25 @@ namespace ZONEPLATE_API zoneplate {
 /// The names of numbered things. Things of the same name share its text: each takes four bytes more.
 class NameList {
  public:
+  /// A list without things.
   NameList() = default;
+  ///@{
+  /// A thing for each name, with a text of its own.
   NameList(std::initializer_list<std::string> names) : NameList(std::vector<std::string>(names)) {}
   NameList(std::vector<std::string> names) : texts_(std::move(names)) {
     for (std::uint32_t i = 0; i < texts_.size(); ++i) text_of_.push_back(i);
   }
+  ///@}
+  /// Thing i has the text number `text_of[i]`.
   /// Requires  every entry of `text_of` is an index into `texts`.
   NameList(std::vector<std::string> texts, std::vector<std::uint32_t> text_of)
       : texts_(std::move(texts)), text_of_(std::move(text_of)) {}
 
+  /// The number of things, not of texts.
   std::size_t size() const { return text_of_.size(); }
+  /// True if there are no things.
   bool empty() const { return text_of_.empty(); }
+  /// The name of thing i.
   const std::string& operator[](std::size_t i) const { return texts_[text_of_[i]]; }
 
   /// Adds a thing with a text of its own.
@@ -37,11 +45,16 @@ class NameList {
   void share(std::size_t i) { text_of_.push_back(text_of_[i]); }
 
   /// The texts in the order of their first use, and the index of each thing's text.
+  ///@{
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<std::uint32_t>& text_of() const { return text_of_; }
+  ///@}
 
+  /// An input iterator over the names, in the order of the things.
   class Iterator {
    public:
+    ///@{
+    /// A standard input iterator.
     using iterator_category = std::input_iterator_tag;
     using value_type = std::string;
     using difference_type = std::ptrdiff_t;
@@ -53,13 +66,17 @@ class NameList {
     Iterator& operator++() { return ++at_, *this; }
     Iterator operator++(int) { return {*list_, at_++}; }
     bool operator==(const Iterator& other) const { return at_ == other.at_; }
+    ///@}
 
    private:
     const NameList* list_;
     std::size_t at_;
   };
+  ///@{
+  /// The names, for range-based loops.
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
+  ///@}
 
   /// Whether the things have the same names, however they share them.
   bool operator==(const NameList& other) const {

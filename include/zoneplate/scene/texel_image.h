@@ -20,10 +20,14 @@ enum class TexelKind : std::uint8_t {
 /// A decoded image in the precision of its file.
 class TexelImage {
  public:
+  /// An image without texels.
   TexelImage() = default;
+  ///@{
+  /// Takes over a plane of texels, whose type decides the kind.
   TexelImage(Rgba8Image codes) : planes_(std::move(codes)) {}
   TexelImage(Rgba16Image codes) : planes_(std::move(codes)) {}
   TexelImage(Plane<float4> light) : planes_(std::move(light)) {}
+  ///@}
 
   /// Calls `body` with the image as a Plane of its type of texels.
   template <class Body>
@@ -31,13 +35,17 @@ class TexelImage {
     return std::visit(std::forward<Body>(body), planes_);
   }
 
+  /// The type of the texels; Codes8 for an empty image.
   TexelKind kind() const { return static_cast<TexelKind>(planes_.index()); }
+  /// Texels in a row.
   int width() const {
     return visit([](const auto& plane) { return plane.width(); });
   }
+  /// Rows of texels.
   int height() const {
     return visit([](const auto& plane) { return plane.height(); });
   }
+  /// True if there are no texels.
   bool empty() const {
     return visit([](const auto& plane) { return plane.empty(); });
   }

@@ -10,10 +10,11 @@ namespace ZONEPLATE_API zoneplate {
 
 /// A sample's place in its pixel, in 1/256 pixel from the pixel's top-left corner.
 struct SamplePosition {
-  std::uint8_t x = 128, y = 128;
+  std::uint8_t x = 128, y = 128;  ///< to the right and downwards; the pixel's centre by default
   bool operator==(const SamplePosition&) const = default;
 };
 
+/// The sample positions of every pixel of a frame; a sample's number is its index here.
 using SamplePattern = std::vector<SamplePosition>;
 
 /// The standard multisample pattern of n = 1, 2, 4, 8 or 16 samples.

@@ -18,9 +18,9 @@ namespace ZONEPLATE_API zoneplate {
 ///           their screen-space derivatives per pixel (per sample spacing at rate *sample*), set where the shader needs
 ///           them.
 struct FragmentBatch {
-  static constexpr int capacity = 256;
-  static constexpr int group = 8;
-  static constexpr int groups = capacity / group;
+  static constexpr int capacity = 256;             ///< the most fragments of a batch
+  static constexpr int group = 8;                  ///< fragments in a group
+  static constexpr int groups = capacity / group;  ///< groups of a full batch
 
   /// The most lanes that a vector loop over a batch may have. Such a loop may read and write the entries between
   /// padded() and the next multiple of its lanes; their values are undefined.
@@ -30,7 +30,7 @@ struct FragmentBatch {
   /// from mapping to the same few sets of the first-level cache.
   static constexpr int padded_capacity = capacity + max_lanes;
 
-  int count = 0;
+  int count = 0;              ///< fragments in the batch
   int material = 0;           ///< index into Scene::materials
   bool one_instance = false;  ///< every fragment is known to belong to instance[0]
 
@@ -45,9 +45,9 @@ struct FragmentBatch {
   //
   // The arrays by triangle hold their values at the first fragment of group run_begin only. run_end, the group after
   // the run, is set there too.
-  bool is_flat_run[groups] = {};
-  std::uint8_t run_begin[groups] = {};
-  std::uint8_t run_end[groups] = {};
+  bool is_flat_run[groups] = {};        ///< by group: eight neighbours in a row, of one triangle
+  std::uint8_t run_begin[groups] = {};  ///< by flat group: the first group of its run
+  std::uint8_t run_end[groups] = {};    ///< by the first group of a run: the group after the run
 
   /// In these groups each fragment has the same dbdx and dbdy as the fragment before it.
   bool has_uniform_derivatives[groups] = {};
@@ -59,10 +59,11 @@ struct FragmentBatch {
   alignas(64) std::int32_t is_front[padded_capacity];    ///< 1 if the front face is seen, else 0
 
   // By fragment.
-  alignas(64) std::int32_t x[padded_capacity], y[padded_capacity];
-  alignas(64) float b[2][padded_capacity];
-  alignas(64) float dbdx[2][padded_capacity], dbdy[2][padded_capacity];
+  alignas(64) std::int32_t x[padded_capacity], y[padded_capacity];       ///< the shading position
+  alignas(64) float b[2][padded_capacity];                               ///< weights of the second and third vertex
+  alignas(64) float dbdx[2][padded_capacity], dbdy[2][padded_capacity];  ///< derivatives of `b`
 
+  /// `count`, rounded up to whole groups.
   int padded() const { return (count + group - 1) / group * group; }
   /// The entry that holds the values by triangle of fragment i.
   std::size_t leader(std::size_t i) const {
@@ -74,15 +75,15 @@ struct FragmentBatch {
 
 /// Which results of shading are required.
 struct OutputMask {
-  bool color = true;  ///< false: materials and lights are not evaluated
-  bool normal = false, uv = false, albedo = false;
+  bool color = true;                                ///< false: materials and lights are not evaluated
+  bool normal = false, uv = false, albedo = false;  ///< fills this array of FragmentOutputs
 };
 
 /// The results of shading a batch. Colour is linear and premultiplied; the other arrays are filled where OutputMask
 /// requires them.
 struct FragmentOutputs {
-  alignas(64) float r[FragmentBatch::padded_capacity], g[FragmentBatch::padded_capacity],
-      b[FragmentBatch::padded_capacity], a[FragmentBatch::padded_capacity];
+  alignas(64) float r[FragmentBatch::padded_capacity], g[FragmentBatch::padded_capacity];  ///< linear, premultiplied
+  alignas(64) float b[FragmentBatch::padded_capacity], a[FragmentBatch::padded_capacity];  ///< linear, premultiplied
   alignas(64) float normal[3][FragmentBatch::padded_capacity];  ///< world space, unit length, towards the viewer's side
   alignas(64) float uv[2][FragmentBatch::padded_capacity];      ///< the base colour's texture coordinate
   alignas(64) float albedo[3][FragmentBatch::padded_capacity];  ///< linear base colour

@@ -13,6 +13,7 @@ namespace ZONEPLATE_API zoneplate {
 class FragmentShader {
  public:
   virtual ~FragmentShader() = default;
+  /// Writes the required results of the batch's fragments, each to the entry of its index.
   virtual void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const = 0;
   /// Writes the alpha of each fragment and returns the cutoff: an alpha-tested surface is present where alpha is at
   /// least the cutoff.
@@ -25,9 +26,10 @@ class FragmentShader {
   /// The memory of an instance's vertices that shading reads: vertex v at first + v × stride. The rasterizer prefetches
   /// it. Null: shading reads none.
   struct VertexMemory {
-    const std::byte* first = nullptr;
-    std::size_t stride = 0;
+    const std::byte* first = nullptr;  ///< vertex 0
+    std::size_t stride = 0;            ///< bytes from one vertex to the next
   };
+  /// The memory to prefetch for fragments of an instance; none by default.
   virtual VertexMemory vertex_memory([[maybe_unused]] std::uint32_t instance, [[maybe_unused]] int material) const {
     return {};
   }

@@ -16,6 +16,7 @@ struct StageTimes {
   double blending = 0;    ///< transparent layers: sorting, shading, compositing
   double output = 0;      ///< the resolve of other pixels, tone mapping, encoding
 
+  /// Adds the times stage by stage.
   StageTimes& operator+=(const StageTimes& o) {
     vertices += o.vertices, triangles += o.triangles, visibility += o.visibility;
     shading += o.shading, blending += o.blending, output += o.output;

@@ -10,6 +10,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
+/// A row of the list of scenes that are made in code.
 struct BuiltinScene {
   std::string name;       ///< as given on the command line, before any ':'
   std::string summary;    ///< one line for `zoneplate list`

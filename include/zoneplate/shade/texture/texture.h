@@ -35,10 +35,12 @@ enum class TexelMeaning {
 ///           Mipmap Creation, NVIDIA 2005.
 class Texture {
  public:
+  /// Makes all levels, on the threads of the innermost `with_threads`.
   Texture(const TexelImage& image, TexelMeaning meaning);
   /// The same; the image is freed as soon as level 0 is there, before memory is taken for the other levels.
   Texture(TexelImage&& image, TexelMeaning meaning);
 
+  /// The levels, for kernels; valid as long as this texture.
   const TextureView& view() const { return view_; }
 
  private:

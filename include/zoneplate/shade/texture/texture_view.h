@@ -14,15 +14,18 @@ namespace ZONEPLATE_API zoneplate {
 /// Range     levels are `max_size` texels wide and high at most; values are finite, colours in [0, 1e9], alpha and data
 ///           in [0, 1].
 struct TextureView {
-  static constexpr int max_levels = 16;
-  static constexpr int max_size = 32768;
+  static constexpr int max_levels = 16;    ///< enough for `max_size`
+  static constexpr int max_size = 32768;   ///< texels along a side
   const std::uint8_t* codes8 = nullptr;    ///< a value is code / 255; exactly one of the three is there
   const std::uint16_t* codes15 = nullptr;  ///< a value is code / 32767
   const float* values = nullptr;           ///< the values themselves
-  std::int32_t levels = 0;
-  std::int32_t width[max_levels] = {}, height[max_levels] = {}, offset[max_levels] = {};
+  std::int32_t levels = 0;                 ///< of the mip pyramid; level 0 is the largest
+  std::int32_t width[max_levels] = {}, height[max_levels] = {};  ///< of each level, without its border
+  std::int32_t offset[max_levels] = {};                          ///< where each level begins, in texels
 
+  /// Texels from one row to the next, border included.
   std::int32_t pitch(int level) const { return width[level] + 2; }
+  /// The number of texel (x, y) of a level; x in [-1, width], y in [-1, height].
   std::int32_t texel(int level, std::int32_t x, std::int32_t y) const {
     return offset[level] + (y + 1) * pitch(level) + x + 1;
   }
