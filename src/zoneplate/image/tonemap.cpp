@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/tonemap_kernels.h"
 #include "zoneplate/image/transfer.h"

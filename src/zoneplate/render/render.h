@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/raster/types/room.h"
 #include "zoneplate/raster/types/stage_times.h"
@@ -48,11 +47,10 @@ struct RenderOptions {
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
-  Isa isa = current_isa();
-  RasterRoom room;             ///< memory for time; no bit of a picture depends on it
-  DisplayOptions display;      ///< from linear light to display-referred colour
-  std::optional<Moment> last;  ///< what Frame::motion is counted from; none: nothing moves
-  std::optional<Moment> next;  ///< what Frame::flow leads to
+  RasterRoom room;                       ///< memory for time; no bit of a picture depends on it
+  DisplayOptions display;                ///< from linear light to display-referred colour
+  std::optional<Moment> last;            ///< what Frame::motion is counted from; none: nothing moves
+  std::optional<Moment> next;            ///< what Frame::flow leads to
 };
 
 /// Where time went and how much was done.
@@ -73,7 +71,7 @@ struct RenderCounts {
 /// (render/renderer.h) does the same by a method, with all of the method's rounds.
 ///
 /// `memory` of an earlier frame saves the system's work of finding new pages.
-/// Exact     the same bits for any number of threads and any Isa; triangle order does not matter (equal depths: the
+/// Exact     the same bits for any number of threads and any instruction set; triangle order does not matter (equal depths: the
 ///           earlier triangle wins).
 Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
              RenderCounts* counts = nullptr, RasterMemory* memory = nullptr);
