@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "zoneplate/base/api.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/raster/types/capacities.h"
 #include "zoneplate/raster/types/stage_times.h"
@@ -50,7 +49,6 @@ struct RenderOptions {
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
-  Isa isa = current_isa();               ///< changes the time, not the bits
   RasterCapacities capacities;           ///< memory for time; no bit of a picture depends on it
   DisplayOptions display;                ///< from linear light to display-referred colour
   std::optional<Moment> last;            ///< what Frame::motion is counted from; none: nothing moves
@@ -76,7 +74,7 @@ struct RenderCounts {
 /// Renders one frame of a scene by a request, on the processor and the threads of the innermost `with_threads`.
 /// Renderer (render/renderer.h) renders a method with all of its rounds.
 ///
-/// Exact     the same bits for any number of threads and any Isa; triangle order does not matter (equal depths: the
+/// Exact     the same bits for any number of threads and any instruction set; triangle order does not matter (equal depths: the
 ///           earlier triangle wins).
 /// Errors    those of Backend::render.
 Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,

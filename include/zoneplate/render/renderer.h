@@ -67,7 +67,7 @@ class Renderer {
   /// Renders the next frame of the sequence.
   ///
   /// Motion is counted from the last frame of the sequence, unless `settings.options.last` is given.
-  /// Exact     the same bits for any number of threads and any Isa; a crop has the bits of the whole picture.
+  /// Exact     the same bits for any number of threads and any instruction set; a crop has the bits of the whole picture.
   /// Errors    ErrorKind::Usage for a size, crop, or data pass that cannot be rendered.
   RenderedImage render(const Camera& camera, const RenderSettings& settings);
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png/deflate.h"
 #include "zoneplate/codec/png/png_rows.h"

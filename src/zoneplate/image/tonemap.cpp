@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/display_transform.h"
 #include "zoneplate/image/tone_curves.h"

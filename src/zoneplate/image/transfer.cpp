@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstddef>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer_constants.h"
 #include "zoneplate/image/transfer_kernels.h"

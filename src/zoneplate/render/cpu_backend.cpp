@@ -70,7 +70,6 @@ ViewUniforms surroundings_of(const Lighting& lighting, const Camera& camera, con
   s.environment = lighting.environment.constant_radiance();
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
-  s.isa = options.isa;
   return s;
 }
 
@@ -237,7 +236,6 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
                           .is_painter = options.visibility == Visibility::Painter,
-                          .isa = options.isa,
                           .capacities = options.capacities};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;

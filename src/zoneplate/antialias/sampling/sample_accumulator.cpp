@@ -7,7 +7,6 @@
 
 #include "zoneplate/antialias/sampling/accumulate_kernels.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/display_transform.h"
 

@@ -21,6 +21,7 @@ struct BenchArgs {
   BenchWork work;   // but for the scene and the samples
   int samples = 0;  // 0: 1 and 4
   int threads = 0;
+  Isa isa = current_isa();
   std::string peer = "zoneplate";
   bool wants_json = false;
 };
@@ -37,7 +38,7 @@ Json stages_json(const BenchTiming& t) {
 Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming& t) {
   return Json::Object{{"peer", args.peer},
                       {"api", "zoneplate"},
-                      {"renderer", name_of(work.isa)},
+                      {"renderer", name_of(current_isa())},
                       {"version", version},
                       {"scene", work.scene},
                       {"w", work.size.x},
@@ -92,13 +93,13 @@ std::string timing_text(const BenchWork& work, const BenchTiming& t, const Machi
   return text + stage_text("(encode)", t.encode_ms, pixels, "pixel", 0, limits);
 }
 
-std::string limits_text(const MachineLimits& l, Isa isa) {
+std::string limits_text(const MachineLimits& l) {
   return fmt::format(
       "{} threads, {}. Memory: {:.1f} GB/s read, {:.1f} written; 1920x1080 of colour and depth cleared in {:.2f} ms, "
       "in "
       "new memory\nin {:.1f} ms. Eight words gathered from 8 KiB in {:.1f} ns, from 256 KiB in {:.1f}, from 4 MiB in "
       "{:.1f}.\n",
-      thread_limit(), name_of(isa), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
+      thread_limit(), name_of(current_isa()), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
       l.gather_l2_ns, l.gather_l3_ns);
 }
 
@@ -132,7 +133,7 @@ Syntax syntax_of(BenchArgs& args) {
       {"--threads", "N", "Threads; default: as many as affinity and CPU quota allow", "Work", true,
        whole(args.threads, 1, 1024)},
       {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default the best there is", "Work", false,
-       [&](const std::string& text) { args.work.isa = parse_isa(text); }},
+       [&](const std::string& text) { args.isa = parse_isa(text); }},
       {"--frames", "N", "Frames at most; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
       {"--warmup", "N", "Frames before the clock starts; default 2", "Work", false, whole(args.work.warm_up, 1, 1000)},
       {"--budget-ms", "MS", "No new frame after this time (three are drawn in any case); default 4000", "Work", false,
@@ -154,17 +155,18 @@ void run_bench(std::span<const std::string> arguments) {
   if (args.scenes.empty()) args.scenes.assign(std::begin(bench_scenes), std::end(bench_scenes));
   const std::vector<int> counts = args.samples ? std::vector{args.samples} : std::vector{1, 4};
   const bool wants_json = args.wants_json || names_one;
-  with_threads(args.threads, [&] {
+  const auto time_all = [&] {
     MachineLimits limits;
-    if (!wants_json) print(limits_text(limits = measure_limits(), args.work.isa));
+    if (!wants_json) print(limits_text(limits = measure_limits()));
     for (const std::string& scene : args.scenes)
       for (const int samples : counts) {
         BenchWork work = args.work;
         work.scene = scene, work.samples = samples;
-        const BenchTiming timing = with_isa(work.isa, [&] { return time_frames(work); });
+        const BenchTiming timing = time_frames(work);
         print(wants_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
       }
-  });
+  };
+  with_isa(args.isa, [&] { with_threads(args.threads, time_all); });
 }
 
 }  // namespace zoneplate::cli

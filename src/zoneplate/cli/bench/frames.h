@@ -13,7 +13,6 @@ struct BenchWork {
   int samples = 1;
   int2 size{1920, 1080};
   int anisotropy = 0;  ///< of base colours' filters; 0: the scene's own
-  Isa isa = current_isa();
   int frames = 30, warm_up = 2;
   double budget_ms = 4000;  ///< no new frame after this time; three are drawn in any case
 };
@@ -31,7 +30,7 @@ struct BenchTiming {
 };
 
 /// A frame is everything from a scene that is ready to its 8-bit picture in memory, on the threads of the innermost
-/// `with_threads`.
+/// `with_threads`, with the kernels of the innermost `with_isa`.
 ///
 /// Errors    ErrorKind::Input: no such built-in scene.
 BenchTiming time_frames(const BenchWork& work);

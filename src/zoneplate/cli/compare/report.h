@@ -22,8 +22,9 @@ std::string report_markdown(const std::vector<SceneTrials>& scenes);
 /// The version of the JSON's layout; it rises when a reader of the last one would misread the new one.
 inline constexpr int report_version = 1;
 
-/// Everything that is known of a comparison, with the names of its files.
-Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command, int threads, Isa isa);
+/// Everything that is known of a comparison, with the names of its files, and the threads and the instruction set of
+/// the innermost `with_threads` and `with_isa`.
+Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command);
 
 /// The row of a method, over all scenes in which it has one.
 struct MethodMeans {

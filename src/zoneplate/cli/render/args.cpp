@@ -261,7 +261,7 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
        "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best there is", group, false,
-       [&](auto& text) { a.options.isa = parse_isa(text); }},
+       [&](auto& text) { a.isa = parse_isa(text); }},
       {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
        [&](auto&) { a.wants_json = true; }},
       {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; default auto", group, false,

@@ -55,6 +55,7 @@ struct RenderArgs {
   LoadOptions load;
   std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
   int threads = 0;           ///< 0: usable_processors(), base/processors.h
+  Isa isa = current_isa();   ///< of every kernel of the run
   double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
   bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
   bool wants_json = false;

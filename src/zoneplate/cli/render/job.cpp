@@ -101,7 +101,7 @@ Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
                       {"triangles_set_up", summary.counts.triangles_set_up},
                       {"shaded", summary.counts.shaded},
                       {"threads", summary.threads},
-                      {"isa", name_of(args.options.isa)},
+                      {"isa", name_of(args.isa)},
                       {"ms", std::move(times)},
                       {"peak_memory_bytes", summary.peak_memory},
                       {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};

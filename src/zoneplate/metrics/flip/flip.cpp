@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/metrics/flip/color.h"
 #include "zoneplate/metrics/flip/filters.h"
 #include "zoneplate/metrics/flip/flip_kernels.h"

@@ -205,7 +205,7 @@ TEST(RasterCapacities, ScreenVerticesOfManyInstancesTakeTheRoomOfSome) {
   const std::vector<Draw> draws(1000, draw);
   ProjectedDraws projected = number_draws(draws, {32, 32});
   std::size_t batches = 0, next = 0;
-  project_batches(projected, best_isa(), [&](std::size_t first, std::size_t last) {
+  project_batches(projected, [&](std::size_t first, std::size_t last) {
     EXPECT_EQ(first, next);
     next = last;
     ++batches;

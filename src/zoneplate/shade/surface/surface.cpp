@@ -63,8 +63,8 @@ struct SurfaceShader::Data {
         placements(make_placements(scene_in.instances)),
         lights(prepare_all(surroundings_in.lights)),
         viewpoint(make_viewpoint(surroundings_in)),
-        kernels(SurfaceKernels::of(surroundings_in.isa)),
-        filtering(FilteringKernels::of(surroundings_in.isa)) {
+        kernels(SurfaceKernels::of()),
+        filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
       illuminations.push_back(make_illumination(plans[m], lights, viewpoint, surroundings.environment));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/scene/scene.h"
 
@@ -30,7 +29,6 @@ struct ViewUniforms {
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< images are taken as they are, not decoded from sRGB (--color-management raw)
   int anisotropy = 1;             ///< probes of a texture's footprint, for all samplers that blend levels
-  Isa isa = current_isa();        ///< every one gives the same bits
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.

@@ -19,7 +19,7 @@ struct Footprints {
 /// Gives fragments their colours: shades their layers and lays them over each other from far to near.
 class AreaFragmentColors {
  public:
-  AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
+  AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target,
                      Footprints footprints);
 
   void find(const AreaFragmentTable& table);
@@ -32,7 +32,7 @@ class AreaFragmentColors {
  private:
   /// Points of one footprint, with the places of their colours among all.
   struct Group {
-    Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Isa isa, Target of, float spacing);
+    Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Target of, float spacing);
     Group(const Group&) = delete;  // the shader looks at this target
     Target target;
     FragmentBatcher shader;
