@@ -43,6 +43,10 @@ endforeach()
 add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
          -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
 
+# Which commit messages ./check refuses.
+add_test(NAME commit_messages
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/commit_messages_test.sh ${CMAKE_CURRENT_SOURCE_DIR})
+
 # When the wrapper scripts build again.
 add_test(NAME setup COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/setup_test.sh ${CMAKE_CURRENT_SOURCE_DIR})
 
