@@ -22,13 +22,15 @@ enum class TexelMeaning {
 /// the nearest, halves up. Colours are decoded before they are averaged. Alpha is straight, as glTF has it: colour
 /// is averaged without regard to alpha.
 ///
-/// Texels    of 8-bit images: values as 8-bit codes, colours as 15-bit codes of linear light. Of all others: floats.
-///           Light is taken as it is, in both meanings; what is not a number or below 0 becomes 0, what is above 1e9
-///           (infinity too) 1e9; data and alpha end at 1.
+/// Texels    of 8-bit images: values as 8-bit codes, colours as 15-bit codes of linear light. Of scene-linear images
+///           (HDR, EXR): half floats where half floats represent every texel of level 0 exactly, as they do for an EXR
+///           file of half floats; else floats, as of 16-bit images. Scene-linear values are not decoded. NaN and
+///           values below 0 become 0, values above 1e9 (infinity too) 1e9; data and alpha are at most 1.
 /// Shape     any size up to 2^28 texels; an empty image becomes one white texel. A side of more than
 ///           TextureView::max_size texels is halved, as between levels, until it is not.
-/// Exact     integer arithmetic for codes, sums in double in a fixed order for floats: the same bits for any number of
-///           threads; an image of one colour has that colour on all levels.
+/// Exact     integer arithmetic for codes; sums in double in a fixed order for floats and half floats, rounded to float
+///           and, for half floats, from there to half, each to nearest even. The same bits for any number of threads;
+///           an image of one colour has that colour on all levels.
 /// Errors    OutOfMemory("texture levels").
 /// Source    mipmaps: Williams, Pyramidal Parametrics, SIGGRAPH 1983; odd sizes: Guthe and Heckbert, Non-Power-of-Two
 ///           Mipmap Creation, NVIDIA 2005.

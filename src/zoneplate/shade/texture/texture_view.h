@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "zoneplate/image/half.h"
+
 namespace zoneplate {
 
 /// How kernels see a texture: plain data, valid as long as the Texture.
@@ -10,13 +12,14 @@ namespace zoneplate {
 ///           border of one texel, which repeats it: of two neighbours the second always follows the first, and the row
 ///           below lies a pitch further on. Two texels after the last one may be read.
 /// Range     levels are `max_size` texels wide and high at most; values are finite, colours in [0, 1e9], alpha and data
-///           in [0, 1].
+///           in [0, 1]. Half floats are at most 65504.
 struct TextureView {
   static constexpr int max_levels = 16;
   static constexpr int max_size = 32768;
-  const std::uint8_t* codes8 = nullptr;    ///< a value is code / 255; exactly one of the three is there
+  const std::uint8_t* codes8 = nullptr;    ///< a value is code / 255; exactly one of the four is set
   const std::uint16_t* codes15 = nullptr;  ///< a value is code / 32767
-  const float* values = nullptr;           ///< the values themselves
+  const Half* halves = nullptr;            ///< half floats
+  const float* values = nullptr;           ///< floats
   std::int32_t levels = 0;
   std::int32_t width[max_levels] = {}, height[max_levels] = {}, offset[max_levels] = {};
 
