@@ -6,8 +6,9 @@ namespace zoneplate::metrics {
 
 /// A picture as metrics see it: the same picture as codes and as light.
 struct Picture {
-  DisplayImage display;  ///< straight alpha
-  LinearImage linear;    ///< premultiplied
+  DisplayImage display;          ///< straight alpha
+  LinearImage linear;            ///< premultiplied
+  bool is_scene_linear = false;  ///< `display` was made from `linear`, not the other way round
 
   int width() const { return display.width(); }
   int height() const { return display.height(); }
