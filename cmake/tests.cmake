@@ -47,6 +47,15 @@ if(TARGET zoneplate_shared AND NOT ZONEPLATE_SANITIZED)
   add_test(NAME shared_library COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/shared_library.sh $<TARGET_FILE:zoneplate_shared>)
 endif()
 
+# Which commit messages ./check refuses.
+add_test(NAME commit_messages
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/commit_messages_test.sh ${CMAKE_CURRENT_SOURCE_DIR})
+
+# The installed library of the release preset contains what it uses of {fmt}.
+add_test(NAME static_library COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR}/static_library
+         -D source=${CMAKE_CURRENT_SOURCE_DIR} -D compiler=${CMAKE_CXX_COMPILER} -D ninja=${CMAKE_MAKE_PROGRAM}
+         -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/static_library.cmake)
+
 # When the wrapper scripts build again.
 add_test(NAME setup COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/setup_test.sh ${CMAKE_CURRENT_SOURCE_DIR})
 

@@ -8,8 +8,9 @@ namespace ZONEPLATE_API metrics {
 
 /// A picture as metrics see it: the same picture as codes and as light.
 struct Picture {
-  DisplayImage display;  ///< straight alpha
-  LinearImage linear;    ///< premultiplied
+  DisplayImage display;          ///< straight alpha
+  LinearImage linear;            ///< premultiplied
+  bool is_scene_linear = false;  ///< `display` was made from `linear`, not the other way round
 
   /// Pixels in a row; both images have the same size.
   int width() const { return display.width(); }

@@ -30,6 +30,7 @@ constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (
                           {"list", "antialiasing methods, built-in scenes, file formats", run_list},
                           {"info", "what is in a model", run_info},
                           {"metrics", "how far pictures are from a reference", run_metrics},
+                          {"filter", "antialias existing images by a post-process filter", run_filter},
                           {"compare", "scenes under many antialiasing methods, measured", run_compare},
                           {"bench", "how long frames take, stage by stage", run_bench},
                           {"demo", "lessons about aliasing, each a picture that explains itself", run_demo},

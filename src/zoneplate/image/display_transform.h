@@ -29,6 +29,9 @@ struct TonemapKernels : PerIsa<TonemapKernels> {
 /// make_display of some pixels without the encoding: straight linear light in [0, 1], four floats a pixel.
 void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light);
 
+/// make_display of some pixels: straight and encoded, four floats a pixel.
+void show_encoded(std::span<const Linear> pixels, const DisplayOptions& options, float* encoded);
+
 /// quantize8 of make_display, a few pixels at a time: for those that are shown while they are in cache.
 class DisplayTransform {
  public:

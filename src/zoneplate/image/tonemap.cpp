@@ -143,6 +143,10 @@ void show_light(std::span<const Linear> pixels, const DisplayOptions& options, f
   TonemapKernels::of().display_row(step, &pixels.data()->r, light, pixels.size());
 }
 
+void show_encoded(std::span<const Linear> pixels, const DisplayOptions& options, float* encoded) {
+  TonemapKernels::of().display_row(make_step(options), &pixels.data()->r, encoded, pixels.size());
+}
+
 DisplayTransform::DisplayTransform(const DisplayOptions& options) : step_(make_step(options)) {
   Rgba8 shown[Linear8::size];
   const Linear8 nothing{};

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include <memory>
 
 #include "zoneplate/base/api.h"
 #include "zoneplate/scene/texel_image.h"
-#include "zoneplate/shade/texture/growing_memory.h"
-#include "zoneplate/shade/texture/texture_view.h"
+
+namespace zoneplate {
+struct TextureView;  // shade/texture/texture_view.h
+}  // namespace zoneplate
 
 namespace ZONEPLATE_API zoneplate {
 
@@ -23,13 +24,15 @@ enum class TexelMeaning {
 /// the nearest, halves up. Colours are decoded before they are averaged. Alpha is straight, as glTF has it: colour
 /// is averaged without regard to alpha.
 ///
-/// Texels    of 8-bit images: values as 8-bit codes, colours as 15-bit codes of linear light. Of all others: floats.
-///           Light is taken as it is, in both meanings; what is not a number or below 0 becomes 0, what is above 1e9
-///           (infinity too) 1e9; data and alpha end at 1.
+/// Texels    of 8-bit images: values as 8-bit codes, colours as 15-bit codes of linear light. Of scene-linear images
+///           (HDR, EXR): half floats where half floats represent every texel of level 0 exactly, as they do for an EXR
+///           file of half floats; else floats, as of 16-bit images. Scene-linear values are not decoded. NaN and
+///           values below 0 become 0, values above 1e9 (infinity too) 1e9; data and alpha are at most 1.
 /// Shape     any size up to 2^28 texels; an empty image becomes one white texel. A side of more than
 ///           TextureView::max_size texels is halved, as between levels, until it is not.
-/// Exact     integer arithmetic for codes, sums in double in a fixed order for floats: the same bits for any number of
-///           threads; an image of one colour has that colour on all levels.
+/// Exact     integer arithmetic for codes; sums in double in a fixed order for floats and half floats, rounded to float
+///           and, for half floats, from there to half, each to nearest even. The same bits for any number of threads;
+///           an image of one colour has that colour on all levels.
 /// Errors    OutOfMemory("texture levels").
 /// Source    mipmaps: Williams, Pyramidal Parametrics, SIGGRAPH 1983; odd sizes: Guthe and Heckbert, Non-Power-of-Two
 ///           Mipmap Creation, NVIDIA 2005.
@@ -40,20 +43,16 @@ class Texture {
   /// The same; the image is freed as soon as level 0 is there, before memory is taken for the other levels.
   Texture(TexelImage&& image, TexelMeaning meaning);
 
-  /// The levels, for kernels; valid as long as this texture.
-  const TextureView& view() const { return view_; }
+  ~Texture();
+  Texture(Texture&& other) noexcept;
+  Texture& operator=(Texture&& other) noexcept;
+
+  /// The levels, for kernels; valid as long as this texture or the one that it was moved to.
+  const TextureView& view() const;
 
  private:
-  void make_first_level(const TexelImage& image, TexelMeaning meaning);
-  void make_other_levels();
-  template <class Code, class Pixel, class Decode>
-  void fill(const Plane<Pixel>& image, const Code* TextureView::*texels, const Decode& decode);
-  template <class Code>
-  void make_levels(const Code* TextureView::*texels);
-
-  GrowingMemory memory_;
-  std::size_t count_ = 0;  ///< of the texels of all levels, with what may be read after them
-  TextureView view_;
+  struct Levels;
+  std::unique_ptr<Levels> levels_;
 };
 
 }  // namespace zoneplate

@@ -13,7 +13,8 @@ enum class SampleWeight {
   Even,     ///< linear light as it is
   Karis,    ///< less the brighter it is: 1 / (1 + luma × exposure)
   Max3,     ///< mapped by c / (1 + max(c)), the mean mapped back
-  Display,  ///< display-referred: tone mapped over the background
+  Display,  ///< display-referred: tone mapped over the background, linear
+  Encoded,  ///< the same, sRGB-encoded: what the resolve of an 8-bit framebuffer without sRGB conversion averages
 };
 
 /// The filter by which a method makes one colour of many samples.
@@ -25,12 +26,15 @@ struct ResolveFilter {
   bool is_plain() const { return weight == SampleWeight::Even && !kernel; }
   /// How many pixels to each side the samples are taken from.
   int reach() const;
+  /// True where the mean is of values after tone mapping.
+  bool is_display_referred() const { return weight == SampleWeight::Display || weight == SampleWeight::Encoded; }
 };
 
-/// The parameters `resolve`, `filter` and `radius` of methods that accumulate samples, and the filter that they name.
+/// The parameters `resolve`, `mix`, `filter` and `radius` of methods that accumulate samples, and the filter that they
+/// name.
 ///
 /// `radius` is the filter's, in pixels; 0 leaves it as the kernel has it.
-/// Errors    ErrorKind::Usage where the radius has no filter.
+/// Errors    ErrorKind::Usage where the radius has no filter, or sRGB-encoded values a weight of scene-linear ones.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
@@ -38,6 +42,10 @@ inline constexpr Param resolve_param = {
     .name = "resolve",
     .meaning = "averages light, light that weighs less the brighter, or display-referred colour",
     .names = resolve_names};
+inline constexpr std::string_view mix_names[] = {"light", "codes"};
+inline constexpr Param mix_param = {.name = "mix",
+                                    .meaning = "blend space: linear light, or sRGB-encoded values after tone mapping",
+                                    .names = mix_names};
 inline constexpr Param filter_param = {
     .name = "filter", .meaning = "over samples of pixels around too, or the pixel's own", .names = filter_names};
 inline constexpr Param radius_param = {.name = "radius",
@@ -66,9 +74,9 @@ class SampleAccumulator {
   void add(const Frame& frame, std::span<const SamplePosition> positions);
   bool is_empty() const { return sum_.empty(); }
 
-  /// The mean in linear light; for SampleWeight::Display it has no meaning.
+  /// The mean in linear light; the premultiplied mean of display-referred values for a display-referred filter.
   LinearImage light() const;
-  /// The mean of the display-referred colours, in place of `image`, for SampleWeight::Display; else `image`.
+  /// The mean of the display-referred colours, in place of `image`, for a display-referred filter; else `image`.
   DisplayImage display_referred(DisplayImage image, const DisplayOptions& display) const;
 
  private:

@@ -11,6 +11,7 @@
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/shade/surface/material_plan.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {

@@ -71,8 +71,8 @@ struct Taps {
 /// Exact     a point on a texel's centre (of a size that is a power of two) gives that texel; texels of one value give
 ///           that value; 0 and 1 are exact. Mixing is in fixed point: codes of 8 bits with 7 more below them, codes of
 ///           15 bits as they are, weights of 15 bits, each of the mixes rounded to the nearest. A value is off by at
-///           most 2 units of 1/32640 or 1/32767, where graphics interfaces ask for weights of 8 bits. Textures of
-///           floats are mixed in floats, with the same weights.
+///           most 2 units of 1/32640 or 1/32767, where graphics interfaces require weights of 8 bits. Floats are mixed
+///           in floats, with the same weights; half floats likewise, after their exact conversion to floats.
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
 struct FilteringKernels : PerIsa<FilteringKernels> {

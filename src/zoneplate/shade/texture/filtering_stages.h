@@ -113,10 +113,11 @@ struct TexelFetch {
   explicit TexelFetch(const View& t)
       : codes(t.codes8 != nullptr    ? t.codes8
               : t.codes15 != nullptr ? reinterpret_cast<const unsigned char*>(t.codes15)
+              : t.halves != nullptr  ? reinterpret_cast<const unsigned char*>(t.halves)
                                      : reinterpret_cast<const unsigned char*>(t.values)),
-        shift(t.codes8 != nullptr    ? 2
-              : t.codes15 != nullptr ? 3
-                                     : 4) {}
+        shift(t.codes8 != nullptr                           ? 2
+              : t.codes15 != nullptr || t.halves != nullptr ? 3
+                                                            : 4) {}
   [[gnu::always_inline]] void ask_for(std::int32_t texel) const {
     __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
   }

@@ -246,7 +246,7 @@ constexpr Param params[] = {
     {.name = "threshold", .meaning = "what contrast is treated", .value = 2, .names = threshold_names},
     {.name = "subpixel", .meaning = "percent of single pixels' smoothing", .value = 75, .low = 0, .high = 100},
     {.name = "luma", .meaning = "what contrast is measured in", .value = 0, .names = lumas},
-    {.name = "mix", .meaning = "in what colours are mixed", .value = 0, .names = mixings},
+    {.name = "mix", .meaning = "blend space: sRGB-encoded values or linear light", .value = 0, .names = mixings},
 };
 
 FxaaOptions options_of(const Settings& s) {

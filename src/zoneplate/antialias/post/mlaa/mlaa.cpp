@@ -166,7 +166,7 @@ constexpr Param params[] = {
      .meaning = "jimenez: how far an edge is followed, by two pixels",
      .value = 16,
      .choices = step_choices},
-    {.name = "mix", .meaning = "in what colours are mixed", .value = 0, .names = mixings},
+    {.name = "mix", .meaning = "blend space: linear light or sRGB-encoded values", .value = 0, .names = mixings},
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {

@@ -3,9 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+namespace zoneplate {
 
 /// Zeroed memory that grows where it lies: its addresses are reserved at once, its bytes are taken from the front on
 /// when they are needed. What is reserved and not taken counts towards no limit of memory.

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "zoneplate/base/api.h"
+#include "zoneplate/image/half.h"
 
-namespace ZONEPLATE_API zoneplate {
+namespace zoneplate {
 
 /// How kernels see a texture: plain data, valid as long as the Texture.
 ///
@@ -12,13 +12,14 @@ namespace ZONEPLATE_API zoneplate {
 ///           border of one texel, which repeats it: of two neighbours the second always follows the first, and the row
 ///           below lies a pitch further on. Two texels after the last one may be read.
 /// Range     levels are `max_size` texels wide and high at most; values are finite, colours in [0, 1e9], alpha and data
-///           in [0, 1].
+///           in [0, 1]. Half floats are at most 65504.
 struct TextureView {
   static constexpr int max_levels = 16;    ///< enough for `max_size`
   static constexpr int max_size = 32768;   ///< texels along a side
-  const std::uint8_t* codes8 = nullptr;    ///< a value is code / 255; exactly one of the three is there
+  const std::uint8_t* codes8 = nullptr;    ///< a value is code / 255; exactly one of the four is set
   const std::uint16_t* codes15 = nullptr;  ///< a value is code / 32767
-  const float* values = nullptr;           ///< the values themselves
+  const Half* halves = nullptr;            ///< half floats
+  const float* values = nullptr;           ///< floats
   std::int32_t levels = 0;                 ///< of the mip pyramid; level 0 is the largest
   std::int32_t width[max_levels] = {}, height[max_levels] = {};  ///< of each level, without its border
   std::int32_t offset[max_levels] = {};                          ///< where each level begins, in texels
