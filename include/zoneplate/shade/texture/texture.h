@@ -44,7 +44,9 @@ class Texture {
   Texture(TexelImage&& image, TexelMeaning meaning);
 
   ~Texture();
+  /// Moves the levels; afterwards `other` may only be destroyed or assigned to.
   Texture(Texture&& other) noexcept;
+  /// The same.
   Texture& operator=(Texture&& other) noexcept;
 
   /// The levels, for kernels; valid as long as this texture or the one that it was moved to.
