@@ -5,7 +5,7 @@
 
 #include "zoneplate/base/api.h"
 #include "zoneplate/image/tonemap.h"
-#include "zoneplate/raster/types/capacities.h"
+#include "zoneplate/raster/types/raster_capacity.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
@@ -49,7 +49,7 @@ struct RenderOptions {
   bool sample_footprint =
       true;  ///< at rate *sample*, choose texture levels for the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
-  RasterCapacities capacities;           ///< memory for time; no bit of a picture depends on it
+  RasterCapacity capacity;               ///< memory for time; no bit of a picture depends on it
   DisplayOptions display;                ///< from linear light to display-referred colour
   std::optional<Moment> last;            ///< what Frame::motion is counted from; none: nothing moves
   std::optional<Moment> next;            ///< what Frame::flow leads to

@@ -236,7 +236,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
                           .is_painter = options.visibility == Visibility::Painter,
-                          .capacities = options.capacities};
+                          .capacity = options.capacity};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;
   const RasterCounts c = !has_color

@@ -36,7 +36,7 @@ TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const Frag
       resolve(ResolveKernels::of()),
       fragment_lists(FragmentListKernels::of()),
       triangle_rules(rules.setup(planes.viewport)),
-      capacities(rules.capacities),
+      capacity(rules.capacity),
       min_transmittance(least_transmittance(fragment_shader.brightest())),
       places(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
       weights(planes.weights) {

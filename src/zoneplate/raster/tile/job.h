@@ -34,7 +34,7 @@ struct TileSetup {
   const ResolveKernels& resolve;
   const FragmentListKernels& fragment_lists;
   const SetupRules triangle_rules;
-  const RasterCapacities capacities;
+  const RasterCapacity capacity;
   const float min_transmittance;  ///< transparent fragments behind this transmittance or less are left out
   const ShadedPlaces places;      ///< where in a pixel a surface is shaded that owns a subset of its samples
 

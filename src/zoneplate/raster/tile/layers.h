@@ -37,7 +37,7 @@ struct LayerList {
 };
 
 /// Collects the layers of the mode's triangles over `rect`, from triangle number `first` on, until the list holds
-/// RasterCapacities::layer_samples depths; returns the number of the first triangle that is left. `spans`, if not null,
+/// RasterCapacity::layer_samples depths; returns the number of the first triangle that is left. `spans`, if not null,
 /// has a flag for each span of the tile: pixels of other spans are skipped.
 ///
 /// Requires  materialized blocks.

@@ -6,8 +6,8 @@
 #include "zoneplate/raster/geometry/bin.h"
 #include "zoneplate/raster/geometry/draw.h"
 #include "zoneplate/raster/geometry/setup.h"
-#include "zoneplate/raster/types/capacities.h"
 #include "zoneplate/raster/types/fragment_shader.h"
+#include "zoneplate/raster/types/raster_capacity.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/raster/types/target.h"
 
@@ -16,7 +16,7 @@ namespace zoneplate {
 struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
-  RasterCapacities capacities;
+  RasterCapacity capacity;
 
   SetupRules setup(Viewport viewport) const {
     return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};

@@ -262,7 +262,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   const PolynomialFilter filter(options.filter);
   const Target& target = drawing.target;
   // Of the draws that are not kept, a triangle's vertices are transformed where it is looked at.
-  ProjectedDraws projected = number_draws(drawing.draws, target.viewport, drawing.rules.capacities.screen_vertices);
+  ProjectedDraws projected = number_draws(drawing.draws, target.viewport, drawing.rules.capacity.screen_vertices);
   project_kept(projected);
   const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};
   TileTriangles triangles(projected, target, rules, filter.reach());

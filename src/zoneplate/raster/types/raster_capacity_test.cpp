@@ -1,5 +1,5 @@
 // Pictures do not depend on how much of a tile's layers, or of the screen vertices, is held at once.
-#include "zoneplate/raster/types/capacities.h"
+#include "zoneplate/raster/types/raster_capacity.h"
 
 #include <gtest/gtest.h>
 
@@ -163,16 +163,16 @@ std::vector<Case> cases() {
           {Route::Samples, standard_pattern(4), true}};
 }
 
-Planes drawn(const Layered& scene, const Case& of, const RasterCapacities& capacities) {
+Planes drawn(const Layered& scene, const Case& of, const RasterCapacity& capacity) {
   Planes planes;
   Target target = target_of(planes, of.route, of.samples);
   target.is_per_sample = of.is_per_sample;
   target.alpha = of.alpha;
-  rasterize(scene.draws, Noisy(), {.capacities = capacities}, target);
+  rasterize(scene.draws, Noisy(), {.capacity = capacity}, target);
   return planes;
 }
 
-TEST(RasterCapacities, LayersAreTheSameInOnePartAndInMany) {
+TEST(RasterCapacity, LayersAreTheSameInOnePartAndInMany) {
   const Layered scene;
   for (const Case& c : cases()) {
     const Planes expected = drawn(scene, c, {});
@@ -185,7 +185,7 @@ TEST(RasterCapacities, LayersAreTheSameInOnePartAndInMany) {
   }
 }
 
-TEST(RasterCapacities, ScreenVerticesAreTheSameKeptAndFoundAgain) {
+TEST(RasterCapacity, ScreenVerticesAreTheSameKeptAndFoundAgain) {
   const Layered scene;
   for (const Case& c : cases()) {
     const Planes expected = drawn(scene, c, {});
@@ -195,7 +195,7 @@ TEST(RasterCapacities, ScreenVerticesAreTheSameKeptAndFoundAgain) {
 }
 
 // Instances of one mesh, more than memory would hold the screen vertices of: the draws without area cost time alone.
-TEST(RasterCapacities, ScreenVerticesOfManyInstancesTakeTheRoomOfSome) {
+TEST(RasterCapacity, ScreenVerticesOfManyInstancesTakeTheRoomOfSome) {
   const std::vector<float3> position(30000);
   std::vector<std::uint32_t> index(300, 0);
   Draw draw;
