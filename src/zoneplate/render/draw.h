@@ -15,15 +15,15 @@ namespace zoneplate {
 /// How `draw` rasterizes.
 struct DrawOptions {
   SamplePattern samples = standard_pattern(4);
-  bool is_per_sample = false;  ///< run the fragment part once a sample, not once a triangle and pixel
+  bool is_per_sample = false;  ///< shade every sample, not once per triangle and pixel
   bool culls_back_faces = false;
   AlphaMode alpha_mode = AlphaMode::Opaque;
   RasterRules rules;
 };
 
-/// A user's shader as the rasterizer's: varyings are made again for the triangle's vertices, weighted, and handed on.
+/// Adapts a user shader to FragmentShader: evaluates the varyings of the triangle's vertices and interpolates them.
 template <Shader S>
-class ShaderPoints : public FragmentShader {
+class UserFragmentShader : public FragmentShader {
  public:
   using Varyings = typename S::Varyings;
   static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);
@@ -31,13 +31,13 @@ class ShaderPoints : public FragmentShader {
                     alignof(Varyings) == alignof(float),
                 "varyings are a struct of floats");
 
-  explicit ShaderPoints(const S& shader) : shader_(shader) {}
+  explicit UserFragmentShader(const S& shader) : shader_(shader) {}
 
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
-    for_points(batch, [&](int i, float4 c) { out.r[i] = c.x, out.g[i] = c.y, out.b[i] = c.z, out.a[i] = c.w; });
+    for_fragments(batch, [&](int i, float4 c) { out.r[i] = c.x, out.g[i] = c.y, out.b[i] = c.z, out.a[i] = c.w; });
   }
   float alpha(const FragmentBatch& batch, float* out) const override {
-    for_points(batch, [&](int i, float4 c) { out[i] = c.w; });
+    for_fragments(batch, [&](int i, float4 c) { out[i] = c.w; });
     return 0.5f;
   }
 
@@ -63,7 +63,7 @@ class ShaderPoints : public FragmentShader {
   }
 
   template <class Use>
-  void for_points(const FragmentBatch& batch, Use use) const {
+  void for_fragments(const FragmentBatch& batch, Use use) const {
     Floats corner[3] = {}, none = {};
     std::uint32_t known = 0;
     for (int i = 0; i < batch.count; ++i) {
@@ -79,7 +79,7 @@ class ShaderPoints : public FragmentShader {
   const S& shader_;
 };
 
-/// Draws indexed triangles with a user's shader; gives the picture, linear and premultiplied, without a background.
+/// Draws indexed triangles with a user shader; returns the image, linear and premultiplied, without a background.
 ///
 /// Requires  three indices a triangle, each < vertices; the shader is pure.
 template <Shader S>
@@ -102,7 +102,7 @@ LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::u
   target.samples = options.samples;
   target.is_per_sample = options.is_per_sample;
   target.color = &image;
-  rasterize(std::span(&d, 1), ShaderPoints<S>(shader), options.rules, target);
+  rasterize(std::span(&d, 1), UserFragmentShader<S>(shader), options.rules, target);
   return image;
 }
 

@@ -88,8 +88,8 @@ TEST(DeepLayers, AreTheSameInOnePartAndInMany) {
   const Scene scene = veiled(emitting(100, AlphaMode::Blend, 0.75f), 30, true);
   for (const char* method : sampled_methods) {
     RenderOptions narrow = options;
-    narrow.room.layer_samples = 3;
-    narrow.room.screen_vertices = 0;
+    narrow.capacity.layer_samples = 3;
+    narrow.capacity.screen_vertices = 0;
     EXPECT_EQ(shot(scene, method, narrow), shot(scene, method, options)) << method;
   }
 }

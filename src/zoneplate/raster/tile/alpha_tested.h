@@ -13,8 +13,8 @@ namespace zoneplate {
 /// Draws the job's alpha-tested triangles into a tile whose opaque triangles are drawn.
 ///
 /// The samples that pass the test compete by the same order over (depth, id) as opaque ones, so that the order of
-/// drawing changes nothing. If there are more layers than RasterRoom::layer_samples, they are drawn in parts, and the
-/// triangles of each part are tested against the visibility before the first part.
+/// drawing changes nothing. If there are more layers than RasterCapacity::layer_samples, they are drawn in parts, and
+/// the triangles of each part are tested against the visibility before the first part.
 class AlphaTester {
  public:
   explicit AlphaTester(const TileSetup& setup);

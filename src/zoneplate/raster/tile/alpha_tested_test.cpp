@@ -43,7 +43,7 @@ TEST(AlphaTestStage, PartsGiveTheSameVisibilityAsTheWhole) {
   std::vector<std::int32_t> whole;
   for (const std::size_t room : {std::size_t{1} << 16, std::size_t{300}}) {
     RasterRules rules;
-    rules.room.layer_samples = room;
+    rules.capacity.layer_samples = room;
     const TileScene scene(triangles, standard_pattern(2), rules);
     TileBuffers b(*scene.setup);
     begin_whole_pass(b);

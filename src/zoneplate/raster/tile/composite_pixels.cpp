@@ -40,8 +40,8 @@ void PixelCompositor::composite_collected(const TileJob& job, std::size_t first,
   }
 }
 
-// Depth peeling of one sample of a deep pixel: its layers are found from near to far, RasterRoom::layer_samples at a
-// time, until the transmittance is spent.
+// Depth peeling of one sample of a deep pixel: its layers are found from near to far, RasterCapacity::layer_samples at
+// a time, until the transmittance is spent.
 //
 // Source: Everitt, Interactive Order-Independent Transparency, 2001; several layers a pass: Bavoil and Myers, Order
 // Independent Transparency with Dual Depth Peeling, 2008.
@@ -67,11 +67,12 @@ void PixelCompositor::peel(const TileJob& job, const TileVisibility& visibility,
   if (has_any) behind = stack.over(behind);
 }
 
-/// peeled_: the nearest layers of a sample behind `last`, at most RasterRoom::layer_samples of them, in their order.
+/// peeled_: the nearest layers of a sample behind `last`, at most RasterCapacity::layer_samples of them, in their
+/// order.
 void PixelCompositor::find_next_layers(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel,
                                        int sample, const Peel& last) {
   const std::vector<const Triangle*>& triangles = job.triangles_of(AlphaMode::Blend);
-  const std::size_t most = std::max<std::size_t>(job.setup.room.layer_samples, 1);
+  const std::size_t most = std::max<std::size_t>(job.setup.capacity.layer_samples, 1);
   const auto keep_nearest = [&] {
     if (peeled_.size() <= most) return;
     std::nth_element(peeled_.begin(), peeled_.begin() + static_cast<std::ptrdiff_t>(most), peeled_.end());

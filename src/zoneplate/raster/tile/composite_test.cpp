@@ -31,7 +31,7 @@ TEST(Composite, BlocksSpansAndPixelsGiveTheSameBits) {
     const std::vector<TestTriangle> triangles = blended_over_opaque(seed);
     const auto composite = [&](int route, std::size_t room) {
       RasterRules rules;
-      rules.room.layer_samples = room;
+      rules.capacity.layer_samples = room;
       const TileScene scene(triangles, standard_pattern(4), rules);
       TileBuffers b(*scene.setup);
       begin_whole_pass(b);

@@ -37,8 +37,8 @@ struct LayerList {
 };
 
 /// Collects the layers of the mode's triangles over `rect`, from triangle number `first` on, until the list holds
-/// RasterRoom::layer_samples depths; returns the number of the first triangle that is left. `spans`, if not null, has a
-/// flag for each span of the tile: pixels of other spans are skipped.
+/// RasterCapacity::layer_samples depths; returns the number of the first triangle that is left. `spans`, if not null,
+/// has a flag for each span of the tile: pixels of other spans are skipped.
 ///
 /// Requires  materialized blocks.
 std::size_t collect_layers(const TileJob& job, AlphaMode mode, std::size_t first, const TileRect& rect,

@@ -20,7 +20,7 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
   RasterMemory own;
   RasterMemory& kept = memory ? *memory : own;
   const SetupRules setup = rules.setup(target.viewport);
-  kept.projected = number_draws(draws, target.viewport, rules.room.screen_vertices, std::move(kept.projected));
+  kept.projected = number_draws(draws, target.viewport, rules.capacity.screen_vertices, std::move(kept.projected));
   kept.bins = make_bins(target, std::move(kept.bins));
   project_batches(kept.projected, rules.isa, [&](std::size_t first, std::size_t last) {
     counts.stages.vertices += stage.lap_ms();

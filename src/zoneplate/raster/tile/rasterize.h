@@ -7,7 +7,7 @@
 #include "zoneplate/raster/geometry/draw.h"
 #include "zoneplate/raster/geometry/setup.h"
 #include "zoneplate/raster/types/fragment_shader.h"
-#include "zoneplate/raster/types/room.h"
+#include "zoneplate/raster/types/raster_capacity.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/raster/types/target.h"
 
@@ -17,7 +17,7 @@ struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
   Isa isa = current_isa();
-  RasterRoom room;
+  RasterCapacity capacity;
 
   SetupRules setup(Viewport viewport) const {
     return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};
@@ -28,7 +28,7 @@ struct RasterRules {
 struct RasterMemory {
   ProjectedDraws projected;
   Bins bins;
-  Rgba8Image shown;  ///< an earlier image whose memory is free, if there is one
+  Rgba8Image display8;  ///< an earlier image whose memory is free, if there is one
 };
 
 struct RasterCounts {
@@ -46,7 +46,7 @@ struct RasterCounts {
 ///           triangles have equal depth at a sample.
 /// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
 ///           Carpenter, The A-buffer, SIGGRAPH 1984.
-/// A `memory` that was used for an earlier frame saves the system's work of finding new pages.
+/// A `memory` that was used for an earlier frame avoids page faults.
 RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader, const RasterRules& rules,
                        const Target& target, RasterMemory* memory = nullptr);
 

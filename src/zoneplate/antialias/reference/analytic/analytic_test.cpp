@@ -462,7 +462,7 @@ TEST(Analytic, KeptScreenVerticesLeaveNoTrace) {
     const Scene scene = *make_builtin_scene(name);
     const RenderOptions all{.width = 64, .height = 48};
     RenderOptions none = all;
-    none.room.screen_vertices = 0;
+    none.capacity.screen_vertices = 0;
     const LinearImage expected = shot(scene, "analytic", all), image = shot(scene, "analytic", none);
     EXPECT_EQ(std::memcmp(image.values().data(), expected.values().data(), expected.values().size_bytes()), 0) << name;
   }

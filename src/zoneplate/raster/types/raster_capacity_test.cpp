@@ -1,5 +1,5 @@
 // Pictures do not depend on how much of a tile's layers, or of the screen vertices, is held at once.
-#include "zoneplate/raster/types/room.h"
+#include "zoneplate/raster/types/raster_capacity.h"
 
 #include <gtest/gtest.h>
 
@@ -163,16 +163,16 @@ std::vector<Case> cases() {
           {Route::Samples, standard_pattern(4), true}};
 }
 
-Planes drawn(const Layered& scene, const Case& of, const RasterRoom& room) {
+Planes drawn(const Layered& scene, const Case& of, const RasterCapacity& room) {
   Planes planes;
   Target target = target_of(planes, of.route, of.samples);
   target.is_per_sample = of.is_per_sample;
   target.alpha = of.alpha;
-  rasterize(scene.draws, Noisy(), {.room = room}, target);
+  rasterize(scene.draws, Noisy(), {.capacity = room}, target);
   return planes;
 }
 
-TEST(RasterRoom, LayersAreTheSameInOnePartAndInMany) {
+TEST(RasterCapacity, LayersAreTheSameInOnePartAndInMany) {
   const Layered scene;
   for (const Case& c : cases()) {
     const Planes expected = drawn(scene, c, {});
@@ -185,7 +185,7 @@ TEST(RasterRoom, LayersAreTheSameInOnePartAndInMany) {
   }
 }
 
-TEST(RasterRoom, ScreenVerticesAreTheSameKeptAndFoundAgain) {
+TEST(RasterCapacity, ScreenVerticesAreTheSameKeptAndFoundAgain) {
   const Layered scene;
   for (const Case& c : cases()) {
     const Planes expected = drawn(scene, c, {});
@@ -195,7 +195,7 @@ TEST(RasterRoom, ScreenVerticesAreTheSameKeptAndFoundAgain) {
 }
 
 // Instances of one mesh, more than memory would hold the screen vertices of: the draws without area cost time alone.
-TEST(RasterRoom, ScreenVerticesOfManyInstancesTakeTheRoomOfSome) {
+TEST(RasterCapacity, ScreenVerticesOfManyInstancesTakeTheRoomOfSome) {
   const std::vector<float3> position(30000);
   std::vector<std::uint32_t> index(300, 0);
   Draw draw;
