@@ -191,11 +191,11 @@ TEST(Pictures, WhatTilesShowIsTheDisplayedColour) {
     Shot shot("cyclic", 150, 130);
     const Rgba8Image expected = quantize8(make_display(shot.frame("msaa:n=4").color, display));
     Request request = make_resolver(antialias::methods(), "msaa:n=4")->request({});
-    request.is_presented = true;
+    request.writes_display8 = true;
     shot.options.display = display;
     const Frame frame = render(shot.scene, shot.camera, request, shot.options);
     EXPECT_TRUE(frame.color.empty());
-    EXPECT_EQ(frame.shown, expected);
+    EXPECT_EQ(frame.display8, expected);
   }
 }
 
@@ -289,7 +289,7 @@ TEST(Pictures, DataAreOfOnePoint) {
           if (f.primitive_id(x, y) == Frame::no_id) continue;
           const float d = f.depth(x, y);
           apart += std::abs(distance_of(shot, f.position(x, y)) - d) > 0.002f * d;
-          const bool is_inside = f.place(x, y) == SamplePosition{} &&
+          const bool is_inside = f.data_position(x, y) == SamplePosition{} &&
                                  f.primitive_id(x, y) == centre.primitive_id(x, y) &&
                                  f.instance(x, y) == centre.instance(x, y);
           edges += !is_inside;

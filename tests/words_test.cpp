@@ -17,7 +17,7 @@ constexpr const char* retired =
     "PointShader|PointBatcher|PointRow|PointList|PointListKernels|PointData|told_group|after_run|one_triangle|"
     "repeats_slopes|wants_slopes|most_lanes|SampleFragments|FragmentSink|TileFragments|FrontKernels|FrontResult|"
     "FrontRun|"
-    "block_far|open_block|block_owner|many_triangles|RowLayer|Layers8|put_under|VertexRecords|Illumination|"
+    "block_far|open_block|block_owner|many_triangles|RowLayer|Layers8|put_under|VertexRecords|"
     "Surroundings|"
     "LevelPlace|Trouble|find_flaw|Presenter|LostBytesWatch|ShownLight|works_on_shown|is_local|ask_again|"
     "ObjFolder|filter_codes|CodeFilter|SampleGather|Gathering|gathering_of|GatherKernels|SmaaWeigher|smaa_edges|"

@@ -8,14 +8,14 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// All that lights a scene.
+/// The lights and the environment of a scene.
 struct Lighting {
   std::vector<Light> lights;      ///< in world space or camera space
   Environment environment;        ///< without an image: constant radiance
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
 };
 
-/// How the lighting of a scene is changed.
+/// Changes to the lighting of a scene.
 struct LightingOptions {
   float intensity = 1;                ///< multiplies every light
   std::optional<float3> environment;  ///< linear radiance of a constant environment in place of the scene's own

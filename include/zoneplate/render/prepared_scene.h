@@ -13,21 +13,21 @@ class InterleavedVertices;
 
 namespace ZONEPLATE_API zoneplate {
 
-/// A scene with all that rendering makes of it once: texture levels and vertex buffers. What it makes of the materials
-/// depends on the lights and the camera, and is made for each frame.
+/// A scene with the data that rendering derives from it once: texture mip levels and vertex buffers. Data that depend
+/// on the lights or the camera are made for each frame.
 ///
-/// Copies share what was made; none of it changes. A copy may be used by several threads.
+/// Copies share the data, which are immutable. Several threads may use one copy.
 class PreparedScene {
  public:
   /// Makes texture levels and vertex buffers, on the threads of the innermost `with_threads`. With `raw_colors` the
-  /// codes of images are taken as linear values, not decoded from sRGB. The images of the scene are freed as soon as
-  /// their levels are made.
+  /// values of images are taken as linear, not decoded from sRGB. The images of the scene are freed as soon as their
+  /// levels are made.
   ///
-  /// Requires  what Scene requires.
+  /// Requires  a scene that meets the requirements of Scene.
   /// Errors    ErrorKind::Input where an image that a material uses is empty; OutOfMemory.
   explicit PreparedScene(Scene scene, bool raw_colors = false);
 
-  /// The same scene at another moment: it takes the texture levels of `other` and makes its own vertex buffers.
+  /// The same scene at another moment: it shares the texture levels of `other` and makes its own vertex buffers.
   ///
   /// Requires  the materials use the same images as those of `other`.
   PreparedScene(Scene scene, const PreparedScene& other);

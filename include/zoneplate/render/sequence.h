@@ -11,34 +11,34 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// The time of a sequence. Frame i shows the scene at start + i / rate seconds.
+/// The timing of a sequence. Frame i has the time start + i / rate seconds.
 struct SequenceTiming {
   double rate = 24;              ///< frames per second
   double start = 0;              ///< seconds
   double duration = 0;           ///< of the animation, in seconds
-  std::optional<int> turntable;  ///< frames of one turn of the camera about the centre of the scene; none: it stands
+  std::optional<int> turntable;  ///< frames of one turn of the camera about the centre of the scene; none: no turntable
 };
 
-/// Makes the scene at a time in seconds.
+/// Functions that make the scene at a time in seconds.
 struct SceneLoader {
   std::function<Scene(double)> load;        ///< the whole scene at a time
   std::function<Scene(double)> load_shape;  ///< the same without images
 };
 
-/// The scenes and cameras of a sequence of frames, which are numbered from 0 and may lie between two numbers.
+/// The scenes and cameras of a sequence of frames. Frames are numbered from 0; fractional frame numbers are allowed.
 ///
-/// The camera of a whole-scene view stands so that it sees the whole animation, whichever frames are rendered, and
-/// stays there. A camera of the scene moves as its animation says. On a turntable of n frames the camera has gone i / n
-/// of a turn about the centre of the scene at frame i.
+/// The camera of a whole-scene view is fixed and frames the whole animation, whichever frames are rendered. A camera of
+/// the scene follows its own animation. On a turntable of n frames the camera has turned by i / n of a revolution about
+/// the centre of the scene at frame i.
 class Sequence {
  public:
-  /// A scene that does not move; only the camera does.
+  /// A static scene; only the camera may move.
   Sequence(PreparedScene scene, const SequenceTiming& timing);
-  /// An animated scene, which is loaded for each frame.
+  /// An animated scene, which is loaded again for each frame.
   Sequence(SceneLoader loader, bool raw_colors, const SequenceTiming& timing);
 
-  /// Chooses the camera of frame 0, for pictures of this aspect (width / height). Must be called before any
-  /// function that uses the camera.
+  /// Chooses the camera of frame 0, for images of this aspect ratio (width / height). Must be called before functions
+  /// that use the camera.
   ///
   /// Errors    those of choose_camera.
   void set_view(const View& view, float aspect);
@@ -46,12 +46,12 @@ class Sequence {
   /// The time of a frame, in seconds of the animation.
   double seconds_of(double frame) const { return timing_.start + frame / timing_.rate; }
 
-  /// The scene at a frame, with its textures, which are made once, and its vertices. The last one is kept.
+  /// The prepared scene at a frame. Textures are made once for all frames; the last scene is cached.
   const PreparedScene& scene(double frame);
   /// The scene at a frame and the camera then, for Renderer.
   SceneView view(double frame);
-  /// The shape of the scene at a frame, and the camera then: what Frame::motion and Frame::flow are counted from. The
-  /// scene of `scene` stays.
+  /// The geometry and the camera of the scene at a frame, for Frame::motion and Frame::flow. Does not replace the
+  /// cached scene.
   Moment moment(double frame);
 
  private:
@@ -60,7 +60,7 @@ class Sequence {
   float4x4 turned(float angle) const;
   void add_turns(Scene& all) const;
 
-  SceneLoader loader_;  ///< empty where the scene does not move
+  SceneLoader loader_;  ///< empty for a static scene
   bool raw_colors_ = false;
   SequenceTiming timing_;
   std::optional<PreparedScene> scene_;
@@ -71,8 +71,8 @@ class Sequence {
   float3 centre_;
 };
 
-/// The time of sample i of `count` within a frame whose shutter is open from the frame's own time on, for `open` of the
-/// time between two frames: the middle of its part.
+/// The time, as a frame number, of sample i of `count` of a shutter that opens at the frame's time and stays open for
+/// the fraction `open` of the frame interval. Samples lie at the middle of equal parts of that time.
 double shutter_time(double frame, double open, int i, int count);
 
 }  // namespace zoneplate

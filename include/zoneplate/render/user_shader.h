@@ -19,16 +19,17 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// A vertex as a user's shader sees it: its index into the arrays that the shader itself holds.
+/// The argument of a user shader's vertex stage: the vertex's index in the arrays that the shader itself holds.
 struct Vertex {
   std::uint32_t index = 0;  ///< in [0, vertices) of `draw`
 };
 
-/// A user's shader: pure functions, compiled into the batched loops that call them.
+/// A user shader: pure functions, compiled into the batched loops that call them.
 ///
 /// `Varyings` is a struct of floats only. `vertex` returns the clip position (reversed depth, see math/transform.h)
-/// and the varyings; it may be run more than once for a vertex. `fragment` receives the perspective-correct varyings,
-/// their derivatives per pixel to the right and per pixel down, and returns a linear, premultiplied colour.
+/// and the varyings; it may be called more than once for a vertex. The arguments of `fragment` are the
+/// perspective-correct varyings, their derivatives per pixel to the right and their derivatives per pixel down; it
+/// returns a linear, premultiplied colour.
 template <class S>
 concept Shader = requires(const S& s, const Vertex& v, const typename S::Varyings& u) {
   { s.vertex(v) } -> std::same_as<std::pair<float4, typename S::Varyings>>;
@@ -38,9 +39,9 @@ concept Shader = requires(const S& s, const Vertex& v, const typename S::Varying
 /// How `draw` rasterizes.
 struct DrawOptions {
   SamplePattern samples = standard_pattern(4);  ///< positions in every pixel, whose mean is its colour
-  bool is_per_sample = false;                ///< run the fragment part once per sample, not once per triangle and pixel
-  bool culls_back_faces = false;             ///< skips triangles whose vertices run clockwise in the image
-  AlphaMode alpha_mode = AlphaMode::Opaque;  ///< Mask: a surface is present where alpha is at least 0.5
+  bool is_per_sample = false;                   ///< shade every sample, not once per triangle and pixel
+  bool culls_back_faces = false;                ///< skips triangles whose vertices run clockwise in the image
+  AlphaMode alpha_mode = AlphaMode::Opaque;     ///< Mask: a surface is present where alpha is at least 0.5
 };
 
 /// Draws indexed triangles, given by their clip positions, with a shader of batches; returns the linear, premultiplied
@@ -50,10 +51,9 @@ struct DrawOptions {
 LinearImage draw_triangles(std::span<const float4> clip, std::span<const std::uint32_t> indices,
                            const FragmentShader& shader, int width, int height, const DrawOptions& options = {});
 
-/// A user's shader as a FragmentShader: it runs `vertex` again for the vertices of each triangle, interpolates the
-/// varyings, and passes them to `fragment`.
+/// Adapts a user shader to FragmentShader: evaluates the varyings of the triangle's vertices and interpolates them.
 template <Shader S>
-class BatchedShader : public FragmentShader {
+class UserFragmentShader : public FragmentShader {
  public:
   using Varyings = typename S::Varyings;                                   ///< what the shader interpolates
   static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);  ///< the number of floats in Varyings
@@ -62,7 +62,7 @@ class BatchedShader : public FragmentShader {
                 "varyings are a struct of floats");
 
   /// Keeps a reference to the shader, which outlives this object.
-  explicit BatchedShader(const S& shader) : shader_(shader) {}
+  explicit UserFragmentShader(const S& shader) : shader_(shader) {}
 
   /// Runs `fragment` for every fragment; only the colour is written.
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
@@ -112,7 +112,7 @@ class BatchedShader : public FragmentShader {
   const S& shader_;
 };
 
-/// Draws indexed triangles with a user's shader; returns the linear, premultiplied image without a background.
+/// Draws indexed triangles with a user shader; returns the linear, premultiplied image without a background.
 ///
 /// Requires  three indices per triangle, each < vertices; the shader is pure.
 template <Shader S>
@@ -122,7 +122,7 @@ LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::u
   parallel_ranges(vertices, 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) clip[v] = shader.vertex(Vertex{static_cast<std::uint32_t>(v)}).first;
   });
-  return draw_triangles(clip, indices, BatchedShader<S>(shader), width, height, options);
+  return draw_triangles(clip, indices, UserFragmentShader<S>(shader), width, height, options);
 }
 
 }  // namespace zoneplate

@@ -7,7 +7,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// Which camera a picture has; angles in radians.
+/// The choice of a camera; angles in radians.
 struct View {
   std::optional<int> index;                 ///< a camera of the scene
   std::optional<float3> position;           ///< of the eye, in world space
@@ -19,15 +19,15 @@ struct View {
   float3 up{0, 1, 0};                       ///< the scene's upward axis
 };
 
-/// The camera for a picture of the given aspect (width / height).
+/// The camera for an image of the given aspect ratio (width / height).
 ///
-/// One camera is the base: the scene's number `index`, or else the one that shows the whole scene three-quarter from
-/// above. Position, focal point, view-up and view angle replace what the base has. Azimuth and elevation choose the
-/// direction of the whole-scene view, 0 and 0 being the front; any other camera they turn about its focal point,
-/// azimuth to the right and elevation upwards, after everything else. A base camera's focal point is the point on
-/// its axis next to the centre of the scene. Near and far enclose the scene, unless the base is used unchanged.
+/// The base is camera `index` of the scene, or without an index a whole-scene view, three-quarter from above. Position,
+/// focal point, view-up and view angle replace those of the base. For the whole-scene view, azimuth and elevation are
+/// its direction, 0 and 0 being the front; any other camera is turned by them about its focal point as the last step,
+/// azimuth to the right and elevation upwards. The focal point of a base camera is the point on its axis nearest to the
+/// centre of the scene. Near and far planes enclose the scene, unless the base is used unchanged.
 ///
-/// Errors    ErrorKind::Usage for an index that the scene does not have, or a position equal to the focal point.
+/// Errors    ErrorKind::Usage for an index outside the scene's cameras, or a position equal to the focal point.
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
 
 }  // namespace zoneplate

@@ -55,7 +55,7 @@ inline Rgba8Image random_shapes(int width, int height, std::uint32_t seed) {
   return image;
 }
 
-/// A white band on black along a line of slope 1 / run, as seen at a point of each pixel, and each pixel's share of it.
+/// A white band on black along a line of slope 1 / run, sampled at one point of each pixel, and its area in each pixel.
 struct Band {
   static constexpr int width = 160, height = 56;
   double run, thickness, start = 20.1;

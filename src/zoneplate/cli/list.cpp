@@ -15,7 +15,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// "n=2|4|8|16 (4)", "samples=1..256 (16)", "pattern=grid|halton (grid)": what a parameter may be, and its default.
+// The values of a parameter and its default: "n=2|4|8|16 (4)", "samples=1..256 (16)", "pattern=grid|halton (grid)".
 std::string range_of(const Param& param) {
   if (!param.names.empty())
     return fmt::format("{}={} ({})", param.name, fmt::join(param.names, "|"),
@@ -82,30 +82,30 @@ Json scenes_json() {
                                    {"summary", scene.summary},
                                    {"parameters", scene.params},
                                    {"class", scene.failure},
-                                   {"complaint", scene.complaint}});
+                                   {"artifact", scene.complaint}});
   return rows;
 }
 
 // The writers are chosen by these endings in render/picture.cpp and render/film.cpp.
-constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits a channel, sRGB; - writes it to stdout"},
-                                           {".jpg", "quality 92, full colour resolution"},
-                                           {".webp", "lossless; of several frames, a film"},
+constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits per channel, sRGB; - writes to stdout"},
+                                           {".jpg", "quality 92, no chroma subsampling (4:4:4)"},
+                                           {".webp", "lossless; several frames make an animation"},
                                            {".exr", "half floats in linear light, data passes as layers"},
-                                           {".rgba", "raw codes, 8 or 16 bits a channel"},
+                                           {".rgba", "raw sRGB-encoded values, 8 or 16 bits per channel"},
                                            {".pfm", "floats in linear light, before tone mapping"},
-                                           {".apng", "a film, lossless"},
-                                           {".gif", "a film, by the program ffmpeg"},
-                                           {".mp4", "likewise, H.264"},
-                                           {".webm", "likewise, VP9 with alpha"}};
+                                           {".apng", "lossless animation"},
+                                           {".gif", "animation, by the program ffmpeg"},
+                                           {".mp4", "H.264 video, by ffmpeg"},
+                                           {".webm", "VP9 video with alpha, by ffmpeg"}};
 
 std::string formats_text() {
-  std::string text = "Models that can be read:\n";
+  std::string text = "Model formats (input):\n";
   for (const std::span<const SceneFormat> formats : {scene_formats(), assimp_formats()})
     for (const SceneFormat& format : formats) text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
-  text += "Pictures that can be written:\n";
+  text += "Image and video formats (output):\n";
   for (const SceneFormat& format : picture_formats)
     text += fmt::format("  {:<16}{}\n", format.extension, format.summary);
-  text += "Data passes (--aov NAME,...), as .png, or in an .exr or as .pfm:\n";
+  text += "Data passes (--aov NAME,...), as .png or .pfm files or as layers of an .exr:\n";
   for (const Aov& aov : aovs()) text += fmt::format("  {:<16}{}\n", aov.name, aov.meaning);
   return text;
 }

@@ -1,4 +1,4 @@
-// zoneplate: the command. A table of verbs, and the one place where errors become exit codes.
+// zoneplate: the command. The table of verbs, and the conversion of errors to exit codes.
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -25,16 +25,17 @@ struct Verb {
   std::string_view name, summary;
   void (*run)(std::span<const std::string> arguments);
 };
-constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (the verb may be left out)", run_render},
-                          {"contact-sheet", "many models in one picture, each with its name", run_contact_sheet},
-                          {"list", "antialiasing methods, built-in scenes, file formats", run_list},
-                          {"info", "what is in a model", run_info},
-                          {"metrics", "how far pictures are from a reference", run_metrics},
-                          {"filter", "antialias existing images by a post-process filter", run_filter},
-                          {"compare", "scenes under many antialiasing methods, measured", run_compare},
-                          {"bench", "how long frames take, stage by stage", run_bench},
-                          {"demo", "lessons about aliasing, each a picture that explains itself", run_demo},
-                          {"signal", "spectra, filters and sampling, with pictures that explain them", run_signal}};
+constexpr Verb verbs[] = {
+    {"render", "render a model or a built-in scene to an image (the verb is optional)", run_render},
+    {"contact-sheet", "render many models into one image, with their names", run_contact_sheet},
+    {"list", "list antialiasing methods, built-in scenes and file formats", run_list},
+    {"info", "print the contents of a model", run_info},
+    {"metrics", "measure the difference between images and a reference", run_metrics},
+    {"filter", "antialias existing images by a post-process filter", run_filter},
+    {"compare", "compare antialiasing methods on scenes against a reference", run_compare},
+    {"bench", "measure frame times, stage by stage", run_bench},
+    {"demo", "make captioned images that explain aliasing and antialiasing", run_demo},
+    {"signal", "analyse and filter images: spectra, convolution, resampling", run_signal}};
 
 const Verb* find_verb(std::string_view name) {
   for (const Verb& verb : verbs)
@@ -44,7 +45,7 @@ const Verb* find_verb(std::string_view name) {
 
 std::string overview() {
   std::string text =
-      "Zoneplate renders 3D models to antialiased pictures, on the CPU alone.\n"
+      "Zoneplate renders 3D models to antialiased images, on the CPU.\n"
       "\n"
       "Usage: zoneplate [VERB] ARGUMENTS\n"
       "\n";
@@ -59,7 +60,7 @@ std::string overview() {
          "More: zoneplate VERB -h (short), zoneplate VERB --help (everything), zoneplate --version\n";
 }
 
-// A first word that is no verb is the input of render, unless it can only be a misspelt verb.
+// A first word that is not a verb is the input of render, unless it is a misspelt verb or scene.
 void refuse_misspelt_verb(const std::string& word) {
   std::error_code ignored;
   if (word.starts_with('-') || word.find_first_of("./:") != std::string::npos) return;
@@ -97,13 +98,13 @@ void run(std::vector<std::string> arguments) {
   run_render(all);
 }
 
-// A stream that the caller has closed gets a file that refuses writes, lest an output be opened in its place.
+// Opens /dev/null for streams that the caller has closed, so that no output file gets their descriptors.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDONLY));
 }
 
-// A thread's stack counts as memory of the process whether it is used or not, and the usual 8 MB are never needed.
+// The stacks of threads count towards the memory limit whether used or not, and 8 MB each, the default, is too much.
 void shorten_stacks_of_threads() {
   constexpr std::size_t stack_bytes = std::size_t{2} << 20;
   pthread_attr_t attributes;
@@ -112,7 +113,7 @@ void shorten_stacks_of_threads() {
   ::pthread_attr_destroy(&attributes);
 }
 
-// What a signal may do: forget what is half written, and leave with the shell's code for it.
+// Signal handler: removes temporary files and exits with the shell's code for the signal.
 extern "C" void leave(int signal) {
   remove_temporaries();
   ::_exit(128 + signal);

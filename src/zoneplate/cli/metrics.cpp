@@ -8,6 +8,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
@@ -53,7 +54,7 @@ double parse_bound(const std::string& text) {
   return parse_number(text, -1e300, 1e300);
 }
 
-/// "40" of the one metric asked for, or "psnr=40,ssim=0.98" of those.
+/// Thresholds: "40" for a single metric, or "psnr=40,ssim=0.98".
 std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choice>& choices) {
   std::vector<Bound> bounds;
   for (std::size_t start = 0; start < text.size();) {
@@ -62,7 +63,7 @@ std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choic
     start = end + 1;
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos) {
-      if (choices.size() != 1) throw Error(ErrorKind::Usage, item + ": of which metric? As psnr=40");
+      if (choices.size() != 1) throw Error(ErrorKind::Usage, item + ": expected METRIC=VALUE, as psnr=40");
       bounds.push_back({choices[0].metric, parse_bound(item)});
       continue;
     }
@@ -70,18 +71,18 @@ std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choic
     for (const Choice& choice : choices) {
       if (choice.metric->name == item.substr(0, equals)) found = choice.metric;
     }
-    if (found == nullptr) throw Error(ErrorKind::Usage, item + ": no metric of that name is measured");
+    if (found == nullptr) throw Error(ErrorKind::Usage, item + ": this metric is not measured");
     bounds.push_back({found, parse_bound(item.substr(equals + 1))});
   }
   return bounds;
 }
 
-// A number as people read it: six digits; "inf" and "-inf" are words.
+// A number with six digits; infinities are "inf" and "-inf".
 std::string shown(double value) { return fmt::format("{:.6g}", value); }
 
 std::string text_of(const Comparison& comparison) {
-  std::string text = fmt::format("{} {}, {} × {}{}\n", comparison.count, comparison.count == 1 ? "picture" : "pictures",
-                                 comparison.width, comparison.height, comparison.are_same ? ", the same" : "");
+  std::string text = fmt::format("{} {}, {} × {}{}\n", comparison.count, comparison.count == 1 ? "image" : "images",
+                                 comparison.width, comparison.height, comparison.are_same ? ", identical" : "");
   for (const Result& result : comparison.results) {
     text += fmt::format("  {:<14}{:>12} {:<13}", result.metric->name, shown(result.value), result.metric->unit);
     std::string more;
@@ -97,7 +98,7 @@ std::string text_of(const Comparison& comparison) {
   return text;
 }
 
-/// JSON has no infinite numbers: they are the words "inf" and "-inf".
+/// JSON has no infinite numbers; they become the strings "inf" and "-inf".
 Json json_number(double value) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   return value;
@@ -133,19 +134,21 @@ Json json_of(const Result& result) {
 Json json_of(const Comparison& comparison, const std::string& reference, const std::string& test, bool is_good) {
   Json::Object rows;
   for (const Result& result : comparison.results) rows.emplace_back(result.metric->name, json_of(result));
-  return Json::Object{{"reference", reference},
+  return Json::Object{{"format", "zoneplate-metrics"},
+                      {"version", report_version},
+                      {"reference", reference},
                       {"test", test},
-                      {"pictures", static_cast<std::uint64_t>(comparison.count)},
+                      {"images", static_cast<std::uint64_t>(comparison.count)},
                       {"width", comparison.width},
                       {"height", comparison.height},
-                      {"same", comparison.are_same},
-                      {"good", is_good},
+                      {"identical", comparison.are_same},
+                      {"passed", is_good},
                       {"metrics", std::move(rows)}};
 }
 
 /// The verdict where the pictures differ or a metric misses its threshold; else empty.
 std::string shortfall(const Comparison& comparison, const std::vector<Bound>& bounds) {
-  if (bounds.empty()) return comparison.are_same ? "" : "the pictures differ";
+  if (bounds.empty()) return comparison.are_same ? "" : "the images differ";
   std::string text;
   for (const Bound& bound : bounds) {
     for (const Result& result : comparison.results) {
@@ -163,13 +166,12 @@ void save_map(const std::string& path, const Comparison& comparison) {
     if (result.score.map.empty()) continue;
     return save_bytes(path, encode_png(metrics::paint_magma(result.score.map), {.has_alpha = false}));
   }
-  throw Error(ErrorKind::Usage, "--map: none of these metrics makes a map");
+  throw Error(ErrorKind::Usage, "--map: none of these metrics has an error map");
 }
 
 // The catalogue as the end of the help.
 std::string catalogue_text() {
-  std::string text =
-      "Metrics (--metric NAME:PARAMETER=VALUE,...; those marked * are measured unless others are named):\n";
+  std::string text = "Metrics (--metric NAME:PARAMETER=VALUE,...; the default is all that are marked *):\n";
   for (const Metric& metric : metrics::metrics()) {
     text +=
         fmt::format("  {}{:<14}{} [{}]\n", metric.is_default ? '*' : ' ', metric.name, metric.summary, metric.source);
@@ -183,7 +185,7 @@ std::string catalogue_text() {
 
 Syntax make_syntax(MetricsArgs& args) {
   Syntax syntax{.verb = "metrics",
-                .summary = "Judge pictures by their distance from a reference",
+                .summary = "Measure the difference between images and a reference",
                 .operands = "REFERENCE TEST",
                 .examples =
                     "  zoneplate metrics reference.png test.png\n"
@@ -194,22 +196,22 @@ Syntax make_syntax(MetricsArgs& args) {
                     "Operands are PNG, JPEG, WebP, HDR, EXR or PFM files, directories (paired by name) or sequences\n"
                     "(name.####.png, name.%04d.png).\n"
                     "\n"
-                    "Exit codes, as those of diff and cmp:\n"
-                    "  0  without --threshold: the pictures are the same; with it: every metric reaches its threshold\n"
-                    "  1  without --threshold: the pictures differ; with it: a metric misses its threshold\n"
-                    "  2  an error: the pictures were not compared\n\n" +
+                    "Exit codes, as of diff and cmp:\n"
+                    "  0  without --threshold: the images are identical; with it: every metric reaches its threshold\n"
+                    "  1  without --threshold: the images differ; with it: a metric misses its threshold\n"
+                    "  2  an error: the images were not compared\n\n" +
                     catalogue_text()};
-  syntax.options = {
-      {"--metric", "NAME,...", "Metrics to measure, each NAME or NAME:PARAMETER=VALUE", "Options", true,
-       [&](auto& text) { args.metric_names = text; }},
-      {"--threshold", "VALUE", "The value that the metric has to reach; of several as psnr=40,ssim=0.98", "Options",
-       true, [&](auto& text) { args.threshold = text; }},
-      {"--map", "FILE", "Write the error map of the first metric that has one (of the worst picture), as PNG",
-       "Options", true, [&](auto& text) { args.map_path = text; }},
-      {"--json", "", "As one line of JSON, with every curve measured", "Options", true,
-       [&](auto&) { args.wants_json = true; }},
-      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
-       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+  syntax.options = {{"--metric", "NAME,...", "Metrics to measure, each NAME or NAME:PARAMETER=VALUE", "Options", true,
+                     [&](auto& text) { args.metric_names = text; }},
+                    {"--threshold", "VALUE", "Value that the metric must reach; for several metrics psnr=40,ssim=0.98",
+                     "Options", true, [&](auto& text) { args.threshold = text; }},
+                    {"--map", "FILE",
+                     "Write the error map of the first metric that has one, as PNG; of several images, the worst one's",
+                     "Options", true, [&](auto& text) { args.map_path = text; }},
+                    {"--json", "", "Print one line of JSON, including measured curves", "Options", true,
+                     [&](auto&) { args.wants_json = true; }},
+                    {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
+                     "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 
@@ -229,7 +231,7 @@ void run(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 2) {
-    throw Error(ErrorKind::Usage, "metrics takes two inputs: the reference and the pictures to judge");
+    throw Error(ErrorKind::Usage, "metrics takes two inputs: the reference and the images to compare");
   }
   const std::string reference = syntax.found_operands[0], test = syntax.found_operands[1];
   const std::vector<Choice> choices = choose(args.metric_names);

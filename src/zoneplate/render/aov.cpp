@@ -12,7 +12,7 @@ void add_value(const Frame& frame, DataChannels& out, std::string name) {
   out.list.push_back({std::move(name), ChannelPrecision::Float, (frame.*plane).values().data()});
 }
 
-// A channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z.
+// Adds one channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z.
 void add_vector(const float* first, std::string_view letters, ChannelPrecision type, std::string_view layer,
                 DataChannels& out) {
   for (std::size_t i = 0; i < letters.size(); ++i)
@@ -86,7 +86,7 @@ constexpr Aov all[] = {
     {"primitive-id", "a false colour for each triangle of a mesh", &Planes::primitive_id, add_primitive_id},
     {"crypto-object", "Cryptomatte of objects by name", &Planes::sample_triangles, add_matte<MatteKind::Object>},
     {"crypto-material", "Cryptomatte of materials by name", &Planes::sample_triangles, add_matte<MatteKind::Material>},
-    {"coverage", "share of the pixel that surfaces own", &Planes::coverage, add_coverage},
+    {"coverage", "fraction of the pixel that surfaces cover", &Planes::coverage, add_coverage},
     {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, add_error}};
 
 }  // namespace

@@ -29,7 +29,7 @@ class FlatBackend : public Backend {
     log_.samples.push_back(request.samples.size());
     Frame frame;
     frame.color = LinearImage(options.width, options.height, Linear{0.25f, 0.5f, 1, 1});
-    if (request.is_presented) frame.shown = Rgba8Image(options.width, options.height, Rgba8{137, 188, 255, 255});
+    if (request.writes_display8) frame.display8 = Rgba8Image(options.width, options.height, Rgba8{137, 188, 255, 255});
     if (counts) *counts = {.vertices = 7, .shaded = 11};
     return frame;
   }

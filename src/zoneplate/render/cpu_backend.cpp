@@ -13,7 +13,7 @@
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
-#include "zoneplate/render/geometry_points.h"
+#include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/shade/surface/surface.h"
@@ -21,11 +21,11 @@
 namespace zoneplate {
 namespace {
 
-/// The scene's materials as the rasterizer's shader.
-class ScenePoints : public FragmentShader {
+/// Adapts the scene's materials to FragmentShader.
+class SceneFragmentShader : public FragmentShader {
  public:
-  ScenePoints(const PreparedScene& scene, const ViewUniforms& surroundings)
-      : scene_(scene.scene()), surfaces_(scene_, surroundings, scene.textures(), scene.vertices()) {}
+  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view)
+      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()) {}
 
   void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
     surfaces_.shade(batch, outputs, out);
@@ -58,8 +58,8 @@ PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const 
           up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
 }
 
-ViewUniforms surroundings_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
-                             const RenderOptions& options) {
+ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
+                              const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
   ViewUniforms s;
   s.eye = xyz(world_from_camera.column[3]);
@@ -73,10 +73,10 @@ ViewUniforms surroundings_of(const Lighting& lighting, const Camera& camera, con
   return s;
 }
 
-/// The tiles write all of the picture that is shown: memory of an earlier one does as well.
+/// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.
 Rgba8Image make_shown(int w, int h, RasterMemory& memory) {
-  const bool fits = memory.shown.width() == w && memory.shown.height() == h;
-  return fits ? std::move(memory.shown) : Rgba8Image(w, h);
+  const bool fits = memory.display8.width() == w && memory.display8.height() == h;
+  return fits ? std::move(memory.display8) : Rgba8Image(w, h);
 }
 
 /// The planes of a request that has no colour.
@@ -100,14 +100,14 @@ void make_uncoloured(const Request& request, int w, int h, Frame& frame, Target&
 void make_planes(const Request& request, int w, int h, Frame& frame, Target& target) {
   Planes planes = request.planes;
   const std::size_t samples = request.samples.size();
-  const auto make = [&](bool wanted, auto& plane, auto*& pointer, auto empty) {
-    if (!wanted) return;
+  const auto make = [&](bool is_requested, auto& plane, auto*& pointer, auto empty) {
+    if (!is_requested) return;
     plane = {w, h, empty};
     pointer = &plane;
   };
   if (planes.any_point_plane()) planes.object_id = planes.primitive_id = true;
-  make(request.content == Content::Colour && !target.presenter, frame.color, target.color, Linear{0, 0, 0, 0});
-  make(planes.any_point_plane(), frame.place, target.place, SamplePosition{});
+  make(request.content == Content::Colour && !target.display_transform, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(planes.any_point_plane(), frame.data_position, target.data_position, SamplePosition{});
   make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
   make(planes.normal, frame.normal, target.normal, float3{});
   make(planes.albedo, frame.albedo, target.albedo, float3{});
@@ -129,7 +129,7 @@ void make_planes(const Request& request, int w, int h, Frame& frame, Target& tar
   target.sample_depth = &frame.sample_depth;
 }
 
-/// The distance along the view axis at which the projection gives this reversed depth.
+/// The distance along the view axis that the projection maps to this reversed depth.
 void find_distances(const float4x4& clip_from_camera, Frame& frame) {
   const double zz = clip_from_camera.column[2].z, zw = clip_from_camera.column[3].z;
   const double wz = clip_from_camera.column[2].w, ww = clip_from_camera.column[3].w;
@@ -150,14 +150,14 @@ void check(const RenderOptions& o, const Request& request) {
     reject("the crop must lie within the picture of " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
-  if (request.draw && (request.is_presented || request.planes.samples || request.planes.sample_colors))
+  if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))
     reject("a method that draws for itself gives a linear picture and has no samples");
-  assert(request.content == Content::Colour || !(request.draw || request.is_presented));
+  assert(request.content == Content::Colour || !(request.draw || request.writes_display8));
   assert(request.content != Content::Data || !(request.planes.samples || request.planes.sample_colors));
   assert(request.content != Content::EdgeDistances || request.samples.size() == 1);
 }
 
-/// The colour by the request's own hand, the data passes by the tiles.
+/// Draws the colour by Request::draw, and the data passes by tiles.
 RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const FragmentShader& shader,
                      const RasterRules& rules, const Target& target, const RenderOptions& options, RasterMemory& memory,
                      Plane<float>* error, std::uint64_t& geometric) {
@@ -172,8 +172,8 @@ RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const 
   return counts;
 }
 
-/// Without colour only opaque and masked surfaces count. Data keep the blended draws, so that triangles keep their
-/// numbers.
+/// Without colour only opaque and alpha-tested surfaces matter. Data passes keep the blended draws, so that triangle
+/// ids stay the same.
 RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
                              const FragmentShader& surfaces, const RasterRules& rules, Target& target,
                              RasterMemory& memory) {
@@ -183,14 +183,14 @@ RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Req
   if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
   if (request.content == Content::Visibility) return run(surfaces);
   target.is_per_sample = true;
-  return run(GeometryPoints(scene, camera, surfaces));
+  return run(GeometryFragmentShader(scene, camera, surfaces));
 }
 
 class CpuBackend : public Backend {
  public:
   Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
                RenderCounts* counts) override;
-  void recycle(Rgba8Image image) override { memory_.shown = std::move(image); }
+  void recycle(Rgba8Image image) override { memory_.display8 = std::move(image); }
 
  private:
   RasterMemory memory_;
@@ -207,7 +207,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   SceneDraws draws = growing(
       "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
-  const ScenePoints points(prepared, surroundings_of(prepared.lighting(), camera, clip_from_camera, options));
+  const SceneFragmentShader points(prepared, view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options));
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;
@@ -223,15 +223,15 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
     target.spacing =
         request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
   if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
-  std::optional<DisplayTransform> presenter;
-  if (request.is_presented) target.presenter = &presenter.emplace(options.display);
+  std::optional<DisplayTransform> display_transform;
+  if (request.writes_display8) target.display_transform = &display_transform.emplace(options.display);
   const bool has_color = request.content == Content::Colour;
   const bool has_data = has_color || request.content == Content::Data;
   if (has_data)
     make_planes(request, crop.width, crop.height, frame, target);
   else
     make_uncoloured(request, crop.width, crop.height, frame, target);
-  if (target.presenter) target.shown = &(frame.shown = make_shown(crop.width, crop.height, memory));
+  if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory));
   const double prepare_ms = prepare.ms();
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,

@@ -13,7 +13,7 @@
 namespace zoneplate {
 namespace {
 
-/// The names of a kind of thing, each once, and which one every instance has.
+/// The distinct names of the objects or materials, and the name of every instance.
 struct Names {
   std::vector<std::string> list;
   std::vector<std::uint32_t> of_instance;
@@ -44,7 +44,7 @@ Names names_of(const Scene& scene, MatteKind kind) {
   return out;
 }
 
-/// The instance of each triangle, as rasterizing numbers them: draw after draw, lines and points as two each.
+/// The instance of each triangle id: ids count draw after draw, two triangles for a line or point.
 class InstanceOf {
  public:
   explicit InstanceOf(const Scene& scene) {
@@ -85,19 +85,19 @@ std::string manifest_of(std::span<const std::string> names) {
   return out + "}";
 }
 
-/// A thing's share of one pixel.
+/// The coverage of one pixel by one item.
 struct Part {
   std::uint32_t name = 0;
   int samples = 0;
 };
 
-/// Counts the things of one pixel's samples and ranks them.
+/// Counts the items at one pixel's samples and ranks them.
 class PartCounter {
  public:
   PartCounter(const std::vector<Plane<std::uint32_t>>& samples, const Scene& scene, const Names& names)
       : samples_(samples), instance_of_(scene), names_(names) {}
 
-  /// The parts, the greatest first; `parts` is memory to be used again.
+  /// The items by descending coverage; `parts` is memory that is reused.
   void count(int x, int y, std::vector<Part>& parts) const {
     parts.clear();
     for (const Plane<std::uint32_t>& plane : samples_) {
@@ -178,9 +178,9 @@ Cryptomatte make_cryptomatte(const Frame& frame, const Scene& scene, MatteKind k
       const std::size_t ranks = std::min<std::size_t>(parts.size(), Cryptomatte::levels);
       for (std::size_t i = 0; i < ranks; ++i) {
         float4& pair = out.ranks[i / 2](x, y);
-        const float share = static_cast<float>(parts[i].samples) / static_cast<float>(samples.size());
+        const float coverage = static_cast<float>(parts[i].samples) / static_cast<float>(samples.size());
         (i % 2 ? pair.z : pair.x) = ids[parts[i].name];
-        (i % 2 ? pair.w : pair.y) = share;
+        (i % 2 ? pair.w : pair.y) = coverage;
       }
     }
   });

@@ -18,26 +18,26 @@ namespace zoneplate {
 /// Source    Appleby, smhasher, 2011.
 std::uint32_t murmur3(std::string_view text);
 
-/// A name as Cryptomatte stores it: its hash as the bits of a float, with one exponent bit turned where the float would
-/// be 0, denormal, infinite or not a number.
+/// The id of a name in Cryptomatte: its hash as the bits of a float, with one exponent bit flipped where the float
+/// would be 0, denormal, infinite or NaN.
 float cryptomatte_id(std::string_view name);
 
 enum class MatteKind { Object, Material };
 
-/// Which named things own how much of each pixel: pairs of id and coverage, the greatest coverage first.
+/// The coverage of each pixel by named objects or materials: pairs of id and coverage, the greatest coverage first.
 ///
-/// Shape     each plane holds two ranks: (id, coverage, id, coverage); six in all. (0, 0) where there are no more.
-/// Exact     coverage is the share of the pixel's samples; of equal ones the earlier thing comes first. Things of one
-///           name are one; one without a name is called after its number: "material 3".
+/// Shape     each plane holds two ranks: (id, coverage, id, coverage); six in all. Unused ranks are (0, 0).
+/// Exact     coverage is the fraction of the pixel's samples; with equal coverage the lower index comes first. Items of
+///           one name are merged; an item without a name is named by its index: "material 3".
 /// Source    Friedman and Jones, Cryptomatte Specification 1.2.0, 2018.
 struct Cryptomatte {
   static constexpr int levels = 6;
   std::string layer;  ///< "CryptoObject"
   std::vector<Plane<float4>> ranks;
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< of the file: hash, conversion, manifest
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< for the file: hash, conversion, manifest
 };
 
-/// Requires  frame.sample_triangle, drawn from this scene.
+/// Requires  frame.sample_triangle, rendered from this scene.
 Cryptomatte make_cryptomatte(const Frame& frame, const Scene& scene, MatteKind kind);
 
 }  // namespace zoneplate

@@ -7,10 +7,10 @@
 
 namespace zoneplate {
 
-/// What a method gets that draws the colour of a frame itself: all that the tiles would get (Request::draw).
+/// The arguments of Request::draw, by which a method draws the colour of a frame itself instead of the tiles.
 ///
-/// It fills `target.color`, and of the other planes only `target.coverage` and `error`, each where it is not null. The
-/// target's samples are those of the data passes and say nothing here.
+/// The method fills `target.color`, and of the other planes only `target.coverage` and `error`, each where it is not
+/// null. `target.samples` belong to the data passes and do not apply here.
 struct CustomDraw {
   std::span<const Draw> draws;
   const FragmentShader& shader;

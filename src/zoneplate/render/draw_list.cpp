@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t corners_of_quad[] = {0, 1, 2, 2, 1, 3};
 
-/// The indices of as many quads.
+/// The indices of `count` quads.
 std::vector<std::uint32_t> quad_indices(std::size_t count) {
   std::vector<std::uint32_t> index;
   index.reserve(count * std::size(corners_of_quad));
@@ -19,21 +19,22 @@ std::vector<std::uint32_t> quad_indices(std::size_t count) {
   return index;
 }
 
-/// `ends`: room for those of points, whose mesh names each vertex once.
-QuadMesh quads_of(const Mesh& mesh, const RenderOptions& options, std::vector<std::uint32_t>& ends) {
+/// `vertices` stores the segment vertices of points, whose mesh lists each vertex once.
+QuadMesh quads_of(const Mesh& mesh, const RenderOptions& options, std::vector<std::uint32_t>& vertices) {
   const bool has_points = mesh.topology == Topology::Points;
   if (has_points)
-    for (const std::uint32_t v : mesh.index) ends.insert(ends.end(), 2, v);
+    for (const std::uint32_t v : mesh.index) vertices.insert(vertices.end(), 2, v);
   const float extent = has_points ? options.point_size : options.line_width;
   const float2 size{static_cast<float>(options.width), static_cast<float>(options.height)};
   return {.position = mesh.position,
-          .ends = std::span<const std::uint32_t>(has_points ? ends : mesh.index).first(2 * mesh.primitives()),
+          .segment_vertices =
+              std::span<const std::uint32_t>(has_points ? vertices : mesh.index).first(2 * mesh.primitives()),
           .has_points = has_points,
           .half_extent = {extent / size.x, extent / size.y},
           .size = size};
 }
 
-/// What the draws of lines and points look at.
+/// Makes the data of lines and points to which draws refer.
 void make_quads(const Scene& scene, const RenderOptions& options, SceneDraws& out) {
   std::size_t most = 0;
   for (const Mesh& mesh : scene.meshes)
@@ -41,10 +42,10 @@ void make_quads(const Scene& scene, const RenderOptions& options, SceneDraws& ou
   if (most == 0) return;
   out.quad_index = quad_indices(most);
   out.quads.resize(scene.meshes.size());
-  out.point_ends.resize(scene.meshes.size());
+  out.point_vertices.resize(scene.meshes.size());
   for (std::size_t m = 0; m < scene.meshes.size(); ++m)
     if (scene.meshes[m].topology != Topology::Triangles)
-      out.quads[m] = quads_of(scene.meshes[m], options, out.point_ends[m]);
+      out.quads[m] = quads_of(scene.meshes[m], options, out.point_vertices[m]);
 }
 
 }  // namespace

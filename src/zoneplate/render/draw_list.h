@@ -7,14 +7,14 @@
 
 namespace zoneplate {
 
-/// A scene as draws: an instance of a mesh each, opaque, masked and blended alike, in the scene's order.
+/// The draws of a scene: one for each instance of a mesh, opaque, alpha-tested or blended, in the scene's order.
 ///
 /// Lines and points become quads in clip space (raster/geometry/quads.h) of `line_width` and `point_size` pixels.
 struct SceneDraws {
   std::vector<Draw> draws;
-  // What the draws of lines and points look at, shared by all instances; kept here because a draw only views it.
-  std::vector<QuadMesh> quads;                         ///< by mesh; empty if there are none
-  std::vector<std::vector<std::uint32_t>> point_ends;  ///< likewise, of points
+  // The data of lines and points to which draws refer, shared by all instances.
+  std::vector<QuadMesh> quads;                             ///< by mesh; empty if the scene has no lines or points
+  std::vector<std::vector<std::uint32_t>> point_vertices;  ///< by mesh, for points
   std::vector<std::uint32_t> quad_index;
 };
 

@@ -79,7 +79,8 @@ void EdgeDistances::shade(const FragmentBatch& batch, OutputMask, FragmentOutput
   if (is_masked(batch.material)) take_alpha_edges(batch, out);
 }
 
-/// Alpha at the point and one pixel to the right and below gives its derivatives; the steeper decides.
+/// The differences of alpha at the fragment and one pixel to the right and below are its derivatives; the axis with the
+/// greater one is used.
 void EdgeDistances::take_alpha_edges(const FragmentBatch& batch, FragmentOutputs& out) const {
   float here[FragmentBatch::padded_capacity], right[FragmentBatch::padded_capacity],
       below[FragmentBatch::padded_capacity];

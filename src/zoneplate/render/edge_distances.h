@@ -8,28 +8,28 @@
 
 namespace zoneplate {
 
-/// Evaluates how far the edges of the visible triangles are in place of the surfaces' light (Content::EdgeDistances).
+/// Computes the distances to the edges of the visible triangles instead of colours (Content::EdgeDistances).
 ///
-/// The colour of a point is (x, y, 0, 1) with the two values of Frame::edge_distance. Where alpha of a masked surface
-/// falls to its cutoff nearer than the edges are, as far as its derivative at the pixel tells, that is the distance.
+/// The colour of a fragment is (x, y, 0, 1) with the two values of Frame::edge_distance. On an alpha-tested surface the
+/// line where alpha reaches the cutoff, extrapolated by alpha's derivative at the pixel, counts as an edge too.
 ///
-/// Exact     edges join the vertices snapped to 1/256 pixel, as coverage knows them; those of triangles that are
-///           clipped join the vertices as they are. An edge without length is no edge.
+/// Exact     edges join the vertices snapped to 1/256 pixel, as for coverage; edges of clipped triangles join the
+///           unsnapped vertices. An edge of length zero is ignored.
 /// Source    Persson, Geometry Buffer Anti-Aliasing, demo of July 2011 (humus.name): FillBuffers.shd, whose geometry
-///           shader makes the distances, RG16F.
+///           shader computes the distances, RG16F.
 class EdgeDistances : public FragmentShader {
  public:
-  /// `surfaces` is the scene's own shader. All arguments outlive this.
+  /// `surfaces` is the scene's own shader. All arguments must outlive this object.
   EdgeDistances(const Scene& scene, std::span<const Draw> draws, Viewport viewport, const FragmentShader& surfaces);
 
-  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override;
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override;
   float alpha(const FragmentBatch& batch, float* out) const override { return surfaces_.alpha(batch, out); }
   bool needs_derivatives(int material) const override {
     return is_masked(material) || surfaces_.needs_derivatives(material);
   }
 
  private:
-  /// a x + b y + c = 0, in 1/256 pixel from the picture's centre.
+  /// a x + b y + c = 0, in 1/256 pixel from the image's centre.
   struct Line {
     double a = 0, b = 0, c = 0;
   };
@@ -56,7 +56,7 @@ class EdgeDistances : public FragmentShader {
   std::vector<std::uint32_t> first_triangle_;  ///< by draw
 };
 
-/// The picture of such a frame as Frame::edge_distance.
+/// Frame::edge_distance from the colours of EdgeDistances.
 Plane<float2> edge_distances_of(const LinearImage& picture);
 
 }  // namespace zoneplate

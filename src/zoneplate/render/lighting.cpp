@@ -18,12 +18,12 @@ void convert_material(Material& material, ShadingModel model) {
   // Source: Karis, Specular BRDF Reference, 2013 (alpha = r², exponent = 2 / alpha² - 2).
   if (is_phong(model) && !is_phong(material.model)) {
     const float alpha = std::max(0.05f, material.roughness * material.roughness);
-    // With a texture of metalness the factor says nothing of the surface as a whole: it is taken for a dielectric.
-    const float share = material.metallic_roughness_texture.image < 0 ? material.metallic : 0;
-    const float dielectric = 0.04f * (1 - share);
+    // With a metalness texture the factor alone does not describe the surface, which then counts as a dielectric.
+    const float metallic = material.metallic_roughness_texture.image < 0 ? material.metallic : 0;
+    const float dielectric = 0.04f * (1 - metallic);
     const float3 color = xyz(material.base_color);
     material.ambient = color;
-    material.specular = color * share + float3{dielectric, dielectric, dielectric};
+    material.specular = color * metallic + float3{dielectric, dielectric, dielectric};
     material.exponent = std::max(1.0f, 2 / (alpha * alpha) - 2);
   }
   if (model == ShadingModel::MetallicRoughness && is_phong(material.model)) {
@@ -39,8 +39,8 @@ Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
     lighting.environment = {.color = *options.environment};
   } else if (scene.lights.empty() && scene.environment == Environment{}) {
     lighting.lights = default_lights();
-    // (Blinn-)Phong's diffuse term has no 1 / π: the same lights are that much weaker for a scene made of it, so that a
-    // white surface comes out alike in every model.
+    // (Blinn-)Phong's diffuse term lacks the factor 1 / π: dividing the lights by π gives a white surface the same
+    // brightness in every model.
     constexpr float pi = 3.14159265f;
     const auto is_made_of_it = [](const Material& m) { return is_phong(m.model); };
     if (!scene.materials.empty() && std::all_of(scene.materials.begin(), scene.materials.end(), is_made_of_it))

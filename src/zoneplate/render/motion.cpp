@@ -16,16 +16,16 @@ struct Double3 {
   double x = 0, y = 0, z = 0;
 };
 
-/// On the screen, in pixels from the picture's top-left corner.
+/// A position on the screen, in pixels from the image's top-left corner.
 using Place = std::array<double, 2>;
 
-/// A point of a primitive: so much of each of its corners, which sum to 1.
+/// A point of a primitive: the weights of its vertices, which add up to 1.
 struct Mixture {
   std::array<std::uint32_t, 3> vertex{};
-  std::array<double, 3> share{};
+  std::array<double, 3> weight{};
 };
 
-/// A moment's camera as numbers, and its scene.
+/// The matrix of a moment's camera, and its scene.
 struct Seen {
   const Scene* scene = nullptr;
   float4x4 clip_from_world;
@@ -42,7 +42,7 @@ Double3 transformed(const float4x4& m, Double3 p) {
           ((c[0].z * p.x + c[1].z * p.y) + c[2].z * p.z) + c[3].z};
 }
 
-/// The place on the screen in pixels; nothing behind the eye.
+/// The position on the screen in pixels; nothing for a point behind the eye.
 std::optional<Place> on_screen(const float4x4& clip_from_world, Double3 p, Viewport viewport) {
   const auto& c = clip_from_world.column;
   const auto row = [&](float a, float b, float e, float d) { return ((a * p.x + b * p.y) + e * p.z) + d; };
@@ -60,7 +60,7 @@ class PointFinder {
       clip_from_object_.push_back(now.clip_from_world * instance.world_from_object);
   }
 
-  /// The point of a primitive that the picture shows at a place.
+  /// The point of a primitive that is visible at a position of the image.
   Mixture find(std::uint32_t instance, std::uint32_t primitive, Place place) const {
     const Scene& scene = *now_.scene;
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[instance].mesh)];
@@ -72,37 +72,38 @@ class PointFinder {
       const float3 p = mesh.position[out.vertex[k]];
       clip[k] = clip_from_object_[instance] * float4{p.x, p.y, p.z, 1};
     }
-    out.share = corners == 3   ? triangle_shares(clip, place)
-                : corners == 2 ? line_shares(clip[0], clip[1], place)
-                               : Shares{1, 0, 0};
+    out.weight = corners == 3   ? triangle_weights(clip, place)
+                 : corners == 2 ? line_weights(clip[0], clip[1], place)
+                                : Weights{1, 0, 0};
     return out;
   }
 
  private:
-  using Shares = std::array<double, 3>;
+  using Weights = std::array<double, 3>;
 
-  Shares triangle_shares(const std::array<float4, 3>& clip, Place place) const {
+  Weights triangle_weights(const std::array<float4, 3>& clip, Place place) const {
     const BarycentricPlanes planes = barycentric_planes(clip[0], clip[1], clip[2], viewport_);
-    // The place in pixels from the picture's corner; planes count 1/256 pixel from its middle.
+    // `place` is in pixels from the image's corner; the planes are in 1/256 pixel from its centre.
     const double px = 256 * (place[0] - viewport_.width / 2.0), py = 256 * (place[1] - viewport_.height / 2.0);
-    Shares q{};
+    Weights q{};
     for (std::size_t k = 0; k < 3; ++k) q[k] = (planes.x[k] * px + planes.y[k] * py) + planes.one[k];
     const double sum = (q[0] + q[1]) + q[2];
-    const Shares shares = sum == 0 ? Shares{1, 0, 0} : Shares{q[0] / sum, q[1] / sum, q[2] / sum};
-    return std::min({shares[0], shares[1], shares[2]}) >= 0 ? shares : outline_shares(clip, place, shares);
+    const Weights weights = sum == 0 ? Weights{1, 0, 0} : Weights{q[0] / sum, q[1] / sum, q[2] / sum};
+    return std::min({weights[0], weights[1], weights[2]}) >= 0 ? weights : outline_weights(clip, place, weights);
   }
 
-  /// Coverage knows edges to 1/256 pixel: a sample that is outside by less stands for the nearest point of the outline.
-  Shares outline_shares(const std::array<float4, 3>& clip, Place place, Shares outside) const {
+  /// Coverage rounds vertices to 1/256 pixel: a sample that is outside by less becomes the nearest point of the
+  /// outline.
+  Weights outline_weights(const std::array<float4, 3>& clip, Place place, Weights outside) const {
     double least = std::numeric_limits<double>::infinity();
-    Shares best{};
+    Weights best{};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
       const std::optional<OnSegment> found = nearest_on_segment(clip[k], clip[next], place);
       if (!found || !(found->square < least)) continue;
       least = found->square;
       best = {};
-      best[k] = 1 - found->share, best[next] = found->share;
+      best[k] = 1 - found->weight, best[next] = found->weight;
     }
     if (least < std::numeric_limits<double>::infinity()) return best;
     for (double& b : outside) b = std::max(b, 0.0);
@@ -110,16 +111,16 @@ class PointFinder {
     return {outside[0] / sum, outside[1] / sum, outside[2] / sum};
   }
 
-  Shares line_shares(float4 a, float4 b, Place place) const {
+  Weights line_weights(float4 a, float4 b, Place place) const {
     const std::optional<OnSegment> found = nearest_on_segment(a, b, place);
-    return found ? Shares{1 - found->share, found->share, 0} : Shares{1, 0, 0};
+    return found ? Weights{1 - found->weight, found->weight, 0} : Weights{1, 0, 0};
   }
 
   struct OnSegment {
-    double share = 0;   ///< of b, in space
+    double weight = 0;  ///< of b, in space
     double square = 0;  ///< of the distance on the screen
   };
-  /// The point of a segment that is nearest to a place on the screen; nothing if an end is behind the eye.
+  /// The point of a segment that is nearest to a position on the screen; nothing if an end is behind the eye.
   std::optional<OnSegment> nearest_on_segment(float4 a, float4 b, Place place) const {
     if (!(a.w > 0) || !(b.w > 0)) return std::nullopt;
     const auto on_screen = [&](float4 p) -> Place {
@@ -139,7 +140,7 @@ class PointFinder {
   std::vector<float4x4> clip_from_object_;
 };
 
-/// Where a mixture of a mesh's vertices is in the world; nothing if this scene has not the same mesh there.
+/// The world position of a weighted point of a mesh; nothing if the scene lacks that mesh.
 std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, const Scene& scene, const Mesh& like) {
   if (instance >= scene.instances.size()) return std::nullopt;
   const Instance& placed = scene.instances[instance];
@@ -148,13 +149,13 @@ std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, co
   Double3 sum;
   for (std::size_t k = 0; k < 3; ++k) {
     const float3 p = mesh.position[point.vertex[k]];
-    const double share = point.share[k];
-    sum = {sum.x + share * p.x, sum.y + share * p.y, sum.z + share * p.z};
+    const double weight = point.weight[k];
+    sum = {sum.x + weight * p.x, sum.y + weight * p.y, sum.z + weight * p.z};
   }
   return transformed(placed.world_from_object, sum);
 }
 
-/// How far a point moves on the screen from one moment to another.
+/// The motion of a point on the screen from one moment to another.
 float2 step_between(const Seen& from, const Seen& to, const Mixture& point, std::uint32_t instance, const Mesh& mesh,
                     Viewport viewport) {
   const auto at = [&](const Seen& seen) -> std::optional<Place> {
@@ -184,7 +185,7 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
     for (int x = 0; x < width; ++x) {
       const std::uint32_t instance = frame.instance(x, y);
       if (instance == Frame::no_id) continue;
-      const SamplePosition place = frame.place(x, y);
+      const SamplePosition place = frame.data_position(x, y);
       const Mixture point = finder.find(instance, frame.primitive_id(x, y),
                                         {frame.x + x + place.x / 256.0, frame.y + y + place.y / 256.0});
       const Mesh& mesh = now.scene->meshes[static_cast<std::size_t>(now.scene->instances[instance].mesh)];

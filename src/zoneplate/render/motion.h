@@ -5,17 +5,18 @@
 
 namespace zoneplate {
 
-/// Gives a frame what follows from its ids and where the vertices are: world positions, and how far the surface points
-/// have moved on the screen since the last moment and will move to the next.
+/// Computes the planes of a frame that follow from its ids and the vertices: world positions, and the motion of the
+/// surface points on the screen since the last moment and to the next one.
 ///
-/// A pixel's surface point lies at `frame.place`, where all its data are taken; where its primitive does not reach that
-/// by the rounding of coverage or of the place, at the nearest point of its outline.
-/// Instances and vertices of two moments belong together by their numbers; one that has no partner stands still, and so
-/// does a point that is not in front of the other moment's camera.
+/// The surface point of a pixel lies at `frame.data_position`, as all of its data do; where the primitive does not
+/// reach that position because coverage and positions are rounded, it is the nearest point of the primitive's outline.
+/// Instances and vertices of two moments correspond by their indices. An instance or vertex without a counterpart has
+/// no motion, nor has a point that is not in front of the other moment's camera.
 ///
-/// Units     position: metres, world. motion: output pixels, x right, y down, where the point is now minus where it was
-///           at the last moment; flow: where it will be minus where it is. No jitter is in either. 0 where nothing is.
-/// Requires  frame.instance, frame.primitive_id and frame.place; `now` is what the frame was drawn from.
+/// Units     position: metres, world. motion: output pixels, x right, y down, the point's position now minus its
+///           position at the last moment; flow: its next position minus the one now. Both are without jitter, and 0 in
+///           empty pixels.
+/// Requires  frame.instance, frame.primitive_id and frame.data_position; the frame was rendered from `now`.
 /// Exact     computed in double and rounded once; the same bits for any number of threads.
 void add_surface_points(const Moment& now, const Planes& planes, const RenderOptions& options, Frame& frame);
 

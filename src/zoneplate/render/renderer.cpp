@@ -29,7 +29,7 @@ void cut_out(Plane<T>& image, const Crop& part) {
   image = std::move(out);
 }
 
-/// The data planes of a frame, which are moved out of it, and its place in the picture.
+/// The data planes of a frame, which are moved out of it, and its position in the image.
 Frame data_of(Frame& frame) {
   Frame data;
   data.x = frame.x, data.y = frame.y;
@@ -38,7 +38,7 @@ Frame data_of(Frame& frame) {
   return data;
 }
 
-/// Of a frame that was rendered with a halo, the part without it.
+/// The part of a padded frame without its apron.
 void cut_out(RenderedImage& image, const Crop& whole, const Crop& crop) {
   const Crop part{crop.x - whole.x, crop.y - whole.y, crop.width, crop.height};
   cut_out(image.display, part), cut_out(image.display16, part), cut_out(image.linear, part);
@@ -89,7 +89,7 @@ Request Renderer::request_for(const RenderSettings& settings) {
   request.planes = request.planes | settings.planes;
   if (settings.planes.error && !request.estimates_error)
     throw Error(ErrorKind::Usage, "the method has no estimate of its error");
-  request.is_presented = request.resolves_per_pixel && settings.form == ImageForm::Display8;
+  request.writes_display8 = request.resolves_per_pixel && settings.form == ImageForm::Display8;
   return request;
 }
 
@@ -97,9 +97,9 @@ Frame Renderer::Rounds::take_data() { return data ? std::move(*data) : data_of(f
 
 Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
                                          RenderCounts& counts) {
-  const auto round = [&](const Request& wanted) {
+  const auto round = [&](const Request& round_request) {
     RenderCounts own;
-    Frame frame = backend_->render(scene_, camera, wanted, options, &own);
+    Frame frame = backend_->render(scene_, camera, round_request, options, &own);
     frame.display = options.display;
     add(counts, own);
     return frame;
@@ -112,7 +112,7 @@ Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& re
   return rounds;
 }
 
-/// From the method's linear picture to the form that is wanted.
+/// Converts the method's linear image to the requested format.
 void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out) {
   if (form == ImageForm::Linear) {
     out.linear = std::move(picture);
@@ -130,12 +130,12 @@ void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, R
   out.counts.display_ms += watch.ms();
 }
 
-/// Keeps what the next frame may look back at.
-void Renderer::end_frame(const Camera& camera, const Request& request, bool are_planes_wanted, Frame& data) {
+/// Keeps the state of this frame that the next frame may use.
+void Renderer::end_frame(const Camera& camera, const Request& request, bool are_planes_requested, Frame& data) {
   moment_.reset();
   if (request.planes.motion) moment_ = {scene_.shared_scene(), camera};
   previous_.reset();
-  if (request.keeps_planes && are_planes_wanted)
+  if (request.keeps_planes && are_planes_requested)
     previous_ = data;
   else if (request.keeps_planes)
     previous_ = std::move(data);
@@ -152,8 +152,8 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   RenderedImage out;
   Rounds rounds = render_rounds(camera, request, options, out.counts);
   Frame& frame = rounds.frame;
-  if (request.is_presented) {
-    out.display = std::move(frame.shown);
+  if (request.writes_display8) {
+    out.display = std::move(frame.display8);
   } else {
     const Stopwatch watch;
     LinearImage linear = method_->resolve(frame);
@@ -161,9 +161,9 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
     finish(std::move(linear), frame, settings.form, out);
   }
   out.data = rounds.take_data();
-  const bool are_planes_wanted = settings.planes.any();
-  end_frame(camera, request, are_planes_wanted, out.data);
-  if (!are_planes_wanted) out.data = {};
+  const bool are_planes_requested = settings.planes.any();
+  end_frame(camera, request, are_planes_requested, out.data);
+  if (!are_planes_requested) out.data = {};
   if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
   return out;
 }
@@ -172,7 +172,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
                                     const RenderSettings& settings) {
   begin_frame(settings);
   Request request = request_for(settings);
-  request.is_presented = false;
+  request.writes_display8 = false;
   RenderOptions options = settings.options;
   options.crop = padded_crop(settings.options, request.halo);
   if (!options.last) options.last = moment_;
@@ -196,8 +196,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
     }
     out.counts.resolve_ms += watch.ms();
   }
-  const float share = 1 / static_cast<float>(count);
-  for (Linear& c : sum.values()) c = c * share;
+  const float weight = 1 / static_cast<float>(count);
+  for (Linear& c : sum.values()) c = c * weight;
   finish(std::move(sum), rounds.frame, settings.form, out);
   Frame data = rounds.take_data();
   end_frame(camera, request, false, data);

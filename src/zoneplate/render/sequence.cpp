@@ -52,7 +52,7 @@ Camera Sequence::camera(const Scene& scene, double frame) const {
   return camera;
 }
 
-/// All places that anything is at, over the whole animation: parts of a film are made apart from each other.
+/// All poses of the animation in one scene. Its bounds do not depend on which frames are rendered.
 Scene Sequence::all_poses() {
   constexpr int poses = 8;
   Scene all;
@@ -70,7 +70,7 @@ float4x4 Sequence::turned(float angle) const {
   return translation(centre_) * rotation(view_.up, angle) * translation(-centre_);
 }
 
-/// What the camera sees on its way round, seen from where it starts.
+/// Adds the scene as seen from all positions of the turntable, relative to its first one.
 void Sequence::add_turns(Scene& all) const {
   constexpr int steps = 24;
   const std::vector<Instance> once = all.instances;

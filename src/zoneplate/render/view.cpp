@@ -13,7 +13,7 @@
 namespace zoneplate {
 namespace {
 
-// A camera as options speak of it.
+// A camera by the parameters of the options.
 struct Pose {
   float3 eye, target, up;
 };
@@ -25,7 +25,7 @@ Pose pose_of(const Camera& camera, float3 centre) {
   return {eye, eye + forward * (distance > 0 ? distance : 1.0f), xyz(m.column[1])};
 }
 
-// Turned about the focal point: to the right about the up vector, then upwards.
+// Turns a camera about its focal point: to the right about the up vector, then upwards.
 Pose turned(const Pose& pose, float azimuth, float elevation) {
   const float3 sideways = transform_vector(rotation(pose.up, azimuth), pose.eye - pose.target);
   const float3 right = normalize(cross(pose.up, sideways), {1, 0, 0});
@@ -34,7 +34,8 @@ Pose turned(const Pose& pose, float azimuth, float elevation) {
           elevation == 0 ? pose.up : transform_vector(upwards, pose.up)};
 }
 
-// Near and far around what is in front of the camera. An orthographic camera steps back until all of it is.
+// Sets near and far around the part of the scene in front of the camera. An orthographic camera moves back until all of
+// the scene is in front of it.
 void enclose(Camera& camera, const Box& box) {
   const float3 eye = xyz(camera.world_from_camera.column[3]), back = xyz(camera.world_from_camera.column[2]);
   float nearest = std::numeric_limits<float>::infinity(), farthest = -nearest;
@@ -54,7 +55,7 @@ void enclose(Camera& camera, const Box& box) {
     camera.world_from_camera.column[3] = {moved.x, moved.y, moved.z, 1};
     nearest += step, farthest += step;
   }
-  // Reversed depth in floating point bears a far plane 100,000 times as far as the near one.
+  // Reversed floating-point depth has enough precision for a far plane 100,000 times as far as the near one.
   camera.far = farthest + margin;
   camera.near = std::max(nearest - margin, camera.far * 1e-5f);
 }
@@ -97,7 +98,7 @@ Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   if (turns) pose = turned(pose, view.azimuth.value_or(0), view.elevation.value_or(0));
   camera.world_from_camera = inverse(look_at(pose.eye, pose.target, pose.up));
 
-  // The parallel view of a perspective one shows the same height at the focal point.
+  // An orthographic view has the height of the perspective one at the focal point.
   if (view.view_angle) camera.vertical_fov = *view.view_angle;
   if (view.is_orthographic) {
     const float half_angle = camera.vertical_fov / 2;

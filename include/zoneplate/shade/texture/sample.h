@@ -7,8 +7,8 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// Looks up a texture at `uv`, for shaders of the user's own (render/user_shader.h): red, green, blue and straight
-/// alpha; colours are linear.
+/// Looks up a texture at `uv`, for user shaders (render/user_shader.h): red, green, blue and straight alpha; colours
+/// are linear.
 ///
 /// `dx` and `dy` are the derivatives of `uv` per pixel to the right and downwards. They choose the mip levels, and with
 /// Sampler::anisotropy the probes. Filtering is that of FilteringKernels, bit for bit as in materials.

@@ -1,12 +1,13 @@
-// Axial coverage: how far a pixel's triangle reaches along the pixel's row and column, from the triangles that 64
-// samples on both axes show; the pixel takes as much of its neighbour as lies beyond.
+// Axial coverage: 64 visibility samples along the pixel's row and column measure how far its triangle reaches; the
+// pixel is blended with its neighbour by the length beyond the triangle's edge.
 //
-// One-dimensional coverage as in geometry buffer antialiasing (`gbaa`), but of what is seen: hidden edges and
-// intersections are right, at the cost of 64 samples of visibility a pixel. Exact to 1/32 pixel for level and upright
-// edges, within an eighth of a pixel for oblique ones, whatever the contrast, with one shaded sample a pixel. Weak at
-// corners, and blind to what shading makes of a pixel. With `edges=triangles` every triangle has edges: where they are
-// smaller than a pixel the nearest is one inside the surface and hides that the surface ends a little farther on, and
-// outlines of fine meshes are mottled. With `edges=surfaces` only those count at which a surface ends or bends.
+// One-dimensional coverage as in geometry buffer antialiasing (`gbaa`), but of visible surfaces: hidden edges and
+// intersections are handled correctly, at the cost of 64 visibility samples per pixel. Exact to 1/32 pixel for
+// horizontal and vertical edges, within an eighth of a pixel for oblique ones, for any contrast, with one shaded sample
+// per pixel. Weak at corners, and without effect on aliasing of shading. With `edges=triangles` the edges of all
+// triangles count: where triangles are smaller than a pixel, the nearest edge lies inside the surface and hides the
+// outline beyond it, so that outlines of fine meshes are mottled. With `edges=surfaces` only edges count at which a
+// surface ends or bends.
 //
 // Source: after Persson, Geometry Buffer Anti-Aliasing, SIGGRAPH 2011 course.
 #include <algorithm>
@@ -18,23 +19,23 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int places = 32;  // along each axis, those across the row first
+constexpr int places = 32;  // sample positions along each axis, those along the row first
 constexpr int half = places / 2;
 
-/// A way from the centre to one of the pixel's sides: `half` places, the first of them at `begin`.
+/// The samples from the centre to one of the pixel's sides: `half` positions, the first of them at `begin`.
 struct Way {
   int begin, step;
-  int dx, dy;  ///< to the neighbour beyond
+  int dx, dy;  ///< offset of the neighbour beyond that side
 };
 constexpr Way ways[] = {
     {half - 1, -1, -1, 0}, {half, 1, 1, 0}, {places + half - 1, -1, 0, -1}, {places + half, 1, 0, 1}};
 
-/// What is seen along the axes of the pixels.
+/// The visible triangles along the axes of the pixels.
 class Places {
  public:
   explicit Places(const Frame& frame) : frame_(frame) {}
 
-  /// How many places along the way are the first one's triangle: `half` where there is no edge.
+  /// The number of samples on the way from the first one that have its triangle: `half` if there is no edge.
   int run(const Way& way, int x, int y) const {
     const std::uint32_t own = triangle(way, 0, x, y);
     int length = 1;
@@ -42,7 +43,8 @@ class Places {
     return length;
   }
 
-  /// How many places along the way belong to the first one's surface, if the neighbour's looks like it or not.
+  /// The number of samples on the way that belong to the surface of the first one, whether or not the neighbour shows
+  /// the same surface.
   int run_of_surface(const Way& way, int x, int y, bool is_alike) const {
     int bend = half;
     float greatest = -1;
@@ -63,15 +65,15 @@ class Places {
   }
   float depth(const Way& way, int i, int x, int y) const { return frame_.sample_depth[sample(way, i)](x, y); }
 
-  /// How depth changes at place i of the way, found towards one side; 0 where nothing is seen there.
+  /// The change of depth at sample i of the way, computed towards one side; 0 for empty samples.
   float slope(const Way& way, int i, int side, int x, int y) const {
     const int axis = way.begin / places * places, other = way.begin + way.step * (i + side) - axis;
     if (other < 0 || other >= places || triangle(way, i + side, x, y) == Frame::no_id) return 0;
     return (depth(way, i + side, x, y) - depth(way, i, x, y)) * static_cast<float>(side);
   }
 
-  /// True if what is seen at places i - 1 and i does not meet: depth changes by more than it does on either side. Where
-  /// a round surface turns away from the eye its depth changes by up to 1 / (√2 - 1) times the step before.
+  /// True if depth is discontinuous between samples i - 1 and i: it changes by more than on either side. Where a round
+  /// surface turns away from the eye its depth changes by up to 1 / (√2 - 1) times the step before.
   bool is_torn(const Way& way, int i, int x, int y) const {
     constexpr float most = 3, rounding = 0x1p-20f;
     const float z = depth(way, i - 1, x, y), next = depth(way, i, x, y);
@@ -95,7 +97,7 @@ class Axial : public Resolver {
     request.halo = 1;
     return request;
   }
-  /// The picture first, then the triangles.
+  /// Requests the colours first, then the triangles.
   std::optional<Request> refine(Frame& frame) override {
     if (!color_.empty()) return std::nullopt;
     color_ = std::move(frame.color);
@@ -121,15 +123,15 @@ class Axial : public Resolver {
 
   /// An edge towards a neighbour.
   struct Nearest {
-    int length = half;  ///< half: there is none
+    int length = half;  ///< half: no edge
     int x = 0, y = 0;
     void take(int other_length, int other_x, int other_y) {
       if (other_length < length) length = other_length, x = other_x, y = other_y;
     }
   };
 
-  /// The nearest edge of the four ways decides; of equal ones the first of left, right, up, down. Of edges of surfaces
-  /// those come first that lead to pixels where something else is seen.
+  /// Chooses the nearest edge of the four ways; of equal ones the first of left, right, up, down. With edges of
+  /// surfaces, edges towards pixels that show another surface come first.
   Linear pixel(const Places& seen, int x, int y) const {
     Nearest nearest, among_alike;
     for (const Way& way : ways) {
@@ -151,7 +153,7 @@ class Axial : public Resolver {
     return color_(x, y) * (1 - share) + color_(nearest.x, nearest.y) * share;
   }
 
-  /// True if two pixels show one material of one object, turned by less than 60 degrees.
+  /// True if two pixels show the same material of the same object with normals less than 60 degrees apart.
   bool are_alike(int x, int y, int i, int j) const {
     constexpr float least_cosine = 0.5f;
     return object_(x, y) == object_(i, j) && material_(x, y) == material_(i, j) &&
@@ -166,15 +168,17 @@ class Axial : public Resolver {
 };
 
 constexpr std::string_view edges[] = {"triangles", "surfaces"};
-constexpr Param params[] = {
-    {.name = "edges", .meaning = "every triangle's, or those where surfaces end or bend", .value = 1, .names = edges}};
+constexpr Param params[] = {{.name = "edges",
+                             .meaning = "edges that count: of every triangle, or only where surfaces end or bend",
+                             .value = 1,
+                             .names = edges}};
 constexpr std::string_view variants[] = {"edges=triangles"};
 
 }  // namespace
 
 Method axial() {
   return {.name = "axial",
-          .summary = "one shaded sample a pixel, and 64 samples that tell how far its triangle reaches",
+          .summary = "one shaded sample per pixel; coverage from 64 visibility samples along its row and column",
           .source = "after Persson 2011",
           .params = params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {

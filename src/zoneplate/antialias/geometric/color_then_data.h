@@ -7,8 +7,8 @@
 
 namespace zoneplate::antialias {
 
-/// A method that renders a frame twice: its colour at one sample a pixel, then, unshaded, other data of the same view
-/// (Content), and makes the picture of both. A pixel depends on the eight around it.
+/// A method of two rounds: the first renders colours at one sample per pixel, the second renders other data of the same
+/// view without shading (Content); both are combined to the image. A pixel depends on its eight neighbours.
 class ColorThenData : public Resolver {
  public:
   Request request(const FrameContext&) final {

@@ -1,12 +1,12 @@
-// Geometry buffer antialiasing: each pixel stores how far the nearest edge of its triangle is along its row or column;
-// where that edge, or one that a neighbour stores, crosses the pixel, the pixel takes as much of the neighbour's colour
-// as lies beyond it.
+// Geometry buffer antialiasing: each pixel stores the distance to the nearest edge of its triangle along its row or
+// column. Where that edge, or an edge stored by a neighbour, crosses the pixel, it is blended with the neighbour's
+// colour by the fraction beyond the edge.
 //
-// One shaded sample a pixel and two stored numbers. Exact for a straight level or upright edge up to the rounding of
-// 16-bit floats, within an eighth of a pixel for oblique ones, whatever the contrast. Weak where triangles are small: a
-// pixel stores one edge. Of what is thinner than a pixel it smooths one side and not the other; and near an outline the
-// nearest edge may be one inside the surface, so that outlines of fine meshes are mottled, as are those that come from
-// hidden or intersecting triangles (`axial` has those right).
+// One shaded sample and two stored numbers per pixel. Exact for straight horizontal or vertical edges up to the
+// rounding of 16-bit floats, within an eighth of a pixel for oblique ones, for any contrast. Weak where triangles are
+// small: a pixel stores one edge. Of objects thinner than a pixel it smooths one side only; near an outline the nearest
+// edge may lie inside the surface, so that outlines of fine meshes are mottled, and so are outlines by hidden or
+// intersecting triangles (which `axial` handles correctly).
 //
 // Source: Persson, Geometry Buffer Anti-Aliasing, SIGGRAPH 2011 course, and his demo of July 2011 (humus.name),
 // GBAA.shd: the neighbours' order, comparisons and the bilinear fetch are the demo's. Its fetch mixes linear light, as
@@ -28,7 +28,7 @@ float2 gbaa_offset(const Plane<float2>& distance, int x, int y) {
   };
   float2 offset = distance(x, y);
   if (std::min(std::abs(offset.x), std::abs(offset.y)) < none) return offset;
-  // A background pixel stores nothing of the edge in front of it, but the pixel on the edge's other side does.
+  // A background pixel stores no distance to the edge in front of it; the pixel on the other side of the edge does.
   const float left = at(x - 1, y).x, right = at(x + 1, y).x, above = at(x, y - 1).y, below = at(x, y + 1).y;
   offset = {none, none};
   if (std::abs(left - 0.75f) < 0.25f) offset = {left - 1, none};
@@ -40,7 +40,7 @@ float2 gbaa_offset(const Plane<float2>& distance, int x, int y) {
 
 namespace {
 
-/// Which neighbour a pixel takes from, and how much.
+/// The neighbour with which a pixel is blended, and its weight.
 struct Step {
   int towards;
   float share;
@@ -51,7 +51,7 @@ Step step_of(float offset) {
   return offset >= 0 ? Step{1, 0.5f - offset} : Step{-1, 0.5f + offset};
 }
 
-/// At most one axis has an edge. Beyond the picture's sides its outermost pixels go on.
+/// At most one axis has an edge. The outermost pixels are repeated beyond the image's sides.
 Linear mixed_pixel(const LinearImage& color, const Plane<float2>& distance, int x, int y) {
   const float2 offset = gbaa_offset(distance, x, y);
   const Step across = step_of(offset.x), down = step_of(offset.y);
@@ -81,7 +81,7 @@ class Gbaa : public ColorThenData {
 
 Method gbaa() {
   return {.name = "gbaa",
-          .summary = "one shaded sample a pixel, and the stored distance of its triangle's nearest edge",
+          .summary = "one shaded sample per pixel, and the stored distance to its triangle's nearest edge",
           .source = "Persson 2011",
           .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Gbaa>(); },
           .is_specification_only = true};

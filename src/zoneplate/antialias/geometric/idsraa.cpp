@@ -1,10 +1,10 @@
-// Subpixel reconstruction by triangle: each pixel is shaded once, at its centre; at more places the triangle is known,
-// and each of these takes the colour of the shaded pixels nearby that show its triangle.
+// Subpixel reconstruction by triangle id: each pixel is shaded once, at its centre. Triangle ids are rendered at more
+// samples, and each sample takes the colour of nearby shaded pixels that show its triangle.
 //
-// Subpixel reconstruction antialiasing with the triangles themselves in place of the likeness of normals and depths;
-// of a triangle that is shaded nowhere around, the pixel of the most alike depth stands in. With one colour a triangle
-// it is multisampling. Weak where surfaces are smaller than a pixel, and as blind as multisampling to what shading does
-// inside one. Blended surfaces show what the pixel's centre shows of them.
+// A variant of subpixel reconstruction antialiasing that compares triangle ids instead of normals and depths; a sample
+// whose triangle is shaded in no pixel nearby takes the colour of the pixel with the most similar depth. With one
+// colour per triangle the result equals multisampling. Weak where surfaces are smaller than a pixel, and like
+// multisampling without effect on aliasing of shading. Blended surfaces appear as sampled at the pixel's centre.
 //
 // Source: after Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011.
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// The pixels around, the nearest first; of equally unlike depths the first is taken.
+/// The neighbouring pixels, the nearest first; with equal differences of depth the first is taken.
 struct Offset {
   int x, y;
 };
@@ -48,7 +48,7 @@ class Reconstruction {
   float depth(std::size_t s, int x, int y) const { return frame_.sample_depth[s](x, y); }
   bool is_inside(int x, int y) const { return x >= 0 && y >= 0 && x < color_.width() && y < color_.height(); }
 
-  /// The mean of the pixels around that show the sample's triangle, else the one whose depth is most like its.
+  /// The mean of the neighbouring pixels that show the sample's triangle, or without any the one of most similar depth.
   Linear sample(std::size_t s, int x, int y) const {
     const std::uint32_t wanted = triangle(s, x, y);
     const float z = depth(s, x, y);
@@ -60,7 +60,7 @@ class Reconstruction {
       if (!is_inside(i, j)) continue;
       const Linear& color = color_(i, j);
       if (triangle(0, i, j) == wanted) sum = sum + color, ++count;
-      // Reversed depth goes as one over the distance: relative differences are those of distances.
+      // Reversed depth is proportional to 1 / distance: relative differences equal those of distances.
       const float other = depth(0, i, j), greater = std::max(z, other);
       const float unlike = greater > 0 ? std::abs(z - other) / greater : 0;
       if (unlike < least) least = unlike, nearest = color;
@@ -85,7 +85,7 @@ class IdSraa : public ColorThenData {
     request.samples = pattern_;
     request.content = Content::Visibility;
     request.planes.samples = true;
-    request.centroid = Centroid::First;  // alpha of masked surfaces at the pixel's centre where the triangle is there
+    request.centroid = Centroid::First;  // the alpha test at the pixel's centre if the triangle covers it
     return request;
   }
   LinearImage combined(const LinearImage& color, const Frame& data) const override {
@@ -101,10 +101,8 @@ class IdSraa : public ColorThenData {
 };
 
 constexpr int counts[] = {2, 4, 8, 16};
-constexpr Param params[] = {{.name = "n",
-                             .meaning = "samples a pixel whose triangles are known, in the standard pattern",
-                             .value = 8,
-                             .choices = counts}};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "triangle-id samples per pixel, in the standard pattern", .value = 8, .choices = counts}};
 
 constexpr std::string_view variants[] = {"n=4"};
 
@@ -113,7 +111,7 @@ constexpr std::string_view variants[] = {"n=4"};
 Method idsraa() {
   return {
       .name = "idsraa",
-      .summary = "one shaded sample a pixel, given to the samples that show its triangle",
+      .summary = "one shaded sample per pixel, distributed to the samples with its triangle id",
       .source = "after Chajdas 2011",
       .params = params,
       .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<IdSraa>(s.integer("n")); },

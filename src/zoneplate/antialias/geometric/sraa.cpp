@@ -1,9 +1,9 @@
-// Subpixel reconstruction antialiasing: each pixel is shaded once, at its centre; normals and distances are known at
-// more places, and each of these takes the mean of the shaded colours around it, weighted by the likeness of surfaces.
+// Subpixel reconstruction antialiasing: each pixel is shaded once, at its centre. Normals and distances are rendered at
+// more samples, and each sample takes a mean of the shaded colours around it, weighted by the similarity of surfaces.
 //
-// Geometry is drawn at n samples a pixel and at its centre, without shading: normals are interpolated from the
-// vertices, so that a normal map is not seen. Weak where surfaces are narrower than a pixel: of one that is shaded
-// nowhere nearby the colour is another's; and inside a surface colours are blurred over about a pixel.
+// Geometry is rendered at n samples per pixel and at its centre, without shading: normals are interpolated from the
+// vertices, without normal maps. Weak where surfaces are narrower than a pixel: a surface that is shaded in no pixel
+// nearby gets the colour of another one; and inside a surface colours are blurred over about a pixel.
 //
 // Source: Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011: weights
 // exp(-scale max(1 - N·N', depth scale |z - z'|)) of their published kernel. It leaves both scales to the scene. Here
@@ -24,7 +24,7 @@ namespace zoneplate {
 namespace scalar {
 namespace {
 
-/// The weight of what is shaded at one place for another.
+/// The weight of a shaded pixel for a sample.
 float likeness(const float* a, const float* b, const BilateralScales& scales) {
   const float3 normal{a[0], a[1], a[2]}, other{b[0], b[1], b[2]};
   const bool is_empty = normal == float3{}, is_other_empty = other == float3{};
@@ -62,7 +62,7 @@ struct Offset {
   int x, y;
 };
 
-/// Those of the 3 × 3 pixels around whose centres lie within the radius, row by row.
+/// The pixels of the 3 × 3 neighbourhood whose centres lie within the radius, row by row.
 std::vector<Offset> offsets_around(SamplePosition sample, double radius) {
   std::vector<Offset> out;
   for (int y = -1; y <= 1; ++y)
@@ -105,7 +105,8 @@ class Reconstruction {
  private:
   static constexpr float least_weight = 1e-20f;
 
-  /// Adds what the pixels at an offset say of sample s of pixels [first, last) of row y, as far as there are such.
+  /// Adds the contributions of the pixels at an offset to sample s of pixels [first, last) of row y; pixels outside the
+  /// image contribute nothing.
   void add(std::size_t s, Offset o, int first, int last, int y, Linear* sum, float* weight) const {
     const int begin = std::max(first, -o.x), end = std::min(last, color_.width() - o.x);
     if (y + o.y < 0 || y + o.y >= color_.height() || begin >= end) return;
@@ -114,8 +115,8 @@ class Reconstruction {
                  weight + (begin - first), static_cast<std::size_t>(end - begin));
   }
 
-  /// A sample that is like no centre within the radius is compared with all of the 3 × 3 pixels around; like none of
-  /// them, it takes its own pixel's colour.
+  /// A sample that is similar to no centre within the radius is compared with all 3 × 3 pixels around it; if it is
+  /// similar to none, it takes its own pixel's colour.
   Linear other_mean(std::size_t s, int x, int y) const {
     Linear sum{0, 0, 0, 0};
     float weight = 0;
@@ -155,11 +156,15 @@ class Sraa : public ColorThenData {
 
 constexpr int counts[] = {2, 4, 8, 16};
 constexpr Param params[] = {
-    {.name = "n", .meaning = "geometric samples a pixel, in the standard pattern", .value = 4, .choices = counts},
+    {.name = "n", .meaning = "geometry samples per pixel, in the standard pattern", .value = 4, .choices = counts},
     {.name = "scale", .meaning = "falloff of the bilateral weight", .value = 40, .low = 1, .high = 10000},
-    {.name = "depth", .meaning = "weight of depths against normals", .value = 10, .low = 0, .high = 10000},
+    {.name = "depth",
+     .meaning = "weight of depth differences relative to normals",
+     .value = 10,
+     .low = 0,
+     .high = 10000},
     {.name = "radius",
-     .meaning = "pixels from a sample to the shaded centres that count",
+     .meaning = "radius, in pixels, in which shaded pixel centres contribute to a sample",
      .value = 1,
      .low = 0.75,
      .high = 1.5,
@@ -171,7 +176,7 @@ constexpr std::string_view variants[] = {"n=8"};
 
 Method sraa() {
   return {.name = "sraa",
-          .summary = "one shaded sample a pixel, given to geometric samples of like normal and depth",
+          .summary = "one shaded sample per pixel, distributed to geometry samples of similar normal and depth",
           .source = "Chajdas 2011",
           .params = params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {

@@ -12,10 +12,10 @@ struct BilateralScales {
 };
 
 struct SraaKernels : PerIsa<SraaKernels> {
-  /// Adds what n shaded pixels say of n samples: their colours times their weights, and the weights alone.
+  /// Adds the contributions of n shaded pixels to n samples: their colours times their weights, and the weights.
   ///
-  /// Shape     four floats a pixel, but one of `weight`: geometry as in Frame::sample_geometry, colours r, g, b, a.
-  /// Edges     where nothing is at both places the weight is 1, where at one of them 0.
+  /// Shape     four floats a pixel, one of `weight`: geometry as in Frame::sample_geometry, colours r, g, b, a.
+  /// Edges     the weight is 1 if pixel and sample are both empty, and 0 if one of them is.
   void (*add)(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
               float* weight, std::size_t n);
 };

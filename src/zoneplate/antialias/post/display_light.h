@@ -6,13 +6,13 @@
 
 namespace zoneplate::antialias {
 
-/// Which of two truths a filter makes of colours beyond white.
+/// The order of filtering and tone mapping, which matters for colours beyond white.
 enum class FilterOrder {
-  Scene,    ///< what is filtered is light, and the mean is tone mapped
-  Display,  ///< each colour is tone mapped, and what is filtered is the light that the display sends
+  Scene,    ///< filter in scene-linear light, then tone-map the mean
+  Display,  ///< tone-map each colour, then filter display-linear light
 };
 
-/// Light as it comes from the display, before it is encoded: exposed, tone mapped, in [0, 1].
+/// Converts scene-linear colours to display-linear light: exposed, tone-mapped, in [0, 1], not encoded.
 class DisplayLight {
  public:
   explicit DisplayLight(const DisplayOptions& options) : options_(options) {}
@@ -23,7 +23,7 @@ class DisplayLight {
   DisplayOptions options_;
 };
 
-/// The picture of light that is tone mapped already.
+/// Encodes an image of display-linear light.
 DisplayImage encode_display_light(const LinearImage& image, DisplayOptions options);
 
 }  // namespace zoneplate::antialias

@@ -7,7 +7,7 @@
 
 #include "zoneplate/math/for_lanes_simd.h"
 
-/// Edges as bytes, for the instruction set of the file that includes this.
+/// Storing edges as bytes, for the instruction set of the including file.
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;

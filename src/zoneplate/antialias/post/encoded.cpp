@@ -9,7 +9,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// What a transparent picture is laid on to be filtered.
+/// The background over which a transparent image is filtered.
 enum class Backdrop { Black, White };
 
 Display laid_on(const Display& c, Backdrop backdrop, Mixing mixing) {
@@ -45,11 +45,11 @@ void for_pixels(std::size_t count, const Body& body) {
   });
 }
 
-/// A picture before and after a filter.
+/// An image before and after a filter.
 struct Filtered {
   Rgba8Image before, after;
   bool is_changed(std::size_t i) const { return before.values()[i] != after.values()[i]; }
-  /// How far a pixel's alpha moved.
+  /// The change of a pixel's alpha.
   int alpha_change(std::size_t i) const { return std::abs(before.values()[i].a - after.values()[i].a); }
 };
 
@@ -62,8 +62,8 @@ Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, 
   return f;
 }
 
-/// What is as dark as nothing shows on white, and what is as bright on black: where a silhouette was smoothed more,
-/// that result is taken.
+/// Silhouettes of dark objects are detected over white, those of bright objects over black: each pixel takes the result
+/// in which its alpha changed more.
 DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const EncodedFilter& filter) {
   const Filtered black = filter_on(image, Backdrop::Black, mixing, filter);
   const Filtered white = filter_on(image, Backdrop::White, mixing, filter);

@@ -9,7 +9,7 @@
 
 namespace zoneplate::antialias {
 
-/// The values that a method mixes, in which a transparent picture is premultiplied.
+/// The values that a method blends; transparent images are premultiplied in the same values.
 enum class Mixing {
   Encoded,  ///< of sRGB-encoded values
   Linear,   ///< of linear light
@@ -17,28 +17,28 @@ enum class Mixing {
 
 using EncodedFilter = std::function<Rgba8Image(const Rgba8Image&)>;
 
-/// Applies a filter that is defined on sRGB-encoded 8-bit pictures to a display-referred picture.
+/// Applies a filter that is defined on sRGB-encoded 8-bit images to a display-referred image.
 ///
-/// Edges     a transparent picture is filtered premultiplied, colour and alpha together, on black and on white, so that
-///           silhouettes of every colour are found.
-/// Exact     a pixel whose codes the filter leaves alone keeps its bits; another becomes code / 255.
+/// Edges     a transparent image is premultiplied and filtered over black and over white, colour and alpha together, so
+///           that silhouettes of every colour are detected.
+/// Exact     a pixel whose 8-bit values the filter does not change keeps its bits; any other becomes value / 255.
 DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilter& filter);
 
-/// `v` rounded to a code, for v in [0, 255].
+/// `v` rounded to an integer, for v in [0, 255].
 inline std::uint8_t round_unorm8(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
 
-/// code / 255, without the division.
+/// value / 255 for each 8-bit value, as a table.
 inline constexpr std::array<float, 256> unorm8_value = [] {
   std::array<float, 256> out{};
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(i) / 255;
   return out;
 }();
 
-/// A pixel's linear light and alpha in [0, 1], from its codes and back.
+/// Converts a pixel between sRGB-encoded values and linear light with alpha in [0, 1].
 Linear decode_pixel(Rgba8 codes);
 Rgba8 encode_pixel(Linear light);
 
-/// The pixel (1 - t) a + t b of the light that the codes stand for.
+/// The pixel (1 - t) a + t b, computed in linear light.
 Rgba8 mix_linear(Rgba8 a, Rgba8 b, float t);
 
 /// Rows of one block of work: the picture is cut the same way for every number of threads.

@@ -7,12 +7,12 @@
 
 namespace zoneplate::antialias {
 
-/// What every method that filters the display-referred picture requests of a frame.
+/// The request of a method that filters the display-referred image.
 ///
-/// Units     `reach`: pixels that the filter looks at beyond each pixel.
+/// Units     `reach`: the filter's radius in pixels.
 Request display_referred_request(int reach);
 
-/// A method that does nothing but filter the display-referred picture in 8 bits (filter_encoded).
+/// A method that only filters the display-referred image in 8 bits (filter_encoded).
 std::unique_ptr<Resolver> make_post_process(int reach, Mixing mixing, EncodedFilter filter);
 
 }  // namespace zoneplate::antialias

@@ -26,7 +26,7 @@ const RowKernels PerIsa<RowKernels>::scalar = {.copy = scalar::copy, .stream = s
 namespace antialias {
 namespace {
 
-/// Results of this size and more are written past the caches: a quarter of what a last cache holds nowadays.
+/// Results of at least this size are written past the caches: a quarter of a typical last-level cache.
 constexpr std::size_t least_streamed = 8 << 20;
 
 }  // namespace

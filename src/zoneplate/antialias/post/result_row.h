@@ -8,11 +8,11 @@
 
 namespace zoneplate::antialias {
 
-/// One row of a filter's result at a time: it begins as the picture's, is changed where it lies in the caches, and is
-/// written to the result when it is done.
+/// A buffer for one row of a filter's result: it starts as a copy of the source row, is modified while it is in the
+/// cache, and is written to the result by `end`.
 ///
-/// Requires  both pictures of one size; they outlive it.
-/// Cost      a large result goes past the caches, which would not keep it anyway.
+/// Requires  both images have the same size and outlive this object.
+/// Cost      large results are written with streaming stores, past the caches.
 class ResultRow {
  public:
   ResultRow(const Rgba8Image& from, Rgba8Image& to);

@@ -8,22 +8,22 @@
 
 namespace zoneplate::antialias {
 
-/// What is made of a picture's rows and is within reach of one row after the other, made just before it is looked at,
-/// so that it is still in the caches.
+/// A sliding window over rows that are derived from an image. A row is computed just before it is read, so that it is
+/// still in the cache.
 ///
-/// Shape     at(x, y) is valid as in Bordered, for y within reach of the last row that was asked for.
-/// Edges     beyond the sides the outermost values go on.
+/// Shape     at(x, y) is valid as in Bordered, for y within `reach` of the row of the last make_around.
+/// Edges     the outermost values are repeated beyond the sides.
 template <class T>
 class RollingRows {
  public:
-  /// For rows from `first` on of a picture.
+  /// A window that begins at row `first` of an image.
   RollingRows(int width, int height, int reach, int first)
       : height_(height), reach_(reach), first_(first), made_(first - reach), values_(width, rows, reach) {}
 
   std::ptrdiff_t stride() const { return values_.stride(); }
   const T* at(int x, int y) const { return values_.at(x, y - first_); }
 
-  /// Makes what is in reach of row y and was not made for the row before it: `make(row of the picture, values)`.
+  /// Computes the rows within reach of row y that are not computed yet, by `make(row of the image, values)`.
   template <class Make>
   void make_around(int y, const Make& make) {
     if (y == first_ + rows) begin_at(y);
@@ -36,7 +36,7 @@ class RollingRows {
  private:
   static constexpr int rows = 32;
 
-  /// Lets row y be the first, and moves what is made and in its reach there.
+  /// Makes row y the first of the window, and moves the computed rows within its reach.
   void begin_at(int y) {
     const auto count = static_cast<std::size_t>(made_ - (y - reach_)) * static_cast<std::size_t>(stride());
     std::memmove(values_.at(-reach_, -reach_), values_.at(-reach_, y - reach_ - first_), count * sizeof(T));

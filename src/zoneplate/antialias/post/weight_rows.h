@@ -13,22 +13,22 @@
 
 namespace zoneplate::antialias {
 
-/// What a pixel takes from across its upper and its left border and what it gives there, in 1/255.
+/// The weights of blending across a pixel's upper and left borders, in both directions, in 1/255.
 struct EdgeWeights {
-  std::uint8_t from_above = 0;  ///< this pixel, from the one above
-  std::uint8_t to_above = 0;    ///< the pixel above, from this one
+  std::uint8_t from_above = 0;  ///< weight of the pixel above in this one
+  std::uint8_t to_above = 0;    ///< weight of this pixel in the one above
   std::uint8_t from_left = 0, to_left = 0;
   bool operator==(const EdgeWeights&) const = default;
 };
 
-/// What a pixel takes from across its four borders, in 1/255.
+/// The weights of a pixel's four neighbours in it, in 1/255.
 struct TakenWeights {
   std::uint8_t above, below, left, right;
 };
 
-/// A row of weights, most of them zero, and where there are others.
+/// A row of weights, most of them zero, with a flag for each block that has others.
 ///
-/// Edges     the last pixel's weights go on beyond it.
+/// Edges     the last pixel's weights are repeated beyond it.
 class WeightRow {
  public:
   static constexpr int together = 8;  ///< pixels of a block
@@ -42,12 +42,12 @@ class WeightRow {
       has_any_[block] = 0;
     }
   }
-  void put(int x, EdgeWeights weights) {
+  void set(int x, EdgeWeights weights) {
     values_[static_cast<std::size_t>(x)] = weights;
     has_any_[static_cast<std::size_t>(x / together)] |= weights != EdgeWeights{};
-    if (x == width_ - 1) put_beyond(weights);
+    if (x == width_ - 1) set_beyond(weights);
   }
-  /// Puts all weights of the row.
+  /// Sets all weights of the row.
   void assign(const EdgeWeights* weights) {
     std::memcpy(values_.data(), weights, sizeof(EdgeWeights) * static_cast<std::size_t>(width_));
     for (std::size_t block = 0; block * together < static_cast<std::size_t>(width_); ++block) {
@@ -55,7 +55,7 @@ class WeightRow {
       std::memcpy(pairs, &values_[block * together], sizeof pairs);
       has_any_[block] = (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
     }
-    put_beyond(values_[static_cast<std::size_t>(width_ - 1)]);
+    set_beyond(values_[static_cast<std::size_t>(width_ - 1)]);
   }
   const EdgeWeights& operator[](int x) const { return values_[static_cast<std::size_t>(x)]; }
   /// False if all weights of a block are zero.
@@ -63,7 +63,7 @@ class WeightRow {
 
  private:
   static std::size_t size_of(int width) { return static_cast<std::size_t>(width / together + 2); }
-  void put_beyond(EdgeWeights weights) {
+  void set_beyond(EdgeWeights weights) {
     values_[static_cast<std::size_t>(width_)] = weights;
     has_any_[static_cast<std::size_t>(width_ / together)] |= weights != EdgeWeights{};
   }
@@ -73,9 +73,9 @@ class WeightRow {
   std::vector<std::uint8_t> has_any_;
 };
 
-/// The last pass of SMAA and MLAA: out(x, y) is mix(x, y, taken) where weights are given and image(x, y) elsewhere.
+/// The last pass of SMAA and MLAA: out(x, y) is mix(x, y, taken) where weights are not zero, otherwise image(x, y).
 ///
-/// `weigh(y, row)` puts a row's weights into a cleared row; it is called for each row once or twice.
+/// `weigh(y, row)` stores a row's weights in a cleared row; it is called once or twice for each row.
 template <class Weigh, class Mix>
 void mix_by_weights(const Rgba8Image& image, Rgba8Image& out, const Weigh& weigh, const Mix& mix) {
   constexpr std::size_t rows = 32;

@@ -1,8 +1,8 @@
-// Adaptive supersampling: four samples a pixel, and many where those disagree.
+// Adaptive supersampling: four samples per pixel, and many more where those differ.
 //
-// Where the first samples are alike their mean is the pixel; elsewhere the pixel is supersampled, to the bit as ssaa
-// would. Costs little more than four samples where a picture is smooth. Weak on what all four samples miss: a wire or
-// a spark between them is never looked for.
+// Where the first samples are similar, the pixel is their mean; elsewhere it is supersampled, with the bits of ssaa.
+// Costs little more than four samples in smooth regions. Weak on details that all four samples miss: a wire or a
+// highlight between them is not detected.
 //
 // Source: Mitchell, Generating Antialiased Images at Low Sampling Densities, SIGGRAPH 1987: contrast
 // (max - min) / (max + min) of a colour, against 0.4 for red, 0.3 for green, 0.6 for blue.
@@ -18,7 +18,7 @@ struct Limits {
   float r, g, b, a;
 };
 
-/// The least and the greatest of each channel of a pixel's samples.
+/// The minimum and maximum of each channel of a pixel's samples.
 struct Range {
   Linear low, high;
   bool is_within(const Limits& limits) const {
@@ -79,16 +79,13 @@ class Adaptive : public Resolver {
   Plane<std::uint8_t> pixel_mask_;
 };
 
-constexpr Param params[] = {{.name = "n",
-                             .meaning = "an n × n grid of samples where the first four disagree",
-                             .value = 4,
-                             .low = 2,
-                             .high = 16},
-                            {.name = "contrast",
-                             .meaning = "per cent of Mitchell's contrasts that are let pass",
-                             .value = 30,
-                             .low = 0,
-                             .high = 100}};
+constexpr Param params[] = {
+    {.name = "n", .meaning = "an n × n grid of samples where the first four differ", .value = 4, .low = 2, .high = 16},
+    {.name = "contrast",
+     .meaning = "contrast threshold, in percent of Mitchell's thresholds",
+     .value = 30,
+     .low = 0,
+     .high = 100}};
 
 constexpr std::string_view variants[] = {"n=8", "n=4,contrast=100"};
 
@@ -96,7 +93,7 @@ constexpr std::string_view variants[] = {"n=8", "n=4,contrast=100"};
 
 Method adaptive() {
   return {.name = "adaptive",
-          .summary = "four samples a pixel, and a grid where they disagree",
+          .summary = "four samples per pixel, and a grid of samples where they differ",
           .source = "Mitchell 1987",
           .params = params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {

@@ -1,13 +1,13 @@
-// Coverage sampling: many places where coverage and depth are known, few slots for colours.
+// Coverage sampling: coverage and depth at many samples, colours in few slots.
 //
-// A pixel keeps the colours of as many surfaces as it has slots, in the order of drawing; where one more comes the
-// surface with the fewest samples is forgotten, and its samples count for nobody until something else is drawn there.
-// Smooth where two surfaces meet, at the memory of the slots. Weak where more surfaces than slots share a pixel, if
-// only for a while: fine meshes and corners lose some, and which depends on the order.
+// A pixel stores the colours of as many surfaces as it has slots, in the order of drawing. If another surface is drawn,
+// the one with the fewest samples is dropped, and its samples are unknown until they are drawn again. Smooth where two
+// surfaces meet, at the memory cost of the slots. Weak where more surfaces than slots share a pixel, even temporarily:
+// fine meshes and corners lose surfaces, and which ones depends on the order.
 //
 // Source: NVIDIA, Coverage-Sampled Antialiasing, 2006; AMD, EQAA Modes for AMD 6900 Series Graphics Cards, 2011, with a
-// depth for every sample of coverage: n=8,slots=4 is CSAA 8x, n=16,slots=4 its 16x, n=4,slots=2 EQAA 2f4x. Neither says
-// which surface is forgotten. What a slot's surface looks like is found in the end, where it is seen.
+// depth for every coverage sample: n=8,slots=4 is CSAA 8x, n=16,slots=4 CSAA 16x, n=4,slots=2 EQAA 2f4x. Neither
+// defines which surface is dropped. Surfaces in slots are shaded at the end, where they are visible.
 #include "zoneplate/antialias/sampling/csaa_draw.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/render/method.h"
@@ -33,8 +33,8 @@ class Csaa : public Resolver {
 
 constexpr int counts[] = {4, 8, 16}, slot_counts[] = {1, 2, 4, 8};
 constexpr Param params[] = {
-    {.name = "n", .meaning = "samples of coverage, of the standard pattern", .value = 8, .choices = counts},
-    {.name = "slots", .meaning = "colours that a pixel keeps", .value = 4, .choices = slot_counts}};
+    {.name = "n", .meaning = "coverage samples, in the standard pattern", .value = 8, .choices = counts},
+    {.name = "slots", .meaning = "colour slots per pixel", .value = 4, .choices = slot_counts}};
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   if (s.integer("slots") > s.integer("n")) throw Error(ErrorKind::Usage, "csaa: more slots than samples: give n=16");
@@ -47,7 +47,7 @@ constexpr std::string_view variants[] = {"n=8,slots=2", "n=16,slots=4"};
 
 Method csaa() {
   return {.name = "csaa",
-          .summary = "coverage at many samples, colours of few surfaces (CSAA, EQAA)",
+          .summary = "coverage at many samples, colours of few surfaces per pixel (CSAA, EQAA)",
           .source = "after NVIDIA 2006",
           .params = params,
           .make = make,

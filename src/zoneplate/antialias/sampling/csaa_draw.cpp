@@ -1,5 +1,4 @@
-// Multisampling first; then what a pixel of few slots would have kept of it, by drawing the triangles once more in
-// order.
+// Multisampling first; then the triangles are drawn again in order, to find the samples that few slots would have kept.
 #include "zoneplate/antialias/sampling/csaa_draw.h"
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// What the tiles made of all samples.
+/// The results of the tiles at all samples.
 struct Sampled {
   std::vector<LinearImage> color;
   std::vector<Plane<std::uint32_t>> triangle;
@@ -62,7 +61,7 @@ class TileHistory {
           drawn_.push_back({worker.triangles[t].id, &worker.triangles[t], alpha_mode == AlphaMode::Mask, 0, 0});
       for (const SampleBin* part = worker.fragments[tile]; part; part = part->previous)
         for (std::int32_t i = 0; i < part->count; ++i)
-          drawn_.push_back({part->id(part->what[i]), nullptr, false, SampleBin::at(part->what[i]), part->depth[i]});
+          drawn_.push_back({part->id(part->packed[i]), nullptr, false, SampleBin::at(part->packed[i]), part->depth[i]});
     }
     std::sort(drawn_.begin(), drawn_.end(), comes_before);
   }

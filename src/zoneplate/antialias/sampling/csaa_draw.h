@@ -9,7 +9,7 @@
 
 namespace zoneplate::antialias {
 
-/// What is drawn into a tile at once: a triangle, a piece of a clipped one, or one sample of a small one.
+/// A drawing step of a tile: a triangle, a piece of a clipped triangle, or one sample of a small triangle.
 struct Drawn {
   std::int32_t id;
   const Triangle* triangle;  ///< null: a sample
@@ -18,24 +18,23 @@ struct Drawn {
   float depth;
 };
 
-/// The order of drawing, a total one whichever thread found what: by id; of one id pieces before samples, pieces by
-/// their shape and samples by pixel, sample and depth. Requires: depths are numbers.
+/// The order of drawing, a total order that is independent of threads: by id; for one id pieces before samples, pieces
+/// by their shape and samples by pixel, sample and depth. Requires: depths are not NaN.
 bool comes_before(const Drawn& p, const Drawn& q);
 
-/// What a pixel of few slots remembers of the surfaces that were drawn into it: which samples are whose, as long as
-/// there is a slot for it.
+/// The slots of a pixel: the surfaces that were drawn into it, each with its samples, at most one surface a slot.
 class CoverageSlots {
  public:
   static constexpr std::size_t most = 8;
 
-  /// The background's, at all samples.
+  /// All samples belong to the background.
   explicit CoverageSlots(std::uint32_t all_samples) { slots_[0] = {background, all_samples}, count_ = 1; }
 
-  /// A surface comes to own these samples. Where there is no slot left the surface that has the fewest samples loses
-  /// its own, of equals the last to come: nothing is known of these until something else is drawn there.
+  /// Assigns these samples to a surface. Without a free slot the surface with the fewest samples is dropped, of equal
+  /// ones the latest: its samples are unknown until they are drawn again.
   void draw(std::int32_t surface, std::uint32_t samples, std::size_t slots);
 
-  /// The samples of which something is known; never none.
+  /// The samples that are known; at least one.
   std::uint32_t known() const;
 
  private:
@@ -48,11 +47,12 @@ class CoverageSlots {
   std::size_t count_;
 };
 
-/// Draws the colour of a frame with samples of coverage and depth, and `slots` colours a pixel.
+/// Draws the colour of a frame with coverage and depth samples, and `slots` colours per pixel.
 ///
-/// Surfaces take slots in the order of drawing. A masked one takes that of the samples that it keeps to the end,
-/// because alpha is asked of no others; a blended one takes none, and colours what is there.
-/// Exact     with as many slots as surfaces it is multisampling.
+/// Surfaces take slots in the order of drawing. An alpha-tested surface takes a slot only for samples that remain
+/// visible to the end, because alpha is tested at no others. A blended surface takes no slot; it is composited over the
+/// slots.
+/// Exact     with as many slots as surfaces the result equals multisampling.
 void draw_with_slots(const CustomDraw& drawing, const SamplePattern& samples, std::size_t slots);
 
 }  // namespace zoneplate::antialias

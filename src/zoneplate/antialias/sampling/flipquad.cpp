@@ -1,12 +1,12 @@
-// FLIPQUAD: four samples on a pixel's sides, each shared with the pixel beyond that side: two a pixel.
+// FLIPQUAD: four samples on a pixel's sides, each shared with the neighbour: two samples per pixel on average.
 //
-// The rotated grid's four samples pushed out to the sides, the pattern mirrored from pixel to pixel so that
-// neighbours meet in one sample. Five levels of coverage near the axes for the price of two samples; softer than
-// four samples of a pixel's own, because none is.
+// The four samples of the rotated grid moved to the pixel's sides, with the pattern mirrored from pixel to pixel so
+// that neighbours share samples. Five levels of coverage near the axes at the cost of two samples; softer than four
+// samples inside the pixel.
 //
 // Source: Akenine-Möller, An Extremely Inexpensive Multisampling Scheme, Chalmers 2003 (after his FLIPQUAD of 2002);
-// the places on the sides are those of the rotated grid, 3/8 and 5/8. The renderer, whose pixels are all alike, is
-// asked for both mirror images on the upper and the left side, and one of them is taken.
+// the positions on the sides are those of the rotated grid, 3/8 and 5/8. The renderer uses one pattern for all pixels:
+// it samples both mirror images on the upper and the left side, and the resolve uses one of them.
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
@@ -27,7 +27,7 @@ class FlipQuad : public Resolver {
     request.halo = 1;
     return request;
   }
-  /// The sides that a picture's last column and row would share with pixels beyond it are not there.
+  /// The last column and row have no samples on the sides beyond them.
   LinearImage resolve(Frame& frame) override {
     LinearImage out(frame.color.width(), frame.color.height());
     // Across a side the pattern is mirrored: the pixel's lower side is the upper one of the pixel below.
@@ -53,7 +53,7 @@ class FlipQuad : public Resolver {
 
 Method flipquad() {
   return {.name = "flipquad",
-          .summary = "four samples on the sides, shared by neighbours",
+          .summary = "four samples on the pixel's sides, shared by neighbours",
           .source = "Akenine-Möller 2003",
           .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<FlipQuad>(); },
           .is_specification_only = true};

@@ -1,14 +1,14 @@
 // Multisampling: coverage and depth at every sample, shading once per surface and pixel.
 //
-// Smooths the edges of geometry at little more than the cost of one sample; does nothing for what shading itself
-// makes of a pixel: textures, highlights. Because visibility is kept per sample and shading is deferred, a pixel where
-// two surfaces meet mixes their two colours and never the background's (the black edge of one depth a pixel). Alpha
-// tests are edges that coverage does not see, unless alpha is made into coverage.
+// Smooths the edges of geometry at little more than the cost of one sample; has no effect on aliasing inside surfaces
+// (textures, highlights). Visibility is stored per sample and shading is deferred: a pixel where two surfaces meet
+// blends their two colours and never the background's (the black edge of renderers with one depth per pixel). Edges by
+// alpha tests are not smoothed, unless alpha is converted to coverage.
 //
 // Source: Akeley, RealityEngine Graphics, SIGGRAPH 1993; patterns of Direct3D 11.1 and Vulkan. A surface that owns
-// every sample is shaded at the pixel's centre, another at the mean of its samples (centroid sampling:
-// raster/coverage/centroid.h has this and other rules), so that a plane looks the same however many triangles it is
-// made of. Sharpened alpha: Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
+// every sample is shaded at the pixel's centre, any other at the mean of its samples (centroid sampling:
+// raster/coverage/centroid.h has this and other rules), so that a plane has the same colours for any tessellation.
+// Sharpened alpha: Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
 #include "zoneplate/antialias/sampling/sample_accumulator.h"
 #include "zoneplate/base/error.h"
 
@@ -62,11 +62,12 @@ constexpr Param params[] = {
     filter_param,
     radius_param,
     {.name = "alpha",
-     .meaning = "of masked surfaces: tested once a pixel or at every sample, or made into coverage, sharpened or not",
+     .meaning =
+         "alpha test of masked surfaces: once a pixel, at every sample, or alpha to coverage, plain or sharpened",
      .names = alphas},
     {.name = "centroid",
-     .meaning = "where a surface that owns some of a pixel's samples is shaded: at their mean, at the first, or at the "
-                "pixel's centre, even if it is not there",
+     .meaning = "where a surface with some of a pixel's samples is shaded: at their mean, at the first, or at the "
+                "pixel's centre, even outside the surface",
      .names = centroids},
 };
 

@@ -1,4 +1,4 @@
-// No antialiasing: one sample at the pixel's centre. What the other methods are measured from.
+// No antialiasing: one sample at the pixel's centre, the baseline of the other methods.
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {

@@ -1,9 +1,9 @@
-// Quincunx: two samples a pixel, its centre and a corner; the corners of four pixels are shared between them.
+// Quincunx: two samples per pixel, its centre and a corner; corner samples are shared by four pixels.
 //
-// Five samples for the price of two, and with them a blur over three by three half-pixels: edges are smooth, textures
-// soft. That is why it was given up.
+// Five samples at the cost of two, with a blur over three by three half-pixels: edges are smooth, but textures soft,
+// which is why hardware abandoned it.
 //
-// Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre counts ½, each corner ⅛.
+// Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre weighs ½, each corner ⅛.
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 
@@ -19,7 +19,7 @@ class Quincunx : public Resolver {
     request.halo = 1;
     return request;
   }
-  /// The corners beyond the picture's right and lower side are not there; the others take their weight.
+  /// Pixels at the image's right and lower side lack corners; the weights of the others are increased.
   LinearImage resolve(Frame& frame) override {
     const LinearImage &centre = frame.sample_color[0], &corner = frame.sample_color[1];
     LinearImage out(centre.width(), centre.height());
@@ -41,7 +41,7 @@ class Quincunx : public Resolver {
 
 Method quincunx() {
   return {.name = "quincunx",
-          .summary = "the centre and four corners that pixels share",
+          .summary = "the centre and four corners, which neighbouring pixels share",
           .source = "NVIDIA 2001",
           .make = [](const Settings&) -> std::unique_ptr<Resolver> { return std::make_unique<Quincunx>(); },
           .is_specification_only = true};

@@ -80,7 +80,7 @@ ResolveFilter resolve_filter_of(std::string_view method, const Settings& setting
   const double radius = settings.number("radius");
   if (settings.integer("filter") == 0) {
     if (settings.is_given("radius"))
-      throw Error(ErrorKind::Usage, std::string(method) + ": radius is a filter's: give filter=mitchell, for example");
+      throw Error(ErrorKind::Usage, std::string(method) + ": radius needs a filter, for example filter=mitchell");
     return out;
   }
   out.kernel = make_kernel(settings.chosen("filter"));

@@ -8,33 +8,34 @@
 
 namespace zoneplate::antialias {
 
-/// What a sample's colour counts as, before samples are averaged.
+/// The weight or mapping of a sample's colour before samples are averaged.
 enum class SampleWeight {
-  Even,     ///< linear light as it is
-  Karis,    ///< less the brighter it is: 1 / (1 + luma × exposure)
+  Even,     ///< linear light, all weights equal
+  Karis,    ///< weighted by 1 / (1 + luma × exposure)
   Max3,     ///< mapped by c / (1 + max(c)), the mean mapped back
-  Display,  ///< display-referred: tone mapped over the background, linear
+  Display,  ///< display-referred: tone-mapped over the background, linear
   Encoded,  ///< the same, sRGB-encoded: what the resolve of an 8-bit framebuffer without sRGB conversion averages
 };
 
-/// The filter by which a method makes one colour of many samples.
+/// The filter by which a method averages samples.
 struct ResolveFilter {
   SampleWeight weight = SampleWeight::Even;
-  std::optional<Kernel> kernel;  ///< of pixels; none: the samples of the pixel alone count, all alike
+  std::optional<Kernel> kernel;  ///< in pixels; none: the unweighted mean of the pixel's own samples
 
-  /// True for the plain mean, which the renderer makes by itself.
+  /// True for the plain mean, which the renderer computes itself.
   bool is_plain() const { return weight == SampleWeight::Even && !kernel; }
-  /// How many pixels to each side the samples are taken from.
+  /// The filter's radius in whole pixels.
   int reach() const;
   /// True where the mean is of values after tone mapping.
   bool is_display_referred() const { return weight == SampleWeight::Display || weight == SampleWeight::Encoded; }
 };
 
 /// The parameters `resolve`, `mix`, `filter` and `radius` of methods that accumulate samples, and the filter that they
-/// name.
+/// select.
 ///
-/// `radius` is the filter's, in pixels; 0 leaves it as the kernel has it.
-/// Errors    ErrorKind::Usage where the radius has no filter, or sRGB-encoded values a weight of scene-linear ones.
+/// `radius` is the filter's, in pixels; 0: the kernel's own radius.
+/// Errors    ErrorKind::Usage for a radius without a filter, or for sRGB-encoded averaging with a weight of scene-linear
+///           values.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
@@ -58,19 +59,19 @@ ResolveFilter resolve_filter_of(std::string_view method, const Settings& setting
 
 class SampleRow;
 
-/// Sums samples that come in one frame or several. A filter goes along the rows first, then down the columns.
+/// Accumulates samples of one frame or several. A filter is applied along the rows first, then down the columns.
 ///
-/// Edges     samples beyond the picture's sides are not there; the weights of the others are divided by their sum.
-/// Exact     in float, in the order of samples, then rows, of each the sum along it from left to right; the same for
-///           any number of threads and instruction set.
-/// Cost      a sample takes as many products a channel as the filter is wide and high, not as it has pixels.
+/// Edges     there are no samples beyond the image's sides; the weights of the others are divided by their sum.
+/// Exact     in float, in the order of samples, then rows, each row from left to right; the same bits for any number of
+///           threads and any instruction set.
+/// Cost      width + height of the filter in products per sample and channel, not width × height.
 /// Source    wide resolves and weights: Pettineo, Experimenting with Reconstruction Filters for MSAA Resolve, 2012;
 ///           Karis, Tone Mapping, 2013; Lottes, Optimized Reversible Tonemapper for Resolve, 2016.
 class SampleAccumulator {
  public:
   explicit SampleAccumulator(ResolveFilter filter) : filter_(std::move(filter)) {}
 
-  /// Takes a frame's samples; `positions` are theirs.
+  /// Adds a frame's samples, which lie at `positions`.
   void add(const Frame& frame, std::span<const SamplePosition> positions);
   bool is_empty() const { return sum_.empty(); }
 

@@ -1,10 +1,10 @@
-// Supersampling: shade every sample of a pattern and average them in linear light.
+// Supersampling: shades every sample of a pattern and averages them in linear light.
 //
-// Tends to the box-filtered image as the number of samples grows, at a cost that grows with it. Weak where an edge
-// follows the grid: a nearly vertical edge shows n levels of coverage on an n × n grid, not n². Halton's points have
-// their mean beside the pixel's middle, and move the picture by that.
+// Converges to the box-filtered image as the number of samples grows, at proportional cost. Weak where an edge follows
+// the grid: a nearly vertical edge has n levels of coverage on an n × n grid, not n². The mean of Halton points differs
+// from the pixel's centre, and shifts the image by that offset.
 //
-// Source: Crow, The Aliasing Problem in Computer-Generated FragmentOutputs Images, CACM 20(11), 1977. The patterns are
+// Source: Crow, The Aliasing Problem in Computer-Generated Shaded Images, CACM 20(11), 1977. The patterns are
 // those of signal/samples.h, the filters those of signal/filter/kernel.h.
 #include <algorithm>
 #include <cmath>
@@ -77,8 +77,8 @@ class Ssaa : public Resolver {
 constexpr std::string_view patterns[] = {"grid", "rotated", "halton", "sobol", "nrooks"};
 constexpr Param params[] = {
     {.name = "n", .meaning = "an n × n grid of samples", .value = 2, .low = 1, .high = 16},
-    {.name = "pattern", .meaning = "where the samples lie", .value = 0, .names = patterns},
-    {.name = "samples", .meaning = "samples a pixel, instead of n", .value = 4, .low = 1, .high = 1024},
+    {.name = "pattern", .meaning = "sample pattern", .value = 0, .names = patterns},
+    {.name = "samples", .meaning = "shaded samples per pixel, instead of n", .value = 4, .low = 1, .high = 1024},
     resolve_param,
     mix_param,
     filter_param,
@@ -105,7 +105,7 @@ constexpr std::string_view variants[] = {"n=4",
 
 Method ssaa() {
   return {.name = "ssaa",
-          .summary = "shade every sample of a pattern and average them",
+          .summary = "every sample of a pattern is shaded, and the samples averaged",
           .source = "Crow 1977",
           .params = params,
           .make = make,

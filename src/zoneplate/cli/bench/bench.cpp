@@ -8,6 +8,7 @@
 #include "zoneplate/cli/bench/frames.h"
 #include "zoneplate/cli/bench/limits.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/report/json.h"
@@ -36,10 +37,12 @@ Json stages_json(const BenchTiming& t) {
 }
 
 Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming& t) {
-  return Json::Object{{"peer", args.peer},
+  return Json::Object{{"format", "zoneplate-bench"},
+                      {"version", report_version},
+                      {"peer", args.peer},
                       {"api", "zoneplate"},
                       {"renderer", name_of(current_isa())},
-                      {"version", version},
+                      {"program", version},
                       {"scene", work.scene},
                       {"w", work.size.x},
                       {"h", work.size.y},
@@ -56,7 +59,7 @@ Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming
                       {"first_frame_ms", t.first_ms},
                       {"cpu_ms_per_frame", t.processor_ms},
                       {"other_cores_busy", t.others_busy},
-                      {"shaded", t.best.shaded},
+                      {"shaded_samples", t.best.shaded},
                       {"triangles_set_up", t.best.triangles_set_up},
                       {"min_ms_by_stage", Json::Object{{"geometry", t.geometry_ms}, {"tiles", t.tiles_ms}}},
                       {"stages_of_best_ms", stages_json(t)}};
@@ -86,26 +89,25 @@ std::string timing_text(const BenchWork& work, const BenchTiming& t, const Machi
   text += stage_text("vertices", s.vertices, vertices, "vertex", 28 * vertices, limits);
   text += stage_text("triangles", s.triangles, triangles, "triangle", 12 * triangles + 16 * vertices, limits);
   text += stage_text("visibility", s.visibility / threads, pixels, "pixel", 0, limits);
-  text += stage_text("shading", s.shading / threads, number(t.best.shaded), "point", 0, limits);
+  text += stage_text("shading", s.shading / threads, number(t.best.shaded), "fragment", 0, limits);
   if (s.blending / threads > 1e-3)
-    text += stage_text("blending", s.blending / threads, number(t.best.shaded), "point", 0, limits);
+    text += stage_text("blending", s.blending / threads, number(t.best.shaded), "fragment", 0, limits);
   text += stage_text("output", s.output / threads, pixels, "pixel", 4 * pixels, limits);
   return text + stage_text("(encode)", t.encode_ms, pixels, "pixel", 0, limits);
 }
 
 std::string limits_text(const MachineLimits& l) {
   return fmt::format(
-      "{} threads, {}. Memory: {:.1f} GB/s read, {:.1f} written; 1920x1080 of colour and depth cleared in {:.2f} ms, "
-      "in "
-      "new memory\nin {:.1f} ms. Eight words gathered from 8 KiB in {:.1f} ns, from 256 KiB in {:.1f}, from 4 MiB in "
-      "{:.1f}.\n",
+      "{} threads, {}. Memory bandwidth: {:.1f} GB/s read, {:.1f} GB/s write. Clearing 1920x1080 of colour and depth:\n"
+      "{:.2f} ms, in new memory {:.1f} ms. Gather of eight words: {:.1f} ns from 8 KiB, {:.1f} from 256 KiB, {:.1f} "
+      "from 4 MiB.\n",
       thread_limit(), name_of(current_isa()), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
       l.gather_l2_ns, l.gather_l3_ns);
 }
 
 Syntax syntax_of(BenchArgs& args) {
   Syntax syntax{.verb = "bench",
-                .summary = "Time frames of the benchmark scenes, from a scene in memory to its 8-bit picture",
+                .summary = "Measure frame times of the benchmark scenes, from the scene in memory to the 8-bit image",
                 .operands = "[SCENE]...",
                 .examples =
                     "  zoneplate bench\n"
@@ -113,34 +115,35 @@ Syntax syntax_of(BenchArgs& args) {
                     "  zoneplate bench city --isa avx2\n"
                     "  zoneplate bench tri1m --json\n"};
   syntax.notes =
-      "The least of all frames is shown: what the work takes when nothing else runs. Of that frame the\n"
-      "stages are told, beside what this machine can do at best: \"from memory\" is the time to move the\n"
-      "bytes that a stage cannot do without if no cache held any of them. Scenes by default: tri1m, fill,\n"
-      "fillblend, city, city-trilinear, micro. Reading, and making textures' levels, are done before the\n"
-      "clock starts; encoding as PNG is timed beside the frame.\n";
+      "The result is the minimum of all frame times, the time without interference by other programs. The\n"
+      "stage times belong to that frame; \"from memory\" is a lower bound, the time to transfer the bytes\n"
+      "that a stage needs at the machine's memory bandwidth, without caches. Default scenes: tri1m, fill,\n"
+      "fillblend, city, city-trilinear, micro. Loading the scene and making mip levels are not included;\n"
+      "PNG encoding is measured separately.\n";
   const auto whole = [](int& to, int low, int high) {
     return [&to, low, high](const std::string& text) { to = parse_whole(text, low, high); };
   };
   syntax.options = {
-      {"--scene", "NAME", "A scene to time; the result is then a line of JSON, as harnesses want it", "Work", false,
+      {"--scene", "NAME", "Scene to measure; prints one line of JSON, for benchmark harnesses", "Work", false,
        [&](const std::string& text) { args.scenes.push_back(text); }},
-      {"--samples", "N", "Samples a pixel: 1, 2, 4, 8 or 16; default both 1 and 4", "Work", true,
+      {"--samples", "N", "Samples per pixel: 1, 2, 4, 8 or 16; default both 1 and 4", "Work", true,
        whole(args.samples, 1, 16)},
-      {"--size", "WxH", "Size of the picture; default 1920x1080", "Work", true,
+      {"--size", "WxH", "Size of the image; default 1920x1080", "Work", true,
        [&](const std::string& text) { args.work.size = parse_size(text, 16384); }},
-      {"--aniso", "N", "Anisotropy of base colours' filters, 1 to 16; default: the scene's own", "Work", false,
-       whole(args.work.anisotropy, 1, 16)},
-      {"--threads", "N", "Threads; default: as many as affinity and CPU quota allow", "Work", true,
+      {"--aniso", "N", "Anisotropy of the base colour's texture filter, 1 to 16; default: the scene's own", "Work",
+       false, whole(args.work.anisotropy, 1, 16)},
+      {"--threads", "N", "Number of threads; default: all that affinity and CPU quota allow", "Work", true,
        whole(args.threads, 1, 1024)},
-      {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default the best there is", "Work", false,
+      {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default: the best available", "Work", false,
        [&](const std::string& text) { args.isa = parse_isa(text); }},
-      {"--frames", "N", "Frames at most; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
-      {"--warmup", "N", "Frames before the clock starts; default 2", "Work", false, whole(args.work.warm_up, 1, 1000)},
-      {"--budget-ms", "MS", "No new frame after this time (three are drawn in any case); default 4000", "Work", false,
-       [&](const std::string& text) { args.work.budget_ms = parse_number(text, 1, 1e7); }},
-      {"--peer", "NAME", "How the result calls this program; default zoneplate", "Result", false,
+      {"--frames", "N", "Maximum number of frames; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
+      {"--warmup", "N", "Warm-up frames, which are not measured; default 2", "Work", false,
+       whole(args.work.warm_up, 1, 1000)},
+      {"--budget-ms", "MS", "Time budget: no frame starts after it, except the first three; default 4000", "Work",
+       false, [&](const std::string& text) { args.work.budget_ms = parse_number(text, 1, 1e7); }},
+      {"--peer", "NAME", "Name of this program in the result; default zoneplate", "Result", false,
        [&](const std::string& text) { args.peer = text; }},
-      {"--json", "", "One line of JSON a scene", "Result", true, [&](auto&) { args.wants_json = true; }}};
+      {"--json", "", "Print one line of JSON per scene", "Result", true, [&](auto&) { args.wants_json = true; }}};
   return syntax;
 }
 

@@ -7,32 +7,32 @@
 
 namespace zoneplate::cli {
 
-/// What is timed, and for how long.
+/// The frames to be measured, and the time budget.
 struct BenchWork {
   std::string scene;
   int samples = 1;
   int2 size{1920, 1080};
-  int anisotropy = 0;  ///< of base colours' filters; 0: the scene's own
+  int anisotropy = 0;  ///< of the base colours' texture filters; 0: the scene's own
   int frames = 30, warm_up = 2;
-  double budget_ms = 4000;  ///< no new frame after this time; three are drawn in any case
+  double budget_ms = 4000;  ///< no frame starts after this time, except the first three
 };
 
-/// What frames of one scene took.
+/// The times of frames of one scene.
 struct BenchTiming {
   std::vector<double> frame_ms;
-  double first_ms = 0;                   ///< of the very first frame, which finds its memory
-  double processor_ms = 0;               ///< of all threads, a frame
-  double others_busy = 0;                ///< processors that others kept busy meanwhile
-  double geometry_ms = 0, tiles_ms = 0;  ///< the least
-  double encode_ms = 0;                  ///< the picture as PNG, the least of three
-  int anisotropy = 1;                    ///< the greatest of a base colour's filters
-  RenderCounts best;                     ///< of the frame that took least
+  double first_ms = 0;                   ///< of the first frame, which includes page faults
+  double processor_ms = 0;               ///< CPU time of all threads, per frame
+  double others_busy = 0;                ///< mean number of processors that other programs used
+  double geometry_ms = 0, tiles_ms = 0;  ///< minima
+  double encode_ms = 0;                  ///< PNG encoding, the minimum of three
+  int anisotropy = 1;                    ///< the maximum of the base colours' texture filters
+  RenderCounts best;                     ///< of the fastest frame
 };
 
-/// A frame is everything from a scene that is ready to its 8-bit picture in memory, on the threads of the innermost
+/// Measures frames from the prepared scene to the 8-bit image in memory, on the threads of the innermost
 /// `with_threads`, with the kernels of the innermost `with_isa`.
 ///
-/// Errors    ErrorKind::Input: no such built-in scene.
+/// Errors    ErrorKind::Input for an unknown built-in scene.
 BenchTiming time_frames(const BenchWork& work);
 
 double least(const std::vector<double>& v);

@@ -71,7 +71,7 @@ MachineLimits measure_limits() {
   // Four times as large as the largest cache of most machines.
   constexpr std::size_t size = std::size_t{1} << 27;
   RawMemory memory;
-  std::byte* bytes = memory.room(size);
+  std::byte* bytes = memory.reserve(size);
   const auto threads = static_cast<std::size_t>(thread_limit());
   const std::size_t share = size / threads / 4096 * 4096;
   const auto on_all = [&](std::size_t each, const std::function<void(std::byte*)>& work) {

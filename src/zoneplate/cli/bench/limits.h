@@ -7,15 +7,15 @@
 
 namespace zoneplate::cli {
 
-/// What the machine can do at best with the threads of the innermost `with_threads`; the measure of what stages take.
+/// The limits of the machine with the threads of the innermost `with_threads`, with which stage times are compared.
 struct MachineLimits {
   double read_gb_s = 0, write_gb_s = 0;  ///< memory, not caches: 10^9 bytes a second, all threads together
-  double clear_ms = 0;                   ///< 1920 × 1080 pixels of colour and depth, 8 bytes each, written once more
-  double first_touch_ms = 0;             ///< the same bytes in memory that the system has not given before
+  double clear_ms = 0;                   ///< 1920 × 1080 pixels of colour and depth, 8 bytes each, written again
+  double first_touch_ms = 0;             ///< the same bytes in new memory, including page faults
   double gather_l1_ns = 0, gather_l2_ns = 0, gather_l3_ns = 0;  ///< eight words from 8 KiB, 256 KiB, 4 MiB; one thread
 };
 
-/// The best of several turns each; some tenths of a second.
+/// Measures each limit as the best of several turns; takes some tenths of a second.
 MachineLimits measure_limits();
 
 struct LimitKernels : PerIsa<LimitKernels> {

@@ -1,4 +1,4 @@
-// zoneplate compare: scenes under many antialiasing methods, each judged against one reference.
+// zoneplate compare: antialiasing methods on scenes, each measured against one reference.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace zoneplate::cli {
 namespace {
 
 struct CompareArgs {
-  RenderArgs render;  ///< size, view, light, tone mapping, limits: as `zoneplate render` takes them
+  RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
   std::vector<std::string> scenes, command;
   std::string methods = "all", reference, metrics = "psnr,ssim,flip,edge_error";
   int turns = 3;
@@ -33,51 +33,54 @@ struct CompareArgs {
 constexpr const char* examples =
     "  zoneplate compare teapot --aa none,fxaa,smaa,msaa:n=4,ssaa:n=4 -o teapot-compared\n"
     "  zoneplate compare wires stars foliage --aa all --reference ssaa:n=16 -o compared\n"
-    "  zoneplate compare all --aa all -o everything         every scene that shows a class of failure\n"
-    "  zoneplate compare chair.glb --aa msaa:n=8,ssaa:pattern=halton,samples=64 --reference truth.png -o chair\n";
+    "  zoneplate compare all --aa all -o everything         all scenes that show a class of artifacts\n"
+    "  zoneplate compare chair.glb --aa msaa:n=8,ssaa:pattern=halton,samples=64 --reference chair-reference.png -o "
+    "chair\n";
 
 constexpr const char* notes =
-    "SCENE is a file or a built-in scene; `all` stands for every built-in scene with a class of failure. LIST is\n"
-    "methods at commas, or `all`: every method at its defaults and with the parameters that it is known by.\n"
+    "SCENE is a file or a built-in scene; `all` selects every built-in scene that shows a class of artifacts. LIST is\n"
+    "a comma-separated list of methods, or `all`: every method with its default and with its usual parameters.\n"
     "\n"
-    "The folder DIR must not exist; it is made whole or not at all, and nothing else is replaced or removed:\n"
-    "  compare.txt, compare.csv, compare.json   the figures; the JSON holds everything, and its version\n"
-    "  compare.md                               all methods on all scenes as a table for a page\n"
-    "  cost.svg                                 error and cost of the means, the Pareto front marked\n"
-    "  SCENE/reference.png, SCENE/METHOD.png    the pictures, METHOD.error.png their FLIP, METHOD.worst.png the worst\n"
-    "                                           places 8 times enlarged\n"
-    "  SCENE/crops.png, SCENE/cost.svg          one place under every method; error and cost\n"
+    "The folder DIR must not exist; it is created completely or not at all, and no other file changes:\n"
+    "  compare.txt, compare.csv, compare.json   the results; the JSON contains all of them, and a version number\n"
+    "  compare.md                               all methods on all scenes as a Markdown table\n"
+    "  cost.svg                                 mean error against mean cost, with the Pareto front\n"
+    "  SCENE/reference.png, SCENE/METHOD.png    the images; METHOD.error.png: FLIP error maps; METHOD.worst.png: the\n"
+    "                                           regions of greatest error, enlarged 8 times\n"
+    "  SCENE/crops.png, SCENE/cost.svg          the same region by every method; error against cost\n"
     "\n"
-    "A time is the least of several turns, from the scene in memory to its codes, and the times of its stages are\n"
-    "those of the same turn; compare methods of one run only. A method whose turns take more than 1.5 s gets fewer,\n"
-    "which the report says. The reference's cost stands beside its name.\n"
-    "Memory is the rise of the process' resident memory in the first turn. Everything else is the same on every\n"
-    "machine.\n";
+    "Times are the minimum of several turns, from the scene in memory to the 8-bit image; stage times belong to the\n"
+    "fastest turn. Compare only times of the same run. A method whose turns take more than 1.5 s gets fewer turns,\n"
+    "as the report states. The cost of the reference is printed next to its name.\n"
+    "Memory is the increase of the process's resident memory in the first turn. All other results are the same on\n"
+    "every machine.\n";
 
-/// The options of `render` that have a meaning here, and the verb's own.
+/// The options of `render` that apply here, and the verb's own.
 Syntax compare_syntax(CompareArgs& args) {
   Syntax syntax{.verb = "compare",
-                .summary = "Render scenes by many antialiasing methods and judge each against a reference",
+                .summary = "Render scenes with many antialiasing methods and measure each against a reference",
                 .operands = "SCENE... --aa LIST -o DIR",
                 .examples = examples,
                 .notes = notes};
   const std::string group = "Comparison";
   syntax.options = {
-      {"--output,-o", "DIR", "The folder to be made", group, true, [&](auto& text) { args.render.output = text; }},
-      {"--anti-aliasing,--aa", "LIST", "Methods, as none,msaa:n=4 (zoneplate list methods), or all; default all", group,
-       true, [&](auto& text) { args.methods = text; }},
-      {"--reference", "TRUTH", "A method (analytic, converged, ssaa:n=16, ...) or a picture's file; default converged",
-       group, true, [&](auto& text) { args.reference = text; }},
-      {"--metric", "LIST", "Metrics (zoneplate metrics --help); flip is always among them", group, false,
+      {"--output,-o", "DIR", "Folder to create", group, true, [&](auto& text) { args.render.output = text; }},
+      {"--anti-aliasing,--aa", "LIST",
+       "Methods, for example none,msaa:n=4 (zoneplate list methods), or all; default all", group, true,
+       [&](auto& text) { args.methods = text; }},
+      {"--reference", "REF",
+       "Reference: a method (analytic, converged, ssaa:n=16, ...) or an image file; default converged", group, true,
+       [&](auto& text) { args.reference = text; }},
+      {"--metric", "LIST", "Metrics (zoneplate metrics --help); flip is always included", group, false,
        [&](auto& text) { args.metrics = text; }},
-      {"--turns", "N", "Frames drawn by each method, of which the fastest counts; default 3", group, false,
+      {"--turns", "N", "Frames rendered by each method, of which the fastest counts; default 3", group, false,
        [&](auto& text) { args.turns = parse_whole(text, 1, 1000); }}};
   constexpr std::string_view left_out[] = {"--output", "--anti-aliasing", "--no-background", "--crop", "--aov"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
     if (std::ranges::find(left_out, first) != std::end(left_out)) continue;
     if (first == "--resolution") option.meaning = "Size in pixels, 640,480 or 640x480; default 640,480";
-    if (first == "--json") option.meaning = "Print the JSON in place of the tables";
+    if (first == "--json") option.meaning = "Print the JSON report instead of the tables";
     syntax.options.push_back(std::move(option));
   }
   return syntax;
@@ -88,7 +91,7 @@ bool is_method(std::string_view text) {
   return std::ranges::any_of(antialias::methods(), [&](const Method& m) { return m.name == name; });
 }
 
-/// Every method at its defaults, and as it names its variants.
+/// Every method with its defaults and with each of its variants.
 std::vector<std::string> all_methods() {
   std::vector<std::string> out;
   for (const Method& m : antialias::methods()) {
@@ -104,16 +107,15 @@ std::vector<std::string> methods_of(const std::string& text) {
   for (const std::string& item : split_specs(text)) {
     const std::vector<std::string> own = item == "all" ? all_methods() : std::vector{item};
     for (const std::string& m : own) {
-      make_resolver(antialias::methods(), m);  // says what is wrong with it
+      make_resolver(antialias::methods(), m);  // throws if it is invalid
       if (std::ranges::find(out, m) == out.end()) out.push_back(m);
     }
   }
   return out;
 }
 
-/// The reference that is right for every scene. `analytic` is exact for edges, but it shades each surface of a pixel
-/// once and tests alpha on a grid, so textures, highlights and masks alias in it as they do in the methods it would
-/// judge.
+/// The reference that suits every scene. `analytic` is exact for edges, but it shades each surface of a pixel once and
+/// tests alpha on a grid, so that textures, highlights and masks alias as in the methods under test.
 constexpr const char* best_reference = "converged";
 
 std::vector<metrics::Choice> metrics_of(const std::string& text) {
@@ -135,9 +137,9 @@ TrialOptions trial_options(const CompareArgs& args) {
   else if (out.reference.find_first_of("./") != std::string::npos)
     throw Error(ErrorKind::Input, out.reference + ": no such file");
   else
-    make_resolver(antialias::methods(), out.reference);  // names the methods that there are
+    make_resolver(antialias::methods(), out.reference);  // throws with the list of methods
   if (out.is_reference_file && args.scenes.size() > 1)
-    throw Error(ErrorKind::Usage, fmt::format("--reference {}: one image is the reference of one scene, not of {}",
+    throw Error(ErrorKind::Usage, fmt::format("--reference {}: one image is a reference for one scene, not for {}",
                                               out.reference, args.scenes.size()));
   return out;
 }
@@ -173,7 +175,7 @@ std::string folder_name(const std::string& scene, const std::vector<SceneTrials>
 }
 
 SceneTrials compare_scene(const CompareArgs& args, const std::string& name, const TrialOptions& options,
-                          const std::function<void(const std::string&)>& tell) {
+                          const std::function<void(const std::string&)>& progress) {
   Scene scene = load_scene(name, args.render.load);
   View view = args.render.view;
   view.up = args.render.up.value_or(scene.up);
@@ -185,7 +187,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
       scene, view, static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height));
   set_look(args.render, scene);
   const PreparedScene prepared(std::move(scene), args.render.raw_colors);
-  SceneTrials out = run_trials({prepared, camera, settings}, options, tell);
+  SceneTrials out = run_trials({prepared, camera, settings}, options, progress);
   out.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))
     out.failure = listed->failure, out.complaint = listed->complaint;
@@ -213,7 +215,7 @@ void check_scenes(const CompareArgs& args) {
   for (const std::string& name : args.scenes) {
     if (args.render.load.format.empty() && check_builtin_scene(name)) continue;
     if (name != "-" && !std::filesystem::exists(name, ignored))
-      load_scene(name, args.render.load);  // fails, and knows how to say it
+      load_scene(name, args.render.load);  // throws with the cause
   }
 }
 
@@ -224,8 +226,7 @@ struct Comparison {
 };
 
 Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
-  static_cast<void>(
-      plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));  // fails at once where plots cannot be drawn, not after the work
+  static_cast<void>(plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));  // throws before the work if plots cannot be drawn
   Progress progress(args.render.progress ? *args.render.progress : parse_progress("auto"));
   std::vector<SceneTrials> scenes;
   std::vector<OutputFile> files;

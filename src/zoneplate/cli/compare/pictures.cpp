@@ -1,4 +1,4 @@
-// What a comparison shows: crops of the worst places, and cost against quality.
+// The images of a comparison: crops of the regions with the greatest error, and plots of error against cost.
 #include "zoneplate/cli/compare/pictures.h"
 
 #include <fmt/format.h>
@@ -33,10 +33,10 @@ Rgba8Image with_mark(Rgba8Image picture, const Place& place) {
   return picture;
 }
 
-/// FLIP as a picture that is bright where the greatest error is.
+/// The FLIP error map in false colours, bright at the greatest error.
 Rgba8Image painted(const Plane<float>& map) { return metrics::paint_magma(map); }
 
-/// With places where a line may end.
+/// The method's text with spaces after commas, where lines may break.
 std::string heading_of(std::string method) {
   for (std::size_t at = 0; (at = method.find(',', at)) != std::string::npos; at += 2) method.insert(at + 1, " ");
   return method;
@@ -47,7 +47,7 @@ std::string figures_of(const Trial& t) {
                      t.value("psnr").value_or(0), t.least_processor_ms());
 }
 
-/// A dot of the plot.
+/// A point of the plot.
 struct Dot {
   std::string method;
   double ms, error;
@@ -56,11 +56,11 @@ struct Dot {
 
 Plot plot_of(const std::string& title, std::vector<Dot> dots) {
   std::ranges::stable_sort(dots, {}, &Dot::ms);
-  // Left of the front and below it there is nothing that its names could cover.
+  // The area to the left of the front and below it is empty, and has room for names.
   Curve front{
       .name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1, .labels_are = Curve::Beside::LeftBelow};
   Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
-  constexpr double lower = 0.94, later = 1.4;  // ratios of errors and of times whose names do not touch
+  constexpr double lower = 0.94, later = 1.4;  // ratios of errors and of times at which names do not overlap
   double last_error = HUGE_VAL, last_ms = 0;
   for (const Dot& d : dots) {
     Curve& curve = d.is_on_front ? front : others;
@@ -69,12 +69,12 @@ Plot plot_of(const std::string& title, std::vector<Dot> dots) {
     curve.labels.push_back(is_named ? d.method : "");
     if (d.is_on_front && is_named) last_error = d.error, last_ms = d.ms;
   }
-  // The names of many would cover one another; those on the front are what matters.
+  // The names of many methods would overlap; only those on the front are printed.
   constexpr std::size_t few = 16;
   if (dots.size() > few) others.labels.clear();
   const bool is_logarithmic = std::ranges::all_of(dots, [](const Dot& d) { return d.error > 0; });
   Plot plot{.title = title,
-            .x = {.label = "processor time of a frame (ms)", .is_logarithmic = true},
+            .x = {.label = "CPU time per frame (ms)", .is_logarithmic = true},
             .y = {.label = "mean FLIP × 1000", .is_logarithmic = is_logarithmic}};
   // Room for the names on both sides.
   if (!dots.empty()) plot.x.low = dots.front().ms / 2.5, plot.x.high = dots.back().ms * (dots.size() > few ? 1.3 : 2.5);
@@ -103,9 +103,10 @@ Rgba8Image worst_picture(const SceneTrials& scene, const Trial& trial) {
 Rgba8Image crops_picture(const SceneTrials& scene) {
   constexpr std::size_t columns = 6;
   Figure figure{.title = scene.failure.empty() ? scene.scene : scene.scene + ": " + scene.failure};
-  figure.rows.push_back({{with_mark(scene.reference_picture, scene.common_worst),
-                          fmt::format("The reference, {}, and where the methods are worst", scene.reference)},
-                         {crop(scene.reference_picture, scene.common_worst), "the reference there"}});
+  figure.rows.push_back(
+      {{with_mark(scene.reference_picture, scene.common_worst),
+        fmt::format("Reference ({}); the frame marks the region of greatest mean error", scene.reference)},
+       {crop(scene.reference_picture, scene.common_worst), "reference, enlarged"}});
   std::vector<const Trial*> order;
   for (const Trial& t : scene.trials) order.push_back(&t);
   std::ranges::stable_sort(order, {}, [](const Trial* t) { return t->value("flip").value_or(0); });
@@ -114,8 +115,8 @@ Rgba8Image crops_picture(const SceneTrials& scene) {
     figure.rows.back().push_back(
         {crop(order[i]->picture, scene.common_worst), heading_of(order[i]->method) + "\n" + figures_of(*order[i])});
   }
-  figure.text = "FLIP × 1000 over the whole picture; crops of " + std::to_string(Place::side) +
-                " pixels, 8 times enlarged, the nearest to the reference first.";
+  figure.text = "FLIP × 1000 and CPU time are those of the whole image; crops of " + std::to_string(Place::side) +
+                " pixels, enlarged 8 times, in ascending order of error.";
   if (!scene.complaint.empty()) figure.text += "\n" + scene.complaint;
   return compose(figure);
 }
@@ -124,7 +125,7 @@ Plot cost_plot(const SceneTrials& scene) {
   std::vector<Dot> dots;
   for (const Trial& t : scene.trials)
     dots.push_back({t.method, t.least_processor_ms(), t.value("flip").value_or(0), t.is_on_front});
-  return plot_of(scene.scene + ": error and cost", std::move(dots));
+  return plot_of(scene.scene + ": error against cost", std::move(dots));
 }
 
 Plot cost_plot(const std::vector<MethodMeans>& means) {
@@ -136,7 +137,7 @@ Plot cost_plot(const std::vector<MethodMeans>& means) {
     });
     dots.push_back({m.method, m.processor_ms, m.error, is_on_front});
   }
-  return plot_of("All scenes: mean error and cost", std::move(dots));
+  return plot_of("All scenes: mean error against mean cost", std::move(dots));
 }
 
 }  // namespace zoneplate::cli

@@ -9,18 +9,18 @@
 
 namespace zoneplate::cli {
 
-/// The worst places of one method, 8 times enlarged: the reference, the method, and FLIP between them, below one
-/// another.
+/// The regions of greatest error of one method, enlarged 8 times: the reference, the method, and the FLIP error map,
+/// one below the other.
 Rgba8Image worst_picture(const SceneTrials& scene, const Trial& trial);
 
-/// The whole scene with the place where the methods are worst on average, and that place under every method, 8 times
-/// enlarged, the nearest to the reference first.
+/// The whole scene with the region of the greatest mean error marked, and that region by every method, enlarged 8
+/// times, in ascending order of error.
 Rgba8Image crops_picture(const SceneTrials& scene);
 
-/// Error over time, the Pareto front marked and named.
+/// Error against CPU time, with the Pareto front and the names of its methods.
 Plot cost_plot(const SceneTrials& scene);
 
-/// The same of the means over several scenes.
+/// The same for the means over several scenes.
 Plot cost_plot(const std::vector<MethodMeans>& means);
 
 }  // namespace zoneplate::cli

@@ -1,4 +1,4 @@
-// What a comparison says in text, CSV and JSON.
+// The results of a comparison as text, CSV, Markdown and JSON.
 #include "zoneplate/cli/compare/report.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -14,7 +14,7 @@
 namespace zoneplate::cli {
 namespace {
 
-/// A column of the tables: a figure by its name, and how it is shown.
+/// A column of the tables: a figure by its name, and its format.
 struct Column {
   const char *name, *head;
   int decimals;
@@ -36,7 +36,7 @@ std::string megabytes(const std::optional<std::uint64_t>& bytes) {
   return bytes ? fmt::format("{:.1f}", static_cast<double>(*bytes) / (1 << 20)) : "-";
 }
 
-/// The trials in the order of their error, the nearest to the reference first.
+/// The trials in ascending order of their error.
 std::vector<const Trial*> ranked(const SceneTrials& scene) {
   std::vector<const Trial*> order;
   for (const Trial& t : scene.trials) order.push_back(&t);
@@ -47,7 +47,7 @@ std::vector<const Trial*> ranked(const SceneTrials& scene) {
 Table table_of(const SceneTrials& scene) {
   Table table{{"method"}, {}};
   for (const Column& c : columns) table.head.emplace_back(c.head);
-  for (const char* name : {"ms", "processor ms", "shaded a pixel", "MB"}) table.head.emplace_back(name);
+  for (const char* name : {"ms", "CPU ms", "samples/px", "MB"}) table.head.emplace_back(name);
   for (const Trial* t : ranked(scene)) {
     std::vector<std::string> row{(t->is_on_front ? "* " : "  ") + t->method};
     for (const Column& c : columns) row.push_back(shown(t->value(c.name), c.decimals, c.scale));
@@ -60,24 +60,24 @@ Table table_of(const SceneTrials& scene) {
   return table;
 }
 
-/// What the reference took, which is in none of the methods' times.
+/// The cost of the reference, which the methods' times do not include.
 std::string reference_cost(const SceneTrials& scene) {
   if (!scene.reference_ms) return "";
   const double pixels = static_cast<double>(scene.reference_picture.values().size());
-  return fmt::format(" ({:.1f} ms, {:.1f} processor ms, {:.2f} shaded a pixel)", *scene.reference_ms,
+  return fmt::format(" ({:.1f} ms, {:.1f} CPU ms, {:.2f} shaded samples per pixel)", *scene.reference_ms,
                      *scene.reference_processor_ms, static_cast<double>(scene.reference_shaded) / pixels);
 }
 
-/// The methods whose turns took so long that some were left out: the least of fewer times is less often undisturbed.
+/// The methods with fewer turns because of their time: a minimum of fewer times is less reliable.
 std::string fewer_turns(const SceneTrials& scene) {
   std::string text;
   for (const Trial& t : scene.trials)
     if (static_cast<int>(t.frame_ms.size()) < scene.turns)
       text += fmt::format("{} {} ({})", text.empty() ? "" : ",", t.method, t.frame_ms.size());
-  return text.empty() ? "" : fmt::format("Fewer than {} turns, as they take long:{}\n", scene.turns, text);
+  return text.empty() ? "" : fmt::format("Slow methods with fewer than {} turns:{}\n", scene.turns, text);
 }
 
-/// The first of these is what a scene without a class counts as.
+/// The class of a scene, "other" for a scene without one.
 std::string class_of(const SceneTrials& scene) { return scene.failure.empty() ? "other" : scene.failure; }
 
 std::string means_text(const std::vector<SceneTrials>& scenes) {
@@ -85,14 +85,14 @@ std::string means_text(const std::vector<SceneTrials>& scenes) {
   std::ranges::stable_sort(means, {}, &MethodMeans::error);
   Table table{{"method", "mean"}, {}};
   for (const auto& [name, error] : means.at(0).by_class) table.head.push_back(name);
-  table.head.emplace_back("processor ms");
+  table.head.emplace_back("CPU ms");
   for (const MethodMeans& m : means) {
     std::vector<std::string> row{m.method, shown(m.error, 2, 1000)};
     for (const auto& [name, error] : m.by_class) row.push_back(shown(error, 2, 1000));
     row.push_back(fmt::format("{:.1f}", m.processor_ms));
     table.rows.push_back(std::move(row));
   }
-  return "All scenes: FLIP ×1000, mean and by class of failure; mean processor time\n" + table_text(table);
+  return "All scenes: FLIP ×1000, mean and by class of artifacts; mean CPU time\n" + table_text(table);
 }
 
 Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
@@ -127,26 +127,26 @@ Json trial_json(const SceneTrials& scene, const Trial& trial) {
   Json::Array worst;
   for (const Place& p : trial.worst) worst.push_back(place_json(p));
   return Json::Object{{"method", trial.method},
-                      {"picture", files.picture},
+                      {"image", files.picture},
                       {"error_map", files.error_map},
-                      {"worst_picture", files.worst},
+                      {"worst_regions_image", files.worst},
                       {"metrics", metrics_json(trial)},
-                      {"ms", trial.least_ms()},
-                      {"ms_of_turns", numbers(trial.frame_ms)},
-                      {"processor_ms", trial.least_processor_ms()},
-                      {"processor_ms_of_turns", numbers(trial.processor_ms)},
-                      {"ms_by_stage", Json::Object{{"prepare", trial.counts.prepare_ms},
-                                                   {"geometry", trial.counts.geometry_ms},
-                                                   {"tiles", trial.counts.tiles_ms},
-                                                   {"resolve", trial.counts.resolve_ms},
-                                                   {"display", trial.counts.display_ms},
-                                                   {"filter", trial.counts.filter_ms}}},
+                      {"frame_ms", trial.least_ms()},
+                      {"frame_ms_by_turn", numbers(trial.frame_ms)},
+                      {"cpu_ms", trial.least_processor_ms()},
+                      {"cpu_ms_by_turn", numbers(trial.processor_ms)},
+                      {"stage_ms", Json::Object{{"prepare", trial.counts.prepare_ms},
+                                                {"geometry", trial.counts.geometry_ms},
+                                                {"tiles", trial.counts.tiles_ms},
+                                                {"resolve", trial.counts.resolve_ms},
+                                                {"display", trial.counts.display_ms},
+                                                {"filter", trial.counts.filter_ms}}},
                       {"triangles", trial.counts.triangles},
-                      {"shaded", trial.counts.shaded},
-                      {"shaded_per_pixel", trial.shaded_per_pixel()},
+                      {"shaded_samples", trial.counts.shaded},
+                      {"shaded_samples_per_pixel", trial.shaded_per_pixel()},
                       {"peak_memory_bytes", trial.memory ? Json(*trial.memory) : Json()},
-                      {"is_on_front", trial.is_on_front},
-                      {"worst", std::move(worst)}};
+                      {"is_pareto_optimal", trial.is_on_front},
+                      {"worst_regions", std::move(worst)}};
 }
 
 Json scene_json(const SceneTrials& scene) {
@@ -155,16 +155,16 @@ Json scene_json(const SceneTrials& scene) {
   return Json::Object{{"scene", scene.scene},
                       {"folder", scene.name},
                       {"class", scene.failure.empty() ? Json() : Json(scene.failure)},
-                      {"complaint", scene.complaint.empty() ? Json() : Json(scene.complaint)},
+                      {"artifact", scene.complaint.empty() ? Json() : Json(scene.complaint)},
                       {"width", scene.reference_picture.width()},
                       {"height", scene.reference_picture.height()},
                       {"reference", Json::Object{{"source", scene.reference},
-                                                 {"picture", scene.name + "/reference.png"},
-                                                 {"ms", number(scene.reference_ms)},
-                                                 {"processor_ms", number(scene.reference_processor_ms)},
-                                                 {"shaded", scene.reference_shaded}}},
+                                                 {"image", scene.name + "/reference.png"},
+                                                 {"frame_ms", number(scene.reference_ms)},
+                                                 {"cpu_ms", number(scene.reference_processor_ms)},
+                                                 {"shaded_samples", scene.reference_shaded}}},
                       {"turns", scene.turns},
-                      {"worst", place_json(scene.common_worst)},
+                      {"worst_region", place_json(scene.common_worst)},
                       {"crops", scene.name + "/crops.png"},
                       {"plot", scene.name + "/cost.svg"},
                       {"methods", std::move(trials)}};
@@ -222,14 +222,14 @@ std::string report_text(const std::vector<SceneTrials>& scenes) {
     text += table_text(table_of(s)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';
-  return text + "* on the Pareto front: no other method takes less processor time and is nearer\n";
+  return text + "* on the Pareto front: no other method has less CPU time and less error\n";
 }
 
 std::string report_csv(const std::vector<SceneTrials>& scenes) {
   std::string text = "scene,class,method";
   for (const Column& c : columns) text += fmt::format(",{}", c.name);
-  text += ",ms,processor_ms,shaded,shaded_per_pixel,peak_memory_bytes,is_on_front\n";
-  // A comma parts fields, and parameters too.
+  text += ",frame_ms,cpu_ms,shaded_samples,shaded_samples_per_pixel,peak_memory_bytes,is_pareto_optimal\n";
+  // Parameters of methods contain commas, the separator of fields.
   const auto quoted = [](const std::string& s) {
     return s.find_first_of(",\"\n") == std::string::npos ? s : fmt::format("\"{}\"", s);
   };
@@ -248,7 +248,7 @@ std::string report_csv(const std::vector<SceneTrials>& scenes) {
 
 namespace {
 
-/// The mean over the scenes that have a figure.
+/// The mean of a figure over the scenes that have it.
 template <class Figure>
 std::optional<double> mean_over(const std::vector<SceneTrials>& scenes, const Figure& figure) {
   double sum = 0, count = 0;
@@ -273,7 +273,7 @@ std::string report_markdown(const std::vector<SceneTrials>& scenes) {
   std::ranges::stable_sort(order, {}, [&](std::size_t m) { return means[m].error; });
   std::string text = "| method | mean |", rule = "|---|---|";
   for (const SceneTrials& s : scenes) text += fmt::format(" {} |", s.name), rule += "---|";
-  text += " near axis % | shaded | MB | ms |\n" + rule + "---|---|---|---|\n";
+  text += " near axis % | samples/px | MB | ms |\n" + rule + "---|---|---|---|\n";
   for (const std::size_t m : order) {
     const char* mark = is_on_front(means[m], means) ? "**" : "";
     text += fmt::format("| {0}`{1}`{0} | {2} |", mark, means[m].method, shown(means[m].error, 1, 1000));
@@ -300,8 +300,8 @@ Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::
     for (const auto& [name, error] : m.by_class) by_class.emplace_back(name, error);
     means.emplace_back(Json::Object{{"method", m.method},
                                     {"flip", m.error},
-                                    {"ms", m.ms},
-                                    {"processor_ms", m.processor_ms},
+                                    {"frame_ms", m.ms},
+                                    {"cpu_ms", m.processor_ms},
                                     {"flip_by_class", std::move(by_class)}});
   }
   return Json::Object{{"format", "zoneplate-compare"},

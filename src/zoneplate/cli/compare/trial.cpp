@@ -14,7 +14,7 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr double budget_ms = 1500;  // of one method's turns: no new one after that
+constexpr double budget_ms = 1500;  // time of one method after which no further turn starts
 constexpr int worst_count = 3;
 
 Rgba8Image opaque(Rgba8Image image) {
@@ -31,7 +31,7 @@ metrics::Picture picture_of(const Rgba8Image& codes) {
   return metrics::make_picture(std::move(display));
 }
 
-/// One method's pictures, each turn as a program would that draws one frame after the other.
+/// Renders one method's turns, like consecutive frames of a program.
 Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
   Trial trial{.method = method};
   std::optional<Renderer> renderer;
@@ -82,7 +82,7 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTr
   const std::string found = size(out.reference_picture.width(), out.reference_picture.height());
   const std::string wanted = size(stage.settings.options.width, stage.settings.options.height);
   if (found != wanted)
-    throw Error(ErrorKind::Input, fmt::format("{}: has {} pixels, the pictures have {}; give --size {}",
+    throw Error(ErrorKind::Input, fmt::format("{}: has {} pixels, the images have {}; give --size {}",
                                               options.reference, found, wanted, found));
 }
 
@@ -147,15 +147,15 @@ void find_front(std::vector<Trial>& trials) {
 }
 
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
-                       const std::function<void(const std::string&)>& tell) {
+                       const std::function<void(const std::string&)>& progress) {
   SceneTrials out;
   out.turns = options.turns;
-  tell(options.reference);
+  progress(options.reference);
   set_reference(stage, options, out);
   const metrics::Picture reference = picture_of(out.reference_picture);
   Plane<float> sum(out.reference_picture.width(), out.reference_picture.height());
   for (const std::string& method : options.methods) {
-    tell(method);
+    progress(method);
     Trial trial = rendered(stage, method, options.turns);
     judge(trial, reference, options);
     for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += trial.error_map.values()[i];

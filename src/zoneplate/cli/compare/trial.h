@@ -11,51 +11,51 @@
 
 namespace zoneplate::cli {
 
-/// A square part of a picture, of `Place::side` pixels, by its upper left corner.
+/// A square region of an image, of `Place::side` pixels, by its upper left corner.
 struct Place {
   static constexpr int side = 24;
   int x = 0, y = 0;
   double error = 0;  ///< mean FLIP there
 };
 
-/// One method's picture of one scene: what it cost, and how far it is from the reference.
+/// One method's image of one scene, with its cost and its error against the reference.
 struct Trial {
   std::string method;
   Rgba8Image picture;
   std::uint64_t pixels = 0;             ///< of the picture
-  std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the codes
-  std::vector<double> processor_ms;     ///< the same on all processors together, which other programs disturb less
+  std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the 8-bit image
+  std::vector<double> processor_ms;     ///< CPU time of all threads, which other programs disturb less
   RenderCounts counts;                  ///< of the turn of least time
-  std::optional<std::uint64_t> memory;  ///< bytes that the first turn needed more than was there before it
+  std::optional<std::uint64_t> memory;  ///< increase of resident memory in the first turn, bytes
   std::vector<metrics::Result> results;
   Plane<float> error_map;  ///< FLIP
   std::vector<Place> worst;
-  bool is_on_front = false;  ///< no other trial of the scene is both cheaper and nearer to the reference
+  bool is_on_front = false;  ///< no other trial of the scene has both less CPU time and less error
 
   double least_ms() const;
   double least_processor_ms() const;
   double shaded_per_pixel() const;
-  /// The value of a metric, or of a figure that it gives beside it ("edge_error.near_axis"); nothing where it could
-  /// not be measured.
+  /// The value of a metric, or of one of its additional figures ("edge_error.near_axis"); nothing if it could not be
+  /// measured.
   std::optional<double> value(std::string_view name) const;
 };
 
-/// All of one scene.
+/// The trials of one scene.
 struct SceneTrials {
-  std::string scene;               ///< as given
+  std::string scene;               ///< a file or a built-in scene
   std::string name;                ///< of its folder
-  std::string failure, complaint;  ///< where the scene says what it shows
+  std::string failure, complaint;  ///< the class of artifacts that a built-in scene shows, and its description
   std::string reference;           ///< a method's text, or a file
   Rgba8Image reference_picture;
-  std::optional<double> reference_ms;  ///< nothing of a file
+  std::optional<double> reference_ms;  ///< nothing for a file
   std::optional<double> reference_processor_ms;
   std::uint64_t reference_shaded = 0;
-  int turns = 0;       ///< of each method, where they take no longer than the budget for them
-  Place common_worst;  ///< where the methods are worst on average
+  int turns = 0;       ///< of each method, if its time budget suffices
+  Place common_worst;  ///< the region of the greatest mean error over all methods
   std::vector<Trial> trials;
 };
 
-/// How scenes are rendered and judged.
+/// The options of rendering and measuring scenes.
 struct TrialOptions {
   std::vector<std::string> methods;
   std::string reference;
@@ -71,18 +71,18 @@ struct TrialSetup {
   RenderSettings settings;
 };
 
-/// Renders a scene by every method and by the reference, and judges them. `tell` is called with each method's text
-/// before its turn.
+/// Renders a scene by every method and by the reference, and measures the methods. `progress` is called with each
+/// method's text before it is rendered.
 ///
-/// The picture that is judged has 8 bits a channel, as it is written.
-/// Errors    those of methods and files; ErrorKind::Input where the reference has another size.
+/// The metrics measure images with 8 bits per channel, as they are written.
+/// Errors    those of methods and files; ErrorKind::Input if the reference has another size.
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
-                       const std::function<void(const std::string&)>& tell);
+                       const std::function<void(const std::string&)>& progress);
 
-/// The `count` squares with the greatest mean error, none overlapping another, the worst first.
+/// The `count` squares with the greatest mean errors that do not overlap, in descending order.
 std::vector<Place> worst_places(const Plane<float>& error, int count);
 
-/// Marks the trials on the Pareto front of processor time and FLIP.
+/// Marks the trials on the Pareto front of CPU time and FLIP.
 void find_front(std::vector<Trial>& trials);
 
 }  // namespace zoneplate::cli

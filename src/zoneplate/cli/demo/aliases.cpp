@@ -1,4 +1,4 @@
-// Aliases: different waves with the same samples, and how far each filter keeps them down.
+// Aliases: different waves with the same samples, and the suppression of aliases by each filter.
 #include <fmt/format.h>
 
 #include <array>
@@ -18,12 +18,12 @@ constexpr double frequency = 0.9;  // cycles a sample
 constexpr int shown_samples = 10;
 constexpr const char* shown_kernel = "lanczos3";
 
-/// A zone plate made smaller.
+/// A reduction of a zone plate.
 struct Reduction {
   int from, to;
   double factor() const { return static_cast<double>(from) / to; }
 };
-/// What is measured; a small lesson measures less.
+/// The reductions that are measured; fewer at small sizes.
 std::array<Reduction, 2> reductions(const DemoSize& size) {
   const int share = size.panel < 200 ? 1 : 2;
   return {{{128 * share, 64 * share}, {185 * share, 50 * share}}};
@@ -31,9 +31,9 @@ std::array<Reduction, 2> reductions(const DemoSize& size) {
 
 Plot waves_plot() {
   const double seen = apparent_frequency(frequency, 1);
-  Plot plot{.x = {"place (samples)", 0, shown_samples}, .y = {"value", -1.25, 1.25}};
-  Curve fast{.name = fmt::format("{} cycles a sample", number(frequency, 1)), .color = Curve::grey};
-  Curve slow{.name = number(std::abs(seen), 1) + " cycles a sample", .color = 0};
+  Plot plot{.x = {"position (samples)", 0, shown_samples}, .y = {"value", -1.25, 1.25}};
+  Curve fast{.name = fmt::format("{} cycles per sample", number(frequency, 1)), .color = Curve::grey};
+  Curve slow{.name = number(std::abs(seen), 1) + " cycles per sample", .color = 0};
   Curve samples{.name = "samples of both", .mark = Curve::Mark::Points, .color = 1};
   constexpr int fine = 60;
   for (int i = 0; i <= shown_samples * fine; ++i) {
@@ -47,11 +47,11 @@ Plot waves_plot() {
 }
 
 Plot folding_plot() {
-  Plot plot{.x = {"true frequency (cycles a sample)", 0, 2.5}, .y = {"seen frequency", 0, 0.6}};
-  Curve folded{.name = "seen", .color = 0}, same{.name = "true", .mark = Curve::Mark::Dashed, .color = Curve::grey};
+  Plot plot{.x = {"true frequency (cycles per sample)", 0, 2.5}, .y = {"apparent frequency", 0, 0.6}};
+  Curve folded{.name = "apparent", .color = 0}, same{.name = "true", .mark = Curve::Mark::Dashed, .color = Curve::grey};
   for (int i = 0; i <= 25; ++i) folded.points.emplace_back(i / 10.0, folded_frequency(i / 10.0, 1));
   same.points = {{0, 0}, {0.6, 0.6}};
-  Curve family{.name = fmt::format("all seen as {}", number(folded_frequency(frequency, 1), 1)),
+  Curve family{.name = fmt::format("aliases of {}", number(folded_frequency(frequency, 1), 1)),
                .mark = Curve::Mark::Points,
                .color = 1};
   const double seen = folded_frequency(frequency, 1);
@@ -89,38 +89,38 @@ Table kernel_table(const std::array<Reduction, 2>& measured) {
 Lesson make(const DemoSize& size) {
   const int side = size.panel, gap = size.style().gap_px, tenths = (side + 2 * seam) / 10;
   const int width = 2 * side + gap, height = side * 9 / 10;
-  Figure figure{.title = "Aliases: different waves, the same samples"};
+  Figure figure{.title = "Aliases: different waves with the same samples"};
   const double seen = std::abs(apparent_frequency(frequency, 1));
   figure.rows.push_back(
       {{plot_at(waves_plot(), width, height),
-        fmt::format("Nobody can tell them apart\nWaves of {} and of {} cycles a sample agree at every sample; the "
-                    "slower one is what is seen.",
+        fmt::format("Indistinguishable waves\nWaves of {} and of {} cycles per sample agree at every sample; "
+                    "reconstruction gives the lower frequency.",
                     number(frequency, 1), number(seen, 1))},
        {plot_at(folding_plot(), width, height),
-        "Frequencies fold at ½\nHalf a cycle a sample is the Nyquist frequency: beyond it everything is seen as a "
-        "slower wave, its alias."}});
+        "Frequencies fold at ½\nHalf a cycle per sample is the Nyquist frequency: a higher frequency appears as a "
+        "lower "
+        "one, its alias."}});
 
   const Kernel kernel = make_kernel(shown_kernel);
   std::vector<Panel>& row = figure.rows.emplace_back();
   for (const Reduction& r : {Reduction{20 * tenths, 10 * tenths}, Reduction{37 * tenths, 10 * tenths}}) {
     const Plane<float> plate = zone_plate(r.from);
     const std::string factor = number(r.factor(), r.factor() > 3 ? 1 : 0);
-    row.push_back(
-        {shown(inside(resample_nearest(plate, r.to, r.to))),
-         fmt::format("{} times smaller, unfiltered\nOnly the rings around the centre belong there.", factor)});
+    row.push_back({shown(inside(resample_nearest(plate, r.to, r.to))),
+                   fmt::format("{} times smaller, unfiltered\nOnly the rings around the centre are real.", factor)});
     row.push_back(
         {shown(inside(resample(plate, r.to, r.to, kernel, {.border = Border::Wrap}))),
-         fmt::format("{} times smaller, {}\nWhat the pixels cannot hold has become grey.", factor, shown_kernel)});
+         fmt::format("{} times smaller, {}\nFrequencies above the Nyquist limit are grey.", factor, shown_kernel)});
   }
 
   const auto measured = reductions(size);
   const Table table = kernel_table(measured);
   figure.rows.push_back({{table_picture(table, size.style(), 4 * side + 3 * gap), ""}});
   figure.text = fmt::format(
-      "What each kernel leaves of the aliases when zone plates of {} and {} pixels are made smaller, in dB of their "
-      "energy without a filter: measured in the picture, and from the kernel’s frequency response. Far: those from 1.5 "
-      "times the new Nyquist frequency and beyond, which come out coarse. Less is better, but a wide kernel also takes "
-      "more of what could have stayed.",
+      "Energy of aliases after each kernel when zone plates of {} and {} pixels are reduced, in dB relative to no "
+      "filter: measured in the image, and theory from the kernel’s frequency response. Far: aliases of frequencies "
+      "above 1.5 times the new Nyquist frequency, which form coarse patterns. Lower is better, but a wide kernel also "
+      "attenuates detail below the Nyquist limit.",
       measured[0].from, measured[1].from);
   return {.frames = {figure}, .tables = {table}};
 }
@@ -128,7 +128,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_aliases() {
-  return {"aliases", "waves with the same samples, and every kernel's suppression of aliases", make};
+  return {"aliases", "waves with the same samples, and the suppression of aliases by each kernel", make};
 }
 
 }  // namespace zoneplate::cli

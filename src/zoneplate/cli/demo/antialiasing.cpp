@@ -1,4 +1,4 @@
-// Antialiasing: one place of one picture under every method, with what it costs and how far it is from the truth.
+// Antialiasing: one region of an image by every method, with its cost and its error against the reference.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Way {
   const char* method;
   std::size_t kind;
 };
-constexpr const char* kinds[] = {"filters of the picture", "shared samples, few colours", "none, multisampling",
+constexpr const char* kinds[] = {"post-process filters", "shared samples, few colours", "none, multisampling",
                                  "supersampling"};
 constexpr Way ways[] = {
     {"none", 2},   {"fxaa", 0},     {"smaa", 0},     {"mlaa", 0},     {"cmaa2", 0},    {"dlaa", 0},
@@ -42,13 +42,13 @@ Taken taken(const PreparedScene& scene, const Camera& camera, const RenderSettin
 DisplayImage codes_of(const Rgba8Image& picture) {
   DisplayImage out(picture.width(), picture.height());
   std::ranges::transform(picture.values(), out.values().begin(), [](Rgba8 c) {
-    const auto share = [](std::uint8_t v) { return static_cast<float>(v) / 255; };
-    return Display{share(c.r), share(c.g), share(c.b), 1};
+    const auto unit = [](std::uint8_t v) { return static_cast<float>(v) / 255; };
+    return Display{unit(c.r), unit(c.g), unit(c.b), 1};
   });
   return out;
 }
 
-/// A text that may be broken at its commas.
+/// The method's text with spaces after commas, where lines may break.
 std::string heading_of(std::string method) {
   for (std::size_t at = 0; (at = method.find(',', at)) != std::string::npos; at += 2) method.insert(at + 1, " ");
   return method;
@@ -62,19 +62,19 @@ Lesson make(const DemoSize& size) {
   const PreparedScene prepared(std::move(scene));
   const RenderSettings settings{
       .options = {.width = width, .height = side, .display = {.background = default_background}}};
-  const Taken truth = taken(prepared, camera, settings, reference);
-  const DisplayImage truth_codes = codes_of(truth.picture);
-  const double pixels = static_cast<double>(truth.picture.values().size());
+  const Taken exact = taken(prepared, camera, settings, reference);
+  const DisplayImage exact_codes = codes_of(exact.picture);
+  const double pixels = static_cast<double>(exact.picture.values().size());
 
-  // Beside the hub: spokes at many angles before dark, round edges.
+  // The region next to the hub: spokes at many angles in front of dark, round edges.
   const int x = width * 58 / 100, y = side * 43 / 100;
-  Figure figure{.title = "One place under every method", .rows = {{}}};
+  Figure figure{.title = "The same region by every antialiasing method", .rows = {{}}};
   std::vector<Curve> curves;
   for (const char* kind : kinds) curves.push_back({.name = kind, .mark = Curve::Mark::Points});
   for (std::size_t i = 0; i < std::size(ways); ++i) {
     if (i % columns == 0) figure.rows.emplace_back();
     const Taken own = taken(prepared, camera, settings, ways[i].method);
-    const double error = 100 * std::sqrt(metrics::mean_squared_error(truth_codes, codes_of(own.picture)));
+    const double error = 100 * std::sqrt(metrics::mean_squared_error(exact_codes, codes_of(own.picture)));
     const double shaded = static_cast<double>(own.counts.shaded) / pixels;
     curves[ways[i].kind].points.emplace_back(shaded, error);
     figure.rows.back().push_back({crop_of(own.picture, x, y, factor, crop_side),
@@ -82,29 +82,28 @@ Lesson make(const DemoSize& size) {
                                               number(error, 2), number(shaded, 2))});
   }
   const Plot plot{.title = "",
-                  .x = {.label = "points shaded a pixel", .is_logarithmic = true},
+                  .x = {.label = "shaded samples per pixel", .is_logarithmic = true},
                   .y = {.label = "error (%)", .low = 0, .high = 2.5},
                   .curves = curves};
   const int gap = size.style().gap_px,
             rest = static_cast<int>(columns) * (crop_side + gap) - width - crop_side - 2 * gap;
   figure.rows[0] = {
-      {marked(truth.picture, x, y, factor, crop_side), "The frame marks what is shown below, 8 times enlarged."},
-      {crop_of(truth.picture, x, y, factor, crop_side),
-       fmt::format("The truth\n{}: {} shaded a pixel.", reference,
-                   number(static_cast<double>(truth.counts.shaded) / pixels, 1))},
-      {plot_at(plot, rest - gap, side), "Error over cost."}};
+      {marked(exact.picture, x, y, factor, crop_side), "The frame marks the region below, enlarged 8 times."},
+      {crop_of(exact.picture, x, y, factor, crop_side),
+       fmt::format("Reference\n{}: {} shaded samples per pixel.", reference,
+                   number(static_cast<double>(exact.counts.shaded) / pixels, 1))},
+      {plot_at(plot, rest - gap, side), "Error against cost."}};
   figure.text =
-      "The error is the root mean square of the difference from the truth over the whole picture, in codes, white "
-      "being 100 %; beside it the points shaded for each pixel of the picture. Filters of the picture shade no more "
-      "than "
-      "none does, and guess; gbaa knows the triangles' edges besides, sraa and idsraa their geometry at more samples; "
-      "multisampling knows the outlines and not the highlights; supersampling knows both and pays for both. A method "
-      "that is soft on purpose (mitchell, quincunx) is counted here as wrong.";
+      "Error: root mean square difference from the reference over the whole image, of sRGB values, white being 100 %; "
+      "shaded: shaded samples per pixel. Post-process filters shade no more samples than no antialiasing, and infer "
+      "edges from the image; gbaa also uses the edges of triangles, sraa and idsraa geometry at more samples. "
+      "Multisampling smooths outlines but not highlights; supersampling smooths both, at the cost of shading every "
+      "sample. Methods that blur by design (mitchell, quincunx) have a greater error by this measure.";
   return {.frames = {figure}};
 }
 
 }  // namespace
 
-Demo demo_antialiasing() { return {"antialiasing", "one place under every method, with its error and its cost", make}; }
+Demo demo_antialiasing() { return {"antialiasing", "the same region by every method, with error and cost", make}; }
 
 }  // namespace zoneplate::cli

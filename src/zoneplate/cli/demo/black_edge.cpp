@@ -1,6 +1,6 @@
-// The black edge: what comes of one colour a pixel where coverage is known at four samples.
+// The black edge: the artifact of one colour per pixel with four coverage samples.
 //
-// Both mistakes are made here on purpose, from what the renderer knows of each sample, in the order of drawing.
+// Both errors are reproduced on purpose from the renderer's samples, in the order of drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int factor = 8, samples = 4;
 
-/// The scene's samples: for each of a pixel's four the triangle that is seen there, and its colour.
+/// The scene's samples: the visible triangle and the colour at each of a pixel's four samples.
 Frame sampled(const Scene& scene, int width, int height) {
   RenderOptions options{.width = width, .height = height};
   const auto resolver = make_resolver(antialias::methods(), "msaa:grid=2");
@@ -27,8 +27,8 @@ Frame sampled(const Scene& scene, int width, int height) {
   return render(PreparedScene(scene), camera_of(scene, width, height), request, options);
 }
 
-/// A pixel of one colour buffer without samples, while triangles are drawn one after the other, the nearer one first.
-/// `draw(pixel, color, share)` lays a triangle's colour, seen at this share of the samples, into it.
+/// Draws the triangles one after the other, the nearer one first, into a colour buffer without samples.
+/// `draw(pixel, color, coverage)` draws a triangle's colour with this coverage into a pixel.
 template <class Draw>
 LinearImage drawn(const Frame& frame, Draw draw) {
   LinearImage out(frame.color.width(), frame.color.height(), Linear{0, 0, 0, 1});
@@ -45,26 +45,27 @@ LinearImage drawn(const Frame& frame, Draw draw) {
 }
 
 LinearImage overwritten(const Frame& frame) {
-  return drawn(frame, [](Linear, Linear color, float share) {
-    return Linear{color.r * share, color.g * share, color.b * share, 1};
+  return drawn(frame, [](Linear, Linear color, float coverage) {
+    return Linear{color.r * coverage, color.g * coverage, color.b * coverage, 1};
   });
 }
 
 LinearImage blended(const Frame& frame) {
-  return drawn(frame, [](Linear before, Linear color, float share) { return before * (1 - share) + color * share; });
+  return drawn(frame,
+               [](Linear before, Linear color, float coverage) { return before * (1 - coverage) + color * coverage; });
 }
 
-/// A colour for each sample: the mean of what is seen.
+/// One colour for each sample: the mean of the visible colours.
 LinearImage cured(const Frame& frame) {
   LinearImage out = frame.color;
   for (Linear& c : out.values()) c.a = 1;
   return out;
 }
 
-/// Of the pixels that the two triangles share without a gap: how many have too little light, and how little.
+/// The pixels that the two triangles cover completely: how many are too dark, and how dark.
 struct Darkness {
   int pixels = 0, dark = 0;
-  float least = 1;  ///< of the light that the pixel should have
+  float least = 1;  ///< smallest brightness relative to the correct one
 };
 Darkness measured(const Frame& frame, const LinearImage& picture) {
   Darkness out;
@@ -74,49 +75,49 @@ Darkness measured(const Frame& frame, const LinearImage& picture) {
       for (std::size_t s = 0; s < samples; ++s)
         if (const std::uint32_t t = frame.sample_triangle[s](x, y); t < 2) ++owned[t];
       if (owned[0] == 0 || owned[1] == 0 || owned[0] + owned[1] != samples) continue;
-      const float share = picture(x, y).g / frame.color(x, y).g;
+      const float brightness = picture(x, y).g / frame.color(x, y).g;
       ++out.pixels;
-      out.dark += share < 0.999f;
-      out.least = std::min(out.least, share);
+      out.dark += brightness < 0.999f;
+      out.least = std::min(out.least, brightness);
     }
   return out;
 }
 
 std::string words_of(const Darkness& d) {
-  return d.dark == 0 ? fmt::format("All of {} pixels that the triangles share have the light that is theirs.", d.pixels)
-                     : fmt::format("{} of {} pixels that the triangles share have too little light, down to {}\u00a0%.",
-                                   d.dark, d.pixels, number(100 * static_cast<double>(d.least), 0));
+  return d.dark == 0 ? fmt::format("All {} pixels that both triangles cover have the correct brightness.", d.pixels)
+                     : fmt::format("{} of {} pixels that both triangles cover are too dark, down to {}\u00a0%.", d.dark,
+                                   d.pixels, number(100 * static_cast<double>(d.least), 0));
 }
 
 Lesson make(const DemoSize& size) {
   const int side = size.panel, x = side * 78 / 100, y = side * 42 / 100;
   const Frame frame = sampled(scene_of("triangles"), side, side);
-  Figure figure{.title = "The black edge: four samples, but one colour a pixel", .rows = {{}, {}}};
+  Figure figure{.title = "The black edge: four coverage samples, but one colour per pixel", .rows = {{}, {}}};
   const auto add = [&](const LinearImage& light, const char* caption) {
     const Rgba8Image picture = shown(light);
     figure.rows[0].push_back({marked(picture, x, y, factor, side), caption});
     figure.rows[1].push_back({crop_of(picture, x, y, factor, side), words_of(measured(frame, light))});
   };
   add(overwritten(frame),
-      "Overwritten\nEach triangle writes its colour times its share of the samples. The far one, seen at one sample "
-      "of four, wipes out what the near one wrote for three.");
+      "Overwritten\nEach triangle writes its colour times its coverage. The far triangle, visible at one of four "
+      "samples, overwrites the near one's colour of the other three.");
   add(blended(frame),
-      "Blended while drawn\nEach triangle is mixed over what the pixel holds by then: the near one over the black of "
-      "an empty buffer, which stays in the pixel for good.");
+      "Blended while drawing\nEach triangle is blended over the pixel's present colour: the near one over the black of "
+      "the empty buffer, which remains in the result.");
   add(cured(frame),
-      "Cured\nEvery sample keeps a depth and a colour of its own. They are averaged once, when all is drawn.");
+      "Correct\nEvery sample has its own depth and colour. They are averaged once, after the last triangle.");
   figure.text =
-      "Depth is tested at four samples in all three; the near triangle is drawn first. A pixel on its edge belongs to "
-      "both. Where the buffer has one colour for them, the part that is still empty when the near one is drawn counts "
-      "as black: a dark line between two bright surfaces that touch, which no background explains. Light has to be "
-      "averaged after the last triangle, over samples, not over triangles.";
+      "All three test depth at four samples, and draw the near triangle first. A pixel on its edge shows both "
+      "triangles. With one colour per pixel, the part that is still empty when the near triangle is drawn counts as "
+      "black: a dark line between two bright surfaces that touch, which the background does not explain. Colours must "
+      "be averaged after the last triangle, over samples instead of triangles.";
   return {.frames = {figure}};
 }
 
 }  // namespace
 
 Demo demo_black_edge() {
-  return {"black-edge", "a dark line between bright surfaces: the bug made on purpose, and its cure", make};
+  return {"black-edge", "a dark line between bright surfaces: the bug, and its correction", make};
 }
 
 }  // namespace zoneplate::cli

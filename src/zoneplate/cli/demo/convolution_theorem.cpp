@@ -1,4 +1,4 @@
-// The convolution theorem: to convolve two pictures is to multiply their spectra.
+// The convolution theorem: convolution of images equals multiplication of their spectra.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ double greatest(const Plane<float>& a, const Plane<float>& b) {
   return most;
 }
 
-/// The kernel in the middle of an empty picture of this size.
+/// The kernel in the middle of an empty image of this size.
 Plane<float> placed(const Plane<float>& kernel, int side) {
   Plane<float> plane(side, side);
   for (int y = 0; y < kernel.height(); ++y)
@@ -61,7 +61,7 @@ std::string small(double value) {
 }
 
 Table border_table(const Plane<float>& picture, const Plane<float>& kernel) {
-  Table table{{"border", "as it stands", "border written out first"}, {}};
+  Table table{{"border", "applied directly", "border padded first"}, {}};
   const Plane<float> product = convolve_by_fourier(picture, kernel, Border::Wrap);
   for (const Border border : {Border::Wrap, Border::Zero, Border::Clamp, Border::Reflect}) {
     const Plane<float> space = convolve(picture, kernel, {.border = border});
@@ -83,10 +83,8 @@ Plane<float> brightened(Plane<float> plane) {
   return plane;
 }
 
-/// How well the theorem holds where it does.
-std::string agreement(double most) {
-  return most == 0 ? "the same bits" : "they differ by " + small(most) + " at most";
-}
+/// How well both results agree.
+std::string agreement(double most) { return most == 0 ? "the same bits" : "the greatest difference is " + small(most); }
 
 Lesson make(const DemoSize& size) {
   const int side = size.panel, radius = side / 40 + 1;
@@ -99,30 +97,32 @@ Lesson make(const DemoSize& size) {
 
   const auto sign = [&](const char* text) { return Panel{sign_picture(text, side, size.style()), ""}; };
   const auto drawn = [](const Spectrum& s) { return spectrum_picture(s, range_db); };
-  Figure figure{.title = "The convolution theorem: convolving pictures is multiplying spectra"};
+  Figure figure{.title = "The convolution theorem: convolution of images is multiplication of spectra"};
   figure.rows = {
-      {{shown(picture), "A picture\nIts edges are sharp."},
+      {{shown(picture), "An image\nIts edges are sharp."},
        sign("∗"),
        {shown(brightened(lens)),
-        fmt::format("A kernel\nA disk of {} pixels, as a lens out of focus makes of a point.", 2 * radius)},
+        fmt::format("A kernel\nA disk of {} pixels, the image of a point by a lens out of focus.", 2 * radius)},
        sign("="),
-       {shown(space), "Convolved\nEvery point of the picture becomes a disk; they add."}},
-      {{drawn(spectrum), "Its spectrum\nEdges are streaks that reach far out; the middle is frequency 0."},
+       {shown(space), "Convolution\nEvery point of the image becomes a disk; the disks add up."}},
+      {{drawn(spectrum), "Its spectrum\nEdges are streaks towards high frequencies; frequency 0 is in the centre."},
        sign("×"),
-       {drawn(lens_spectrum), "Its spectrum\nRings of zeros: the waves that a disk takes out."},
+       {drawn(lens_spectrum), "Its spectrum\nRings of zeros: the frequencies that a disk removes."},
        sign("="),
        {drawn(product(spectrum, lens_spectrum)),
-        fmt::format("The product\nTransformed back it is the picture above: {}.", agreement(greatest(space, back)))}},
+        fmt::format("The product\nIts inverse transform is the image above: {}.", agreement(greatest(space, back)))}},
       {{table_picture(table, size.style(), 2 * side), ""}}};
   figure.text =
-      "Greatest difference between convolving in space and multiplying spectra, white being 1. The theorem is about "
-      "pictures that repeat: as it stands it holds where the border wraps around. For other borders write the border "
-      "out around the picture first, and cut it off again.";
+      "Greatest difference between convolution in space and multiplication of spectra, white being 1. The theorem "
+      "describes periodic images: applied directly, it holds for borders that wrap around. For other borders the image "
+      "must be padded first, and the padding cropped afterwards.";
   return {.frames = {figure}, .tables = {table}};
 }
 
 }  // namespace
 
-Demo demo_convolution_theorem() { return {"convolution-theorem", "a blur in space and as a product of spectra", make}; }
+Demo demo_convolution_theorem() {
+  return {"convolution-theorem", "a blur by convolution in space and by multiplication of spectra", make};
+}
 
 }  // namespace zoneplate::cli

@@ -10,23 +10,23 @@
 
 namespace zoneplate::cli {
 
-/// How large a lesson is drawn.
+/// The size of a lesson.
 struct DemoSize {
-  int panel = 360;  ///< pixels of one picture's side; text and gaps follow
+  int panel = 360;  ///< side of one panel in pixels; text and gaps scale with it
 
   FigureStyle style() const;
 };
 
-/// What a lesson shows: a figure, or several that move. The text of the first is said on stdout too.
+/// A lesson: a figure, or the frames of an animated one. The text of the first is also printed to stdout.
 ///
 /// Exact     the same bits on every machine and number of threads.
 struct Lesson {
-  std::vector<Figure> frames;  ///< one: a picture
-  int seconds = 1, per = 24;   ///< a frame stays for seconds / per
-  std::vector<Table> tables;   ///< those in the figure, for the text
+  std::vector<Figure> frames;  ///< one: a still image
+  int seconds = 1, per = 24;   ///< a frame is displayed for seconds / per
+  std::vector<Table> tables;   ///< the figure's tables, for the text
 };
 
-/// A row of the list of lessons; each lesson's file makes its own.
+/// An entry of the list of lessons; each lesson's file defines its own.
 struct Demo {
   std::string_view name, summary;
   Lesson (*make)(const DemoSize& size);
@@ -36,7 +36,7 @@ struct Demo {
 /// The lessons, in the order of demos.txt.
 std::span<const Demo> demos();
 
-/// What the figure says, as text: title, captions, text, wrapped for a terminal, and the tables.
+/// The texts of the figure, wrapped for a terminal: title, captions, text and tables.
 std::string text_of(const Lesson& lesson);
 
 }  // namespace zoneplate::cli

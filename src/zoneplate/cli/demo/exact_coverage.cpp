@@ -1,4 +1,4 @@
-// Exact coverage: what grids of samples make of edges, measured against the area itself.
+// Exact coverage: the error of sample grids at edges, measured against exact areas.
 #include <fmt/format.h>
 
 #include <array>
@@ -11,7 +11,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int factor = 8;
-constexpr float gain = 8;  // of what is shown of an error
+constexpr float gain = 8;  // brightness factor of error maps
 
 struct Grid {
   const char* method;
@@ -19,9 +19,9 @@ struct Grid {
 };
 constexpr std::array<Grid, 3> grids = {{{"ssaa:n=2", 2}, {"ssaa:n=4", 4}, {"ssaa:n=8", 8}}};
 
-/// How far a picture is from the exact one.
+/// The differences of an image from the exact one.
 struct Errors {
-  Plane<float> map;  ///< of the channel that is farthest off, in light, times the gain
+  Plane<float> map;  ///< the greatest difference of a channel, in linear light, times the gain
   double rms = 0;    ///< over the pixels that more than one surface shares
 };
 
@@ -48,41 +48,37 @@ Lesson make(const DemoSize& size) {
   const Scene scene = scene_of("crossing");
   const LinearImage exact = shoot(scene, "analytic", side, height), centres = shoot(scene, "none", side, height);
 
-  // Where the blue square's side, nearly upright, crosses the green one.
+  // The nearly vertical side of the blue square, where it crosses the green one.
   const int x = side * 68 / 100, y = height * 50 / 100;
-  Figure figure{.title = "Exact coverage: how much of a pixel each surface has, without asking samples",
-                .rows = {{}, {}}};
+  Figure figure{.title = "Exact coverage: the area of each surface in a pixel, without sampling", .rows = {{}, {}}};
   double last = 0;
   for (const Grid& grid : grids) {
     const LinearImage picture = shoot(scene, grid.method, side, height);
     const Errors errors = errors_of(picture, exact, centres);
-    const std::string fall = last > 0 ? fmt::format(", {} times less", number(last / errors.rms, 1)) : "";
+    const std::string fall = last > 0 ? fmt::format(", {} times smaller", number(last / errors.rms, 1)) : "";
     figure.rows[0].push_back({crop_of(shown(picture), x, y, factor, side),
-                              fmt::format("{} samples\n--aa {}: a nearly upright edge has {} steps.", grid.n * grid.n,
+                              fmt::format("{} samples\n--aa {}: a nearly vertical edge has {} steps.", grid.n * grid.n,
                                           grid.method, grid.n)});
     figure.rows[1].push_back({crop_of(shown(errors.map), x, y, factor, side),
-                              fmt::format("Its error, {} times as bright. Root mean square along edges: {}\u00a0%{}.",
+                              fmt::format("Its error, {} times brighter. Root mean square along edges: {}\u00a0%{}.",
                                           number(gain, 0), number(100 * errors.rms, 2), fall)});
     last = errors.rms;
   }
-  const Rgba8Image truth = shown(exact);
+  const Rgba8Image exact_picture = shown(exact);
   figure.rows[0].push_back(
-      {crop_of(truth, x, y, factor, side), "The area itself\n--aa analytic: every step there is."});
+      {crop_of(exact_picture, x, y, factor, side), "Exact area\n--aa analytic: coverage in continuous steps."});
   figure.rows[1].push_back(
-      {marked(truth, x, y, factor, side), "Three squares that pass through each other; the frame marks the crops."});
+      {marked(exact_picture, x, y, factor, side), "Three intersecting squares; the frame marks the crops."});
   figure.text =
-      "A pixel's visible polygons are cut at every edge, and where surfaces pass through each other; their areas are "
-      "the "
-      "pixel's mixture. Over edges of all directions the error of a grid falls to 1/2.8 where its rows double, at four "
-      "times the cost, and by less along edges near an axis, where the eye is most exact. What is measured against "
-      "the area has no noise of samples in it.";
+      "The visible polygons of a pixel are clipped at every edge, and where surfaces intersect; their areas are the "
+      "weights of the pixel's colours. Averaged over edges of all directions, the error of a grid falls to 1/2.8 when "
+      "its rows double, at four times the cost; it falls less at edges near an axis, where the eye is most sensitive. "
+      "A comparison with exact areas is free of sampling noise.";
   return {.frames = {figure}};
 }
 
 }  // namespace
 
-Demo demo_exact_coverage() {
-  return {"exact-coverage", "what grids of samples make of edges, against the area itself", make};
-}
+Demo demo_exact_coverage() { return {"exact-coverage", "sample grids at edges against exact areas", make}; }
 
 }  // namespace zoneplate::cli

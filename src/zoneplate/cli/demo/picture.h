@@ -12,43 +12,42 @@ namespace zoneplate::cli {
 
 // What lessons make their pictures with.
 
-/// The scene as the renderer gives it through the scene's own view (or the whole-scene one), opaque, in linear light
-/// over the usual dark grey.
+/// Renders the scene with its own camera (or the whole-scene view), opaque, in linear light over the default dark grey.
 LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts = nullptr);
 
-/// The camera through which `shoot` looks.
+/// The camera of `shoot`.
 Camera camera_of(const Scene& scene, int width, int height);
 
-/// The built-in scene of a text.
+/// The built-in scene of this name and parameters.
 Scene scene_of(const std::string& text);
 
 Rgba8Image shown(const LinearImage& light);
 
-/// Linear light in [0, 1] as greys.
+/// Encodes linear light in [0, 1] as greys.
 Rgba8Image shown(const Plane<float>& light);
 
-/// A reduced zone plate without its outermost `seam` pixels: at its edges waves of the Nyquist frequency meet their
-/// mirror images, and filters see that.
+/// A reduced zone plate without its outermost `seam` pixels: at its edges the waves of the Nyquist frequency are
+/// discontinuous, which disturbs filters.
 Plane<float> inside(const Plane<float>& plate);
 inline constexpr int seam = 5;
 
-/// The luminance of every pixel of an opaque picture.
+/// The luminance of every pixel of an opaque image.
 Plane<float> luminance_of(const LinearImage& light);
 
-/// The centred spectrum, logarithmic over `range_db`, in false colours: what is no picture does not look like one.
+/// The centred spectrum, logarithmic over `range_db`, in false colours.
 Rgba8Image spectrum_picture(const Spectrum& spectrum, double range_db = 100);
 
-/// A square crop around a place, `factor` times enlarged to `side` pixels, kept inside of the picture; the last pixels
-/// are cut where `side` is no multiple.
+/// A square crop around a position, enlarged `factor` times to `side` pixels and kept inside the image; the last pixels
+/// are cut if `side` is no multiple of `factor`.
 Rgba8Image crop_of(const Rgba8Image& picture, int centre_x, int centre_y, int factor, int side);
 
-/// The picture with the outline of that crop drawn into it.
+/// The image with the outline of that crop.
 Rgba8Image marked(Rgba8Image picture, int centre_x, int centre_y, int factor, int side);
 
-/// A sign such as = between two pictures of this height, on paper.
+/// A sign such as = between two images of this height, on the figure's background.
 Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& style);
 
-/// The plot at this size; below the size that its letters are made for, as that one made smaller.
+/// The plot at this size; below the minimum size of its letters, the plot of that size reduced.
 Rgba8Image plot_at(const Plot& plot, int width, int height);
 
 /// Root of the mean squared difference.

@@ -1,4 +1,4 @@
-// Filter, then sample; or sample, then filter: the same two steps, and only one order works.
+// Filtering before and after sampling: the same two steps, of which only one order is correct.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int step = 4;        // every fourth pixel is kept
-constexpr double sigma = 0.8;  // of the Gaussian, in pixels of the small picture
+constexpr double sigma = 0.8;  // of the Gaussian, in pixels of the small image
 constexpr int factor = 8;      // enlargement
 constexpr int spokes = 240;
 
@@ -36,13 +36,14 @@ std::string decibels(double first, double second) {
   return number(20 / 2.302585092994046 * (natural_log(second) - natural_log(first)), 1) + "\u00a0dB";
 }
 
-/// A large picture made small: sampled; sampled, then filtered; filtered, then sampled.
+/// A large image at reduced size: sampled; sampled, then filtered; filtered, then sampled.
 std::array<Plane<float>, 3> made_small(const Plane<float>& large, int side) {
   const auto taken = [side](const Plane<float>& plane) { return resample_nearest(plane, side, side); };
   return {taken(large), blurred(taken(large), sigma), taken(blurred(large, sigma * step))};
 }
 
-/// What each way makes of the frequencies that the small picture cannot hold; all of it is alias, as all is linear.
+/// The result of each way for the frequencies above the small image's Nyquist limit. The steps are linear, so that all
+/// of it is aliasing.
 std::array<double, 3> aliases_of(const Plane<float>& large, int side) {
   const Plane<float> held = resample_ideal(resample_ideal(large, side, side), large.width(), large.height());
   const auto rest = made_small(difference(large, held), side);
@@ -57,19 +58,18 @@ Lesson make(const DemoSize& size) {
   const auto aliases = aliases_of(original, side);
 
   const std::string captions[] = {
-      fmt::format("Sampled: every {}th pixel\nSpokes break into dashes, and dashes join to curves that no wheel has.",
-                  step),
+      fmt::format("Sampled: every {}th pixel\nSpokes break into dashes, and the dashes form false curves.", step),
       fmt::format(
-          "Sampled, then filtered\nThe false curves stay: a blur cannot know which waves are false. Aliases {}.",
+          "Sampled, then filtered\nThe false curves remain: a blur does not separate aliases from detail. Aliases {}.",
           decibels(aliases[0], aliases[1])),
-      fmt::format("Filtered, then sampled\nThe same blur, before: what is too fine is gone before it can fold back. "
+      fmt::format("Filtered, then sampled\nThe same blur first: it removes high frequencies before they can fold. "
                   "Aliases {}.",
                   decibels(aliases[0], aliases[2]))};
-  const char* spectra[] = {"Its spectrum\nCopies of the original’s spectrum overlap: aliases all over.",
-                           "Its spectrum\nDarker outside, but the aliases near the centre have stayed.",
-                           "Its spectrum\nThe centre is the original’s own."};
+  const char* spectra[] = {"Its spectrum\nCopies of the original’s spectrum overlap: aliases everywhere.",
+                           "Its spectrum\nDarker outside, but the aliases near the centre remain.",
+                           "Its spectrum\nThe centre is that of the original."};
   const int x = side * 44 / 100, y = side * 37 / 100;
-  Figure figure{.title = "Filter before you sample: the order decides", .rows = {{}, {}, {}}};
+  Figure figure{.title = "Filter before sampling: the order matters", .rows = {{}, {}, {}}};
   for (std::size_t i = 0; i < 3; ++i) {
     const Rgba8Image picture = shown(results[i]);
     figure.rows[0].push_back({marked(picture, x, y, factor, side), captions[i]});
@@ -77,16 +77,16 @@ Lesson make(const DemoSize& size) {
     figure.rows[2].push_back({spectrum_picture(fourier(results[i])), spectra[i]});
   }
   figure.text = fmt::format(
-      "A wheel of {} spokes, {} × {} pixels, made {} times smaller; the filter is a Gaussian of σ = {} pixels of the "
-      "small picture. The frames mark what is shown {} times enlarged. Aliases: what the steps make of frequencies "
-      "above "
-      "the small picture’s Nyquist frequency, against sampling alone ({}\u00a0% of white, root mean square).",
+      "A wheel of {} spokes, {} × {} pixels, reduced by a factor of {}; the filter is a Gaussian of σ = {} pixels of "
+      "the "
+      "small image. The frames mark the regions that are enlarged {} times. Aliases: the result for frequencies above "
+      "the small image’s Nyquist limit, relative to sampling alone ({}\u00a0% of white, root mean square).",
       spokes, large, large, step, number(sigma, 1), factor, number(100 * aliases[0], 2));
   return {.frames = {figure}};
 }
 
 }  // namespace
 
-Demo demo_prefilter() { return {"prefilter", "filter then sample against sample then filter", make}; }
+Demo demo_prefilter() { return {"prefilter", "filtering before sampling against filtering after it", make}; }
 
 }  // namespace zoneplate::cli

@@ -1,4 +1,4 @@
-// Sampling copies the spectrum to every multiple of the rate; below twice the bandwidth the copies overlap.
+// Sampling repeats the spectrum at every multiple of the rate; below twice the bandwidth the copies overlap.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,12 +16,11 @@ constexpr double bandwidth = 1;                       // Hz
 constexpr double shown_seconds = 4, shown_hertz = 5;  // to both sides
 constexpr double taken_seconds = 200;                 // to both sides: what lies beyond is below 3e-6
 
-/// A pulse whose spectrum is a triangle, 1 at 0 and 0 at the bandwidth, of which a filter has taken what lies from
-/// `limit` on.
+/// A pulse whose spectrum is a triangle, 1 at frequency 0 and 0 at the bandwidth, low-pass filtered at `limit`.
 struct Pulse {
   double limit = bandwidth;
 
-  // The triangle is what its flat part, 1 - limit high, and the smaller triangle on it are.
+  // The sum of a flat part of height 1 - limit and a smaller triangle on top of it.
   double value(double t) const {
     const double s = sinc(limit * t);
     return 2 * limit * (1 - limit) * sinc(2 * limit * t) + limit * limit * s * s;
@@ -60,7 +59,7 @@ double spectrum_of(const Samples& samples, double f) {
   return sum / samples.rate;
 }
 
-/// The one function with these samples and no frequency above half the rate.
+/// The only function with these samples and no frequency above half the rate.
 double rebuilt(const Samples& samples, double t) {
   double sum = 0;
   for (std::size_t i = 0; i < samples.values.size(); ++i)
@@ -87,7 +86,7 @@ Plot time_plot(const Samples& samples) {
     if (std::abs(samples.time(i)) <= shown_seconds) stems.points.emplace_back(samples.time(i), samples.values[i]);
   Curve original = curve("signal", shown_seconds, 400, signal);
   original.color = Curve::grey;
-  Curve back = curve("rebuilt", shown_seconds, 400, [&](double t) { return rebuilt(samples, t); });
+  Curve back = curve("reconstructed", shown_seconds, 400, [&](double t) { return rebuilt(samples, t); });
   back.color = 0;
   plot.curves = {original, stems, back};
   return plot;
@@ -122,7 +121,7 @@ Plot spectrum_plot(const Way& way, const Samples& samples) {
   return plot;
 }
 
-/// The error of what is rebuilt over the signal, both root mean square.
+/// The root mean square error of the reconstruction, relative to the signal.
 double error_of(const Samples& samples) {
   double error = 0, all = 0;
   constexpr int points = 400;
@@ -135,39 +134,40 @@ double error_of(const Samples& samples) {
 
 std::string words_of(const Way& way) {
   if (way.is_filtered)
-    return "They meet and do not overlap: what the rate cannot hold was taken away, and returns nowhere.";
+    return "They touch but do not overlap: frequencies above half the rate were removed before sampling.";
   const Band band = overlap_of_copies(bandwidth, way.rate);
   if (band.low < band.high)
-    return fmt::format("They overlap from {} to {}\u00a0Hz and add up: what is there cannot be taken apart.",
+    return fmt::format("They overlap from {} to {}\u00a0Hz and add up: there they cannot be separated.",
                        number(band.low, 1), number(band.high, 1));
-  return way.rate > 2 * bandwidth ? "They stand apart: a low-pass at half the rate gives the signal back."
-                                  : "They touch: twice the bandwidth is the least rate that suffices.";
+  return way.rate > 2 * bandwidth ? "They are separate: a low-pass at half the rate restores the signal."
+                                  : "They touch: twice the bandwidth is the minimum rate.";
 }
 
 Lesson make(const DemoSize& size) {
   const int width = 2 * size.panel, height = size.panel * 3 / 4;
-  Figure figure{.title = "Sampling copies the spectrum: sample too slowly, and the copies overlap"};
+  Figure figure{.title = "Sampling repeats the spectrum: at too low a rate the copies overlap"};
   for (const Way& way : ways) {
     const Samples samples = taken(way);
     const std::string rate = number(way.rate, way.rate < 2 ? 1 : 0);
     figure.rows.push_back({{plot_at(time_plot(samples), width, height),
-                            fmt::format("{} samples a second{}\nRebuilt with an error of {}\u00a0%{}.", rate,
-                                        way.is_filtered ? ", filtered before" : "", number(100 * error_of(samples), 1),
-                                        way.is_filtered ? ", without false waves" : "")},
+                            fmt::format("{} samples per second{}\nReconstructed with an error of {}\u00a0%{}.", rate,
+                                        way.is_filtered ? ", filtered first" : "", number(100 * error_of(samples), 1),
+                                        way.is_filtered ? ", without aliases" : "")},
                            {plot_at(spectrum_plot(way, samples), width, height),
                             fmt::format("Copies {}\u00a0Hz apart\n{}", rate, words_of(way))}});
   }
   figure.text = fmt::format(
-      "A pulse with frequencies up to {}\u00a0Hz. Its samples have its spectrum, repeated at every multiple of their "
-      "rate: "
-      "measured in the samples (blue), and as the sum of shifted copies says. Half the rate is the Nyquist frequency; "
-      "what lies above it is seen below.",
+      "A pulse with frequencies up to {}\u00a0Hz. The spectrum of its samples is the pulse's spectrum, repeated at "
+      "every "
+      "multiple of the sampling rate: computed from the samples (blue), and as the sum of shifted copies. Half the "
+      "rate "
+      "is the Nyquist frequency; frequencies above it appear as lower ones.",
       number(bandwidth, 0));
   return {.frames = {figure}};
 }
 
 }  // namespace
 
-Demo demo_sampling() { return {"sampling", "spectra of a signal's samples as their rate falls", make}; }
+Demo demo_sampling() { return {"sampling", "the spectrum of a signal's samples at different rates", make}; }
 
 }  // namespace zoneplate::cli

@@ -1,7 +1,7 @@
-// Aliasing in time: a wheel that turns nearly one spoke a frame is seen to turn backwards.
+// Aliasing in time: a wheel that turns by nearly one spoke per frame appears to turn backwards.
 //
-// What is seen is measured in the rendered frames: the displacement by correlation of one frame with the next, the
-// contrast by the amplitude of the wave that has one period a spoke.
+// The apparent motion is measured in the rendered frames: the displacement by correlation of consecutive frames, the
+// contrast by the amplitude of the wave with a period of one spoke.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int spokes = 12, steps = 40;  // steps a spoke: a mean of them is within 0.1 % of an open shutter's integral
 constexpr int shown_speed = 36;         // steps a frame: 0.9 spokes
-constexpr int frames = 10;              // after so many the wheel has turned whole spokes, and the film begins again
+constexpr int frames = 10;              // after which the wheel has turned by whole spokes and the animation repeats
 static_assert(frames * shown_speed % steps == 0);
 constexpr std::array speeds = {4, 10, 20, 30, 36, 40, 44, 50};  // of the table, in steps a frame
 
@@ -33,7 +33,7 @@ Motion measured(const WheelFilm& film, int speed) {
   for (int frame = 0; frame < 2; ++frame) open.push_back(spoke_profile(film, exposed(film, frame * speed, speed)));
   double sum = 0;
   for (std::size_t i = 0; i < frames; ++i) {
-    // Half a spoke is as far one way as the other: only its size counts.
+    // A turn by half a spoke has no direction: only its size counts.
     const double d = displacement(closed[i], closed[i + 1]);
     sum += std::abs(d) > 0.49 ? std::abs(d) : d;
   }
@@ -47,12 +47,12 @@ std::string signed_number(double value, int decimals) {
   return value > 0.0005 ? "+" + text : text;
 }
 
-std::string percent(double share) { return number(100 * share, 1) + "\u00a0%"; }
+std::string percent(double fraction) { return number(100 * fraction, 1) + "\u00a0%"; }
 
 double spokes_of(int speed) { return static_cast<double>(speed) / steps; }
 
 Table speed_table(const std::vector<Motion>& motions) {
-  Table table{{"true speed", "seen: theory", "seen: measured", "contrast: theory", "contrast: measured"}, {}};
+  Table table{{"true speed", "apparent: theory", "apparent: measured", "contrast: theory", "contrast: measured"}, {}};
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     const double cycles = spokes_of(speeds[i]);
     table.rows.push_back({"+" + number(cycles, 2), signed_number(apparent_frequency(cycles, 1), 3),
@@ -68,21 +68,21 @@ struct Captions {
 Captions captions_of(const Motion& motion) {
   const double cycles = spokes_of(shown_speed);
   return {
-      fmt::format("What happens, {} times slower\nThe wheel rolls to the right: clockwise, {} spokes from one frame "
-                  "of the film to the next.",
+      fmt::format("True motion, {} times slower\nThe wheel rolls to the right: it turns clockwise by {} spokes per "
+                  "frame.",
                   number(cycles * frames, 0), number(cycles, 1)),
-      fmt::format("Filmed, an instant a frame\nTurned by +{} or by {}, equal spokes look the same. The eye takes the "
-                  "shorter way: {} spokes a frame (measured {}), backwards.",
+      fmt::format("Instantaneous frames\nTurns by +{} and by {} spokes look the same. The smaller one is perceived: {} "
+                  "spokes per frame (measured {}), backwards.",
                   number(cycles, 1), signed_number(cycles - 1, 1), signed_number(apparent_frequency(cycles, 1), 3),
                   signed_number(motion.apparent, 4)),
-      fmt::format("Filmed, shutter always open\nEach frame is the mean of {} instants. The spokes keep |sinc {}| = {} "
-                  "of their contrast (measured {}): a faint shadow is all that goes backwards.",
+      fmt::format("Shutter always open\nEach frame is the mean of {} instants. The spokes keep |sinc {}| = {} of their "
+                  "contrast (measured {}): only a faint shadow turns backwards.",
                   shown_speed, number(cycles, 1), percent(shutter_contrast(cycles)), percent(motion.contrast))};
 }
 
 constexpr const char* about =
-    "Speeds in spokes a frame; half a spoke has no direction. An open shutter is a box filter in time: it cannot bring "
-    "back the true speed, it takes the false one away. A filter before the sampling is the cure, here as in space.";
+    "Speeds in spokes per frame; a turn by half a spoke has no direction. An open shutter is a box filter in time: it "
+    "does not restore the true speed, but it suppresses the alias. As in space, the filter must come before sampling.";
 
 Lesson make(const DemoSize& size) {
   const WheelFilm film = film_wheel(spokes, steps, size.panel);
@@ -96,7 +96,7 @@ Lesson make(const DemoSize& size) {
   Lesson lesson{.tables = {table}};
   for (int frame = 0; frame < frames; ++frame) {
     const int at = frame * shown_speed;
-    lesson.frames.push_back({.title = "A wheel that rolls forwards is seen to roll backwards",
+    lesson.frames.push_back({.title = "A wheel that rolls forwards appears to roll backwards",
                              .rows = {{{shown(film.at(frame * steps / frames)), captions.slow},
                                        {shown(film.at(at)), captions.closed},
                                        {shown(exposed(film, at, shown_speed)), captions.open}},
@@ -109,7 +109,8 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_wagon_wheel() {
-  return {"wagon-wheel", "an animation: a wheel seen to roll backwards, shutter closed and open", make, true};
+  return {"wagon-wheel", "an animation: a wheel that appears to roll backwards, with closed and open shutter", make,
+          true};
 }
 
 }  // namespace zoneplate::cli

@@ -7,10 +7,10 @@
 
 namespace zoneplate::cli {
 
-/// The built-in wheel, rendered at every `1 / steps` of a spoke: any film of it is made of these pictures, because one
-/// spoke further it looks the same.
+/// The built-in wheel, rendered at every `1 / steps` of a spoke. All animations of it use these images, since a turn by
+/// one spoke gives the same image.
 ///
-/// Units     turns in steps; positive is clockwise, as a wheel that rolls to the right.
+/// Units     turns in steps; positive is clockwise, like a wheel that rolls to the right.
 struct WheelFilm {
   int spokes = 12, steps = 40;
   Camera camera;
@@ -21,18 +21,18 @@ struct WheelFilm {
 
 WheelFilm film_wheel(int spokes, int steps, int side);
 
-/// The picture of a shutter that opens at `first` and closes `count` steps later: the mean of that many instants, in
-/// the middles of the steps but for half a step, which changes no frame against another.
+/// The image of a shutter that opens at `first` and closes `count` steps later: the mean of that many instants. All
+/// frames are offset by the same half step.
 LinearImage exposed(const WheelFilm& film, int first, int count);
 
-/// The mean luminance of a picture over the rings between hub and rim, as a function of the place within a spoke's
-/// share of the circle, clockwise: what is there `spokes` times, and nothing else.
+/// The mean luminance of an image over the rings between hub and rim, as a function of the angle within one spoke's
+/// sector, clockwise: the average over all sectors.
 std::vector<double> spoke_profile(const WheelFilm& film, const LinearImage& picture);
 
-/// How far profile `b` lies ahead of `a`, in spokes in (-½, ½]: the peak of their correlation.
+/// The displacement of profile `b` relative to `a`, in spokes in (-½, ½]: the peak of their correlation.
 double displacement(const std::vector<double>& a, const std::vector<double>& b);
 
-/// The amplitude of the profile's wave of one period a spoke.
+/// The amplitude of the profile's wave with a period of one spoke.
 double fundamental(const std::vector<double>& profile);
 
 }  // namespace zoneplate::cli

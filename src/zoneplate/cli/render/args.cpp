@@ -17,31 +17,35 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr const char* examples =
-    "  zoneplate teapot -o teapot.png\n  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n  "
-    "zoneplate render chair.glb -o chair.png --camera-azimuth-angle 120 --no-background\n  zoneplate render chair.obj "
-    "-o - --quiet | display\n  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
+    "  zoneplate teapot -o teapot.png\n"
+    "  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n"
+    "  zoneplate render chair.glb -o chair.png --camera-azimuth-angle 120 --no-background\n"
+    "  zoneplate render chair.obj -o - --quiet | display\n"
+    "  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
 
 constexpr const char* notes =
-    "IN is a .gltf, .glb, .obj, .ply or .stl file or another (zoneplate list formats), - for stdin, or a built-in "
-    "scene (zoneplate list scenes). OUT "
-    "ends\nin "
-    ".png, .jpg or .webp; - is stdout.\nData passes are written beside OUT: chair.png, chair.depth.png.\n\nCamera: "
-    "without any camera "
-    "option the "
-    "whole scene is shown three-quarter from above (azimuth 30, elevation\n20 degrees, view angle 30); built-in scenes "
-    "that have a camera use it. Cameras of a file are used with\n--camera-index only. Azimuth and elevation choose the "
-    "direction of the whole-scene view, 0 and 0 being the\nfront; with a position or an index they turn that camera "
-    "about its focal point.\n\nLight: a scene without lights gets a key, a fill and a back light that follow the "
-    "camera, and a dim constant\nenvironment that metals mirror; any light in the file or an --environment switches "
-    "them off.\n\nSequences: frame F shows the animation at F / rate seconds. OUT has a place for the number, "
-    "as\nchair.####.png, "
-    "chair%04d.png or chair_{frame:04}.png, or is a film. GIF, MP4 and WebM are made by the program ffmpeg.\n\nMany at "
-    "once: "
-    "several IN want {model} in OUT; each item gives a line of JSON on stdout.\n\nColours are sRGB: red, #f80, "
-    "#ff8800, #ff880080 or 1,0.5,0.\n\nExit codes: 0 done, 1 failed while "
-    "rendering, 2 wrong usage, 3 input missing, corrupt or unsupported,\n4 output cannot be written, 5 some of many "
-    "items failed, 128+n ended by "
-    "signal n. No partial file is ever left.\n";
+    "IN is a model file (.gltf, .glb, .obj, .ply, .stl or others: zoneplate list formats), - for stdin, or a built-in\n"
+    "scene (zoneplate list scenes). Data passes are written next to OUT: chair.png, chair.depth.png.\n"
+    "\n"
+    "Camera: without camera options the whole scene is in view, three-quarter from above (azimuth 30, elevation 20\n"
+    "degrees, view angle 30); built-in scenes that have a camera use it. Cameras of a file are used with\n"
+    "--camera-index only. Azimuth and elevation set the direction of the whole-scene view, 0 and 0 being the front;\n"
+    "with a position or an index they turn that camera about its focal point.\n"
+    "\n"
+    "Light: a scene without lights gets a key, a fill and a back light that follow the camera, and a dim constant\n"
+    "environment, which metals reflect; lights in the file or --environment replace them.\n"
+    "\n"
+    "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
+    "chair.####.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and WebM require the program\n"
+    "ffmpeg.\n"
+    "\n"
+    "Batches: several IN require {model} in OUT; each item prints one line of JSON on stdout.\n"
+    "\n"
+    "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
+    "\n"
+    "Exit codes: 0 success, 1 rendering failed, 2 wrong usage, 3 input missing, corrupt or unsupported,\n"
+    "4 output cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial files\n"
+    "remain.\n";
 
 float radians(const std::string& text, double low, double high) {
   return static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180);
@@ -87,18 +91,17 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
 std::vector<Option> input_options(RenderArgs& a) {
   const std::string group = "Input";
   return {
-      {"--format", "NAME", "Read IN as this format, as stl or glb; needed where IN is -", group, false,
+      {"--format", "NAME", "Read IN as this format, for example stl or glb; required if IN is -", group, false,
        [&](auto& text) { a.load.format = text; }},
-      {"--scene", "N", "The scene number N of a glTF file, from 0; default the one that it names", group, false,
+      {"--scene", "N", "Index of the scene of a glTF file, from 0; default: the file's default scene", group, false,
        [&](auto& text) { a.load.choice.scene = parse_whole(text, 0, 1 << 20); }},
-      {"--variant", "NAME", "A glTF file's materials in this variant (KHR_materials_variants)", group, false,
+      {"--variant", "NAME", "Material variant of a glTF file, by name (KHR_materials_variants)", group, false,
        [&](auto& text) { a.load.choice.variant = text; }},
-      {"--animation-index", "N", "The animation number N of a glTF file, from 0; or all, which is the default", group,
-       false,
+      {"--animation-index", "N", "Index of the animation of a glTF file, from 0, or all; default all", group, false,
        [&](auto& text) {
          a.load.choice.animation = text == "all" ? SceneChoice::all_animations : parse_whole(text, 0, 1 << 20);
        }},
-      {"--animation-time", "S", "The moment of the animation, in seconds; of a sequence, that of frame 0", group, false,
+      {"--animation-time", "S", "Time in the animation, in seconds; for a sequence, the time of frame 0", group, false,
        [&](auto& text) {
          a.load.choice.time = parse_number(text, 0, 1e6);
          a.has_animation_time = true;
@@ -109,44 +112,45 @@ std::vector<Option> input_options(RenderArgs& a) {
 std::vector<Option> sequence_options(RenderArgs& a) {
   const std::string group = "Sequences";
   return {
-      {"--turntable", "N", "N frames, in which the camera goes once round the scene", group, false,
+      {"--turntable", "N", "Render N frames while the camera makes one turn around the scene", group, false,
        [&](auto& text) { a.sequence.turntable = parse_whole(text, 1, 100'000); }},
-      {"--frames", "N", "So many frames; default to the end of the animation, or of the turn", group, false,
+      {"--frames", "N", "Number of frames; default: to the end of the animation or turn", group, false,
        [&](auto& text) { a.sequence.count = parse_whole(text, 1, 100'000); }},
-      {"--frame-start,-s", "F", "The first frame; default 0", group, false,
+      {"--frame-start,-s", "F", "First frame; default 0", group, false,
        [&](auto& text) { a.sequence.first = parse_whole(text, -1'000'000, 1'000'000); }},
-      {"--frame-end,-e", "F", "The last frame", group, false,
+      {"--frame-end,-e", "F", "Last frame", group, false,
        [&](auto& text) { a.sequence.last = parse_whole(text, -1'000'000, 1'000'000); }},
-      {"--frame-jump,-j", "N", "From one frame to the next; default 1", group, false,
+      {"--frame-jump,-j", "N", "Step between frames; default 1", group, false,
        [&](auto& text) { a.sequence.jump = parse_whole(text, 1, 1'000'000); }},
-      {"--frame-rate", "FPS", "Frames a second; default 24", group, false,
+      {"--frame-rate", "FPS", "Frames per second; default 24", group, false,
        [&](auto& text) { a.sequence.rate = parse_number(text, 0.001, 65535); }},
-      {"--shutter", "DEG", "Mean of what moves while the shutter is open: 360 is a frame's whole time", group, false,
+      {"--shutter", "DEG", "Motion blur: shutter angle in degrees; 360 is the whole frame interval", group, false,
        [&](auto& text) { a.sequence.shutter = parse_number(text, 0.001, 360); }},
-      {"--shutter-samples", "N", "Moments that the mean is made of; default 16", group, false,
+      {"--shutter-samples", "N", "Motion blur: number of samples in time; default 16", group, false,
        [&](auto& text) { a.sequence.shutter_samples = parse_whole(text, 1, 1024); }},
   };
 }
 
 std::vector<Option> batch_options(RenderArgs& a) {
-  const std::string group = "Many at once";
+  const std::string group = "Batches";
   return {
-      {"--manifest", "FILE", "Jobs, a JSON object a line: input, output, and options by their names", group, false,
-       [&](auto& text) { a.manifest = text; }},
-      {"--shard", "I/N", "Only every Nth job from number I (0 to N-1) on; auto for Slurm's and Kubernetes' variables",
-       group, false, [&](auto& text) { a.shard = parse_shard(text); }},
-      {"--skip-existing", "", "Leave out what is there already", group, false, [&](auto&) { a.skip_existing = true; }},
+      {"--manifest", "FILE", "File of jobs, one JSON object per line: input, output, and options by their names", group,
+       false, [&](auto& text) { a.manifest = text; }},
+      {"--shard", "I/N",
+       "Run only every Nth job, from job I (0 to N-1); auto: from the variables of Slurm or Kubernetes", group, false,
+       [&](auto& text) { a.shard = parse_shard(text); }},
+      {"--skip-existing", "", "Skip jobs whose output exists", group, false, [&](auto&) { a.skip_existing = true; }},
   };
 }
 
 std::vector<Option> picture_options(RenderArgs& a) {
-  const std::string group = "Picture";
+  const std::string group = "Image";
   return {
       {"--output,-o", "OUT",
-       "The picture to write: .png, .jpg, .webp, .exr, .pfm or .rgba, or - for stdout; a film: .apng, .webp, .gif, "
+       "Image to write: .png, .jpg, .webp, .exr, .pfm or .rgba, or - for stdout; or a video: .apng, .webp, .gif, "
        ".mp4, .webm",
        group, true, [&](auto& text) { a.output = text; }},
-      {"--output-format", "FORMAT", "Of a picture on stdout: png, jpg, webp, exr, pfm or rgba; default png", group,
+      {"--output-format", "FORMAT", "Image format on stdout: png, jpg, webp, exr, pfm or rgba; default png", group,
        false,
        [&](auto& text) {
          const std::vector<std::string_view> formats = {"png", "jpg", "webp", "exr", "pfm", "rgba"};
@@ -158,33 +162,32 @@ std::vector<Option> picture_options(RenderArgs& a) {
          a.options.width = size.x, a.options.height = size.y;
        }},
       {"--anti-aliasing,--aa", "METHOD",
-       "Method with its parameters, as ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
+       "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
        [&](auto& text) { a.method = text; }},
-      {"--background-color,--background", "COLOR", "Shown behind the scene; default #333333", group, true,
+      {"--background-color,--background", "COLOR", "Background colour; default #333333", group, true,
        [&](auto& text) { a.background = parse_color(text); }},
-      {"--no-background", "", "Leave the picture transparent where nothing is", group, true,
-       [&](auto&) { a.display.is_transparent = true; }},
-      {"--tone-mapping", "CURVE", "none, aces or neutral; default none", group, false,
+      {"--no-background", "", "Transparent background", group, true, [&](auto&) { a.display.is_transparent = true; }},
+      {"--tone-mapping", "CURVE", "Tone-mapping curve: none, aces or neutral; default none", group, false,
        [&](auto& text) {
          constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral};
          a.display.mapping = curves[parse_choice(text, {"none", "aces", "neutral"})];
        }},
-      {"--exposure", "STOPS", "Brighter by a factor 2 for each stop, darker where negative; default 0", group, false,
-       [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
-      {"--bit-depth", "BITS", "8 or 16 bits a channel, of a PNG; default 8", group, false,
+      {"--exposure", "STOPS", "Exposure in stops: each stop doubles the brightness, negative ones halve it; default 0",
+       group, false, [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
+      {"--bit-depth", "BITS", "Bits per channel of .png and .rgba: 8 or 16; default 8", group, false,
        [&](auto& text) {
          a.bit_depth = parse_choice(text, {"8", "16"}) == 1 ? 16 : 8;
        }},
-      {"--dither", "", "Noise in place of the steps between 8-bit codes", group, false,
+      {"--dither", "", "Ordered dithering of 8-bit images, against banding", group, false,
        [&](auto&) { a.dithers = true; }},
-      {"--crop", "X,Y,W,H", "Write only this part, with the same bits as in the whole picture", group, false,
+      {"--crop", "X,Y,W,H", "Render only this rectangle, with the same bits as in the whole image", group, false,
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
-       "Data passes to write too: depth, normal, position, albedo, uv, motion, flow, object-id, material-id, "
-       "primitive-id, crypto-object, crypto-material, coverage, error; in an .exr as its layers",
+       "Data passes to write as well: depth, normal, position, albedo, uv, motion, flow, object-id, material-id, "
+       "primitive-id, crypto-object, crypto-material, coverage, error; layers of the image if it is an .exr",
        group, false, [&](auto& text) { a.aovs = parse_aovs(text); }},
       {"--color-management", "MODE",
-       "srgb, or raw: no sRGB decoding of textures, no encoding of the picture; default srgb", group, false,
+       "srgb, or raw: neither sRGB decoding of textures nor encoding of the image; default srgb", group, false,
        [&](auto& text) {
          a.display.raw = a.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
        }},
@@ -194,59 +197,62 @@ std::vector<Option> picture_options(RenderArgs& a) {
 std::vector<Option> camera_options(RenderArgs& a) {
   const std::string group = "Camera";
   return {
-      {"--camera-azimuth-angle", "DEG", "Direction about the up axis, from the front to the right; default 30", group,
-       true, [&](auto& text) { a.view.azimuth = radians(text, -360, 360); }},
-      {"--camera-elevation-angle", "DEG", "Direction above the horizon; default 20", group, true,
+      {"--camera-azimuth-angle", "DEG", "Angle about the up axis, from the front to the right; default 30", group, true,
+       [&](auto& text) { a.view.azimuth = radians(text, -360, 360); }},
+      {"--camera-elevation-angle", "DEG", "Angle above the horizon; default 20", group, true,
        [&](auto& text) { a.view.elevation = radians(text, -90, 90); }},
-      {"--camera-position", "X,Y,Z", "The eye", group, false,
+      {"--camera-position", "X,Y,Z", "Position of the camera", group, false,
        [&](auto& text) { a.view.position = parse_triple(text); }},
-      {"--camera-focal-point", "X,Y,Z", "What the eye looks at; default the centre of the scene", group, false,
-       [&](auto& text) { a.view.focal_point = parse_triple(text); }},
-      {"--camera-view-up", "X,Y,Z", "What is upwards in the picture; default the up axis", group, false,
+      {"--camera-focal-point", "X,Y,Z", "Point at which the camera looks; default: the centre of the scene", group,
+       false, [&](auto& text) { a.view.focal_point = parse_triple(text); }},
+      {"--camera-view-up", "X,Y,Z", "Upward direction of the image; default: the up axis", group, false,
        [&](auto& text) { a.view.view_up = parse_triple(text); }},
       {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
        [&](auto& text) { a.view.view_angle = radians(text, 0.01, 179); }},
-      {"--camera-orthographic", "", "Parallel projection", group, false, [&](auto&) { a.view.is_orthographic = true; }},
-      {"--camera-index", "N", "The camera number N of the scene, from 0", group, false,
+      {"--camera-orthographic", "", "Orthographic projection", group, false,
+       [&](auto&) { a.view.is_orthographic = true; }},
+      {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
        [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
-      {"--up", "AXIS", "The scene's upward axis: +Y, +Z, ...; default +Z for STL, +Y for all else", group, false,
+      {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, +Y for other formats", group, false,
        [&](auto& text) { a.up = parse_up(text); }},
   };
 }
 
 std::vector<Option> scene_options(RenderArgs& a) {
-  const std::string group = "Surfaces and light";
+  const std::string group = "Materials and lights";
   return {
-      {"--shading-model", "MODEL", "For every material: blinn-phong, phong, pbr or unlit", group, false,
+      {"--shading-model", "MODEL", "Shading model of all materials: blinn-phong, phong, pbr or unlit", group, false,
        [&](auto& text) {
          constexpr ShadingModel models[] = {ShadingModel::BlinnPhong, ShadingModel::Phong,
                                             ShadingModel::MetallicRoughness, ShadingModel::Unlit};
          a.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
        }},
-      {"--light-intensity", "FACTOR", "Multiplies every light; default 1", group, false,
+      {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
-      {"--environment", "COLOR", "Light of one colour from all sides, in place of the default lights", group, false,
-       [&](auto& text) { a.lighting.environment = linear_color(text); }},
-      {"--no-cull", "", "Draw the back faces of single-sided materials too", group, false,
+      {"--environment", "COLOR", "Constant environment light of this colour, instead of the default lights", group,
+       false, [&](auto& text) { a.lighting.environment = linear_color(text); }},
+      {"--no-cull", "", "Draw back faces of single-sided materials", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
-      {"--point-size", "PX", "Side of the squares that points are drawn as; default 1", group, false,
+      {"--point-size", "PX", "Size of points, which are drawn as squares; default 1", group, false,
        [&](auto& text) { a.options.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
-      {"--anisotropy", "N", "Texture probes along a footprint, 1 to 16; default 1, and what a scene asks for", group,
-       false, [&](auto& text) { a.options.anisotropy = parse_whole(text, 1, 16); }},
+      {"--anisotropy", "N", "Maximum anisotropy of texture filtering, 1 to 16; default 1, or the scene's own value",
+       group, false, [&](auto& text) { a.options.anisotropy = parse_whole(text, 1, 16); }},
       {"--line-width", "PX", "Width of lines; default 1", group, false,
        [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
   };
 }
 
 std::vector<Option> teaching_options(RenderArgs& a) {
-  const std::string group = "For teaching";
+  const std::string group = "Teaching";
   return {
-      {"--edge-rule", "RULE", "top-left, or inside: a triangle owns all of its edges; default top-left", group, false,
+      {"--edge-rule", "RULE", "Fill rule: top-left, or inside: every triangle includes its edges; default top-left",
+       group, false,
        [&](auto& text) {
          a.options.edge_rule = parse_choice(text, {"top-left", "inside"}) == 0 ? EdgeRule::TopLeft : EdgeRule::Inside;
        }},
-      {"--visibility", "RULE", "z-buffer, or painter: far triangles first, no depth test; default z-buffer", group,
-       false,
+      {"--visibility", "RULE",
+       "Hidden-surface removal: z-buffer, or painter: triangles sorted back to front, no depth test; default z-buffer",
+       group, false,
        [&](auto& text) {
          a.options.visibility =
              parse_choice(text, {"z-buffer", "painter"}) == 0 ? Visibility::ZBuffer : Visibility::Painter;
@@ -257,32 +263,33 @@ std::vector<Option> teaching_options(RenderArgs& a) {
 std::vector<Option> run_options(RenderArgs& a) {
   const std::string group = "Running";
   return {
-      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group, false,
+      {"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
-       "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default the best there is", group, false,
-       [&](auto& text) { a.isa = parse_isa(text); }},
-      {"--json", "", "Print the result as one line of JSON (to stderr where OUT is -)", group, false,
+       "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default: the best available", group,
+       false, [&](auto& text) { a.isa = parse_isa(text); }},
+      {"--json", "", "Print a report as one line of JSON (to stderr if OUT is -)", group, false,
        [&](auto&) { a.wants_json = true; }},
-      {"--progress", "KIND", "On stderr: auto (a bar on a terminal), bar, json or none; default auto", group, false,
-       [&](auto& text) { a.progress = parse_progress(text); }},
-      {"--quiet,-q", "", "Say nothing but errors", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
-      {"--verbose,-v", "", "Say what was done, and how long it took", group, false,
+      {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json or none; default auto", group,
+       false, [&](auto& text) { a.progress = parse_progress(text); }},
+      {"--quiet,-q", "", "Print errors only", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
+      {"--verbose,-v", "", "Print a summary with times", group, false,
        [&](auto&) { a.verbosity = Verbosity::Verbose; }},
-      {"--max-memory", "BYTES", "Memory of an item, from reading to the encoded picture, as 512M; default 4G", group,
-       false, [&](auto& text) { a.load.limits.memory = parse_bytes(text); }},
-      {"--max-pixels", "N", "Refuse textures of more pixels, as 16M; default 256M", group, false,
+      {"--max-memory", "BYTES",
+       "Memory limit of an item, from reading to the encoded image, for example 512M; default 4G", group, false,
+       [&](auto& text) { a.load.limits.memory = parse_bytes(text); }},
+      {"--max-pixels", "N", "Reject textures with more pixels, for example 16M; default 256M", group, false,
        [&](auto& text) { a.load.limits.pixels = parse_bytes(text); }},
-      {"--max-import-seconds", "S", "Give up reading the scene after this time; default 60", group, false,
+      {"--max-import-seconds", "S", "Time limit of reading the scene; default 60", group, false,
        [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
-      {"--max-seconds", "S", "Give up an item after this time, reading included; default no limit", group, false,
+      {"--max-seconds", "S", "Time limit of an item, including reading; default: no limit", group, false,
        [&](auto& text) { a.max_seconds = parse_number(text, 0.001, 1e9); }},
-      {"--sandbox", "", "Read and render in a process that may do nothing else: the default", group, false,
+      {"--sandbox", "", "Read and render in a sandboxed process: the default", group, false,
        [&](auto&) { a.is_sandboxed = true; }},
-      {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust", group, false,
-       [&](auto&) { a.is_sandboxed = false; }},
-      {"--allow-path", "PATH", "Let a model use this file or folder, outside its own; may be given several times",
-       group, false, [&](auto& text) { a.load.limits.allowed_paths.push_back(text); }},
+      {"--no-sandbox", "", "Read and render without a sandbox, with all rights of the user: for trusted models", group,
+       false, [&](auto&) { a.is_sandboxed = false; }},
+      {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated", group,
+       false, [&](auto& text) { a.load.limits.allowed_paths.push_back(text); }},
   };
 }
 
@@ -296,7 +303,7 @@ void check_output(RenderArgs& args) {
   args.sequence.is_film = is_film || has_frame_number(args.output);
   if (args.output == "-") {
     if (!args.aovs.empty() && args.stdout_format != "exr")
-      throw Error(ErrorKind::Usage, "--aov writes files beside OUT, which cannot be -; an .exr holds them itself");
+      throw Error(ErrorKind::Usage, "--aov writes files next to OUT, which cannot be -; an .exr contains the passes");
     if (args.sequence.is_wanted()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
     return;
   }
@@ -310,7 +317,7 @@ void check_output(RenderArgs& args) {
 
 Syntax render_syntax(RenderArgs& args) {
   Syntax syntax{.verb = "render",
-                .summary = "Render a model or a built-in scene to a picture",
+                .summary = "Render a model or a built-in scene to an image",
                 .operands = "IN -o OUT",
                 .examples = examples,
                 .notes = notes};
@@ -336,7 +343,7 @@ void check_args(RenderArgs& args) {
   check_output(args);
   const std::string ending = extension_of(args.named_output());
   if (args.output != "-" && args.stdout_format != "png")
-    throw Error(ErrorKind::Usage, "--output-format is for -o -: elsewhere the name's ending tells the format");
+    throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
   if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
     throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
@@ -357,7 +364,7 @@ void check_args(RenderArgs& args) {
     args.load.choice.animation = SceneChoice::all_animations;
   if (const auto& crop = args.options.crop)
     if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(ErrorKind::Usage, fmt::format("--crop: the rectangle is not inside the picture of {}x{}",
+      throw Error(ErrorKind::Usage, fmt::format("--crop: the rectangle is not inside the image of {}x{}",
                                                 args.options.width, args.options.height));
 }
 
@@ -368,12 +375,12 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   args.inputs = syntax.found_operands;
   if (!args.manifest.empty()) {
     if (!args.inputs.empty())
-      throw Error(ErrorKind::Usage, "--manifest names the inputs: " + args.inputs.front() + " is one more");
+      throw Error(ErrorKind::Usage, "--manifest lists the inputs: remove " + args.inputs.front());
     return args;
   }
   if (args.inputs.empty()) throw Error(ErrorKind::Usage, "no input: give a model or a built-in scene");
   if (args.inputs.size() > 1 && args.output.find("{model}") == std::string::npos)
-    throw Error(ErrorKind::Usage, "several inputs want {model} in the output's name, as pictures/{model}.png");
+    throw Error(ErrorKind::Usage, "several inputs require {model} in the output's name, as pictures/{model}.png");
   args.input = args.inputs.front();
   check_args(args);
   return args;

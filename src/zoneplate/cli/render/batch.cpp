@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/gltf/json.h"
 #include "zoneplate/os/file.h"
@@ -144,7 +145,7 @@ class Batch {
     try {
       const Summary summary = process.next();
       Json::Object line = summary_json(item.args, summary);
-      line.emplace(line.begin() + 2, "status", "done");
+      line.emplace(line.begin() + 4, "status", "done");
       return line;
     } catch (const std::exception& error) {
       return failure(item.name, error);
@@ -155,7 +156,11 @@ class Batch {
     return args.skip_existing && !has_frame_number(args.output) && exists(args.output);
   }
   static Json::Object skipped(const Item& item) {
-    return {{"input", item.args.input}, {"output", item.args.output}, {"status", "skipped"}};
+    return {{"format", "zoneplate-render"},
+            {"version", report_version},
+            {"input", item.args.input},
+            {"output", item.args.output},
+            {"status", "skipped"}};
   }
 
   Json::Object failure(const std::string& name, const std::exception& error) {
@@ -163,7 +168,12 @@ class Batch {
     const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
     const std::string cause = is_memory ? name + ": out of memory" : error.what();
     say_error(cause);
-    return {{"input", name}, {"output", Json()}, {"status", "failed"}, {"error", cause}};
+    return {{"format", "zoneplate-render"},
+            {"version", report_version},
+            {"input", name},
+            {"output", Json()},
+            {"status", "failed"},
+            {"error", cause}};
   }
 
   void report(Json::Object line, const Stopwatch& watch) {

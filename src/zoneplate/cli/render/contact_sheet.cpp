@@ -21,10 +21,10 @@ namespace {
 struct SheetArgs {
   RenderArgs render;  ///< of one cell
   std::string output, title;
-  int columns = 0;  ///< 0: as many as make the sheet nearest to 4:3
+  int columns = 0;  ///< 0: the number that makes the sheet closest to 4:3
 };
 
-// Files are named without their folders, where that tells them apart.
+// File names without their folders, if they are distinct.
 std::vector<std::string> short_names(const std::vector<std::string>& inputs) {
   std::map<std::string, int> count;
   const auto last = [](const std::string& name) { return name.substr(name.find_last_of('/') + 1); };
@@ -38,7 +38,7 @@ Rgba8Image blank(const SheetArgs& args) {
   return Rgba8Image(args.render.options.width, args.render.options.height, {255, 255, 255, 255});
 }
 
-// In the item's process: the model's picture, as RGBA codes.
+// Runs in the item's process: the model's image, as RGBA values.
 std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   Scene scene;
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   return {first, first + picture.values().size_bytes()};
 }
 
-// A model's picture; where it has none, what stands in the way of it.
+// A model's image with its name, or an empty image with the error message.
 Panel panel_of(const SheetArgs& args, const std::string& input, const std::string& name) {
   try {
     RenderArgs render = args.render;
@@ -97,41 +97,41 @@ Figure lay_out(const SheetArgs& args, std::vector<Panel> panels) {
 }
 
 Syntax make_syntax(SheetArgs& args) {
-  Syntax syntax{.verb = "contact-sheet",
-                .summary = "Every model in one picture with its name",
-                .operands = "FILES... -o OUT",
-                .examples =
-                    "  zoneplate contact-sheet models/*.glb -o sheet.png\n"
-                    "  zoneplate contact-sheet a.stl b.ply teapot -o sheet.png --size 320x240 --columns 3\n",
-                .notes =
-                    "A file that cannot be read has its reason in place of its picture; the sheet is made all the "
-                    "same.\n"};
-  syntax.options = {{"--output,-o", "OUT", "The picture to write: .png, .jpg or .webp, or - for stdout", "Options",
-                     true, [&](auto& text) { args.output = text; }},
-                    {"--resolution,--size", "W,H", "Of one model's picture; default 200,150", "Options", true,
-                     [&](auto& text) {
-                       const int2 size = parse_size(text, 4096);
-                       args.render.options.width = size.x, args.render.options.height = size.y;
-                     }},
-                    {"--columns", "N", "Pictures side by side; default as many as make a sheet of 4:3", "Options", true,
-                     [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
-                    {"--title", "TEXT", "Above all", "Options", false, [&](auto& text) { args.title = text; }},
-                    {"--anti-aliasing,--aa", "METHOD", "As for render; default msaa:n=8", "Options", false,
-                     [&](auto& text) { args.render.method = text; }},
-                    {"--background-color,--background", "COLOR", "Behind the models; default #444444", "Options", false,
-                     [&](auto& text) { args.render.background = parse_color(text); }},
-                    {"--max-memory", "BYTES", "Memory for one model and its picture, as 512M; default 4G", "Options",
-                     false, [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
-                    {"--max-import-seconds", "S", "Give up reading a model after this time; default 60", "Options",
-                     false, [&](auto& text) { args.render.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
-                    {"--max-seconds", "S", "Give up a model after this time; default no limit", "Options", false,
-                     [&](auto& text) { args.render.max_seconds = parse_number(text, 0.001, 1e9); }},
-                    {"--sandbox", "", "Read and render in processes that may do nothing else: the default", "Options",
-                     false, [&](auto&) { args.render.is_sandboxed = true; }},
-                    {"--no-sandbox", "", "Read and render with all rights of the user: for models that you trust",
-                     "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
-                    {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
-                     "Options", false, [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
+  Syntax syntax{
+      .verb = "contact-sheet",
+      .summary = "Render many models into one image, with their names",
+      .operands = "FILES... -o OUT",
+      .examples =
+          "  zoneplate contact-sheet models/*.glb -o sheet.png\n"
+          "  zoneplate contact-sheet a.stl b.ply teapot -o sheet.png --size 320x240 --columns 3\n",
+      .notes = "A model that cannot be rendered shows its error message instead; the sheet is written anyway.\n"};
+  syntax.options = {
+      {"--output,-o", "OUT", "Image to write: .png, .jpg or .webp, or - for stdout", "Options", true,
+       [&](auto& text) { args.output = text; }},
+      {"--resolution,--size", "W,H", "Size of each model's image; default 200,150", "Options", true,
+       [&](auto& text) {
+         const int2 size = parse_size(text, 4096);
+         args.render.options.width = size.x, args.render.options.height = size.y;
+       }},
+      {"--columns", "N", "Images per row; default: the number that makes the sheet closest to 4:3", "Options", true,
+       [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
+      {"--title", "TEXT", "Title of the sheet", "Options", false, [&](auto& text) { args.title = text; }},
+      {"--anti-aliasing,--aa", "METHOD", "Antialiasing method, as for render; default msaa:n=8", "Options", false,
+       [&](auto& text) { args.render.method = text; }},
+      {"--background-color,--background", "COLOR", "Background colour; default #444444", "Options", false,
+       [&](auto& text) { args.render.background = parse_color(text); }},
+      {"--max-memory", "BYTES", "Memory limit of one model and its image, for example 512M; default 4G", "Options",
+       false, [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
+      {"--max-import-seconds", "S", "Time limit of reading a model; default 60", "Options", false,
+       [&](auto& text) { args.render.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
+      {"--max-seconds", "S", "Time limit of a model; default: no limit", "Options", false,
+       [&](auto& text) { args.render.max_seconds = parse_number(text, 0.001, 1e9); }},
+      {"--sandbox", "", "Read and render in sandboxed processes: the default", "Options", false,
+       [&](auto&) { args.render.is_sandboxed = true; }},
+      {"--no-sandbox", "", "Read and render without a sandbox, with all rights of the user: for trusted models",
+       "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
+      {"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow", "Options",
+       false, [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 
@@ -141,7 +141,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   SheetArgs args;
   args.render.options.width = 200, args.render.options.height = 150;
   args.render.background = float4{0.267f, 0.267f, 0.267f, 1};
-  args.render.options.point_size = 3, args.render.options.line_width = 1.5f;  // single pixels would not be seen
+  args.render.options.point_size = 3, args.render.options.line_width = 1.5f;  // single pixels would hardly be visible
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "no input: give models or built-in scenes");
@@ -149,7 +149,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   static_cast<void>(make_resolver(antialias::methods(), args.render.method));
   check_picture_ending(args.output);
   if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
-    throw Error(ErrorKind::Usage, "--output: a sheet has codes, not light: .png, .jpg, .webp or .rgba");
+    throw Error(ErrorKind::Usage, "--output: a contact sheet is display-referred: .png, .jpg, .webp or .rgba");
   args.render.output = args.output;
   check_outputs(args.render);
 

@@ -7,6 +7,7 @@
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/packed.h"
 #include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
@@ -15,7 +16,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// Drawn counts every placement of a mesh, stored counts it once.
+// "Drawn" counts every instance of a mesh, "stored" counts each mesh once.
 struct Counts {
   std::uint64_t triangles = 0, lines = 0, points = 0, vertices = 0, stored_triangles = 0;
 };
@@ -74,8 +75,10 @@ Json rows(const std::vector<Row>& values, Write write) {
 Json info_json(const std::string& input, const Scene& scene) {
   const Counts counts = count(scene);
   const Box box = scene.bounds();
-  const Json bounds = box.empty() ? Json() : Json(Json::Object{{"low", triple(box.low)}, {"high", triple(box.high)}});
+  const Json bounds = box.empty() ? Json() : Json(Json::Object{{"min", triple(box.low)}, {"max", triple(box.high)}});
   return Json::Object{
+      {"format", "zoneplate-info"},
+      {"version", report_version},
       {"input", input},
       {"triangles", counts.triangles},
       {"lines", counts.lines},
@@ -126,7 +129,7 @@ std::string info_text(const std::string& input, const Scene& scene) {
   const Counts counts = count(scene);
   const Box box = scene.bounds();
   std::string text = input + '\n';
-  text += fmt::format("  triangles   {} drawn, {} stored in {} meshes, {} placed\n", counts.triangles,
+  text += fmt::format("  triangles   {} drawn, {} stored in {} meshes, {} instances\n", counts.triangles,
                       counts.stored_triangles, scene.meshes.size(), scene.instances.size());
   if (counts.lines + counts.points > 0)
     text += fmt::format("  others      {} lines, {} points\n", counts.lines, counts.points);
@@ -157,7 +160,7 @@ std::string info_text(const std::string& input, const Scene& scene) {
   return text;
 }
 
-// What is printed, and the warnings.
+// The text to be printed, and the warnings.
 std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& scene, bool wants_json) {
   Packer out;
   out.text(wants_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
@@ -174,25 +177,25 @@ void run_info(std::span<const std::string> arguments) {
   double max_seconds = std::numeric_limits<double>::infinity();
   bool is_sandboxed = true;
   Syntax syntax{.verb = "info",
-                .summary = "Tell what is in a model: meshes, materials, textures, lights, cameras, bounds",
+                .summary = "Print the contents of a model: meshes, materials, textures, lights, cameras, bounds",
                 .operands = "IN",
                 .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
   syntax.options = {
-      {"--json", "", "As one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
-      {"--max-memory", "BYTES", "Memory for reading, as 512M; default 4G", "Options", false,
+      {"--json", "", "Print one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
+      {"--max-memory", "BYTES", "Memory limit of reading, for example 512M; default 4G", "Options", false,
        [&](auto& text) { options.limits.memory = parse_bytes(text); }},
-      {"--max-import-seconds", "S", "Give up reading after this time; default 60", "Options", false,
+      {"--max-import-seconds", "S", "Time limit of reading; default 60", "Options", false,
        [&](auto& text) { options.limits.seconds = parse_number(text, 0.001, 1e6); }},
-      {"--max-seconds", "S", "Give up after this time; default no limit", "Options", false,
+      {"--max-seconds", "S", "Time limit; default: no limit", "Options", false,
        [&](auto& text) { max_seconds = parse_number(text, 0.001, 1e9); }},
-      {"--format", "NAME", "Read IN as this format, as stl; needed where IN is -", "Options", false,
+      {"--format", "NAME", "Read IN as this format, for example stl; required if IN is -", "Options", false,
        [&](auto& text) { options.format = text; }},
-      {"--sandbox", "", "Read in a process that may do nothing else: the default", "Options", false,
+      {"--sandbox", "", "Read in a sandboxed process: the default", "Options", false,
        [&](auto&) { is_sandboxed = true; }},
-      {"--no-sandbox", "", "Read with all rights of the user: for models that you trust", "Options", false,
+      {"--no-sandbox", "", "Read without a sandbox, with all rights of the user: for trusted models", "Options", false,
        [&](auto&) { is_sandboxed = false; }},
-      {"--allow-path", "PATH", "Let a model use this file or folder, outside its own; may be given several times",
-       "Options", false, [&](auto& text) { options.limits.allowed_paths.push_back(text); }}};
+      {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated", "Options",
+       false, [&](auto& text) { options.limits.allowed_paths.push_back(text); }}};
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 1)
     throw Error(ErrorKind::Usage, "info takes one input: a model or a built-in scene");

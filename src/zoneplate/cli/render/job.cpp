@@ -6,6 +6,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/sequence.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/file.h"
@@ -87,22 +88,24 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
 }
 
 Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
-  Json::Object times, layers;
+  Json::Object times, passes;
   for (const auto& [name, ms] : summary.times) times.emplace_back(name, ms);
-  for (const Aov* aov : args.aovs) layers.emplace_back(aov->name, aov_path(args.output, aov->name));
-  return Json::Object{{"input", args.input},
+  for (const Aov* aov : args.aovs) passes.emplace_back(aov->name, aov_path(args.output, aov->name));
+  return Json::Object{{"format", "zoneplate-render"},
+                      {"version", report_version},
+                      {"input", args.input},
                       {"output", args.output},
-                      {"layers", std::move(layers)},
+                      {"data_passes", std::move(passes)},
                       {"width", summary.width},
                       {"height", summary.height},
                       {"method", args.method},
                       {"frames", summary.frames},
                       {"triangles", summary.counts.triangles},
                       {"triangles_set_up", summary.counts.triangles_set_up},
-                      {"shaded", summary.counts.shaded},
+                      {"shaded_samples", summary.counts.shaded},
                       {"threads", summary.threads},
                       {"isa", name_of(args.isa)},
-                      {"ms", std::move(times)},
+                      {"stage_ms", std::move(times)},
                       {"peak_memory_bytes", summary.peak_memory},
                       {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};
 }

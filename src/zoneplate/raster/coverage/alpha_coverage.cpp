@@ -9,7 +9,7 @@ namespace {
 
 constexpr float least_slope = 1e-4f;
 
-/// The batch's points moved by a pixel (or sample) along one direction.
+/// The batch's fragments, moved by a pixel (or sample) along one direction.
 FragmentBatch moved(const FragmentBatch& batch, const float (&change)[2][FragmentBatch::padded_capacity]) {
   FragmentBatch out = batch;
   for (int k = 0; k < 2; ++k)

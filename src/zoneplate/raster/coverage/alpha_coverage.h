@@ -18,8 +18,8 @@ class AlphaDigits : public FragmentShader {
   int digits() const;
   void choose(int digit) { digit_ = digit; }
 
-  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
-    inner_.shade(batch, wanted, out);
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    inner_.shade(batch, outputs, out);
   }
   /// Writes 1 where the chosen digit of a fragment's number is 1, otherwise 0; the cutoff is 1.
   float alpha(const FragmentBatch& batch, float* out) const override;

@@ -13,12 +13,14 @@ namespace zoneplate {
 constexpr std::int32_t summand(SamplePosition place) { return place.x | place.y << 12 | 1 << 24; }
 
 /// The mean of n positions whose sum is (x, y), with halves rounded up.
-constexpr SamplePosition mean_place(int x, int y, int n) {
+constexpr SamplePosition mean_position(int x, int y, int n) {
   return {static_cast<std::uint8_t>((2 * x + n) / (2 * n)), static_cast<std::uint8_t>((2 * y + n) / (2 * n))};
 }
 
 /// The mean of positions from the sum of their summands.
-constexpr SamplePosition mean_place(std::int32_t sum) { return mean_place(sum & 4095, sum >> 12 & 4095, sum >> 24); }
+constexpr SamplePosition mean_position(std::int32_t sum) {
+  return mean_position(sum & 4095, sum >> 12 & 4095, sum >> 24);
+}
 
 /// Where surfaces are shaded that own a part of a pixel's samples, for one rule and one sample pattern: at the mean of
 /// the summands `first` of the first sample and `more` of the other samples. `more` is 0 where the rule ignores them.
@@ -31,9 +33,9 @@ constexpr SamplePosition mean_place(std::int32_t sum) { return mean_place(sum & 
 /// `centroid`);
 ///           hardware takes the mean of the covered samples (Zink, Pettineo, Hoxley, Practical Rendering and
 ///           Computation with Direct3D 11, 2011), or the first of them.
-struct ShadedPlaces {
+struct CentroidTable {
   std::vector<std::int32_t> first, more;
-  ShadedPlaces(const SamplePattern& samples, Centroid rule);
+  CentroidTable(const SamplePattern& samples, Centroid rule);
   /// The position for a set of samples; bit 0 is sample `begin`.
   SamplePosition of(std::uint64_t samples, int begin) const;
 };

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Centroid, RulesAreWhatTheySay) {
   const SamplePattern four = standard_pattern(4);  // (6, 2), (14, 6), (2, 10), (10, 14) sixteenths
-  const ShadedPlaces mean(four, Centroid::Mean), first(four, Centroid::First), centre(four, Centroid::Centre);
+  const CentroidTable mean(four, Centroid::Mean), first(four, Centroid::First), centre(four, Centroid::Centre);
   EXPECT_EQ(mean.of(0b0110, 0), (SamplePosition{128, 128}));
   EXPECT_EQ(mean.of(0b0011, 0), (SamplePosition{160, 64}));
   EXPECT_EQ(mean.of(0b0111, 0), (SamplePosition{117, 96}));  // 117.33
@@ -23,21 +23,21 @@ TEST(Centroid, SumsOfSixteenPlacesDoNotRunIntoEachOther) {
   const SamplePosition most{255, 255}, least{0, 0};
   std::int32_t sum = 0;
   for (int i = 0; i < 16; ++i) sum += summand(most);
-  EXPECT_EQ(mean_place(sum), most);
-  EXPECT_EQ(mean_place(summand({255, 0}) + summand(least)), (SamplePosition{128, 0}));
+  EXPECT_EQ(mean_position(sum), most);
+  EXPECT_EQ(mean_position(summand({255, 0}) + summand(least)), (SamplePosition{128, 0}));
   const SamplePattern sixteen = standard_pattern(16);
-  const ShadedPlaces places(sixteen, Centroid::Mean);
+  const CentroidTable places(sixteen, Centroid::Mean);
   for (std::uint64_t samples = 1; samples < 65536; samples += 7) {
     std::int32_t all = 0;
     for (std::uint64_t left = samples; left; left &= left - 1)
       all += summand(sixteen[static_cast<std::size_t>(std::countr_zero(left))]);
-    ASSERT_EQ(mean_place(all), places.of(samples, 0)) << samples;
+    ASSERT_EQ(mean_position(all), places.of(samples, 0)) << samples;
   }
 }
 
 TEST(Centroid, PlacesOfTrianglesThatShareAPixelHaveItsCentreAsTheirMean) {
   for (const int n : {2, 4, 8}) {
-    const ShadedPlaces places(standard_pattern(n), Centroid::Mean);
+    const CentroidTable places(standard_pattern(n), Centroid::Mean);
     const auto all = (std::uint64_t{1} << n) - 1;
     for (std::uint64_t samples = 1; samples < all; ++samples) {
       const SamplePosition p = places.of(samples, 0), q = places.of(all & ~samples, 0);

@@ -13,9 +13,10 @@ namespace zoneplate {
 /// The owner of a sample is the triangle of greatest depth there, of those the one with the lowest id: a total order,
 /// so the triangles may be drawn in any order.
 ///
-/// For each of the 8 × 8 blocks of 8 × 8 pixels `block_min_depth` holds a depth that no sample of the block is below,
-/// and `block_primitive` the triangle that owns all of it, or `mixed_primitives`. Where it is `no_primitive` nothing
-/// was drawn yet, and the block's samples are not even written: `materialize_block` comes before the first of them is.
+/// For each of the 8 × 8 blocks of 8 × 8 pixels `block_min_depth` is a lower bound of the depths of the block's
+/// samples, and `block_primitive` the triangle that owns all of them, or `mixed_primitives`. A block with
+/// `no_primitive` is empty and its samples are uninitialised: `materialize_block` must be called before they are
+/// written.
 struct TileVisibility {
   static constexpr int blocks = 64;
   int sample_count = 1;
@@ -27,25 +28,25 @@ struct TileVisibility {
 
   /// Nothing is drawn yet.
   void clear();
-  /// The block's samples may be read and written one by one.
+  /// Initialises the block's samples, so that they may be read and written one by one.
   void materialize_block(int block);
   void materialize_all();
 };
 
-/// A pixel that a triangle covers in front of what the tile holds, with the samples where it does.
+/// A pixel that a triangle covers in front of the tile's depths, with the samples where it does.
 struct CoveredPixel {
   std::uint64_t samples;  ///< bit s: sample s
   std::uint32_t pixel;    ///< 64 y + x within the tile
 };
 
-/// Eight neighbouring pixels of a row where a triangle is in front of what the tile holds at every sample.
+/// Eight neighbouring pixels of a row where a triangle is in front of the tile's depth at every sample.
 struct SpanLayer {
   std::int32_t id;
   std::uint32_t row;      ///< 8 y + x / 8 within the tile
   float least, greatest;  ///< its depths there
 };
 
-/// A block of 8 × 8 pixels where a triangle covers every sample in front of all that the tile holds there.
+/// A block of 8 × 8 pixels where a triangle covers every sample in front of all of the tile's depths in the block.
 struct BlockLayer {
   std::int32_t id;
   std::uint32_t block;
@@ -53,7 +54,7 @@ struct BlockLayer {
 };
 
 struct CoverageKernels : PerIsa<CoverageKernels> {
-  /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Gives true if some
+  /// Draws a triangle into the tile: every covered sample that it wins takes its depth and id. Returns true if some
   /// block's `block_min_depth` may have risen.
   bool (*draw)(const TileTriangle& triangle, TileVisibility& tile);
   /// Lists the pixels where the triangle would win at least one sample, row by row, and returns their number; draws
@@ -74,8 +75,8 @@ struct CoverageKernels : PerIsa<CoverageKernels> {
   /// the other blocks where it may win some. `out` has the capacity for every block; the result is their number.
   int (*collect_blocks)(const TileTriangle& triangle, const TileVisibility& tile, const float* nearest, BlockLayer* out,
                         std::uint64_t& others);
-  /// The owner of each 8 pixels of a row, 8 × 64 of them: a triangle where it owns all their samples, else
-  /// `mixed_primitives`; `no_primitive` where nothing is.
+  /// The owner of each span of 8 pixels, 8 × 64 of them: the triangle that owns all of its samples, `no_primitive` if
+  /// it is empty, otherwise `mixed_primitives`.
   void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
 };
 

@@ -15,7 +15,7 @@ using VI = hn::Vec<DI>;
 int least(int p, int q) { return p < q ? p : q; }
 int greatest(int p, int q) { return p > q ? p : q; }
 
-/// What a tile triangle's blocks have in common: the spread of its constants over the samples.
+/// Constants of a tile triangle for all blocks: the range of its edge constants over the samples.
 struct Spread {
   std::int32_t c_least[3], c_greatest[3];
   float z_least, z_greatest;
@@ -52,7 +52,7 @@ Reach reach_of(const TileTriangle& t, const Spread& spread, int size) {
 
 enum class Block { Outside, Partial, Inside };
 
-/// Where the square at pixel (x, y) lies.
+/// Classifies the square at pixel (x, y): inside, outside or partly covered.
 HWY_INLINE Block classify(const TileTriangle& t, const Reach& reach, int x, int y) {
   bool inside = true;
   for (int k = 0; k < 3; ++k) {
@@ -114,7 +114,7 @@ struct Step {
   }
 };
 
-/// The least depth of the block's samples, of which none is below `bound`: one that is not above it ends the search.
+/// The least depth of the block's samples, none of which is below `bound`: a sample at `bound` ends the search.
 float farthest(const TileVisibility& tile, int x, int y, float bound) {
   const DF d;
   const float* plane = tile.depth + y * tile_size + x;
@@ -128,7 +128,7 @@ float farthest(const TileVisibility& tile, int x, int y, float bound) {
   return hn::GetLane(hn::MinOfLanes(d, low));
 }
 
-/// Draws into a block that the triangle covers and where nothing is yet: it wins everywhere.
+/// Draws into an empty block that the triangle covers: it wins everywhere.
 void fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int by) {
   const DF d;
   const DI di;
@@ -173,9 +173,9 @@ struct SampleVectors {
   }
 };
 
-/// Draws rows [top, bottom] of a block. Gives true if the triangle won every sample.
+/// Draws rows [top, bottom] of a block. Returns true if the triangle won every sample.
 ///
-/// What Step::wins computes, with everything taken out of the loop over samples that is the same for all of them.
+/// The same computation as Step::wins, with the terms that all samples share moved out of the loop over samples.
 bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, const SampleVectors& by_sample,
                 const TileVisibility& tile, int bx, int top, int bottom) {
   const DF d;

@@ -17,7 +17,7 @@ namespace zoneplate {
 
 /// A fragment to be shaded: a position of a triangle on the screen, and the samples that take its colour.
 struct Fragment {
-  std::int32_t x, y;      ///< 1/256 pixel from the picture's top-left corner
+  std::int32_t x, y;      ///< 1/256 pixel from the image's top-left corner
   std::int32_t id;        ///< triangle
   std::uint32_t pixel;    ///< within the tile
   std::uint64_t samples;  ///< the samples of the pixel that take its colour
@@ -25,9 +25,9 @@ struct Fragment {
 
 /// Eight fragments of one triangle in neighbouring pixels of a row, at the same position in each pixel.
 struct FragmentSpan {
-  std::int32_t x, y;    ///< the first; the others follow a pixel apart
+  std::int32_t x, y;    ///< position of the first fragment; the others follow a pixel apart
   std::int32_t id;      ///< triangle
-  std::uint32_t pixel;  ///< the first, within the tile
+  std::uint32_t pixel;  ///< of the first fragment, within the tile
 };
 
 /// Results of shading other than colour, by fragment (OutputMask).
@@ -40,11 +40,12 @@ struct FragmentData {
 class FragmentBatcher {
  public:
   FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target);
-  FragmentBatcher(const FragmentBatcher&) = delete;  // it points into itself
+  FragmentBatcher(const FragmentBatcher&) = delete;  // has pointers to its own members
 
-  /// The colours of the fragments, in their order. `data`, if not null, gets what the target has planes for.
+  /// The colours of the fragments, in their order. `data`, if not null, receives
+  /// the data for which the target has planes.
   void shade(std::span<const Fragment> fragments, std::vector<Linear>& colors, FragmentData* data);
-  /// The data alone: materials and lights are not evaluated.
+  /// Computes the data only: materials and lights are not evaluated.
   void shade_data(std::span<const Fragment> fragments, FragmentData& data);
 
   /// Shades spans: use(numbers, shaded) is called for parts of the list, with the indices of their spans; the colours
@@ -69,19 +70,19 @@ class FragmentBatcher {
   void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
-  /// Fragments of which only data were evaluated.
+  /// The number of fragments whose data were evaluated without shading.
   std::uint64_t evaluated() const { return evaluated_; }
 
  private:
-  /// The draw that the last triangle belongs to.
-  struct Known {
+  /// The draw of the last triangle.
+  struct CurrentDraw {
     const Draw* draw = nullptr;
-    const ScreenVertex* screen = nullptr;  ///< null where they are not there
+    const ScreenVertex* screen = nullptr;  ///< null if they are not stored
     std::size_t number = 0;
     std::int32_t begin = 0, end = 0;  ///< its triangles
   };
   /// The last triangle that needed clipping.
-  struct KnownClipped {
+  struct CurrentClipped {
     std::int32_t id = -1;
     TriangleFacing facing;
   };
@@ -97,43 +98,45 @@ class FragmentBatcher {
   bool are_of_one_draw(const FragmentList& list);
   void shade_mixed(const FragmentList& list);
   int material_of(std::int32_t id);
-  void fetch_ahead(std::int32_t id) const;
+  void prefetch_triangle(std::int32_t id) const;
   void fill(std::span<const Fragment> points, std::span<const std::uint32_t> numbers);
   void fill(std::span<const FragmentSpan> rows, std::span<const std::uint32_t> numbers);
   void find_vertices(const FragmentList& list, std::size_t first);
   void fill(const FragmentList& list, std::size_t first, std::size_t count);
-  void put_triangle(std::size_t i, std::int32_t id);
+  void store_triangle(std::size_t i, std::int32_t id);
   void interpolate();
-  const TriangleFacing& know_clipped(std::int32_t id);
-  void put_planes(std::size_t i, const BarycentricPlanes& planes);
+  const TriangleFacing& clipped_facing(std::int32_t id);
+  void store_planes(std::size_t i, const BarycentricPlanes& planes);
   static_assert(FragmentBatch::groups <= 32);  // a bit each
   std::int32_t is_front(std::size_t leader, const TriangleFacing& facing) const;
   int interpolate_clipped_rows(int group, float spacing);
   void interpolate_clipped(std::size_t group, float spacing);
-  void weigh_ends();
+  void weigh_segment_vertices();
 
   const ProjectedDraws& projected_;
   const FragmentShader& shader_;
   const InterpolateKernels& interpolate_;
   const Target& target_;
-  const bool has_ends_;          ///< some draw has lines or points
+  const bool has_segments_;      ///< some draw has lines or points
   const bool has_one_material_;  ///< all draws share theirs
   std::uint64_t shaded_ = 0, evaluated_ = 0;
 
-  std::vector<std::uint32_t> as_is_;             ///< 0, 1, 2 ...
-  std::vector<std::uint32_t> order_, material_;  ///< of a list of several materials; else empty
-  int one_material_ = 0;                         ///< of a list of one
-  Known known_;
-  KnownClipped known_clipped_;
-  FragmentShader::VertexMemory vertex_memory_;  ///< of the list's draw
+  std::vector<std::uint32_t> identity_order_;    ///< 0, 1, 2 ...
+  std::vector<std::uint32_t> order_, material_;  ///< of a list with several materials; otherwise empty
+  int one_material_ = 0;                         ///< of a list with one material
+  CurrentDraw current_;
+  CurrentClipped current_clipped_;
+  FragmentShader::VertexMemory vertex_memory_;  ///< of the draw of the list
   FragmentBatch batches_[2];
-  FragmentBatch *batch_ = &batches_[0], *next_ = &batches_[1];  ///< of a list the next one's vertices are known
-  BatchTriangles corners_{};
-  ScreenVertex found_corners_[3][FragmentBatch::padded_capacity];  ///< of draws whose screen vertices are not there
+  FragmentBatch *batch_ = &batches_[0],
+                *next_ = &batches_[1];  ///< within a list, the vertices of `next_` are prefetched
+  BatchTriangles triangles_{};
+  ScreenVertex computed_vertices_[3]
+                                 [FragmentBatch::padded_capacity];  ///< of draws whose screen vertices are not stored
   ClippedGroup clipped_{};
   FragmentOutputs shaded_batch_;
-  std::vector<Fragment> mixed_;           ///< a list of several draws
-  std::vector<FragmentOutputs> unmixed_;  ///< its colours in its order, a batch's capacity each
+  std::vector<Fragment> mixed_;           ///< the fragments of a list with several draws
+  std::vector<FragmentOutputs> unmixed_;  ///< their colours in the order of the list, a batch's capacity each
 };
 
 template <class Use>
@@ -183,7 +186,7 @@ void FragmentBatcher::shade_in_order(std::span<const FragmentSpan> rows, Use use
       return rows[i].id == rows[i - 1].id || material_of(rows[i].id) == one_material_;
     };
     while (first + count < rows.size() && count < most && is_alike(first + count)) ++count;
-    fill(rows, std::span<const std::uint32_t>(as_is_).subspan(first, count));
+    fill(rows, std::span<const std::uint32_t>(identity_order_).subspan(first, count));
     shader_.shade(*batch_, {}, shaded_batch_);
     use(shaded_batch_, first, count);
     first += count;

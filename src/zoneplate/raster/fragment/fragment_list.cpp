@@ -7,37 +7,37 @@
 namespace zoneplate::scalar {
 namespace {
 
-SamplePosition place_of(const OwnerRow& row, std::uint32_t samples) {
+SamplePosition position_of(const OwnerRow& row, std::uint32_t samples) {
   if (samples == (1u << row.sample_count) - 1 && !row.is_per_sample) return {};
-  std::int32_t sum = row.first_place[std::countr_zero(samples)];
+  std::int32_t sum = row.first_summand[std::countr_zero(samples)];
   for (std::uint32_t left = samples & (samples - 1); left; left &= left - 1)
-    sum += row.more_places[std::countr_zero(left)];
-  return mean_place(sum);
+    sum += row.more_summands[std::countr_zero(left)];
+  return mean_position(sum);
 }
 
-void put(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t samples, FragmentList& out) {
-  const SamplePosition place = place_of(row, samples);
+void add(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t samples, FragmentList& out) {
+  const SamplePosition position = position_of(row, samples);
   const int i = out.count++;
-  out.x[i] = row.x + lane * 256 + place.x;
-  out.y[i] = row.y + place.y;
+  out.x[i] = row.x + lane * 256 + position.x;
+  out.y[i] = row.y + position.y;
   out.id[i] = id;
   out.at[i] = row.pixel + static_cast<std::uint32_t>(lane) + (samples << 12);
 }
 
-/// By first samples, and of those by pixels.
+/// Lists fragments by their first samples, those of one first sample by pixels.
 void list(const OwnerRow& row, FragmentList& out) {
   for (int s = 0; s < row.sample_count; ++s)
     for (std::int32_t lane = 0; lane < FragmentBatch::group; ++lane) {
       const auto id_of = [&](int sample) { return row.id[sample * tile_pixels + lane]; };
       const std::int32_t id = id_of(s);
-      if ((row.wanted >> lane & 1) == 0 || id == no_primitive) continue;
+      if ((row.drawn >> lane & 1) == 0 || id == no_primitive) continue;
       if (row.is_per_sample) {
-        put(row, lane, id, 1u << s, out);
+        add(row, lane, id, 1u << s, out);
         continue;
       }
       std::uint32_t samples = 0;
       for (int t = 0; t < row.sample_count; ++t) samples |= id_of(t) == id ? 1u << t : 0;
-      if (std::countr_zero(samples) == s) put(row, lane, id, samples, out);
+      if (std::countr_zero(samples) == s) add(row, lane, id, samples, out);
     }
 }
 

@@ -21,24 +21,24 @@ constexpr int lanes = static_cast<int>(hn::MaxLanes(DI()));
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
 
-/// The samples of a pixel that one triangle owns, a bit each, and the sum of their places.
+/// The samples of a pixel that one triangle owns, a bit each, and the sum of their positions.
 struct Owned {
-  VI samples, places;
+  VI samples, summands;
 };
 
-/// floor((x + n / 2) / n) of whole numbers, n <= 16, where `half` is n / 2 + 1/64 and `inverse` 1 / n: what is added
-/// keeps the product's rounding from going below a whole number, and is too little to reach the next.
+/// floor((x + n / 2) / n) for integers, n <= 16, with `half` = n / 2 + 1/64 and `inverse` = 1 / n. The 1/64 keeps the
+/// rounded product from falling below an integer, and is too small to reach the next one.
 HWY_INLINE VI mean(VI x, VF half, VF inverse) {
   return truncated(f32, hn::Mul(hn::Add(hn::ConvertTo(f32, x), half), inverse));
 }
 
 /// The bit of each sample.
 struct SampleBits {
-  alignas(64) std::int32_t bit[FragmentList::most_samples][lanes];
+  alignas(64) std::int32_t bit[FragmentList::max_samples][lanes];
 };
 constexpr SampleBits make_sample_bits() {
   SampleBits b{};
-  for (int s = 0; s < FragmentList::most_samples; ++s)
+  for (int s = 0; s < FragmentList::max_samples; ++s)
     for (std::int32_t& bit : b.bit[s]) bit = 1 << s;
   return b;
 }
@@ -49,12 +49,12 @@ HWY_INLINE VI bit_of(int s) { return hn::Load(i32, sample_bits.bit[s]); }
 /// The pixels of a row that are drawn, from one on.
 HWY_INLINE MI wanted_lanes(const OwnerRow& row, int first) {
   alignas(64) static constexpr std::int32_t bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
-  const VI wanted = set(static_cast<std::int32_t>(row.wanted >> first));
-  return hn::Ne(hn::And(wanted, hn::Load(i32, bits)), hn::Zero(i32));
+  const VI drawn = set(static_cast<std::int32_t>(row.drawn >> first));
+  return hn::Ne(hn::And(drawn, hn::Load(i32, bits)), hn::Zero(i32));
 }
 
-/// Adds the points of those lanes.
-HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, FragmentList& out) {
+/// Appends the fragments of the mask's lanes.
+HWY_INLINE void add(MI mask, VI x, VI y, VI owner, VI at, FragmentList& out) {
   const int count = out.count;
   std::int32_t* const to = reinterpret_cast<std::int32_t*>(out.at) + count;
   if (hn::AllTrue(i32, mask)) {
@@ -69,73 +69,74 @@ HWY_INLINE void put(MI mask, VI x, VI y, VI owner, VI at, FragmentList& out) {
   out.count = count + packing.count();
 }
 
-/// A vector's width of pixels.
+/// The owners of a vector of pixels.
 class Pixels {
  public:
   HWY_INLINE Pixels(const OwnerRow& row, int first)
       : id_(row.id + first),
         samples_(row.sample_count),
         is_per_sample_(row.is_per_sample),
-        first_place_(row.first_place),
-        more_places_(row.more_places),
+        first_summand_(row.first_summand),
+        more_summands_(row.more_summands),
         x_(hn::Add(set(row.x + first * 256), hn::ShiftLeft<8>(hn::Iota(i32, 0)))),
         y_(set(row.y)),
         at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))),
         listed_(hn::VecFromMask(i32, hn::Not(wanted_lanes(row, first)))) {}
 
-  /// Lists the owners of sample s where it is the first that they own.
+  /// Lists the owners of sample s at pixels where s is the first sample that they own.
   HWY_INLINE void list(int s, FragmentList& out) {
     const VI owner = owner_of(s), bit = bit_of(s);
     const MI is_new = hn::Eq(hn::And(listed_, bit), hn::Zero(i32));
     const MI mask = hn::AndNot(hn::Eq(owner, set(no_primitive)), is_new);
     if (hn::AllFalse(i32, mask)) return;
-    Owned owned{bit, set(first_place_[s])};
+    Owned owned{bit, set(first_summand_[s])};
     if (!is_per_sample_) {
       for (int t = s + 1; t < samples_; ++t) {
         const VI is_own = hn::VecFromMask(i32, hn::Eq(owner, owner_of(t)));
         owned.samples = hn::Or(owned.samples, hn::And(is_own, bit_of(t)));
-        owned.places = hn::Add(owned.places, hn::And(is_own, set(more_places_[t])));
+        owned.summands = hn::Add(owned.summands, hn::And(is_own, set(more_summands_[t])));
       }
       listed_ = hn::Or(listed_, hn::IfThenElseZero(mask, owned.samples));
     }
-    put(mask, owner, owned, out);
+    add(mask, owner, owned, out);
   }
 
  private:
   HWY_INLINE VI owner_of(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
 
-  /// Adds those of the mask.
-  HWY_INLINE void put(MI mask, VI owner, const Owned& owned, FragmentList& out) const {
+  /// Appends the fragments of the mask.
+  HWY_INLINE void add(MI mask, VI owner, const Owned& owned, FragmentList& out) const {
     const VI centre = set(128);
-    const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.places)), inverse = hn::Div(hn::Set(f32, 1), n);
+    const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.summands)), inverse = hn::Div(hn::Set(f32, 1), n);
     const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
     const VI all = set((1 << samples_) - 1), low = set(4095);
     const MI is_centre = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
-    const VI x = hn::IfThenElse(is_centre, centre, mean(hn::And(owned.places, low), half, inverse));
-    const VI y = hn::IfThenElse(is_centre, centre, mean(hn::And(hn::ShiftRight<12>(owned.places), low), half, inverse));
-    HWY_NAMESPACE::put(mask, hn::Add(x_, x), hn::Add(y_, y), owner, hn::Add(at_, hn::ShiftLeft<12>(owned.samples)),
+    const VI x = hn::IfThenElse(is_centre, centre, mean(hn::And(owned.summands, low), half, inverse));
+    const VI y =
+        hn::IfThenElse(is_centre, centre, mean(hn::And(hn::ShiftRight<12>(owned.summands), low), half, inverse));
+    HWY_NAMESPACE::add(mask, hn::Add(x_, x), hn::Add(y_, y), owner, hn::Add(at_, hn::ShiftLeft<12>(owned.samples)),
                        out);
   }
 
   const std::int32_t* id_;
   int samples_;
   bool is_per_sample_;
-  const std::int32_t *first_place_, *more_places_;
+  const std::int32_t *first_summand_, *more_summands_;
   VI x_, y_, at_;
-  VI listed_;  ///< the samples whose owners are listed, or not wanted: a bit each
+  VI listed_;  ///< the samples whose owners are listed or not drawn: a bit each
 };
 
-/// The one sample of each of a vector's width of pixels, at their centres.
+/// Lists a vector of pixels with one sample each, at the pixels' centres.
 HWY_INLINE void list_centres(const OwnerRow& row, int first, FragmentList& out) {
   const VI pixel = hn::Iota(i32, first), owner = hn::LoadU(i32, row.id + first);
   const MI mask = hn::And(hn::Ne(owner, set(no_primitive)), wanted_lanes(row, first));
   if (hn::AllFalse(i32, mask)) return;
   const VI x = hn::Add(set(row.x + 128), hn::ShiftLeft<8>(pixel));
   const VI at = hn::Add(set(static_cast<std::int32_t>(row.pixel) + (1 << 12)), pixel);
-  put(mask, x, set(row.y + 128), owner, at, out);
+  add(mask, x, set(row.y + 128), owner, at, out);
 }
 
-// Vectors of fewer than eight lanes keep the order of eight: by first samples, and of those by pixels.
+// Vectors of fewer than eight lanes keep the order of eight lanes: by first samples, then by pixels.
 void list(const OwnerRow& row, FragmentList& out) {
   if (row.sample_count == 1 && !row.is_per_sample) {
     for (int first = 0; first < FragmentBatch::group; first += lanes) list_centres(row, first, out);
@@ -151,7 +152,7 @@ void list(const OwnerRow& row, FragmentList& out) {
 using DF4 = hn::FixedTag<float, 4>;
 using VF4 = hn::Vec<DF4>;
 
-/// Four points' channels to four points and back.
+/// Transposes the channels of four fragments to four pixels, and back.
 struct Turned {
   VF4 v[4];
   HWY_INLINE Turned(VF4 r, VF4 g, VF4 b, VF4 a) {

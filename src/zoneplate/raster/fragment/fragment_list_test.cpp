@@ -20,11 +20,11 @@ namespace {
 /// Owners of eight pixels that share few triangles, some of them nothing's.
 struct Owners {
   std::vector<std::int32_t> id;
-  ShadedPlaces places;
+  CentroidTable centroids;
   OwnerRow row;
   Owners(std::uint32_t seed, int samples)
       : id(static_cast<std::size_t>(samples) * tile_pixels),
-        places(
+        centroids(
             standard_pattern(samples),
             seed % 5 == 0 ? Centroid::First : std::array{Centroid::Mean, Centroid::First, Centroid::Centre}[seed % 3]) {
     const std::uint32_t kinds = 1 + hash(seed, 1) % 6;
@@ -36,12 +36,12 @@ struct Owners {
       }
     row = {.id = id.data(),
            .sample_count = samples,
-           .first_place = places.first.data(),
-           .more_places = places.more.data(),
+           .first_summand = centroids.first.data(),
+           .more_summands = centroids.more.data(),
            .pixel = 8 * (hash(seed, 2) % 512),
            .x = 4096,
            .y = 8192,
-           .wanted = seed % 4 == 0 ? hash(seed, 3) % 255 + 1 : 255,
+           .drawn = seed % 4 == 0 ? hash(seed, 3) % 255 + 1 : 255,
            .is_per_sample = seed % 5 == 0};
   }
 };
@@ -83,7 +83,7 @@ TEST(FragmentList, EverySampleThatIsOwnedColoursFromOnePoint) {
         EXPECT_GT(place, last[lane]) << "in the order of samples, or of their triangles' first samples";
         last[lane] = place;
         const bool is_centre = !row.is_per_sample && own == (1u << samples) - 1;
-        const SamplePosition expected = is_centre ? SamplePosition{} : owners.places.of(own, 0);
+        const SamplePosition expected = is_centre ? SamplePosition{} : owners.centroids.of(own, 0);
         EXPECT_EQ(x, row.x + static_cast<std::int32_t>(lane) * 256 + expected.x);
         EXPECT_EQ(y, row.y + expected.y);
         EXPECT_TRUE(!row.is_per_sample || std::has_single_bit(own));
@@ -91,7 +91,7 @@ TEST(FragmentList, EverySampleThatIsOwnedColoursFromOnePoint) {
       for (std::size_t lane = 0; lane < 8; ++lane)
         for (int s = 0; s < samples; ++s) {
           const bool is_owned =
-              row.id[static_cast<std::size_t>(s) * tile_pixels + lane] != no_primitive && (row.wanted >> lane & 1) != 0;
+              row.id[static_cast<std::size_t>(s) * tile_pixels + lane] != no_primitive && (row.drawn >> lane & 1) != 0;
           EXPECT_EQ((coloured[lane] >> s & 1) != 0, is_owned) << samples << " samples, seed " << seed;
         }
     }

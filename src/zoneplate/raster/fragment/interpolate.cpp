@@ -8,10 +8,10 @@ namespace zoneplate {
 namespace scalar {
 namespace {
 
-/// A weight in [0, limit]. Adding +0 makes one of -0 the +0 that every instruction set agrees on.
+/// Clamps a weight to [0, limit]. Adding +0 turns -0 into +0, so that all instruction sets give the same bits.
 float clamped(float b, float limit) { return std::min(std::max(b, 0.0f), limit) + 0.0f; }
 
-std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, float spacing, FragmentBatch& batch) {
+std::uint32_t interpolate(const BatchTriangles& triangles, Viewport viewport, float spacing, FragmentBatch& batch) {
   const float step = 256.0f * spacing;
   std::uint32_t clipped = 0;
   for (int i = 0; i < batch.padded(); ++i) {
@@ -22,7 +22,7 @@ std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, floa
     std::int32_t dx[3], dy[3];
     float inv_w[3];
     for (int k = 0; k < 3; ++k) {
-      const ScreenVertex& v = corners.of(static_cast<std::size_t>(k), leader, batch);
+      const ScreenVertex& v = triangles.of(static_cast<std::size_t>(k), leader, batch);
       dx[k] = v.x - (batch.x[i] - viewport.width * 128), dy[k] = v.y - (batch.y[i] - viewport.height * 128);
       inv_w[k] = v.inv_w;
       if (v.needs_clipping()) clipped |= 1u << (i / FragmentBatch::group);
@@ -41,7 +41,7 @@ std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, floa
     }
     const double area = (edge[0] + edge[1]) + edge[2];
     const std::int32_t is_clockwise = area > 0 ? 1 : 0;
-    if (leader == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == corners.is_mirrored[i] ? 1 : 0;
+    if (leader == static_cast<std::size_t>(i)) batch.is_front[i] = is_clockwise == triangles.is_mirrored[i] ? 1 : 0;
     const float sum = is_affine ? static_cast<float>(area) : (q[0] + q[1]) + q[2];
     const float inverse = 1.0f / (sum == 0 ? 1.0f : sum);
     const float b1 = clamped(q[1] * inverse, 1.0f), b2 = clamped(q[2] * inverse, 1.0f - b1);

@@ -37,7 +37,7 @@ struct InterpolateKernels : PerIsa<InterpolateKernels> {
   /// clipping; the values of such a triangle's fragments are undefined.
   ///
   /// Exact     E_k is an exact integer, and the sign of their sum is the visible side.
-  std::uint32_t (*interpolate)(const BatchTriangles& corners, Viewport viewport, float spacing, FragmentBatch& batch);
+  std::uint32_t (*interpolate)(const BatchTriangles& triangles, Viewport viewport, float spacing, FragmentBatch& batch);
 
   /// The same for fragments of triangles that cross the eye's plane.
   void (*interpolate_clipped)(Viewport viewport, float spacing, ClippedGroup& group);

@@ -20,7 +20,7 @@ template <class D>
 using IntsOf = hn::Vec<hn::RebindToSigned<D>>;
 constexpr int lanes = lanes_of<DF>;
 
-/// As many doubles as a vector has floats: in two vectors, or in one where that has room for them.
+/// As many doubles as a vector has floats: in two vectors, or in one if it has enough lanes.
 template <class D>
 struct DoublesOf {
   using Doubles = DoublesOf;
@@ -76,19 +76,19 @@ struct DoublesOf {
 
 using Doubles = DoublesOf<DF>;
 
-/// One corner of the triangles of several points.
+/// Vertex k of the triangles of several fragments.
 template <class D>
 struct Corner {
   IntsOf<D> x, y;
   hn::Vec<D> inv_w;
 };
 
-/// The vertices of one corner, by address.
+/// Vertex k by address.
 struct ByAddress {
   const ScreenVertex* const* v;
   HWY_INLINE const ScreenVertex* operator[](int i) const { return v[i]; }
 };
-/// The same by number.
+/// Vertex k by index.
 struct ByNumber {
   const ScreenVertex* screen;
   const std::uint32_t* v;
@@ -110,7 +110,7 @@ HWY_INLINE Corner<D> turned_corners(const Vertices& v) {
           hn::BitCast(D(), hn::InterleaveUpper(d, zw01, zw23))};
 }
 
-/// The edge functions at points, and their sum or what has its sign.
+/// The edge functions at fragments, and their sum or a value with its sign.
 template <class D>
 struct Edges {
   hn::Vec<D> e[3], sum;
@@ -132,7 +132,7 @@ HWY_INLINE Edges<D> near_edges_at(const IntsOf<D> (&dx)[3], const IntsOf<D> (&dy
 
 template <class D>
 HWY_INLINE Edges<D> edges_at(const IntsOf<D> (&dx)[3], const IntsOf<D> (&dy)[3]) {
-  // Of corners that are near the point, less than 8 pixels, floats hold the products and their sums as exactly.
+  // For vertices less than 8 pixels from the fragment, floats hold the products and their sums exactly.
   const hn::RebindToSigned<D> di;
   const auto beyond = [&](IntsOf<D> v) HWY_ATTR { return hn::ShiftRight<11>(hn::Xor(v, hn::BroadcastSignBit(v))); };
   const auto far_x = hn::Or(hn::Or(beyond(dx[0]), beyond(dx[1])), beyond(dx[2]));
@@ -174,7 +174,7 @@ struct Screen {
         step(256.0f * spacing),
         has_slopes(spacing != 0) {}
 
-  /// Places as they are told by the batch, from the picture's centre.
+  /// The positions of the batch's fragments, relative to the image's centre.
   template <class DI>
   HWY_INLINE hn::Vec<DI> x(DI d, const std::int32_t* from) const {
     return hn::Sub(hn::LoadU(d, from), hn::Set(d, centre_x));
@@ -185,7 +185,7 @@ struct Screen {
   }
 };
 
-/// The weights of points, from their edge functions.
+/// The weights of fragments, from their edge functions.
 template <class V>
 struct Weights {
   V b1, b2, inverse;
@@ -208,7 +208,7 @@ HWY_INLINE V inverse_of(V sum) {
   return hn::Div(one, hn::IfThenElse(hn::Eq(sum, hn::Zero(d)), one, sum));
 }
 
-/// Slopes: those of q_1, q_2 and of the sum of all three.
+/// The derivatives of q_1, q_2 and of the sum of all three.
 template <class V>
 HWY_INLINE void store_slopes(const Weights<V>& w, V by, V g1, V g2, V all, float* out1, float* out2) {
   const hn::DFromV<V> d;
@@ -216,9 +216,9 @@ HWY_INLINE void store_slopes(const Weights<V>& w, V by, V g1, V g2, V all, float
   hn::StoreU(hn::Mul(hn::Sub(g2, hn::Mul(w.b2, all)), by), d, out2);
 }
 
-/// Points of several triangles, from i on; true if one of these needs clipping.
+/// Interpolates a vector of fragments of several triangles, from i on; true if one of the triangles needs clipping.
 template <class D>
-HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, const BatchTriangles& corners,
+HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, const BatchTriangles& triangles,
                                FragmentBatch& batch, int i) {
   using V = hn::Vec<D>;
   using Ints = IntsOf<D>;
@@ -228,7 +228,7 @@ HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, co
   const Ints dx[3] = {hn::Sub(c[0].x, px), hn::Sub(c[1].x, px), hn::Sub(c[2].x, px)};
   const Ints dy[3] = {hn::Sub(c[0].y, py), hn::Sub(c[1].y, py), hn::Sub(c[2].y, py)};
   const Edges<D> edges = edges_at<D>(dx, dy);
-  store_front(edges, corners.is_mirrored + i, batch.is_front + i);
+  store_front(edges, triangles.is_mirrored + i, batch.is_front + i);
   V inv_w[3] = {c[0].inv_w, c[1].inv_w, c[2].inv_w};
   const auto is_affine = hn::And(hn::Eq(inv_w[0], inv_w[1]), hn::Eq(inv_w[1], inv_w[2]));
   const bool has_affine = !hn::AllFalse(d, is_affine);
@@ -253,18 +253,17 @@ HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, co
   return !hn::AllTrue(d, hn::Gt(least, hn::Zero(d)));
 }
 
-/// What the rows of one triangle have in common: E_k = a_k x + (b_k y + c_k), all of it exact, and the derivatives of
-/// q_k.
+/// The constants of a run's triangle: E_k = a_k x + (b_k y + c_k), all terms exact, and the derivatives of q_k.
 struct RowTriangle {
   double a[3] = {}, b[3] = {}, c[3] = {};
-  alignas(64) double way[3][lanes];  ///< a_k × the way from a vector's first pixel to each
+  alignas(64) double way[3][lanes];  ///< a_k × the distance of each pixel from the vector's first
   float inv_w[3] = {}, gx[3] = {}, gy[3] = {}, sum_x = 0, sum_y = 0;
-  float inverse = 0;  ///< of an affine triangle, of the sum of the E_k
+  float inverse = 0;  ///< 1 / the sum of the E_k, of an affine triangle
   std::int32_t is_clockwise = 0;
   bool needs_clipping = false, is_affine = false;
 
-  HWY_INLINE void make(const BatchTriangles& corners, int i) {
-    const ScreenVertex* const vertex[3] = {corners.vertex[0][i], corners.vertex[1][i], corners.vertex[2][i]};
+  HWY_INLINE void make(const BatchTriangles& triangles, int i) {
+    const ScreenVertex* const vertex[3] = {triangles.vertex[0][i], triangles.vertex[1][i], triangles.vertex[2][i]};
     needs_clipping = false;
     for (int k = 0; k < 3; ++k) {
       inv_w[k] = vertex[k]->inv_w;
@@ -290,7 +289,7 @@ struct RowTriangle {
   }
 };
 
-/// Edge function k at the points from i on of the group that begins at `first`.
+/// Edge function k at the fragments from i on of the group that begins at `first`.
 HWY_INLINE VF edge_of_row(const RowTriangle& t, int k, Viewport viewport, const FragmentBatch& batch, int first,
                           int i) {
   const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
@@ -298,7 +297,7 @@ HWY_INLINE VF edge_of_row(const RowTriangle& t, int k, Viewport viewport, const 
   return (Doubles::all(t.a[k] * px + (t.b[k] * py + t.c[k])) + Doubles::load(t.way[k])).to_floats();
 }
 
-/// The groups from `first` to `last` of an affine triangle.
+/// Interpolates the groups from `first` to `last` of an affine triangle.
 HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& screen, Viewport viewport,
                                        FragmentBatch& batch, int first, int last) {
   const DF d;
@@ -315,13 +314,13 @@ HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& scree
     }
 }
 
-/// The derivatives of q_1, q_2 and of all three, the same at all points.
+/// The derivatives of q_1, q_2 and of the sum of all three, the same for all fragments.
 struct RunSlopes {
   float gx[2], gy[2], all_x, all_y;
 };
 
-/// Points from i on as long as they are a vector, of those before `last`, from their q_1 and q_2, which stand in b, and
-/// their sum. Gives the point after them.
+/// Finishes whole vectors of fragments in [i, last) from q_1 and q_2, which are stored in b, and their sum. Returns the
+/// fragment after them.
 template <class DD>
 HWY_INLINE int finish_vectors(DD d, const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch,
                               int i, int last) {
@@ -342,12 +341,12 @@ HWY_INLINE int finish_vectors(DD d, const RunSlopes& t, const Screen& screen, co
   return i;
 }
 
-/// Points [first, last).
+/// Finishes the fragments [first, last).
 HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float* sum, FragmentBatch& batch, int first,
                            int last) {
   const DF d;
   const hn::CappedTag<float, 16> wide;
-  // Vectors of two groups begin at every second.
+  // Vectors of two groups begin at every second group.
   constexpr int step = static_cast<int>(hn::MaxLanes(wide));
   int i = first;
   if (first % step != 0) i = finish_vectors(d, t, screen, sum, batch, i, first + FragmentBatch::group);
@@ -355,7 +354,8 @@ HWY_INLINE void finish_run(const RunSlopes& t, const Screen& screen, const float
   if (i < last) finish_vectors(d, t, screen, sum, batch, i, last);
 }
 
-/// The same of another. In two steps, because both are long chains of operations that wait for each other.
+/// Interpolates the groups of a perspective triangle. In two loops, because both computations are long dependency
+/// chains.
 HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, Viewport viewport, FragmentBatch& batch,
                                 int first, int last) {
   const DF d;
@@ -371,7 +371,7 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
   finish_run({{t.gx[1], t.gx[2]}, {t.gy[1], t.gy[2]}, t.sum_x, t.sum_y}, screen, sum, batch, first, last);
 }
 
-/// x and y of all points from those of each group's first.
+/// Fills x and y of all fragments from those of each group's first fragment.
 HWY_INLINE void spread_places(FragmentBatch& batch, int first, int last) {
   const DI d;
   const VI steps = hn::Mul(hn::Iota(d, 0), hn::Set(d, 256));
@@ -384,12 +384,12 @@ HWY_INLINE void spread_places(FragmentBatch& batch, int first, int last) {
   }
 }
 
-/// The groups from `first` to `last`, of one triangle; true if it needs clipping.
-bool interpolate_rows(const BatchTriangles& corners, const Screen& screen, Viewport viewport, FragmentBatch& batch,
+/// Interpolates the groups from `first` to `last`, of one triangle; true if it needs clipping.
+bool interpolate_rows(const BatchTriangles& triangles, const Screen& screen, Viewport viewport, FragmentBatch& batch,
                       int first, int last) {
   RowTriangle t;
-  t.make(corners, first);
-  batch.is_front[first] = t.is_clockwise == corners.is_mirrored[first] ? 1 : 0;
+  t.make(triangles, first);
+  batch.is_front[first] = t.is_clockwise == triangles.is_mirrored[first] ? 1 : 0;
   if (t.is_affine) {
     interpolate_affine_run(t, screen, viewport, batch, first, last);
   } else if (!t.needs_clipping) {
@@ -402,34 +402,33 @@ bool interpolate_rows(const BatchTriangles& corners, const Screen& screen, Viewp
   return t.needs_clipping;
 }
 
-/// Points of several triangles in vectors; true if one of these needs clipping.
+/// Interpolates vectors of fragments of several triangles; true if one of the triangles needs clipping.
 template <class D>
-HWY_INLINE bool interpolate_vectors(const BatchTriangles& corners, const Screen& screen, FragmentBatch& batch,
+HWY_INLINE bool interpolate_vectors(const BatchTriangles& triangles, const Screen& screen, FragmentBatch& batch,
                                     int first, int last) {
   bool is_clipped = false;
   for (int i = first; i < last; i += lanes_of<D>) {
     Corner<D> c[3];
     for (int k = 0; k < 3; ++k)
-      c[k] = corners.screen ? turned_corners<D>(ByNumber{corners.screen, batch.vertex[k] + i})
-                            : turned_corners<D>(ByAddress{corners.vertex[k] + i});
-    is_clipped = interpolate_at<D>(c, screen, corners, batch, i) || is_clipped;
+      c[k] = triangles.screen ? turned_corners<D>(ByNumber{triangles.screen, batch.vertex[k] + i})
+                              : turned_corners<D>(ByAddress{triangles.vertex[k] + i});
+    is_clipped = interpolate_at<D>(c, screen, triangles, batch, i) || is_clipped;
   }
   return is_clipped;
 }
 
-/// The groups from `first` to `last` of points of several triangles, as many as a vector has or one; true if one of
-/// these needs clipping.
-bool interpolate_points(const BatchTriangles& corners, const Screen& screen, FragmentBatch& batch, int first,
-                        int last) {
+/// The same for the groups from `first` to `last`: as many groups as a vector has, or one.
+bool interpolate_fragments(const BatchTriangles& triangles, const Screen& screen, FragmentBatch& batch, int first,
+                           int last) {
   for (int g = first; g < last; ++g) batch.has_uniform_derivatives[g] = false;
   using Wide = hn::CappedTag<float, 16>;
   const int begin = first * FragmentBatch::group, end = last * FragmentBatch::group;
   if (lanes_of < Wide >> FragmentBatch::group && end - begin == lanes_of<Wide>)
-    return interpolate_vectors<Wide>(corners, screen, batch, begin, end);
-  return interpolate_vectors<DF>(corners, screen, batch, begin, end);
+    return interpolate_vectors<Wide>(triangles, screen, batch, begin, end);
+  return interpolate_vectors<DF>(triangles, screen, batch, begin, end);
 }
 
-std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, float spacing, FragmentBatch& batch) {
+std::uint32_t interpolate(const BatchTriangles& triangles, Viewport viewport, float spacing, FragmentBatch& batch) {
   const Screen screen(viewport, spacing);
   std::uint32_t clipped = 0;
   const int groups = batch.padded() / FragmentBatch::group;
@@ -438,10 +437,10 @@ std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, floa
     bool is_clipped;
     if (batch.is_flat_run[first]) {
       is_clipped =
-          interpolate_rows(corners, screen, viewport, batch, first * FragmentBatch::group, g * FragmentBatch::group);
+          interpolate_rows(triangles, screen, viewport, batch, first * FragmentBatch::group, g * FragmentBatch::group);
     } else {
       if (g < groups && !batch.is_flat_run[g]) ++g;
-      is_clipped = interpolate_points(corners, screen, batch, first, g);
+      is_clipped = interpolate_fragments(triangles, screen, batch, first, g);
     }
     if (is_clipped)
       for (int i = first; i < g; ++i) clipped |= 1u << i;
@@ -449,7 +448,7 @@ std::uint32_t interpolate(const BatchTriangles& corners, Viewport viewport, floa
   return clipped;
 }
 
-/// x px + (y py + one), rounded once. The planes of some points, or of all.
+/// x px + (y py + one), rounded once, for planes of several triangles or of one.
 HWY_INLINE VF plane_at(const Doubles& x, const Doubles& y, const Doubles& one, VI px, VI py) {
   return (x * Doubles::of(px) + (y * Doubles::of(py) + one)).to_floats();
 }

@@ -13,23 +13,23 @@ constexpr std::size_t large_page = std::size_t{1} << 21;
 
 void RawMemory::Free::operator()(std::byte* data) const { ::operator delete[](data, std::align_val_t{alignment}); }
 
-std::byte* RawMemory::room(std::size_t size) {
+std::byte* RawMemory::reserve(std::size_t size) {
   if (data_ && size <= size_) return data_.get();
   data_.reset();
   const bool is_large = size >= large_page;
   size_ = is_large ? (size + large_page - 1) / large_page * large_page : size;
   const std::size_t alignment = is_large ? large_page : 64;
   data_ = {static_cast<std::byte*>(::operator new[](size_, std::align_val_t{alignment})), Free{alignment}};
-  // A wish; where it is not granted the memory is as good.
+  // Large pages are optional: without them the memory works as well.
   if (is_large) ::madvise(data_.get(), size_, MADV_HUGEPAGE);
   return data_.get();
 }
 
 void Arena::next_block() {
-  // A small frame stays small; a large one takes large pages.
+  // Small frames use small blocks; large frames use large pages.
   const std::size_t size = used_ < 8 ? 2 * largest : large_page;
   if (used_ == blocks_.size()) blocks_.emplace_back();
-  at_ = blocks_[used_++].room(size);
+  at_ = blocks_[used_++].reserve(size);
   end_ = at_ + size;
 }
 

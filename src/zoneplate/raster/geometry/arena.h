@@ -10,8 +10,8 @@ namespace zoneplate {
 /// first access to a page costs more than filling it.
 class RawMemory {
  public:
-  /// At least `size` bytes. A block that is large enough is kept; its contents are lost.
-  std::byte* room(std::size_t size);
+  /// Returns at least `size` bytes. A block that is large enough is reused; its contents are undefined.
+  std::byte* reserve(std::size_t size);
 
  private:
   struct Free {
@@ -22,10 +22,10 @@ class RawMemory {
   std::size_t size_ = 0;
 };
 
-/// Memory for one frame's lists on one thread: taken in order, given back all at once, kept for the next frame.
+/// Memory for one frame's lists on one thread: allocated in order, freed all at once, kept for the next frame.
 class Arena {
  public:
-  /// `size` bytes on a cache line's start, uninitialised. Requires: size <= largest.
+  /// Allocates `size` bytes, aligned to a cache line, uninitialised. Requires: size <= largest.
   std::byte* take(std::size_t size) {
     const std::size_t rounded = (size + 63) / 64 * 64;
     if (rounded > static_cast<std::size_t>(end_ - at_)) next_block();
@@ -33,7 +33,7 @@ class Arena {
     at_ += rounded;
     return taken;
   }
-  /// Takes everything back; memory that was taken may not be used any more.
+  /// Frees all allocations, which must not be used any more.
   void clear();
 
   static constexpr std::size_t largest = std::size_t{1} << 17;
@@ -52,9 +52,9 @@ class ArenaArray {
  public:
   static constexpr std::size_t chunk_size = 1024;
 
-  /// Uninitialised memory for `count` more elements in one piece; they become elements by add().
+  /// Uninitialised contiguous memory for `count` more elements; add() makes them elements.
   /// Requires: count <= chunk_size.
-  T* room(std::size_t count, Arena& arena) {
+  T* reserve(std::size_t count, Arena& arena) {
     static_assert(chunk_size * sizeof(T) <= Arena::largest);
     if (count > chunks_.size() * chunk_size - end_) {
       end_ = chunks_.size() * chunk_size;

@@ -18,7 +18,7 @@ std::int32_t small_extent(int samples) {
   return samples > 8 ? 511 : samples > 4 ? 723 : samples > 2 ? 1023 : samples > 1 ? 1447 : 2047;
 }
 
-/// The bounds of three vertices, 1/256 pixel from the picture's top-left corner.
+/// The bounds of three vertices, 1/256 pixel from the image's top-left corner.
 struct Extent {
   std::int32_t low_x, high_x, low_y, high_y;
 };
@@ -48,20 +48,21 @@ class Binner {
       run.index = draw.index.data() + 3 * static_cast<std::size_t>(first - projected_.first_triangle[d]);
       run.first_id = first;
       run.count = std::min(SmallTriangleRun::capacity, end - first);
-      run.records = rules_.is_flat_depth ? nullptr : worker_.triangles.room(SmallTriangleRun::capacity, worker_.arena);
+      run.records =
+          rules_.is_flat_depth ? nullptr : worker_.triangles.reserve(SmallTriangleRun::capacity, worker_.arena);
       kernels.run(run, sink, result);
       worker_.drawn += result.drawn;
-      for (std::int32_t i = 0; i < result.kept_count; ++i)
+      for (std::int32_t i = 0; i < result.visible_count; ++i)
         if (run.records)
           list_in_tiles(draw, run.records[i], worker_.triangles.add(1));
         else
-          add_kept(d, first + result.kept[i]);
-      for (std::int32_t i = 0; i < result.general_count; ++i) add_general(d, first + result.general[i]);
+          add_kept(d, first + result.visible[i]);
+      for (std::int32_t i = 0; i < result.deferred_count; ++i) add_general(d, first + result.deferred[i]);
     }
   }
 
  private:
-  /// What the runs of a draw have in common.
+  /// The parameters that all runs of a draw share.
   SmallTriangleRun run_of(std::size_t d, const SampleArrays& samples) const {
     const Draw& draw = projected_.draws[d];
     const bool draws_fragments = draw.alpha_mode == AlphaMode::Opaque && !rules_.is_flat_depth;
@@ -127,8 +128,9 @@ class Binner {
   }
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
-    // Made in its place: to copy what was just written a piece at a time stalls the processor.
-    const Triangle& t = *::new (worker_.triangles.room(1, worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
+    // Constructed in place: copying a record that was just written in parts stalls the processor.
+    const Triangle& t =
+        *::new (worker_.triangles.reserve(1, worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
     if (t.min_x > target_.x + target_.width - 1 || t.max_x < target_.x || t.min_y > target_.y + target_.height - 1 ||
         t.max_y < target_.y)
       return;

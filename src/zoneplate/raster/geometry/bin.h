@@ -63,7 +63,7 @@ Bins make_bins(const Target& target, Bins reused = {});
 void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
                  const SetupRules& rules, Bins& bins);
 
-/// Both, for all draws.
+/// make_bins and add_to_bins for all draws.
 Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Bins reused = {});
 
 }  // namespace zoneplate

@@ -23,10 +23,10 @@ TEST(Arena, ListsKeepTheirOrderAndArraysTheirPlace) {
     std::vector<const double*> places;
     for (std::uint32_t i = 0; i < 5000; ++i) {
       lists[i % 3].push_back(i, arena);
-      double* room = array.room(1 + i % 7, arena);
-      *room = i;
+      double* element = array.reserve(1 + i % 7, arena);
+      *element = i;
       numbers.push_back(array.add(1));
-      places.push_back(room);
+      places.push_back(element);
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
       std::uint32_t expected = k;
@@ -55,11 +55,11 @@ TEST(Arena, MemoryIsOnACacheLineAndKept) {
     EXPECT_EQ(arena.take(Arena::largest - 100 * i), first[i]);
   }
   RawMemory memory;
-  std::byte* large = memory.room(std::size_t{5} << 20);
-  EXPECT_EQ(memory.room(1000), large);
+  std::byte* large = memory.reserve(std::size_t{5} << 20);
+  EXPECT_EQ(memory.reserve(1000), large);
   RawMemory moved = std::move(memory);
-  EXPECT_EQ(moved.room(1000), large);
-  EXPECT_NE(memory.room(1000), large);  // NOLINT: what was moved from is empty
+  EXPECT_EQ(moved.reserve(1000), large);
+  EXPECT_NE(memory.reserve(1000), large);  // NOLINT: what was moved from is empty
 }
 
 /// Every surface in the colour of its instance, half transparent where it may be.

@@ -6,13 +6,13 @@
 namespace zoneplate {
 namespace {
 
-/// A homogeneous vertex with x and y already in 1/256 pixel: (x, y) / w is its place on the screen.
+/// A homogeneous vertex with x and y already in 1/256 pixel: (x, y) / w is its position on the screen.
 struct Corner {
   double x, y, z, w;
   int source;  ///< which of the triangle's vertices this is, or -1 if a plane made it
 };
 
-/// Signed distances to the planes; inside is >= 0. In the order in which they cut.
+/// Signed distances to the planes, in the order of clipping; inside is >= 0.
 double distance(const Corner& v, int plane) {
   const double guard = static_cast<double>(guard_band) * v.w;
   switch (plane) {
@@ -54,7 +54,7 @@ Polygon cut(const Polygon& in, int plane) {
   return out;
 }
 
-/// True if all corners lie on the outer side of one side plane of the picture itself.
+/// True if all vertices lie on the outer side of one side plane of the image itself.
 bool is_outside(const Polygon& p, Viewport viewport) {
   const auto all = [&](auto outside) { return std::all_of(p.corner.begin(), p.corner.begin() + p.count, outside); };
   const double half_width = viewport.width * 128.0, half_height = viewport.height * 128.0;
@@ -82,8 +82,8 @@ ClippedPolygon clip_triangle(float4 a, float4 b, float4 c, Viewport viewport) {
   }
   if (polygon.count < 3) return {};
 
-  // An original vertex keeps the snapped place that unclipped neighbours see. Rounding may leave a new one a hair
-  // outside of the plane that made it.
+  // An original vertex keeps the snapped position that its unclipped neighbours use. Rounding may leave a new vertex
+  // slightly outside the plane that made it.
   ClippedPolygon out;
   for (int i = 0; i < polygon.count; ++i) {
     const Corner& v = polygon.corner[static_cast<std::size_t>(i)];

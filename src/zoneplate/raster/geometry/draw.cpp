@@ -20,7 +20,7 @@ std::size_t ProjectedDraws::draw_of(std::int32_t triangle) const {
 
 namespace {
 
-constexpr std::size_t batch_vertices = std::size_t{1} << 20;  ///< that are not kept
+constexpr std::size_t batch_vertices = std::size_t{1} << 20;  ///< of draws that are not kept
 constexpr std::size_t batch_draws = std::size_t{1} << 16;     ///< likewise
 constexpr std::size_t always_kept = std::size_t{1} << 22;
 
@@ -71,7 +71,7 @@ void project_batch(const ProjectedDraws& projected, std::size_t first, std::size
 
 ScreenVertex* screen_memory(RawMemory& memory, std::size_t vertices) {
   return growing("screen vertices",
-                 [&] { return reinterpret_cast<ScreenVertex*>(memory.room(vertices * sizeof(ScreenVertex))); });
+                 [&] { return reinterpret_cast<ScreenVertex*>(memory.reserve(vertices * sizeof(ScreenVertex))); });
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void project_batches(ProjectedDraws& p, const std::function<void(std::size_t, st
   std::size_t last = project_kept(p);
   use(0, last);
 
-  // The others, as many as fit into a batch, but at least one.
+  // The other draws: as many as fit into a batch, but at least one.
   while (last < p.draws.size()) {
     const std::size_t first = last;
     std::size_t count = p.draws[last++].vertices();

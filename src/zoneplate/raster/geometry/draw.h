@@ -43,7 +43,7 @@ struct Draw {
   }
 };
 
-/// Draws with their screen vertices and triangle numbers.
+/// Draws with their screen vertices and triangle ids.
 ///
 /// Instances share the vertices of their mesh but not its screen vertices, of which there may be more than memory.
 /// The screen vertices of the first draws are stored up to a capacity; those of the other draws are stored while their
@@ -53,7 +53,7 @@ struct ProjectedDraws {
   Viewport viewport;
   std::vector<std::span<ScreenVertex>> screen;  ///< by draw; empty where they are not stored
   std::vector<std::int32_t> first_triangle;     ///< by draw, and the total at the end
-  std::size_t kept = 0;                         ///< screen vertices of the first draws
+  std::size_t kept = 0;                         ///< number of screen vertices of the first draws that are stored
   RawMemory memory, batch_memory;               ///< of the screen vertices
 
   /// The draw that a triangle belongs to.
@@ -74,11 +74,11 @@ ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std:
 /// Transforms the vertices of the draws that are kept, in parallel; returns the number of these draws.
 std::size_t project_kept(ProjectedDraws& projected);
 
-/// Transforms the vertices, in parallel, in batches of draws: `use(first, last)` is called batch after batch, when the
-/// screen vertices of the draws [first, last) are there. Draws that are kept fit into one batch.
+/// Transforms the vertices, in parallel, in batches of draws: `use(first, last)` is called for each batch while the
+/// screen vertices of the draws [first, last) are stored. Draws that are kept fit into one batch.
 void project_batches(ProjectedDraws& projected, const std::function<void(std::size_t, std::size_t)>& use);
 
-/// Both, with all screen vertices kept.
+/// number_draws and project_kept, with all screen vertices kept.
 ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, ProjectedDraws reused = {});
 
 }  // namespace zoneplate

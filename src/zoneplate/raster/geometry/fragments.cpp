@@ -34,7 +34,7 @@ SampleBin* TileSampleBins::add_part(std::size_t tile, std::int32_t first_id, Are
   return last_[tile] = part;
 }
 
-/// Writes the list anew with the nearest fragment of each sample. The next time is when it is twice as long.
+/// Rewrites the list with only the nearest fragment of each sample. This is repeated when the list has doubled.
 void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
   find_nearest(last_[tile]);
   while (SampleBin* const part = last_[tile]) {
@@ -43,26 +43,26 @@ void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
     free_ = part;
   }
   parts_[tile] = 0;
-  // A part holds ids that are not far apart.
+  // The ids of a part lie within max_ids.
   std::sort(nearest_.begin(), nearest_.end(),
             [](const Nearest& p, const Nearest& q) { return p.id != q.id ? p.id < q.id : p.at < q.at; });
   SampleBin* part = nullptr;
   for (const Nearest& n : nearest_) {
-    if (!part || part->count == SampleBin::capacity || n.id - part->first_id > SampleBin::most_ids)
+    if (!part || part->count == SampleBin::capacity || n.id - part->first_id > SampleBin::max_ids)
       part = add_part(tile, n.id, arena);
     part->depth[part->count] = n.depth;
-    part->what[part->count++] = (static_cast<std::uint32_t>(n.id - part->first_id) << 16) + n.at;
+    part->packed[part->count++] = (static_cast<std::uint32_t>(n.id - part->first_id) << 16) + n.at;
   }
   limit_[tile] = std::max(enough, 2 * parts_[tile]);
 }
 
-/// nearest_: by the order of visibility, the least (-depth, id) of each sample.
+/// Fills nearest_ with the visible fragment of each sample: the least (-depth, id).
 void TileSampleBins::find_nearest(const SampleBin* list) {
   number_.assign(static_cast<std::size_t>(samples_) * tile_pixels, 0);
   nearest_.clear();
   for (; list; list = list->previous)
     for (std::int32_t i = 0; i < list->count; ++i) {
-      const Nearest found{list->depth[i], list->id(list->what[i]), SampleBin::at(list->what[i])};
+      const Nearest found{list->depth[i], list->id(list->packed[i]), SampleBin::at(list->packed[i])};
       std::uint32_t& number = number_[found.at];
       if (number == 0) {
         nearest_.push_back(found);

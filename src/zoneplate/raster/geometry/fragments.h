@@ -22,7 +22,7 @@ class TileSampleBins {
   SampleBin** last() { return last_.data(); }  ///< by tile: the last part of its list, or null
   SampleBin* operator[](std::size_t tile) const { return last_[tile]; }
 
-  static constexpr std::uint32_t enough = 64;  ///< parts of a list that may hold hidden fragments
+  static constexpr std::uint32_t enough = 64;  ///< a list of more parts than this is reduced
 
  private:
   struct Nearest {
@@ -35,12 +35,12 @@ class TileSampleBins {
   void find_nearest(const SampleBin* list);
 
   std::vector<SampleBin*> last_;
-  std::vector<std::uint32_t> parts_;  ///< by tile: of its list
+  std::vector<std::uint32_t> parts_;  ///< by tile: number of parts of its list
   std::vector<std::uint32_t> limit_;  ///< by tile: parts at which hidden fragments are dropped
-  SampleBin* free_ = nullptr;         ///< parts to be used again
+  SampleBin* free_ = nullptr;         ///< unused parts
   int samples_ = 0;                   ///< a pixel
   bool keeps_hidden_ = false;
-  std::vector<std::uint32_t> number_;  ///< by sample of a tile: of its fragment in nearest_, plus one
+  std::vector<std::uint32_t> number_;  ///< by sample of a tile: 1 + the index of its fragment in nearest_, or 0
   std::vector<Nearest> nearest_;
 };
 

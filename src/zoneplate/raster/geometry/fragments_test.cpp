@@ -44,10 +44,10 @@ void fill(Filled& to, bool keeps_hidden) {
     const std::uint32_t at = hash(i, 2) % 300 * 51;
     const float depth = static_cast<float>(hash(i, 3) % 5000) / 5000;
     SampleBin* part = to.fragments.last()[1];
-    if (!part || part->count == SampleBin::capacity || id - part->first_id > SampleBin::most_ids)
+    if (!part || part->count == SampleBin::capacity || id - part->first_id > SampleBin::max_ids)
       part = to.fragments.grow(1, id, to.arena);
     part->depth[part->count] = depth;
-    part->what[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
+    part->packed[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
     take(to.owners, at, {depth, id});
     if (i % 1000 == 0) to.greatest_parts = std::max(to.greatest_parts, to.parts());
   }
@@ -63,7 +63,7 @@ TEST(TileSampleBins, TheNearestStayAndListsStayShort) {
     Owners found;
     for (const SampleBin* p = f->fragments[1]; p; p = p->previous)
       for (std::int32_t i = 0; i < p->count; ++i)
-        take(found, SampleBin::at(p->what[i]), {p->depth[i], p->id(p->what[i])});
+        take(found, SampleBin::at(p->packed[i]), {p->depth[i], p->id(p->packed[i])});
     EXPECT_EQ(found, f->owners);
   }
 }

@@ -10,7 +10,7 @@ ScreenVertex project(float4 clip, Viewport viewport) {
   const float y = clip.y / clip.w * static_cast<float>(viewport.height * -128);
   const bool inside = clip.w > 0 && clip.z >= 0 && clip.z <= clip.w && std::abs(x) <= limit && std::abs(y) <= limit;
   if (!inside) return {};
-  // Adding +0 turns a depth of -0 into +0: the sign of zero must not reach a picture.
+  // Adding +0 turns a depth of -0 into +0: the sign of zero must not reach an image.
   return {static_cast<std::int32_t>(std::nearbyint(x)), static_cast<std::int32_t>(std::nearbyint(y)),
           clip.z / clip.w + 0.0f, 1.0f / clip.w};
 }

@@ -9,12 +9,11 @@
 
 namespace zoneplate {
 
-/// A vertex on the screen, as coverage and depth see it.
+/// A vertex on the screen, the input of coverage and depth.
 ///
-/// Units     x, y in 1/256 pixel from the picture's *centre*, x right, y down; |x|, |y| <= 2^22 (the guard band, ±16384
-/// pixels);
-///           z is the reversed depth in [0, 1]. inv_w = 1 / w > 0, or 0 for a vertex outside the near plane, the far
-///           plane or the guard band: its triangles go through the clipper, and its other members say nothing.
+/// Units     x, y in 1/256 pixel from the image's *centre*, x right, y down; |x|, |y| <= 2^22 (the guard band, ±16384
+///           pixels); z is the reversed depth in [0, 1]. inv_w = 1 / w > 0, or 0 for a vertex outside the near plane,
+///           the far plane or the guard band: its triangles must be clipped, and its other members are undefined.
 struct ScreenVertex {
   std::int32_t x = 0, y = 0;
   float z = 0;
@@ -27,8 +26,8 @@ inline constexpr std::int32_t guard_band = 1 << 22;
 /// Clip space to the screen, for one vertex: division by w, viewport transform, snap to 1/256 pixel (round half to
 /// even).
 ///
-/// Exact     x = round(clip.x / clip.w × 128 width), as floats; the picture's centre is the origin, so that 24 bits
-/// reach.
+/// Exact     x = round(clip.x / clip.w × 128 width), as floats; the image's centre is the origin, so that 24 bits
+///           suffice.
 ScreenVertex project(float4 clip, Viewport viewport);
 
 struct ProjectKernels : PerIsa<ProjectKernels> {

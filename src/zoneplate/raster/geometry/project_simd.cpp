@@ -41,7 +41,7 @@ void transform(const float4x4& m, const float3* p, std::size_t n, Viewport viewp
   std::size_t i = 0;
   for (; i + lanes <= n; i += lanes) project_lanes(wide, m, &p[i].x, viewport, reinterpret_cast<float*>(out + i));
 
-  // The last vertices are copied into a whole vector's room.
+  // The last vertices are copied into an array of a whole vector.
   if (i == n) return;
   alignas(64) float in[3 * HWY_MAX_BYTES / sizeof(float)] = {};
   alignas(64) float result[4 * HWY_MAX_BYTES / sizeof(float)];

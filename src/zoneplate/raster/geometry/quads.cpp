@@ -5,7 +5,7 @@
 namespace zoneplate {
 namespace {
 
-/// The part of a segment in front of the near plane, as shares of the way from a to b; empty if first > last.
+/// The part of a segment in front of the near plane, as parameters from a (0) to b (1); empty if first > last.
 struct Part {
   float first = 0, last = 1;
 };
@@ -23,13 +23,14 @@ float2 screen_direction(float4 a, float4 b, float2 size) {
   return n > 0 && std::isfinite(n) ? float2{d.x / n, d.y / n} : float2{1, 0};
 }
 
-/// Two corners about a and two about b, moved in clip space by offset × w: the same on the screen at every depth.
+/// Two vertices about a and two about b, offset in clip space by offset × w: by the same distance on the screen at
+/// every depth.
 Quad quad_about(float4 a, float4 b, Part part, const float2 (&offset)[4]) {
   Quad quad;
   for (int k = 0; k < 4; ++k) {
     const float4 p = k < 2 ? a : b;
     quad.clip[k] = {p.x + offset[k].x * p.w, p.y + offset[k].y * p.w, p.z, p.w};
-    quad.share[k] = k < 2 ? part.first : part.last;
+    quad.segment_t[k] = k < 2 ? part.first : part.last;
   }
   return quad;
 }
@@ -38,13 +39,13 @@ Quad quad_about(float4 a, float4 b, Part part, const float2 (&offset)[4]) {
 
 Quad make_quad(const QuadMesh& mesh, std::size_t primitive, const float4x4& clip_from_object) {
   const auto at = [&](std::size_t end) {
-    const float3 p = mesh.position[mesh.ends[2 * primitive + end]];
+    const float3 p = mesh.position[mesh.segment_vertices[2 * primitive + end]];
     return clip_from_object * float4{p.x, p.y, p.z, 1};
   };
   const float2 e = mesh.half_extent;
   const float4 a = at(0), b = at(1);
   if (mesh.has_points) return quad_about(a, b, {}, {{-e.x, e.y}, {-e.x, -e.y}, {e.x, e.y}, {e.x, -e.y}});
-  // What is behind the near plane is cut off before the segment gets its width, which has no meaning there.
+  // The segment is clipped at the near plane before it gets its width, which is undefined behind the plane.
   const Part part = part_in_front(a, b);
   const float4 from = a + (b - a) * part.first, to = a + (b - a) * part.last;
   const float2 d = screen_direction(from, to, mesh.size);

@@ -17,18 +17,20 @@ namespace zoneplate {
 /// Source    rectangular lines: Vulkan specification, Basic Line Segment Rasterization.
 struct QuadMesh {
   std::span<const float3> position;
-  std::span<const std::uint32_t> ends;  ///< vertices of the mesh, two a primitive; a point's ends are one vertex
-  bool has_points = false;              ///< points, not lines
-  float2 half_extent;                   ///< half a line's width or a point's side: clip space for one unit of w
-  float2 size;                          ///< the picture's, in pixels
+  std::span<const std::uint32_t>
+      segment_vertices;     ///< vertices of the mesh, two a primitive; a point's ends are one vertex
+  bool has_points = false;  ///< points, not lines
+  float2 half_extent;       ///< half a line's width or a point's side: clip space for one unit of w
+  float2 size;              ///< of the image, in pixels
 
-  std::size_t vertices() const { return 2 * ends.size(); }
+  std::size_t vertices() const { return 2 * segment_vertices.size(); }
 };
 
-/// The quad of a primitive in clip space. A vertex has the attributes at parameter `share` of the segment, in [0, 1].
+/// The quad of a primitive in clip space. A vertex has the attributes at parameter `segment_t` of the segment, in [0,
+/// 1].
 struct Quad {
   float4 clip[4];
-  float share[4];
+  float segment_t[4];
 };
 Quad make_quad(const QuadMesh& mesh, std::size_t primitive, const float4x4& clip_from_object);
 

@@ -10,7 +10,7 @@ std::int64_t doubled_area(const ScreenVertex& p, const ScreenVertex& q, const Sc
 
 Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id,
                        const SetupRules& rules) {
-  // Corners are taken clockwise on the screen, so that inside is positive.
+  // The vertices are ordered clockwise on the screen, so that inside is positive.
   const std::int64_t area = doubled_area(p, q, r);
   const ScreenVertex& second = area < 0 ? r : q;
   const ScreenVertex& third = area < 0 ? q : r;
@@ -30,7 +30,7 @@ Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const Scree
   set_edge(1, 2, 0);
   set_edge(2, 0, 1);
 
-  // A pixel's samples lie at offsets 0 to 255 of its corner, so the pixels of the box are those of its ends.
+  // Samples lie at offsets 0 to 255 from the pixel's corner, so the bounds in pixels are those of the bounds' ends.
   t.min_x = std::min({x[0], x[1], x[2]}) >> 8;
   t.max_x = std::max({x[0], x[1], x[2]}) >> 8;
   t.min_y = std::min({y[0], y[1], y[2]}) >> 8;

@@ -9,18 +9,17 @@ namespace zoneplate {
 
 /// A triangle ready for coverage and depth: three edge functions and a depth plane.
 ///
-/// Edge k at a point P (1/256 pixel, from the picture's top-left corner) is E_k = a_k P.x + b_k P.y + c_k, an exact
+/// Edge k at a point P (1/256 pixel, from the image's top-left corner) is E_k = a_k P.x + b_k P.y + c_k, an exact
 /// integer; P is inside where all three are >= 0. The fill rule is folded into c: E is lowered by one on an edge that
 /// is neither top nor left, so that a point on a shared edge lies in exactly one of the two triangles.
 ///
 /// Units     a, b per 1/256 pixel; the depth plane's gradients per pixel.
 /// Source    edge functions: Pineda, A Parallel Algorithm for Polygon Rasterization, SIGGRAPH 1988; int32 half-spaces
-/// with
-///           the rule as a bias: Giesen, A trip through the graphics pipeline, 2011.
+///           with the rule as a bias: Giesen, A trip through the graphics pipeline, 2011.
 struct Triangle {
   std::int32_t a[3], b[3];
   std::int64_t c[3];
-  std::int32_t min_x, min_y, max_x, max_y;  ///< pixels that may hold a covered sample, not clamped to the picture
+  std::int32_t min_x, min_y, max_x, max_y;  ///< pixels that may hold a covered sample, not clamped to the image
   std::int32_t x0, y0;                      ///< the first vertex, 1/256 pixel from the top-left corner
   double z0, dzdx, dzdy;                    ///< depth at that vertex, gradients per 1/256 pixel
   float z_low, z_high;                      ///< the least and greatest depth of the three vertices
@@ -30,13 +29,13 @@ struct Triangle {
 struct SetupRules {
   Viewport viewport;
   bool is_top_left = true;     ///< false: every triangle owns its edges
-  bool is_flat_depth = false;  ///< painter's algorithm: the mean depth stands for the whole triangle
+  bool is_flat_depth = false;  ///< painter's algorithm: the whole triangle has its mean depth
 };
 
 /// Twice the signed area in (1/256 pixel)²; positive where the vertices run clockwise on the screen (y down).
 std::int64_t doubled_area(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r);
 
-/// Makes the triangle of three screen vertices that need no clipping, in any winding. Requires: area not 0.
+/// Sets up the triangle of three screen vertices that need no clipping, in any winding. Requires: area not 0.
 ///
 /// Exact     edges are exact integers: |a|, |b| <= 2^23, |c| < 2^47.
 Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id,

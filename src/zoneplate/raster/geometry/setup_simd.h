@@ -30,7 +30,7 @@ constexpr DD f64;
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(i32, v); }
 
-/// The corners of a vector of triangles: x and y in 1/256 pixel from the picture's top-left corner.
+/// The vertices of a vector of triangles: x and y in 1/256 pixel from the image's top-left corner.
 struct Corners {
   VI x[3], y[3];
   VF z[3];
@@ -81,13 +81,13 @@ HWY_INLINE void swap_where(M mask, V& p, V& q) {
   p = t;
 }
 
-/// A vector of triangles that are set up: what small ones and records share.
+/// The setup of a vector of triangles that small triangles and records share.
 struct SetUp {
-  VI dx[3], dy[3];  ///< the edges opposite to the corners, clockwise
+  VI dx[3], dy[3];  ///< the edges opposite to the vertices, clockwise
   VI bias[3];       ///< -1 where a point on the edge is outside
   VI area;          ///< doubled
   VI origin_x, origin_y;
-  VD z0[2], dzdx[2], dzdy[2];  ///< depth at corner 0 and its gradients per 1/256 pixel: lower and upper lanes
+  VD z0[2], dzdx[2], dzdy[2];  ///< depth at vertex 0 and its gradients per 1/256 pixel: lower and upper lanes
   VF step_x, step_y;           ///< gradients per pixel
   VF z_low, z_high;
 };
@@ -109,7 +109,7 @@ template <int half>
 HWY_INLINE void set_up_depth(const Corners& c, SetUp& t) {
   const VD z0 = widened<half>(c.z[0]);
   const VD dz1 = hn::Sub(widened<half>(c.z[1]), z0), dz2 = hn::Sub(widened<half>(c.z[2]), z0);
-  // From corner 0 to corner 1 goes the edge opposite to 2; to corner 2, against its direction, the one opposite to 1.
+  // The edge opposite to vertex 2 goes from vertex 0 to vertex 1; the edge opposite to 1 goes from vertex 2 to 0.
   const VD dx1 = widened<half>(t.dx[2]), dy1 = widened<half>(t.dy[2]);
   const VD dx2 = widened<half>(hn::Sub(c.x[2], c.x[0])), dy2 = widened<half>(hn::Sub(c.y[2], c.y[0]));
   const VD inverse_area = hn::Div(hn::Set(f64, 1.0), widened<half>(t.area));
@@ -118,7 +118,7 @@ HWY_INLINE void set_up_depth(const Corners& c, SetUp& t) {
   t.dzdy[half] = hn::Mul(hn::Sub(hn::Mul(dz2, dx1), hn::Mul(dz1, dx2)), inverse_area);
 }
 
-/// The edge opposite to corner k.
+/// The edge opposite to vertex k.
 template <int k>
 HWY_INLINE void set_up_edge(const Corners& c, bool is_top_left, SetUp& t) {
   constexpr int from = (k + 1) % 3, to = (k + 2) % 3;
@@ -135,7 +135,7 @@ HWY_INLINE void set_up_edges(const Corners& c, bool is_top_left, SetUp& t) {
   set_up_edge<2>(c, is_top_left, t);
 }
 
-/// The rest, which needs no more of the edges than the one from corner 0 to 1.
+/// The other values, which need only the edge from vertex 0 to 1.
 HWY_INLINE void set_up_plane(const Corners& c, VI low_x, VI low_y, SetUp& t) {
   t.area = hn::Sub(hn::Mul(t.dx[2], hn::Sub(c.y[2], c.y[0])), hn::Mul(t.dy[2], hn::Sub(c.x[2], c.x[0])));
   t.origin_x = hn::ShiftRight<8>(low_x);
@@ -167,7 +167,7 @@ struct RecordLanes {
     return hn::BitCast(i32, hn::ShiftRight<32>(hn::BitCast(i64, v)));
   }
 
-  /// Of the even lanes. Highway 1.0.3 leaves their signs out on WebAssembly.
+  /// The products of the even lanes. Highway 1.0.3 ignores their signs on WebAssembly.
   static HWY_INLINE hn::Vec<hn::Repartition<std::int64_t, DI>> products(VI p, VI q) {
 #if HWY_TARGET == HWY_WASM
     const auto even = [](VI v) { return wasm_i64x2_shr(wasm_i64x2_shl(v.raw, 32), 32); };
@@ -210,10 +210,10 @@ struct RecordLanes {
   }
 
   HWY_INLINE void copy(int lane, Triangle& t) const {
-    const int place = (lane & 1) * (lanes / 2) + lane / 2;
+    const int at = (lane & 1) * (lanes / 2) + lane / 2;
     for (int k = 0; k < 3; ++k) {
       t.a[k] = a[k][lane], t.b[k] = b[k][lane];
-      t.c[k] = c[k][place] + bias[k][lane];
+      t.c[k] = c[k][at] + bias[k][lane];
     }
     t.min_x = min_x[lane], t.min_y = min_y[lane], t.max_x = max_x[lane], t.max_y = max_y[lane];
     t.x0 = x0[lane], t.y0 = y0[lane];

@@ -1,4 +1,4 @@
-// What a vector of small triangles covers, one triangle a lane. Included by *_simd.cpp files only.
+// The coverage of a vector of small triangles, one triangle a lane. Included by *_simd.cpp files only.
 #pragma once
 
 #include <hwy/highway.h>
@@ -14,7 +14,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-/// From corner 0 to the triangle's first pixel.
+/// The vector from vertex 0 to the triangle's first pixel.
 struct Way {
   VD x[2], y[2];
   HWY_INLINE Way(const Corners& c, const SetUp& t) {
@@ -22,7 +22,7 @@ struct Way {
     x[0] = widened<0>(dx), x[1] = widened<1>(dx);
     y[0] = widened<0>(dy), y[1] = widened<1>(dy);
   }
-  /// Depth of a sample there. Integers as doubles add exactly.
+  /// Depth of a sample of the first pixel. Integers as doubles add exactly.
   template <int half>
   HWY_INLINE VD depth(const SetUp& t, VD sx, VD sy) const {
     return hn::Add(hn::Add(t.z0[half], hn::Mul(t.dzdx[half], hn::Add(x[half], sx))),
@@ -30,10 +30,10 @@ struct Way {
   }
 };
 
-/// From there to the first sample whose place within its pixel is s, in [0, 255].
+/// The distance from coordinate `from` to the first sample at offset s within its pixel, in [0, 255].
 HWY_INLINE VI up_to(std::int32_t s, VI from) { return hn::And(hn::Sub(set(s), from), set(255)); }
 
-/// The candidates of one sample: the edges at the first pixel where the bounds hold it, and their steps.
+/// The candidate pixels of one sample: the edge values at the first pixel whose sample lies within the bounds.
 struct Candidates {
   VI pixel_x, pixel_y;
   VI e[3];
@@ -78,7 +78,7 @@ HWY_INLINE void cover_pixel(const SetUp& t, const Candidates& c, VI outside, VF 
   emit(inside, i, j, hn::Min(hn::Max(z, t.z_low), t.z_high));
 }
 
-/// The edges' values at a pixel.
+/// The values of the edge functions at a pixel.
 struct Edges {
   VI e0, e1, e2;
   HWY_INLINE Edges right(const SetUp& t) const {
@@ -92,7 +92,7 @@ struct Edges {
   HWY_INLINE VI outside(VI dead) const { return hn::Or(hn::Or(e0, e1), hn::Or(e2, dead)); }
 };
 
-/// The same for the pixels (i, j) and (i + 1, j); gives the edges at the second.
+/// The same for the pixels (i, j) and (i + 1, j); returns the edge values at the second.
 template <class Emit>
 HWY_INLINE Edges cover_pair(const SetUp& t, const Candidates& c, Edges e, VI dead, int i, int j, const Emit& emit) {
   const VF base = row_depth(t, c, j);
@@ -102,51 +102,51 @@ HWY_INLINE Edges cover_pair(const SetUp& t, const Candidates& c, Edges e, VI dea
   return next;
 }
 
-/// The same for a whole row, two at a time: what lies beyond the bounds is outside.
+/// The same for a whole row, two pixels at a time; pixels beyond the bounds are outside.
 template <class Emit>
 HWY_INLINE void cover_row(const SetUp& t, const Candidates& c, Edges e, VI dead, int columns, int j, const Emit& emit) {
   for (int i = 0; i < columns; i += 2) e = cover_pair(t, c, e, dead, i, j, emit).right(t);
 }
 
-/// The last part of a tile's list, with room for so many more fragments of the run's triangles.
-HWY_INLINE SampleBin* part_with_room(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile,
-                                     std::int32_t room) {
+/// The last part of a tile's list, with capacity for `count` more fragments of the run's triangles.
+HWY_INLINE SampleBin* part_with_capacity(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile,
+                                         std::int32_t count) {
   SampleBin* const part = sink.last[tile];
-  if (part && part->count <= SampleBin::capacity - room &&
+  if (part && part->count <= SampleBin::capacity - count &&
       static_cast<std::uint32_t>(run.first_id - part->first_id) < 0x10000 - SmallTriangleRun::capacity)
     return part;
   return sink.grow(sink, tile, run.first_id);
 }
 
-/// Puts whole vectors into a list's last part, which has room for them.
+/// Appends whole vectors to a list's last part, which must have the capacity.
 struct Append {
   SampleBin* part;
-  VI first;  ///< what is said of fragments at the first candidates
+  VI first;  ///< SampleBin::packed of the fragments at the first candidates
 
   HWY_INLINE void operator()(MI mask, int i, int j, VF z) const {
     const Packing<DI> packing(mask);
     const std::int32_t at = part->count;
     packing.store(z, part->depth + at);
-    packing.store(hn::Add(first, set(j * 64 + i)), reinterpret_cast<std::int32_t*>(part->what) + at);
+    packing.store(hn::Add(first, set(j * 64 + i)), reinterpret_cast<std::int32_t*>(part->packed) + at);
     part->count = at + packing.count();
   }
 };
 
-/// Puts lanes into the list of a tile. `what`: without the list's first id.
-HWY_INLINE void put_in_tile(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile, MI mask, VF z,
-                            VI what) {
-  SampleBin* const part = part_with_room(run, sink, tile, lanes);
+/// Appends lanes to the list of a tile. `packed` is without the list's first id.
+HWY_INLINE void store_in_tile(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile, MI mask, VF z,
+                              VI packed) {
+  SampleBin* const part = part_with_capacity(run, sink, tile, lanes);
   const Packing<DI> packing(mask);
   const std::int32_t at = part->count;
   packing.store(z, part->depth + at);
-  packing.store(hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part->first_id) << 16))),
-                reinterpret_cast<std::int32_t*>(part->what) + at);
+  packing.store(hn::Sub(packed, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part->first_id) << 16))),
+                reinterpret_cast<std::int32_t*>(part->packed) + at);
   part->count = at + packing.count();
 }
 
-/// Puts lanes into the lists of their tiles, as far as these are drawn. `what`: without the list's first id.
-HWY_INLINE void put_by_tile(const SmallTriangleRun& run, SampleBinWriter& sink, MI mask, VI pixel_x, VI pixel_y, VF z,
-                            VI what) {
+/// Appends lanes to the lists of their tiles, if these are drawn. `packed` is without the list's first id.
+HWY_INLINE void store_by_tile(const SmallTriangleRun& run, SampleBinWriter& sink, MI mask, VI pixel_x, VI pixel_y, VF z,
+                              VI packed) {
   const VI column = hn::ShiftRight<6>(pixel_x), row = hn::ShiftRight<6>(pixel_y);
   const VI beyond = hn::Or(hn::Or(hn::Sub(column, set(run.left >> 6)), hn::Sub(set(run.right >> 6), column)),
                            hn::Or(hn::Sub(row, set(run.top >> 6)), hn::Sub(set(run.bottom >> 6), row)));
@@ -154,13 +154,13 @@ HWY_INLINE void put_by_tile(const SmallTriangleRun& run, SampleBinWriter& sink, 
   const VI tile =
       hn::Add(hn::Mul(hn::Sub(row, set(sink.first_row)), set(sink.columns)), hn::Sub(column, set(sink.first_column)));
   const auto in_list = [&](const SampleBin& part) HWY_ATTR {
-    return hn::Sub(what, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part.first_id) << 16)));
+    return hn::Sub(packed, set(static_cast<std::int32_t>(static_cast<std::uint32_t>(part.first_id) << 16)));
   };
   if (const std::int32_t first = hn::GetLane(tile); hn::AllTrue(i32, hn::And(mask, hn::Eq(tile, set(first))))) {
-    SampleBin* const part = part_with_room(run, sink, first, lanes);
+    SampleBin* const part = part_with_capacity(run, sink, first, lanes);
     const std::int32_t at = part->count;
     hn::StoreU(z, f, part->depth + at);
-    hn::StoreU(in_list(*part), i32, reinterpret_cast<std::int32_t*>(part->what) + at);
+    hn::StoreU(in_list(*part), i32, reinterpret_cast<std::int32_t*>(part->packed) + at);
     part->count = at + lanes;
     return;
   }
@@ -168,19 +168,19 @@ HWY_INLINE void put_by_tile(const SmallTriangleRun& run, SampleBinWriter& sink, 
   hn::Store(tile, i32, tiles);
   for (auto first = hn::FindFirstTrue(i32, mask); first >= 0; first = hn::FindFirstTrue(i32, mask)) {
     const MI here = hn::And(mask, hn::Eq(tile, set(tiles[first])));
-    put_in_tile(run, sink, tiles[first], here, z, what);
+    store_in_tile(run, sink, tiles[first], here, z, packed);
     mask = hn::AndNot(here, mask);
   }
 }
 
-/// What is said of a fragment, without its sample and its list's first id.
-HWY_INLINE VI what_at(VI id, VI pixel_x, VI pixel_y) {
+/// SampleBin::packed of a fragment, without its sample and its list's first id.
+HWY_INLINE VI packed_at(VI id, VI pixel_x, VI pixel_y) {
   const VI in_tile = set(63);
   return hn::Add(hn::ShiftLeft<16>(id),
                  hn::Add(hn::ShiftLeft<6>(hn::And(pixel_y, in_tile)), hn::And(pixel_x, in_tile)));
 }
 
-/// Puts samples of one kind into the lists of their tiles.
+/// Appends samples of one index to the lists of their tiles.
 struct Scatter {
   const SmallTriangleRun& run;
   SampleBinWriter& sink;
@@ -190,18 +190,18 @@ struct Scatter {
 
   HWY_NOINLINE void operator()(MI mask, int i, int j, VF z) const {
     const VI x = hn::Add(candidates.pixel_x, set(i)), y = hn::Add(candidates.pixel_y, set(j));
-    put_by_tile(run, sink, mask, x, y, z, hn::Add(what_at(id, x, y), set(sample << 12)));
+    store_by_tile(run, sink, mask, x, y, z, hn::Add(packed_at(id, x, y), set(sample << 12)));
   }
 };
 
-/// Small triangles, or samples of theirs, that wait until they fill vectors. Several vectors' worth, so that what is
-/// read was written long before: a vector that was just written in parts stalls the processor.
-struct Waiting {
-  static constexpr std::int32_t enough = 128, room = enough + 10 * lanes;
+/// Small triangles, or samples of them, that are queued until they fill vectors. The queue holds several vectors,
+/// because reading a vector that was just written in parts stalls the processor.
+struct TriangleQueue {
+  static constexpr std::int32_t threshold = 128, capacity = threshold + 10 * lanes;
   std::int32_t count = 0;
-  alignas(64) std::int32_t x[3][room], y[3][room], id[room];
-  alignas(64) std::int32_t sample_x[room], sample_y[room];  ///< 1/256 pixel; of samples only
-  alignas(64) float z[3][room];
+  alignas(64) std::int32_t x[3][capacity], y[3][capacity], id[capacity];
+  alignas(64) std::int32_t sample_x[capacity], sample_y[capacity];  ///< 1/256 pixel; only for samples
+  alignas(64) float z[3][capacity];
 
   HWY_INLINE void add(const Corners& c, const Packing<DI>& packing) {
     const std::int32_t at = count;
@@ -221,7 +221,7 @@ struct Waiting {
             {hn::Load(f, z[0] + i), hn::Load(f, z[1] + i), hn::Load(f, z[2] + i)},
             hn::Load(i32, id + i)};
   }
-  /// Calls draw(i, mask) for whole vectors, and in the end for what is left.
+  /// Calls draw(i, mask) for whole vectors, and at the end for the remaining lanes.
   template <class Draw>
   HWY_INLINE void take(bool is_end, const Draw& draw) {
     std::int32_t i = 0;

@@ -8,7 +8,7 @@
 namespace zoneplate::scalar {
 namespace {
 
-/// The bounds of a triangle, 1/256 pixel from the picture's top-left corner.
+/// The bounds of a triangle, 1/256 pixel from the image's top-left corner.
 struct Bounds {
   std::int32_t low_x, high_x, low_y, high_y;
 };
@@ -41,7 +41,7 @@ void put(const SmallTriangleRun& run, SampleBinWriter& sink, std::int32_t tile, 
   };
   if (!part || is_full()) part = sink.grow(sink, tile, run.first_id);
   part->depth[part->count] = depth;
-  part->what[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
+  part->packed[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
 }
 
 void draw(const Triangle& t, const SmallTriangleRun& run, SampleBinWriter& sink) {
@@ -65,7 +65,7 @@ void draw(const Triangle& t, const SmallTriangleRun& run, SampleBinWriter& sink)
 }
 
 void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result) {
-  result.general_count = result.kept_count = 0, result.drawn = 0;
+  result.deferred_count = result.visible_count = 0, result.drawn = 0;
   const SetupRules rules{.viewport = run.viewport, .is_top_left = run.is_top_left};
   for (std::int32_t t = 0; t < run.count; ++t) {
     const ScreenVertex &p = run.screen[run.index[3 * t]], &q = run.screen[run.index[3 * t + 1]],
@@ -73,7 +73,7 @@ void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangle
     const Bounds b = bounds_of(p, q, r, run.viewport);
     const std::int32_t width = b.high_x - b.low_x, height = b.high_y - b.low_y;
     if (p.inv_w == 0 || q.inv_w == 0 || r.inv_w == 0 || width > large_extent || height > large_extent) {
-      result.general[result.general_count++] = t;
+      result.deferred[result.deferred_count++] = t;
       continue;
     }
     const std::int64_t area = doubled_area(p, q, r);
@@ -81,9 +81,9 @@ void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangle
     if (!may_cover_a_sample(b, run) || !is_in_rectangle(b, run)) continue;
     if (std::max(width, height) > run.small_extent) {
       if (run.records)
-        run.records[result.kept_count++] = make_triangle(p, q, r, run.first_id + t, rules);
+        run.records[result.visible_count++] = make_triangle(p, q, r, run.first_id + t, rules);
       else
-        result.kept[result.kept_count++] = t;
+        result.visible[result.visible_count++] = t;
       continue;
     }
     ++result.drawn;

@@ -10,22 +10,22 @@ namespace zoneplate {
 
 /// Samples of one tile that small triangles cover, in any order. A thread has a list of these bins for each tile.
 ///
-/// Units     what = 65536 (id - first_id) + at, at = 4096 sample + 64 y + x, with the pixel (x, y) within the tile.
+/// Units     packed = 65536 (id - first_id) + at, at = 4096 sample + 64 y + x, with the pixel (x, y) within the tile.
 struct SampleBin {
   static constexpr int capacity = 510;
-  static constexpr int most_samples = 16;
-  static constexpr std::int32_t most_ids = 0xffff;  ///< of a part, after its first
+  static constexpr int max_samples = 16;
+  static constexpr std::int32_t max_ids = 0xffff;  ///< the range of ids in a bin, after first_id
   SampleBin* previous;
   std::int32_t count;
   std::int32_t first_id;
   float depth[capacity];
-  std::uint32_t what[capacity];
+  std::uint32_t packed[capacity];
 
   static std::uint32_t at(std::uint32_t w) { return w & 0xffff; }
   std::int32_t id(std::uint32_t w) const { return first_id + static_cast<std::int32_t>(w >> 16); }
 };
 
-/// Appends the samples of one thread to its bins: by tile of the image's grid, the list's last bin, or null.
+/// Appends the samples of one thread to its bins. `last`: by tile of the image's grid, the list's last bin, or null.
 struct SampleBinWriter {
   std::int32_t first_column, first_row, columns;
   SampleBin** last;
@@ -48,22 +48,22 @@ struct SmallTriangleRun {
   std::int32_t facing;  ///< 1 keeps triangles that are clockwise on the screen, -1 the others, 0 both
   bool is_top_left;     ///< as SetupRules
   /// 1/256 pixel: triangles that are no wider and no higher become samples; at most 2047. -1: none; required if there
-  /// are more samples than SampleBin::most_samples.
+  /// are more samples than SampleBin::max_samples.
   std::int32_t small_extent;
 
-  Triangle* records;  ///< room for those that are kept and not small; null: they are listed, not set up
+  Triangle* records;  ///< array for visible triangles that are not small; null: they are listed, not set up
 
   static constexpr int capacity = 256;
 };
 
 /// The results for a run's triangles, as indices within the run.
 struct SmallTriangleResult {
-  std::int32_t general_count = 0, kept_count = 0;
-  std::uint64_t drawn = 0;  ///< small triangles that went on to be fragments
+  std::int32_t deferred_count = 0, visible_count = 0;
+  std::uint64_t drawn = 0;  ///< small triangles that were converted to samples
   std::int32_t
-      general[SmallTriangleRun::capacity + 16];        ///< need clipping, or are larger than 64 pixels: not yet tested
-  std::int32_t kept[SmallTriangleRun::capacity + 16];  ///< face the eye, have a sample in their bounds, are in the
-                                                       ///< rectangle; not written where there is room for records
+      deferred[SmallTriangleRun::capacity + 16];  ///< need clipping, or are larger than 64 pixels: not yet tested
+  std::int32_t visible[SmallTriangleRun::capacity + 16];  ///< face the eye, have a sample in their bounds, are in the
+                                                          ///< rectangle; not written where there is room for records
 };
 
 struct SmallTriangleKernels : PerIsa<SmallTriangleKernels> {

@@ -8,14 +8,14 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-/// Of those lanes the ones with a sample of the pattern within bounds of that size.
-HWY_INLINE MI may_cover_a_sample(const Extent& e, VI width, VI height, const SmallTriangleRun& run, MI asked) {
+/// The active lanes whose bounds, of that size, contain a sample of the pattern.
+HWY_INLINE MI may_cover_a_sample(const Extent& e, VI width, VI height, const SmallTriangleRun& run, MI active) {
   MI found = hn::MaskFromVec(hn::Zero(i32));
   for (std::int32_t s = 0; s < run.sample_count; ++s) {
     const MI none =
         hn::Or(hn::Gt(up_to(run.sample_x[s], e.low_x), width), hn::Gt(up_to(run.sample_y[s], e.low_y), height));
-    found = hn::Or(found, hn::AndNot(none, asked));
-    if (hn::AllFalse(i32, hn::AndNot(found, asked))) break;
+    found = hn::Or(found, hn::AndNot(none, active));
+    if (hn::AllFalse(i32, hn::AndNot(found, active))) break;
   }
   return found;
 }
@@ -33,22 +33,22 @@ class Front {
  public:
   Front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result)
       : run_(run), sink_(sink), result_(result) {
-    for (std::int32_t s = 0; s < run.sample_count && s < SampleBin::most_samples; ++s)
+    for (std::int32_t s = 0; s < run.sample_count && s < SampleBin::max_samples; ++s)
       sample_x_[s] = run.sample_x[s], sample_y_[s] = run.sample_y[s];
   }
 
   HWY_INLINE void run() {
-    result_.general_count = result_.kept_count = 0, result_.drawn = 0;
+    result_.deferred_count = result_.visible_count = 0, result_.drawn = 0;
     std::int32_t t = 0;
     for (; t + lanes <= run_.count; t += lanes) select(run_.index + 3 * t, t, hn::Eq(hn::Zero(i32), hn::Zero(i32)));
     if (t < run_.count) {
-      // The last triangles are copied into a whole vector's room.
+      // The last triangles are copied into an array of a whole vector.
       std::uint32_t index[3 * lanes];
       for (std::int32_t k = 0; k < 3 * lanes; ++k)
         index[k] = run_.index[3 * t + (3 * t + k < 3 * run_.count ? k : k % 3)];
       select(index, t, hn::FirstN(i32, static_cast<std::size_t>(run_.count - t)));
     }
-    draw_waiting(true);
+    draw_queue(true);
     draw_samples(true);
   }
 
@@ -59,27 +59,27 @@ class Front {
     count += packing.count();
   }
 
-  HWY_INLINE void select(const std::uint32_t* index, std::int32_t t, MI asked) {
+  HWY_INLINE void select(const std::uint32_t* index, std::int32_t t, MI active) {
     Corners c;
     const MI clipped = load(run_.screen, index, run_.viewport, c);
     const Extent e = extent_of(c);
     const VI width = hn::Sub(e.high_x, e.low_x), height = hn::Sub(e.high_y, e.low_y), size = hn::Max(width, height);
     const VI number = hn::Add(hn::Iota(i32, 0), set(t));
-    const MI general = hn::And(asked, hn::Or(clipped, hn::Gt(size, set(large_extent))));
-    if (!hn::AllFalse(i32, general)) list(general, number, result_.general, result_.general_count);
+    const MI deferred = hn::And(active, hn::Or(clipped, hn::Gt(size, set(large_extent))));
+    if (!hn::AllFalse(i32, deferred)) list(deferred, number, result_.deferred, result_.deferred_count);
 
-    // A wrong area of a general lane does no harm: it is not looked at.
+    // The area of a deferred lane may be wrong; it is not used.
     const VI area = hn::Sub(hn::Mul(hn::Sub(c.x[1], c.x[0]), hn::Sub(c.y[2], c.y[0])),
                             hn::Mul(hn::Sub(c.y[1], c.y[0]), hn::Sub(c.x[2], c.x[0])));
     const MI backward = hn::Lt(area, hn::Zero(i32)), forward = hn::Gt(area, hn::Zero(i32));
     const MI facing = run_.facing > 0 ? forward : run_.facing < 0 ? backward : hn::Or(forward, backward);
-    MI kept = hn::And(hn::AndNot(general, asked), facing);
+    MI kept = hn::And(hn::AndNot(deferred, active), facing);
     if (hn::AllFalse(i32, kept)) return;
     kept = may_cover_a_sample(e, width, height, run_, hn::And(kept, meets_rectangle(e, run_)));
     if (hn::AllFalse(i32, kept)) return;
     const MI small = hn::AndNot(hn::Gt(size, set(run_.small_extent)), kept);
 
-    // Corners are taken clockwise.
+    // The vertices are ordered clockwise.
     if (run_.facing <= 0) {
       swap_where(backward, c.x[1], c.x[2]);
       swap_where(backward, c.y[1], c.y[2]);
@@ -90,8 +90,8 @@ class Front {
     if (hn::AllFalse(i32, small)) return;
     result_.drawn += hn::CountTrue(i32, small);
     if (run_.sample_count == 1 && cover(c, e, width, height, hn::Abs(area), small)) return;
-    waiting_.add(c, Packing<DI>(small));
-    if (waiting_.count >= Waiting::enough) draw_waiting(false);
+    queue_.add(c, Packing<DI>(small));
+    if (queue_.count >= TriangleQueue::threshold) draw_queue(false);
   }
 
   HWY_INLINE void keep(const Corners& c, const Extent& e, VI number, MI mask) {
@@ -99,11 +99,11 @@ class Front {
     if (run_.records)
       record(c, e, mask);
     else
-      list(mask, number, result_.kept, result_.kept_count);
+      list(mask, number, result_.visible, result_.visible_count);
   }
 
-  // Of one sample a pixel: finds what the triangles cover before they are set up, for half of the tiny ones cover
-  // nothing. False where that may be many.
+  // For one sample per pixel: finds the covered samples before setup, since half of the tiny triangles cover none.
+  // False if there may be many.
   HWY_INLINE bool cover(const Corners& c, const Extent& e, VI width, VI height, VI area, MI small) {
     const VI to_x = up_to(run_.sample_x[0], e.low_x), to_y = up_to(run_.sample_y[0], e.low_y);
     const VI more = hn::IfThenElseZero(small, hn::Max(hn::Sub(width, to_x), hn::Sub(height, to_y)));
@@ -116,7 +116,7 @@ class Front {
     const VI dead = hn::VecFromMask(i32, hn::Not(small));
     const MI is_wide = hn::Gt(more, set(511));
     add_samples(c, px, py, hn::AllFalse(i32, is_wide) ? covered<2>(t, first, dead) : covered<3>(t, first, dead));
-    if (samples_.count >= Waiting::enough) draw_samples(false);
+    if (samples_.count >= TriangleQueue::threshold) draw_samples(false);
     return true;
   }
 
@@ -125,8 +125,8 @@ class Front {
     return {hn::Add(hn::Sub(hn::Sub(t.area, e1), e2), t.bias[0]), hn::Add(e1, t.bias[1]), hn::Add(e2, t.bias[2])};
   }
 
-  // A bit (4 j + i) << shift for each of the first pixels (i, j) whose sample is covered. What lies beyond the bounds
-  // is outside.
+  // A bit (4 j + i) << shift for each of the first pixels (i, j) whose sample is covered. Pixels beyond the bounds are
+  // outside.
   template <int n, int shift = 0>
   static HWY_INLINE VI covered(const SetUp& t, const Edges& first, VI dead) {
     VI bits = hn::Zero(i32);
@@ -144,7 +144,7 @@ class Front {
     return hn::Sub(hn::ShiftRight<23>(hn::BitCast(i32, hn::ConvertTo(f, power))), set(127));
   }
 
-  // Mostly none or one a triangle.
+  // Most triangles have no sample or one.
   HWY_INLINE void add_samples(const Corners& c, VI px, VI py, VI bits) {
     const VI zero = hn::Zero(i32), step = set(0x300);
     for (MI mask = hn::Gt(bits, zero); !hn::AllFalse(i32, mask); mask = hn::Gt(bits, zero)) {
@@ -172,17 +172,17 @@ class Front {
              way_y = hn::Sub(hn::ShiftLeft<8>(t.origin_y), c.y[0]);
     const VF z =
         depth_of(t, hn::Add(way_x, set(run_.sample_x[0])), hn::Add(way_y, set(run_.sample_y[0])), pixel_x, pixel_y);
-    put_by_tile(run_, sink_, alive, pixel_x, pixel_y, z, what_at(c.id, pixel_x, pixel_y));
+    store_by_tile(run_, sink_, alive, pixel_x, pixel_y, z, packed_at(c.id, pixel_x, pixel_y));
   }
 
-  HWY_NOINLINE void draw_waiting(bool is_end) {
-    waiting_.take(is_end, [&](std::int32_t i, MI alive) HWY_ATTR {
-      const Corners c = waiting_.get(i);
+  HWY_NOINLINE void draw_queue(bool is_end) {
+    queue_.take(is_end, [&](std::int32_t i, MI alive) HWY_ATTR {
+      const Corners c = queue_.get(i);
       draw(c, extent_of(c), alive);
     });
   }
 
-  // What make_triangle does.
+  // The same as make_triangle.
   HWY_NOINLINE void record(Corners c, Extent e, MI mask) {
     SetUp t;
     set_up(c, e, run_.is_top_left, t);
@@ -192,7 +192,7 @@ class Front {
     r.store_edge<2>(c, t);
     r.store_rest(c, e, t);
     for (std::uint32_t left = bits_of(i32, mask); left; left &= left - 1)
-      r.copy(__builtin_ctz(left), run_.records[result_.kept_count++]);
+      r.copy(__builtin_ctz(left), run_.records[result_.visible_count++]);
   }
 
   HWY_NOINLINE void draw(const Corners& c, const Extent& e, MI alive) {
@@ -206,7 +206,7 @@ class Front {
     const VI size = hn::Max(width, height);
     if (hn::AllFalse(i32, hn::Gt(size, set(511)))) return draw_few<2, 2>(work, tile);
     if (hn::AllFalse(i32, hn::Gt(size, set(767)))) return draw_few<3, 1>(work, tile);
-    // A sample of one kind has at most a candidate more in each direction than there are whole pixels.
+    // A sample has at most one candidate more in each direction than the bounds have whole pixels.
     if (tile < 0) {
       scatter(work, candidates(width), candidates(height));
     } else {
@@ -216,7 +216,7 @@ class Front {
 
   static HWY_INLINE int candidates(VI extent) { return (hn::GetLane(hn::MaxOfLanes(i32, extent)) >> 8) + 1; }
 
-  /// A vector of triangles on its way to become fragments.
+  /// A vector of triangles while their samples are found.
   struct Work {
     const Corners& c;
     const Extent& e;
@@ -225,8 +225,8 @@ class Front {
     VI dead;
   };
 
-  // Where no more than n × n pixels hold all candidates: what is covered of some samples is found first, a bit a lane
-  // for each, and then drawn, the first of each triangle together, then the second.
+  // If n × n pixels contain all candidates: the coverage of several samples is found first, as one bit mask a lane.
+  // Then the covered samples are drawn: the first of every triangle together, then the second, and so on.
   template <int n, int shift>
   HWY_INLINE void draw_few(const Work& w, std::int32_t tile) {
     constexpr std::int32_t group = 1 << shift;
@@ -261,15 +261,15 @@ class Front {
       const VI pixel_x = hn::ShiftRight<8>(hn::Add(w.e.low_x, to_x)),
                pixel_y = hn::ShiftRight<8>(hn::Add(w.e.low_y, to_y));
       const VF z = depth_of(w.t, hn::Add(way_x, sx), hn::Add(way_y, sy), pixel_x, pixel_y);
-      const VI what = hn::Add(what_at(w.c.id, pixel_x, pixel_y), hn::ShiftLeft<12>(hn::Add(k, set(first))));
+      const VI packed = hn::Add(packed_at(w.c.id, pixel_x, pixel_y), hn::ShiftLeft<12>(hn::Add(k, set(first))));
       if (tile >= 0)
-        put_in_tile(run_, sink_, tile, mask, z, what);
+        store_in_tile(run_, sink_, tile, mask, z, packed);
       else
-        put_by_tile(run_, sink_, mask, pixel_x, pixel_y, z, what);
+        store_by_tile(run_, sink_, mask, pixel_x, pixel_y, z, packed);
     }
   }
 
-  // Depth of a sample of each triangle, which lies that far from corner 0 in the triangle's first pixel.
+  // Depth of a sample of each triangle, at the given distance from vertex 0 in the triangle's first pixel.
   static HWY_INLINE VF depth_of(const SetUp& t, VI x, VI y, VI pixel_x, VI pixel_y) {
     const auto at = [&](VD z0, VD dzdx, VD dzdy, VD dx, VD dy)
                         HWY_ATTR { return hn::Add(hn::Add(z0, hn::Mul(dzdx, dx)), hn::Mul(dzdy, dy)); };
@@ -290,9 +290,9 @@ class Front {
   }
 
   HWY_INLINE Append append_at(const Work& w, const Candidates& n, std::int32_t s, std::int32_t tile, int places) {
-    SampleBin* const part = part_with_room(run_, sink_, tile, places * lanes);
+    SampleBin* const part = part_with_capacity(run_, sink_, tile, places * lanes);
     const auto rest = (static_cast<std::uint32_t>(s) << 12) - (static_cast<std::uint32_t>(part->first_id) << 16);
-    return {part, hn::Add(what_at(w.c.id, n.pixel_x, n.pixel_y), set(static_cast<std::int32_t>(rest)))};
+    return {part, hn::Add(packed_at(w.c.id, n.pixel_x, n.pixel_y), set(static_cast<std::int32_t>(rest)))};
   }
 
   HWY_NOINLINE void scatter(const Work& w, int columns, int rows) {
@@ -304,7 +304,7 @@ class Front {
     }
   }
 
-  // The tile in which all lanes lie, so that whole vectors go to one list; or -1.
+  // The tile that contains all lanes, so that whole vectors go to one list; or -1.
   HWY_INLINE std::int32_t tile_of_all(const Extent& e, VI dead) const {
     const auto first = hn::FindFirstTrue(i32, hn::Eq(dead, hn::Zero(i32)));
     const auto lane = hn::IndicesFromVec(i32, set(static_cast<std::int32_t>(first)));
@@ -319,9 +319,9 @@ class Front {
   const SmallTriangleRun& run_;
   SampleBinWriter& sink_;
   SmallTriangleResult& result_;
-  std::int32_t sample_x_[SampleBin::most_samples + lanes], sample_y_[SampleBin::most_samples + lanes];
-  Waiting waiting_;  ///< triangles
-  Waiting samples_;  ///< samples that are covered
+  std::int32_t sample_x_[SampleBin::max_samples + lanes], sample_y_[SampleBin::max_samples + lanes];
+  TriangleQueue queue_;    ///< triangles
+  TriangleQueue samples_;  ///< samples that are covered
 };
 
 void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result) {

@@ -63,7 +63,8 @@ class Lists {
     for (std::size_t tile = 0; tile < last_.size(); ++tile)
       for (const SampleBin* p = last_[tile]; p; p = p->previous)
         for (std::int32_t i = 0; i < p->count; ++i)
-          out.emplace_back(static_cast<std::int32_t>(tile), SampleBin::at(p->what[i]), p->id(p->what[i]), p->depth[i]);
+          out.emplace_back(static_cast<std::int32_t>(tile), SampleBin::at(p->packed[i]), p->id(p->packed[i]),
+                           p->depth[i]);
     std::sort(out.begin(), out.end());
     return out;
   }
@@ -86,7 +87,7 @@ class Lists {
 
 struct Outcome {
   std::vector<Found> fragments;
-  std::vector<std::int32_t> general, kept;
+  std::vector<std::int32_t> deferred, visible;
   std::vector<Triangle> records;
   std::uint64_t drawn = 0;
 };
@@ -104,7 +105,7 @@ struct Case {
   std::int32_t facing = 0;
   bool is_top_left = true;
   std::int32_t small_extent = 2047;
-  bool lists_kept = false;
+  bool lists_visible = false;
 };
 
 std::vector<Case> cases() {
@@ -116,7 +117,7 @@ std::vector<Case> cases() {
   out.push_back({.pattern = standard_pattern(1), .left = 64, .top = 64, .right = 64, .bottom = 64});
   out.push_back({.pattern = standard_pattern(2), .is_top_left = false});
   out.push_back({.pattern = standard_pattern(1), .facing = -1, .small_extent = -1});
-  out.push_back({.pattern = standard_pattern(4), .small_extent = -1, .lists_kept = true});
+  out.push_back({.pattern = standard_pattern(4), .small_extent = -1, .lists_visible = true});
   return out;
 }
 
@@ -145,12 +146,12 @@ Outcome outcome_of(const Soup& soup, const Case& c, Isa isa) {
                                .facing = c.facing,
                                .is_top_left = c.is_top_left,
                                .small_extent = c.small_extent,
-                               .records = c.lists_kept ? nullptr : records.data()};
+                               .records = c.lists_visible ? nullptr : records.data()};
     SmallTriangleKernels::of(isa).run(run, lists.sink, result);
-    for (std::int32_t i = 0; i < result.general_count; ++i) out.general.push_back(first + result.general[i]);
-    for (std::int32_t i = 0; i < result.kept_count; ++i) {
-      out.kept.push_back(c.lists_kept ? first + result.kept[i] : records[static_cast<std::size_t>(i)].id);
-      if (!c.lists_kept) out.records.push_back(records[static_cast<std::size_t>(i)]);
+    for (std::int32_t i = 0; i < result.deferred_count; ++i) out.deferred.push_back(first + result.deferred[i]);
+    for (std::int32_t i = 0; i < result.visible_count; ++i) {
+      out.visible.push_back(c.lists_visible ? first + result.visible[i] : records[static_cast<std::size_t>(i)].id);
+      if (!c.lists_visible) out.records.push_back(records[static_cast<std::size_t>(i)]);
     }
     out.drawn += result.drawn;
   }
@@ -163,11 +164,11 @@ TEST(Front, EveryInstructionSetFindsTheSame) {
     const Soup soup(seed, 5003);
     for (const Case& c : cases()) {
       const Outcome expected = outcome_of(soup, c, Isa::Scalar);
-      EXPECT_GT(expected.general.size(), 100u);
+      EXPECT_GT(expected.deferred.size(), 100u);
       for (const Isa isa : supported_isas()) {
         const Outcome found = outcome_of(soup, c, isa);
-        EXPECT_EQ(found.general, expected.general) << name_of(isa);
-        EXPECT_EQ(found.kept, expected.kept) << name_of(isa);
+        EXPECT_EQ(found.deferred, expected.deferred) << name_of(isa);
+        EXPECT_EQ(found.visible, expected.visible) << name_of(isa);
         EXPECT_EQ(found.drawn, expected.drawn) << name_of(isa);
         EXPECT_EQ(found.fragments, expected.fragments) << name_of(isa) << ", " << c.pattern.size() << " samples";
         ASSERT_EQ(found.records.size(), expected.records.size());
@@ -201,8 +202,8 @@ TEST(Front, FragmentsAreTheSamplesInsideSmallTriangles) {
     if (c.small_extent < 0) continue;
     const Outcome found = outcome_of(soup, c, best_isa());
     std::vector<std::uint8_t> listed(soup.index.size() / 3);
-    for (const std::int32_t t : found.general) listed[static_cast<std::size_t>(t)] = 1;
-    for (const std::int32_t t : found.kept) listed[static_cast<std::size_t>(t)] = 1;
+    for (const std::int32_t t : found.deferred) listed[static_cast<std::size_t>(t)] = 1;
+    for (const std::int32_t t : found.visible) listed[static_cast<std::size_t>(t)] = 1;
     const std::int32_t columns = c.right / tile_size - c.left / tile_size + 1;
     std::vector<Found> expected;
     for (std::size_t t = 0; t < listed.size(); ++t) {
@@ -258,7 +259,7 @@ TEST(Front, ASheetOfTinyTrianglesCoversEverySampleOnce) {
   sheet.screen = screen, sheet.index = index;
   for (const Case& c : {Case{.pattern = standard_pattern(1)}, Case{.pattern = standard_pattern(16)}}) {
     const Outcome found = outcome_of(sheet, c, best_isa());
-    EXPECT_TRUE(found.kept.empty() && found.general.empty());
+    EXPECT_TRUE(found.visible.empty() && found.deferred.empty());
     int inside = 0;
     for (std::size_t i = 1; i < found.fragments.size(); ++i) {
       const auto& [tile, at, id, depth] = found.fragments[i];

@@ -29,12 +29,12 @@ BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport view
 
 namespace {
 
-/// A point on the screen, 1/256 pixel from the picture's top-left corner.
+/// A point on the screen, 1/256 pixel from the image's top-left corner.
 struct ScreenPoint {
   std::int32_t x, y;
 };
 
-/// As make_tile_triangle and depth_at have it.
+/// The same as make_tile_triangle and depth_at.
 float depth_of(const Triangle& t, ScreenPoint at) {
   const int column = at.x >> 8, row = at.y >> 8;
   const SamplePosition place{static_cast<std::uint8_t>(at.x & 255), static_cast<std::uint8_t>(at.y & 255)};
@@ -49,7 +49,7 @@ bool contains(const Triangle& t, ScreenPoint p) {
   return true;
 }
 
-/// The depth of the plane through homogeneous vertices: their weights, but for a factor that depth does not see.
+/// The depth of the plane through homogeneous vertices, from their weights up to a common factor, which cancels.
 float depth_of(const float4 (&corner)[3], ScreenPoint at, Viewport viewport) {
   const BarycentricPlanes planes = barycentric_planes(corner[0], corner[1], corner[2], viewport);
   const double px = at.x - viewport.width * 128, py = at.y - viewport.height * 128;
@@ -96,7 +96,7 @@ TriangleFacing face_of(const ProjectedDraws& projected, std::size_t d, std::int3
     out.is_clockwise = area > 0;
     return out;
   }
-  // The determinant of the homogeneous vertices has the sign of the area of whatever part is in front of the eye.
+  // The determinant of the homogeneous vertices has the sign of the area of the part in front of the eye.
   const float4 a = draw.clip_position(v[0]);
   out.planes = barycentric_planes(a, draw.clip_position(v[1]), draw.clip_position(v[2]), viewport);
   const double area = (out.planes.x[0] * (static_cast<double>(a.x) * (viewport.width * 128)) +

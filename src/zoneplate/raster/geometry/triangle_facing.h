@@ -19,7 +19,7 @@ struct BarycentricPlanes {
 };
 BarycentricPlanes barycentric_planes(float4 p, float4 q, float4 r, Viewport viewport);
 
-/// What shading and culling need to know of a triangle as a whole.
+/// The properties of a whole triangle that shading and culling use.
 struct TriangleFacing {
   BarycentricPlanes planes;    ///< if it needs clipping
   bool is_degenerate = false;  ///< no area on the screen
@@ -29,11 +29,11 @@ struct TriangleFacing {
 
 TriangleFacing face_of(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, Viewport viewport);
 
-/// The reversed depth of a triangle at a point on the screen: what coverage would compute for a sample there, of the
-/// triangle or of the piece that holds the point. Outside, it is held to the depths of the triangle's vertices; where
-/// clipping left no piece at the point, it is that of the triangle's plane.
+/// The reversed depth of a triangle at a point on the screen: the depth of a sample at this point, of the triangle or
+/// of the clipped piece that contains the point. Outside the triangle it is clamped to the depths of the triangle's
+/// vertices; where no clipped piece contains the point, it is the depth of the triangle's plane.
 ///
-/// Units     x, y in 1/256 pixel from the picture's top-left corner, not negative.
+/// Units     x, y in 1/256 pixel from the image's top-left corner, not negative.
 float depth_at_point(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, std::int32_t x,
                      std::int32_t y, const SetupRules& rules);
 

@@ -34,19 +34,19 @@ void write_pixel(const TileJob& job, std::uint32_t pixel, const TileData& data) 
   const NearestSurface& nearest = data.nearest[pixel];
   const Fragment fragment = job.fragment_at(pixel, nearest.id, 0, nearest.position);
   const int x = job.target_x(pixel), y = job.target_y(pixel);
-  const auto put = [&](auto* plane, const auto& value) {
+  const auto store = [&](auto* plane, const auto& value) {
     if (plane) (*plane)(x, y) = value;
   };
   const std::size_t d = projected.draw_of(fragment.id);
   const Draw& draw = projected.draws[d];
-  put(target.instance, draw.instance);
-  put(target.material, static_cast<std::uint32_t>(draw.material));
-  put(target.primitive, draw.primitive_of(static_cast<std::uint32_t>(fragment.id - projected.first_triangle[d])));
-  put(target.place, nearest.position);
-  if (target.reversed_depth) put(target.reversed_depth, depth_of(job, fragment, d, nearest));
-  if (target.normal) put(target.normal, data.pixels.normal[pixel]);
-  if (target.uv) put(target.uv, data.pixels.uv[pixel]);
-  if (target.albedo) put(target.albedo, data.pixels.albedo[pixel]);
+  store(target.instance, draw.instance);
+  store(target.material, static_cast<std::uint32_t>(draw.material));
+  store(target.primitive, draw.primitive_of(static_cast<std::uint32_t>(fragment.id - projected.first_triangle[d])));
+  store(target.data_position, nearest.position);
+  if (target.reversed_depth) store(target.reversed_depth, depth_of(job, fragment, d, nearest));
+  if (target.normal) store(target.normal, data.pixels.normal[pixel]);
+  if (target.uv) store(target.uv, data.pixels.uv[pixel]);
+  if (target.albedo) store(target.albedo, data.pixels.albedo[pixel]);
 }
 
 }  // namespace

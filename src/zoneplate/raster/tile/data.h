@@ -17,7 +17,8 @@ struct NearestSurface {
   int first_owns = 0;                    ///< the number of samples that first_id owns
 };
 
-/// What the target's data planes get: of each pixel one point of its nearest surface (render/frame.h).
+/// The contents of the target's data planes: for each pixel, the data of one point of its nearest surface
+/// (render/frame.h).
 struct TileData {
   std::vector<NearestSurface> nearest;  ///< by pixel
   FragmentData shaded;                  ///< of the fragments of a pass

@@ -38,7 +38,7 @@ TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const Frag
       triangle_rules(rules.setup(planes.viewport)),
       capacity(rules.capacity),
       min_transmittance(least_transmittance(fragment_shader.brightest())),
-      places(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
+      centroids(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
       weights(planes.weights) {
   if (weights.empty()) weights.assign(target.samples.size(), 1.0f);
   assert(weights.size() == target.samples.size());
@@ -60,7 +60,7 @@ float TileSetup::weight_of(std::uint64_t set, int first) const {
 
 bool TileSetup::stores_color_alone() const {
   const bool has_passes = samples() > max_pass_samples();
-  return !target.wants_data() && !target.coverage && !target.pixel_mask && !target.sample_triangle && !has_passes;
+  return !target.stores_data() && !target.coverage && !target.pixel_mask && !target.sample_triangle && !has_passes;
 }
 
 bool TileJob::make_triangle_in(const Triangle& t, const TileRect& rect, TileTriangle& out) const {

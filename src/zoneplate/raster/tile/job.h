@@ -36,7 +36,7 @@ struct TileSetup {
   const SetupRules triangle_rules;
   const RasterCapacity capacity;
   const float min_transmittance;  ///< transparent fragments behind this transmittance or less are left out
-  const ShadedPlaces places;      ///< where in a pixel a surface is shaded that owns a subset of its samples
+  const CentroidTable centroids;  ///< the shading position of a surface that owns a subset of a pixel's samples
 
   std::vector<float> weights;  ///< one for each sample of the pattern
   float weight_sum = 0;
@@ -51,7 +51,7 @@ struct TileSetup {
 
   /// Whether the target stores the colour of whole pixels, or of samples; otherwise no fragment is shaded for its
   /// colour.
-  bool stores_color() const { return target.color || target.shown || target.sample_color; }
+  bool stores_color() const { return target.color || target.display8 || target.sample_color; }
   /// Whether the target stores results of shading other than colours.
   bool stores_shaded_data() const { return target.normal || target.uv || target.albedo; }
   /// Whether the target stores nothing but colours, and all samples are drawn in one pass.
@@ -74,8 +74,8 @@ struct SamplePass {
   std::uint64_t all = 0;  ///< a bit for each sample of the pass; bit 0 is sample `first`
 };
 
-/// What is to be drawn in one tile: its place in the image, the pixels to be drawn, its triangles, and the samples of
-/// the current pass. Pixels of a tile are numbered 64 y + x, spans of eight pixels 8 y + x / 8.
+/// The work of one tile: its position in the image, the pixels to be drawn, its triangles, and the samples of the
+/// current pass. The pixels of a tile have the indices 64 y + x, the spans of eight pixels 8 y + x / 8.
 struct TileJob {
   explicit TileJob(const TileSetup& frame) : setup(frame) {}
 
@@ -122,10 +122,10 @@ struct TileJob {
     return {left + position.x, top + position.y, id, pixel, samples};
   }
   /// The same at the position where a triangle is shaded that owns these samples of the pixel: at the pixel's centre if
-  /// it owns all of them, otherwise where TileSetup::places puts it.
+  /// it owns all of them, otherwise at the position that TileSetup::centroids gives.
   Fragment fragment_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
     const bool is_centre = samples == pass.all && !setup.target.is_per_sample;
-    return fragment_at(pixel, id, samples, is_centre ? SamplePosition{} : setup.places.of(samples, pass.first));
+    return fragment_at(pixel, id, samples, is_centre ? SamplePosition{} : setup.centroids.of(samples, pass.first));
   }
   /// Appends one fragment for all of these samples, or one for each of them.
   void add_fragments(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_per_sample,
@@ -134,7 +134,7 @@ struct TileJob {
   FragmentSpan span_at(std::uint32_t pixel, std::int32_t id) const;
 };
 
-/// Begins a tile: sets its place, its rectangle and its triangles. The vectors of `job` are used again.
+/// Begins a tile: sets its position, its rectangle and its triangles. The vectors of `job` are reused.
 void begin_tile(std::size_t tile, TileJob& job);
 
 /// Begins a pass over the samples [first, first + count).

@@ -20,7 +20,7 @@ class OpaqueShading {
         batcher_(batcher),
         opaque_(opaque),
         colors_(colors),
-        lists_(!job.has_transparency() && job.pass.count <= FragmentList::most_samples) {}
+        lists_(!job.has_transparency() && job.pass.count <= FragmentList::max_samples) {}
 
   void run() {
     find_spans();
@@ -70,7 +70,7 @@ void OpaqueShading::find_spans() {
   }
 }
 
-/// The spans of a block that one triangle owns, without a look at each of them.
+/// Lists the spans of a block that one triangle owns, without testing each span.
 void OpaqueShading::add_block(int block, std::int32_t id) {
   const int first = std::max(block / 8 * 8, job_.drawn.top), last = std::min(block / 8 * 8 + 8, job_.drawn.bottom);
   FragmentSpan span = job_.span_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
@@ -85,7 +85,7 @@ void OpaqueShading::find_spans_of(int block) {
   const int first = std::max(block / 8 * 8, job_.drawn.top), last = std::min(block / 8 * 8 + 8, job_.drawn.bottom);
   const bool is_whole = job_.is_whole_column(block % 8);
   OwnerRow row = owner_row_at(x, first);
-  if (row.wanted == 0) return;
+  if (row.drawn == 0) return;
   for (int y = first; y < last; ++y, row.id += tile_size, row.pixel += tile_size, row.y += 256) {
     const std::uint32_t pixel = row.pixel;
     const std::int32_t owner = opaque_.span_primitive[pixel / 8];
@@ -155,19 +155,19 @@ OwnerRow OpaqueShading::owner_row_at(int x, int y) const {
             last = std::clamp(job_.drawn.right - x, first, FragmentBatch::group);
   return {.id = visibility_.id + pixel,
           .sample_count = job_.pass.count,
-          .first_place = setup_.places.first.data() + job_.pass.first,
-          .more_places = setup_.places.more.data() + job_.pass.first,
+          .first_summand = setup_.centroids.first.data() + job_.pass.first,
+          .more_summands = setup_.centroids.more.data() + job_.pass.first,
           .pixel = pixel,
           .x = (job_.x + x) * 256,
           .y = (job_.y + y) * 256,
-          .wanted = (1u << last) - (1u << first),
+          .drawn = (1u << last) - (1u << first),
           .is_per_sample = target_.is_per_sample};
 }
 
 void OpaqueShading::list_span(const OwnerRow& row) {
   setup_.fragment_lists.list(row, opaque_.list);
   opaque_.listed_spans.push_back(row.pixel);
-  if (opaque_.list.count >= FragmentList::enough) shade_list();
+  if (opaque_.list.count >= FragmentList::flush_threshold) shade_list();
 }
 
 /// Shades the listed fragments, resolves their spans, and empties the list.

@@ -32,11 +32,11 @@ void write_colors(const TileJob& job, const std::vector<Linear8>& color) {
     const Linear8* const line = &color[static_cast<std::size_t>(y * 8)];
     if (target.color)
       write_line<Linear>(job, *target.color, y, [&](int first, int count, Linear* out) {
-        for (int i = 0; i < count; ++i) job.setup.resolve.put(line[first + i], out + i * 8);
+        for (int i = 0; i < count; ++i) job.setup.resolve.store(line[first + i], out + i * 8);
       });
-    if (target.shown)
-      write_line<Rgba8>(job, *target.shown, y, [&](int first, int count, Rgba8* out) {
-        target.presenter->present({line + first, static_cast<std::size_t>(count)}, out);
+    if (target.display8)
+      write_line<Rgba8>(job, *target.display8, y, [&](int first, int count, Rgba8* out) {
+        target.display_transform->present({line + first, static_cast<std::size_t>(count)}, out);
       });
   }
 }
@@ -53,7 +53,7 @@ void write_coverage(const TileJob& job, const std::vector<float>& coverage) {
 void write_background(const TileSetup& setup, std::size_t tile) {
   const Target& target = setup.target;
   const Bins& bins = setup.bins;
-  if (!target.shown) return;
+  if (!target.display8) return;
   const auto columns = static_cast<std::size_t>(bins.columns);
   if (tile % columns != 0 && bins.is_empty(tile - 1)) return;
   std::size_t end = tile + 1;
@@ -64,9 +64,9 @@ void write_background(const TileSetup& setup, std::size_t tile) {
   const int right = std::min(pixels(bins.first_column, tile % columns + (end - tile)), target.x + target.width);
   const int y = pixels(bins.first_row, tile / columns);
   const int top = std::max(y, target.y), bottom = std::min(y + tile_size, target.y + target.height);
-  const auto line = [&](int of) { return &(*target.shown)(left - target.x, of - target.y); };
+  const auto line = [&](int of) { return &(*target.display8)(left - target.x, of - target.y); };
   const auto count = static_cast<std::size_t>(right - left);
-  std::fill_n(line(top), count, target.presenter->background());
+  std::fill_n(line(top), count, target.display_transform->background());
   for (int of = top + 1; of < bottom; ++of) std::memcpy(line(of), line(top), count * sizeof(Rgba8));
 }
 
@@ -94,7 +94,7 @@ void store_span(const TileJob& job, std::uint32_t pixel, int sample, const Fragm
   Linear8* const out = &same;
   job.setup.resolve.resolve(color, first, 1, 1, &out);
   LinearImage& plane = (*job.setup.target.sample_color)[static_cast<std::size_t>(job.pass.first + sample)];
-  job.setup.resolve.put(same, &plane(job.target_x(pixel), job.target_y(pixel)));
+  job.setup.resolve.store(same, &plane(job.target_x(pixel), job.target_y(pixel)));
 }
 
 }  // namespace zoneplate

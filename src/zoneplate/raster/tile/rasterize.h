@@ -27,7 +27,7 @@ struct RasterRules {
 struct RasterMemory {
   ProjectedDraws projected;
   Bins bins;
-  Rgba8Image shown;  ///< an earlier image whose memory is free, if there is one
+  Rgba8Image display8;  ///< an earlier image whose memory is free, if there is one
 };
 
 struct RasterCounts {
@@ -45,7 +45,7 @@ struct RasterCounts {
 ///           triangles have equal depth at a sample.
 /// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
 ///           Carpenter, The A-buffer, SIGGRAPH 1984.
-/// A `memory` that was used for an earlier frame saves the system's work of finding new pages.
+/// A `memory` that was used for an earlier frame avoids page faults.
 RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader, const RasterRules& rules,
                        const Target& target, RasterMemory* memory = nullptr);
 

@@ -19,14 +19,14 @@ namespace {
 class Flat : public FragmentShader {
  public:
   explicit Flat(std::vector<Linear> colors) : colors_(std::move(colors)) {}
-  void shade(const FragmentBatch& batch, OutputMask wanted, FragmentOutputs& out) const override {
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.count; ++i) {
       const Linear& c = colors_[batch.instance[batch.leader(static_cast<std::size_t>(i))]];
       out.r[i] = c.r * c.a, out.g[i] = c.g * c.a, out.b[i] = c.b * c.a, out.a[i] = c.a;
-      if (wanted.uv) out.uv[0][i] = batch.b[0][i], out.uv[1][i] = batch.b[1][i];
+      if (outputs.uv) out.uv[0][i] = batch.b[0][i], out.uv[1][i] = batch.b[1][i];
       for (int k = 0; k < 2; ++k) {
-        if (wanted.normal) out.normal[k][i] = batch.dbdx[k][i], out.normal[2][i] = 0;
-        if (wanted.albedo) out.albedo[k][i] = batch.dbdy[k][i], out.albedo[2][i] = 0;
+        if (outputs.normal) out.normal[k][i] = batch.dbdx[k][i], out.normal[2][i] = 0;
+        if (outputs.albedo) out.albedo[k][i] = batch.dbdy[k][i], out.albedo[2][i] = 0;
       }
     }
   }

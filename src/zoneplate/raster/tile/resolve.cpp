@@ -77,7 +77,7 @@ void divide(const Linear8& sum, float weight, Linear8& out) {
   for (std::size_t i = 0; i < size; ++i) out.set(i, divided(sum.get(i), weight));
 }
 
-void put(const Linear8& color, Linear* out) {
+void store(const Linear8& color, Linear* out) {
   for (std::size_t i = 0; i < size; ++i) out[i] = color.get(i);
 }
 
@@ -93,5 +93,5 @@ const ResolveKernels PerIsa<ResolveKernels>::scalar = {.resolve = scalar::resolv
                                                        .resolve_samples = scalar::resolve_samples,
                                                        .add = scalar::add,
                                                        .divide = scalar::divide,
-                                                       .put = scalar::put};
+                                                       .store = scalar::store};
 }  // namespace zoneplate

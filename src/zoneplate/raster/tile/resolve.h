@@ -54,7 +54,7 @@ struct ResolveKernels : PerIsa<ResolveKernels> {
   /// out = sum / weight.
   void (*divide)(const Linear8& sum, float weight, Linear8& out);
   /// The pixels one by one.
-  void (*put)(const Linear8& color, Linear* out);
+  void (*store)(const Linear8& color, Linear* out);
 };
 
 }  // namespace zoneplate

@@ -13,7 +13,7 @@ using D = hn::CappedTag<float, 8>;
 using V = hn::Vec<D>;
 constexpr D d;
 
-/// What step gives of each channel's vectors.
+/// Applies `step` to the vectors of each channel.
 template <class Step>
 HWY_INLINE void each_channel(const FragmentOutputs& color, int first, Linear8& out, Step step) {
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
@@ -37,7 +37,7 @@ HWY_INLINE bool is_power_of_two(float x) {
   return (bits & 0x7fffffu) == 0;
 }
 
-/// A sum divided by its weight. By 1 it stays what it is.
+/// A sum divided by its weight; a weight of 1 leaves it unchanged.
 struct Mean {
   V weight;
   bool is_one;
@@ -52,12 +52,12 @@ void resolve(const FragmentOutputs& color, int first, int rows, float weight, Li
       each_channel(color, first + row * FragmentBatch::group, *out[row],
                    [&](V c, float* to, std::size_t) HWY_ATTR { hn::Store(mean(c), d, to); });
   };
-  // What a power of two multiplies and divides is as before.
+  // Multiplication and division by a power of two cancel exactly.
   if (is_power_of_two(weight)) return each_row([&](V c) HWY_ATTR { return hn::Add(zero, c); });
   each_row([&](V c) HWY_ATTR { return hn::Div(hn::Add(zero, hn::Mul(c, w)), w); });
 }
 
-/// What stands in front, and behind it what is seen through it.
+/// The layers in front, over the colour behind them.
 HWY_INLINE V laid_over(V front, hn::Mask<D> is_open, V behind, V transmittance) {
   return hn::IfThenElse(is_open, hn::Add(front, hn::Mul(behind, transmittance)), front);
 }
@@ -124,8 +124,8 @@ void divide(const Linear8& sum, float weight, Linear8& out) {
   each_channel(sum, out, [&](V c, float* to) HWY_ATTR { hn::Store(mean(c), d, to); });
 }
 
-// Four points' channels become four pixels, a pixel a vector.
-void put(const Linear8& color, Linear* out) {
+// Transposes the channels of four fragments to four pixels, one pixel a vector.
+void store(const Linear8& color, Linear* out) {
   const hn::FixedTag<float, 4> d4;
   for (std::size_t i = 0; i < Linear8::size; i += 4) {
     const auto r = hn::Load(d4, color.r + i), g = hn::Load(d4, color.g + i);
@@ -154,5 +154,5 @@ const ResolveKernels PerIsa<ResolveKernels>::HWY_NAMESPACE = {
     .resolve_samples = HWY_NAMESPACE::resolve_samples,
     .add = HWY_NAMESPACE::add,
     .divide = HWY_NAMESPACE::divide,
-    .put = HWY_NAMESPACE::put};
+    .store = HWY_NAMESPACE::store};
 }  // namespace zoneplate

@@ -74,7 +74,7 @@ TEST(Resolve, KernelsGiveTheScalarTwinsBits) {
     for (int i = 0; i < 3; ++i) one.composite_under(color, i * FragmentBatch::group, least, *expected[i]);
     for (int i = 0; i < 3; ++i) expect_same(rows[i], layered[i]);
     Linear p[8], q[8];
-    one.put(a, p), other.put(b, q);
+    one.store(a, p), other.store(b, q);
     EXPECT_TRUE(std::equal(p, p + 8, q)) << name_of(isa);
   }
 }

@@ -77,7 +77,7 @@ void add_colors(TileBuffers& b) {
                         b.visibility, b.batcher, [&](const PixelLayers& layers) { add_samples(layers, b); });
 }
 
-/// What a pass adds if no colour is stored: coverage, and the samples' depths and triangle ids.
+/// Stores the results of a pass without colour: coverage, and the samples' depths and triangle ids.
 void add_visibility(TileBuffers& b) {
   for (const Fragment& fragment : b.opaque.fragments)
     b.colors.coverage[fragment.pixel] += static_cast<float>(std::popcount(fragment.samples));
@@ -115,7 +115,7 @@ void render_passes(TileBuffers& b) {
       setup.resolve.divide(b.colors.sum[i], setup.weight_sum, b.colors.color[i]);
     write_colors(b.job, b.colors.color);
   }
-  if (setup.target.wants_data()) write_data(b.job, b.batcher, is_shaded, b.data);
+  if (setup.target.stores_data()) write_data(b.job, b.batcher, is_shaded, b.data);
   if (setup.target.coverage) write_coverage(b.job, b.colors.coverage);
   b.times.output += b.watch.lap_ms();
 }

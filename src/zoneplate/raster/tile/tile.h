@@ -12,7 +12,7 @@
 
 namespace zoneplate {
 
-/// What a thread keeps from tile to tile: the memory of all stages, which stays in its core's cache, and the times.
+/// The state of one thread across tiles: the memory of all stages, which stays in its core's cache, and the times.
 struct TileBuffers {
   explicit TileBuffers(const TileSetup& setup)
       : job(setup),
@@ -39,7 +39,7 @@ struct TileBuffers {
 /// The stages are: begin_tile, rasterize_opaque, AlphaTester::rasterize; then, if only colours are stored,
 /// shade_opaque, the compositors of composite.h and write_colors. If other planes are stored as well, the passes over
 /// the sample pattern add up the samples of each pixel one after the other, and write_data follows. A target without
-/// colours is not shaded, but for the data that need it (TileSetup::stores_shaded_data).
+/// colours is shaded only for data that require it (TileSetup::stores_shaded_data).
 void render_tile(std::size_t tile, TileBuffers& buffers);
 
 }  // namespace zoneplate

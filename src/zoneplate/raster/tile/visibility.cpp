@@ -28,7 +28,7 @@ bool materialize_if_most(const TileJob& job, TileVisibility& visibility) {
 void materialize_touched(const SampleBin& bin, TileVisibility& visibility) {
   std::uint64_t touched = 0;
   for (std::int32_t i = 0; i < bin.count; ++i) {
-    const std::uint32_t at = bin.what[i];
+    const std::uint32_t at = bin.packed[i];
     touched |= std::uint64_t{1} << ((at >> 6 & 56) + (at >> 3 & 7));
   }
   for (; touched; touched &= touched - 1) {
@@ -84,12 +84,12 @@ void rasterize_small(const TileJob& job, TileVisibility& visibility) {
         // The next bin was written long ago and has left the caches.
         if (i % 16 == 0 && bin->previous) {
           __builtin_prefetch(&bin->previous->depth[i]);
-          __builtin_prefetch(&bin->previous->what[i]);
+          __builtin_prefetch(&bin->previous->packed[i]);
         }
-        const std::uint32_t at = SampleBin::at(bin->what[i]) - first;
+        const std::uint32_t at = SampleBin::at(bin->packed[i]) - first;
         if (at >= values) continue;  // a sample of another pass
         const float z = bin->depth[i];
-        const std::int32_t t = bin->id(bin->what[i]);
+        const std::int32_t t = bin->id(bin->packed[i]);
         if (z < depth[at] || (z == depth[at] && t > id[at])) continue;
         depth[at] = z;
         id[at] = t;

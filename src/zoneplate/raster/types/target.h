@@ -13,7 +13,7 @@
 namespace zoneplate {
 
 /// The planes that rasterization writes to. Every plane that is not null has the size of the rectangle and is
-/// initialised: pixels without triangles keep their values (0 in `color` and `coverage`). `shown` is written
+/// initialised: pixels without triangles keep their values (0 in `color` and `coverage`). `display8` is written
 /// completely, with the background.
 struct Target {
   Viewport viewport;                        ///< the whole image
@@ -29,13 +29,13 @@ struct Target {
   Centroid centroid = Centroid::Mean;  ///< the same
   float spacing = 1;                   ///< the texture footprint of a fragment, in pixels
 
-  LinearImage* color = nullptr;  ///< weighted mean of the samples, premultiplied
-  Rgba8Image* shown = nullptr;   ///< display-referred, by `presenter`; both or neither
-  const DisplayTransform* presenter = nullptr;
+  LinearImage* color = nullptr;    ///< weighted mean of the samples, premultiplied
+  Rgba8Image* display8 = nullptr;  ///< display-referred, by `display_transform`; both or neither
+  const DisplayTransform* display_transform = nullptr;
 
   // The data of a pixel come from one point of the surface that owns its nearest sample: at the pixel's centre if the
   // surface owns all samples, otherwise where it is shaded for that sample.
-  Plane<SamplePosition>* place = nullptr;  ///< position of that point in the pixel
+  Plane<SamplePosition>* data_position = nullptr;  ///< position of that point in the pixel
   Plane<float>* reversed_depth = nullptr;
   Plane<float3>* normal = nullptr;
   Plane<float3>* albedo = nullptr;
@@ -51,13 +51,13 @@ struct Target {
   std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
 
   /// Whether there are data planes by pixel.
-  bool wants_data() const {
-    return place || reversed_depth || normal || albedo || uv || instance || material || primitive;
+  bool stores_data() const {
+    return data_position || reversed_depth || normal || albedo || uv || instance || material || primitive;
   }
   bool stores_samples() const { return sample_color || sample_triangle; }
   /// Whether only the triangles and depths of samples are stored: then no fragment is shaded.
   bool stores_visibility_alone() const {
-    return sample_triangle && !(color || shown || sample_color || reversed_depth || normal || albedo || uv ||
+    return sample_triangle && !(color || display8 || sample_color || reversed_depth || normal || albedo || uv ||
                                 instance || material || primitive || coverage);
   }
 

@@ -2,7 +2,7 @@
 
 namespace zoneplate {
 
-/// The whole picture's size; a crop does not change it, so that a crop has the whole picture's bits.
+/// The size of the whole image. A crop does not change it, so that a crop has the bits of the whole image.
 struct Viewport {
   int width = 0, height = 0;  ///< pixels, in [1, 32768]
 };

@@ -6,13 +6,13 @@
 
 #include "zoneplate/math/elementary.h"
 
-/// One number with the operations that the shading stages are written in.
+/// A number type with the operations that the shading stages use.
 ///
 /// A stage is a template over such a type: `Lane<float>` makes the scalar twin, shade/lanes/lanes_simd.h the vectors,
-/// and `Lane<double>` the references of the tests. Every operation rounds correctly, but for log2 and pow, which are
+/// and `Lane<double>` the references of the tests. Every operation rounds correctly except log2 and pow, which are
 /// those of math/elementary.h (with double: of the C library).
 ///
-/// Edges     min and max give their second argument where one is not a number, as x86 does.
+/// Edges     min and max return their second argument where either is NaN, as on x86.
 namespace zoneplate::scalar {
 
 struct Bool {
@@ -28,13 +28,13 @@ struct Int {
   Int(std::int32_t x) : v(x) {}
   static Int load(const std::int32_t* p) { return *p; }
   void store(std::int32_t* p) const { *p = v; }
-  /// Numbers i and on of a list by fours: of four lanes this, then what `second` has there.
+  /// Stores values i and on of a list by fours: four lanes of this, then the same four lanes of `second`.
   void store_by_fours(Int second, std::int16_t* list, int i) const {
     const int first = i / 4 * 8 + i % 4;
     list[first] = static_cast<std::int16_t>(v), list[first + 4] = static_cast<std::int16_t>(second.v);
   }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
-  /// The same of a table of 16.
+  /// The same for a table of 16 elements.
   static Int look_up(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
   bool equals(Int other) const { return v == other.v; }
@@ -65,7 +65,7 @@ struct Lane {
   static Lane load(const T* p) { return *p; }
   void store(T* p) const { *p = v; }
   static Lane gather(const T* table, Int i) { return table[i.v]; }
-  /// out[c]: of each lane's quad, which begins at at(lane), number c.
+  /// out[c]: element c of each lane's quad, which begins at at(lane).
   template <class At>
   static void load_quads(const At& at, Lane (&out)[4]) {
     for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(at(0)[c]);

@@ -99,7 +99,7 @@ struct FloatVector {
 #if HWY_ARCH_X86
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::Max(a.v, b.v)); }
-#else  // where minima keep what is not a number
+#else  // where minima propagate NaN
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v)); }
 #endif
@@ -115,7 +115,7 @@ struct FloatVector {
   static HWY_INLINE Float from(Int i) { return Float(hn::ConvertTo(FloatTag(), i.v)); }
 };
 
-/// As many lanes as a group of points has at most, and as many as a vector has.
+/// At most as many lanes as a group of fragments has; and as many as a vector has.
 using Float = FloatVector<hn::CappedTag<float, 8>>;
 using WideFloat = FloatVector<hn::CappedTag<float, 16>>;
 

@@ -7,7 +7,7 @@ template <class F>
 struct Vector {
   F x, y, z;
 
-  /// Point i on, of three arrays that are `stride` apart.
+  /// Loads the vectors of fragment i and on from three arrays.
   template <class Array>
   [[gnu::always_inline]] static Vector load(const Array& a, int i) {
     return {F::load(a[0] + i), F::load(a[1] + i), F::load(a[2] + i)};
@@ -33,7 +33,7 @@ struct Vector {
   [[gnu::always_inline]] friend Vector select(typename F::Bool m, Vector a, Vector b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
   }
-  /// The direction of a; zero where a is shorter than 1e-18 or longer than 1e19. Requires finite a.
+  /// a / |a|; zero where a is shorter than 1e-18 or longer than 1e19. Requires finite a.
   [[gnu::always_inline]] friend Vector normalize(Vector a) {
     const F square = dot(a, a);
     return a * select(square > F(1e-36f), F(1.0f) / sqrt(square), F(0.0f));

@@ -30,7 +30,7 @@ template <class F>
   return result;
 }
 
-/// x^(exponent / 2), with x the square of a cosine: only odd exponents need its root.
+/// x^(exponent / 2), with x the square of a cosine: only odd exponents need a square root.
 template <class F>
 [[gnu::always_inline]] inline F power_of_square(F x, Exponent exponent) {
   if (exponent.whole % 2 != 0) return power(F(sqrt(x)), exponent);
@@ -51,7 +51,7 @@ template <class F>
 }
 
 /// max(r · v, 0)^exponent; not cut where the light is below the horizon.
-/// Source: Phong, ShadingUniforms for Computer Generated Pictures, CACM 18(6), 1975.
+/// Source: Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975.
 template <class F>
 [[gnu::always_inline]] inline F phong(Vector<F> n, Vector<F> l, Vector<F> v, Exponent exponent) {
   return power(max(phong_cosine(n, l, v), F(0.0f)), exponent);
@@ -59,12 +59,12 @@ template <class F>
 
 inline constexpr float inverse_pi = 0.318309886f;
 
-/// Roughness is not taken smaller: a punctual light's highlight would be a point that no pixel finds, and D, at
-/// most 1 / (π α²), stays below 1e5.
+/// The lower bound of roughness: below it, the highlight of a punctual light would fall between the pixels. D, at most
+/// 1 / (π α²), so stays below 1e5.
 inline constexpr float least_roughness = 0.045f;
 
-/// Density of microfacet normals: D = α² / (π (α² (n·h)² + |n × h|²)²), the same as with ((n·h)² (α² - 1) + 1) in the
-/// parenthesis but without its cancellation near n = h.
+/// Density of microfacet normals: D = α² / (π (α² (n·h)² + |n × h|²)²). The usual form with ((n·h)² (α² - 1) + 1) in
+/// the parenthesis is equal but loses digits by cancellation near n = h.
 ///
 /// Source    Walter et al., Microfacet Models for Refraction through Rough Surfaces, EGSR 2007 (GGX); Trowbridge and
 ///           Reitz 1975.
@@ -88,7 +88,7 @@ template <class F>
   return F(0.5f) / (towards_viewer + towards_light);
 }
 
-/// (1 - v·h)^5, the weight of white in f0 + (1 - f0) weight.
+/// (1 - v·h)^5, the weight in Schlick's Fresnel term f0 + (1 - f0) weight.
 /// Source: Schlick, An Inexpensive BRDF Model for Physically-based Rendering, Eurographics 1994.
 template <class F>
 [[gnu::always_inline]] inline F schlick_weight(F vh) {
@@ -131,14 +131,14 @@ template <class F>
   return ((one - fresnel) * (m.diffuse * F(inverse_pi)) + fresnel * peak) * nl;
 }
 
-/// The specular lobe's share of a uniform environment: f0 scale + bias, for any f0.
+/// The specular reflectance of a uniform environment is f0 scale + bias, for any f0.
 template <class F>
-struct SpecularShare {
+struct SpecularWeights {
   F scale, bias;
 };
 
-/// By powers of roughness, then of 1 - n·v: fits of least squares on 28 × 36 places to the integrals of
-/// V D (1 - v·h)^5 4 (n·l) and of V D 4 (n·l), computed to four digits (brdf_test.cpp repeats them).
+/// Coefficients by powers of roughness, then of 1 - n·v: least-squares fits at 28 × 36 points to the integrals of
+/// V D (1 - v·h)^5 4 (n·l) and of V D 4 (n·l), computed to four digits (brdf_test.cpp repeats the fits).
 inline constexpr float bias_fit[5][6] = {{0.001071967f, -0.02879978f, 0.06464715f, 0.6246422f, -2.248347f, 2.752502f},
                                          {0.06429541f, -3.563934f, 35.83931f, -131.8516f, 200.4812f, -104.5397f},
                                          {-0.3169211f, 16.97701f, -165.8701f, 593.0977f, -866.8636f, 427.0783f},
@@ -151,10 +151,10 @@ inline constexpr float scale_and_bias_fit[5][6] = {
     {-6.757923f, 27.54618f, -146.1094f, 473.533f, -553.8303f, 195.7494f},
     {3.39516f, -10.8005f, 53.47554f, -174.0905f, 193.1336f, -60.68471f}};
 
-/// Both fits for one roughness: what is left are polynomials in 1 - n·v.
+/// Both fits for one roughness, which leaves polynomials in 1 - n·v.
 ///
 /// Requires  roughness in [0, 1], nv in [0, 1].
-/// Edges     roughness below least_roughness counts as that.
+/// Edges     roughness below least_roughness counts as least_roughness.
 /// Exact     scale + bias and bias within 0.04 of their integrals, 0.005 in the root mean square.
 /// Source    the split into scale and bias: Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013 (its own fits are for
 ///           another geometry term, and off by 0.17 here).
@@ -166,7 +166,7 @@ struct SpecularFit {
     const F r = max(roughness, F(least_roughness));
     for (int j = 0; j < 6; ++j) total[j] = of(scale_and_bias_fit, j, r), bias[j] = of(bias_fit, j, r);
   }
-  [[gnu::always_inline]] SpecularShare<F> at(F nv) const {
+  [[gnu::always_inline]] SpecularWeights<F> at(F nv) const {
     const F t = F(1.0f) - nv;
     const F both = min(max(evaluate(total, t), F(0.0f)), F(1.0f));
     const F least = min(max(evaluate(bias, t), F(0.0f)), both);
@@ -186,34 +186,34 @@ struct SpecularFit {
   }
 };
 
-/// The same for a given f0, with the light that bounces between microfacets more than once.
+/// The specular reflectance of a uniform environment for one f0, including multiple scattering between microfacets.
 ///
 /// Source    Fdez-Agüera, A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting, JCGT 8(1), 2019.
 template <class F>
-[[gnu::always_inline]] inline F specular_albedo(SpecularShare<F> share, F f0) {
+[[gnu::always_inline]] inline F specular_albedo(SpecularWeights<F> weights, F f0) {
   const F one(1.0f);
-  const F lost = one - (share.scale + share.bias);
-  const F once = f0 * share.scale + share.bias;
+  const F lost = one - (weights.scale + weights.bias);
+  const F once = f0 * weights.scale + weights.bias;
   const F mean = f0 + (one - f0) * F(1.0f / 21.0f);
   return once + once * (mean * lost / (one - mean * lost));
 }
 
-/// Share of a constant environment that a metallic-roughness surface reflects, specular and diffuse.
+/// The fraction of a constant environment that a metallic-roughness surface reflects, specular and diffuse.
 ///
-/// A mixture of a metal and of a dielectric whose diffuse layer gets what the specular one leaves; so a white surface
-/// reflects 1 (to rounding), whatever its roughness and metalness.
+/// The surface is a mixture of a metal and a dielectric, whose diffuse layer receives the light that the specular layer
+/// does not reflect. A white surface therefore reflects 1 (to rounding), whatever its roughness and metalness.
 ///
 /// Source    glTF 2.0, appendix B.2: mix(dielectric, metal, metallic).
 template <class F>
 [[gnu::always_inline]] inline Vector<F> metallic_environment(Vector<F> base, F metallic, const SpecularFit<F>& fit,
                                                              F nv) {
   const F one(1.0f);
-  const SpecularShare<F> share = fit.at(nv);
-  const F coat = specular_albedo(share, F(0.04f));
+  const SpecularWeights<F> weights = fit.at(nv);
+  const F coat = specular_albedo(weights, F(0.04f));
   const auto channel = [&](F color) {
     const F c = min(color, one);
     const F dielectric = coat + c * (one - coat);
-    return dielectric + (specular_albedo(share, c) - dielectric) * metallic;
+    return dielectric + (specular_albedo(weights, c) - dielectric) * metallic;
   };
   return {channel(base.x), channel(base.y), channel(base.z)};
 }

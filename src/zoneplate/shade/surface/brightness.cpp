@@ -14,7 +14,7 @@ namespace {
 
 float greatest(const float (&color)[3]) { return std::max({color[0], color[1], color[2], 0.0f}); }
 
-/// The most light that arrives anywhere, perpendicular to its direction; `fading` is at most 1e6.
+/// The greatest irradiance of a light anywhere, perpendicular to its direction; `fading` is at most 1e6.
 float arriving(std::span<const PreparedLight> lights) {
   float sum = 0;
   for (const PreparedLight& light : lights)
@@ -31,7 +31,7 @@ float highlight(const MaterialPlan& plan) {
   return inverse_pi / (2 * alpha * alpha * alpha);
 }
 
-/// True for a texture of floats or half floats, whose texels may exceed 1; those of codes are at most 1.
+/// True for a float or half-float texture, whose texels may exceed 1; texels of unorm textures are at most 1.
 bool is_unbounded(const TextureSlot& slot) {
   if (slot.texture == nullptr) return false;
   const TextureView& view = slot.texture->view();
@@ -45,14 +45,15 @@ float brightest(const MaterialPlan& plan, float light, float environment) {
     return brightest_color;
   const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
   if (!plan.is_lit) return base;
-  // Twice the sum, for what rounding and the fit to the environment's integral add.
-  return 2 * (base * (1 + greatest(plan.ambient_share) + light + environment) + greatest(plan.own_ambient) +
+  // Twice the sum: a margin for rounding and for the error of the fit to the environment's integral.
+  return 2 * (base * (1 + greatest(plan.ambient_factor) + light + environment) + greatest(plan.own_ambient) +
               highlight(plan) * light + environment + greatest(plan.emissive_factor));
 }
 
 }  // namespace
 
-float brightest_point(std::span<const MaterialPlan> plans, std::span<const PreparedLight> lights, float3 environment) {
+float brightest_fragment(std::span<const MaterialPlan> plans, std::span<const PreparedLight> lights,
+                         float3 environment) {
   const float light = arriving(lights), around = std::max({environment.x, environment.y, environment.z, 0.0f});
   float most = 0;
   for (const MaterialPlan& plan : plans) {

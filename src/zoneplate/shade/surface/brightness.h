@@ -9,14 +9,15 @@ namespace zoneplate {
 struct MaterialPlan;
 struct PreparedLight;
 
-/// No surface is brighter: shading clamps every channel to [0, brightest_color].
+/// The upper bound of radiance: shading clamps every channel to [0, brightest_color].
 inline constexpr float brightest_color = 1e9f;
 
-/// What no channel of any point of the materials is above, whatever its textures, its place and the viewer's.
+/// An upper bound of every channel of every fragment of the materials, for any texture content, position and viewer.
 ///
-/// Exact     a bound: emission, diffuse and specular reflection at their greatest, of all lights and the environment
-///           together; brightest_color where vertex colours or textures of floats, which are not looked at, may make
-///           anything of it.
-float brightest_point(std::span<const MaterialPlan> plans, std::span<const PreparedLight> lights, float3 environment);
+/// Exact     a bound, not the maximum: the greatest emission, diffuse and specular reflection of all lights and the
+///           environment are added up. Vertex colours and float textures have unknown values: with them the bound is
+///           brightest_color.
+float brightest_fragment(std::span<const MaterialPlan> plans, std::span<const PreparedLight> lights,
+                         float3 environment);
 
 }  // namespace zoneplate

@@ -19,7 +19,7 @@ MaterialPlan plan_of(ShadingModel model) {
 }
 
 float bound(const MaterialPlan& plan, std::span<const PreparedLight> lights = {}, float3 environment = {0, 0, 0}) {
-  return brightest_point(std::span(&plan, 1), lights, environment);
+  return brightest_fragment(std::span(&plan, 1), lights, environment);
 }
 
 TEST(Brightness, OfAnUnlitSurfaceIsThatOfItsBaseColour) {
@@ -34,7 +34,7 @@ TEST(Brightness, OfAnUnlitSurfaceIsThatOfItsBaseColour) {
 TEST(Brightness, IsThatOfTheBrightestMaterial) {
   MaterialPlan plans[] = {plan_of(ShadingModel::Unlit), plan_of(ShadingModel::Unlit), plan_of(ShadingModel::Unlit)};
   plans[1].factor[0] = 1e6f;
-  EXPECT_EQ(brightest_point(plans, {}, {0, 0, 0}), 1e6f);
+  EXPECT_EQ(brightest_fragment(plans, {}, {0, 0, 0}), 1e6f);
 }
 
 TEST(Brightness, VertexColoursMayBeAnything) {

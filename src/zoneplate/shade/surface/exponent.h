@@ -2,10 +2,10 @@
 
 namespace zoneplate {
 
-/// The exponent of a highlight. Whole ones up to 1024 are powers by squaring: cheaper, and nearer to the truth.
+/// The exponent of a highlight. Integers up to 1024 are raised by repeated squaring, which is faster and more accurate.
 struct Exponent {
   float value = 1;
-  int whole = 1;  ///< 0 where it is not whole
+  int whole = 1;  ///< 0 where the value is not an integer
 };
 
 constexpr Exponent make_exponent(float value) {

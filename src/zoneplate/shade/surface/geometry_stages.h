@@ -28,19 +28,20 @@ void saturate(float* values, int count) {
   for (int i = 0; i < count; i += F::lanes) min(max(F::load(values + i), F(0.0f)), F(1.0f)).store(values + i);
 }
 
-/// A float of the points: that of the first corners, and the way to the second and third.
+/// One float of the vertices, for several fragments: its value at the first vertex, and the differences of the second
+/// and third from it.
 template <class F>
 struct Linear {
   F first, second, third;
 
   [[gnu::always_inline]] F at(const FragmentBatch& batch, int i) const { return first + along(batch.b, i); }
-  /// Its change, with that of the weights.
+  /// Its change, from the change of the weights.
   [[gnu::always_inline]] F along(const float (&change)[2][FragmentBatch::padded_capacity], int i) const {
     return second * F::load(change[0] + i) + third * F::load(change[1] + i);
   }
 };
 
-/// Float c of a quad at points [i, end).
+/// Interpolates float c of a quad at fragments [i, end).
 template <class F>
 [[gnu::always_inline]] inline void store_float(const FragmentBatch& batch, const Linear<F>& a,
                                                const Interpolation::Quad& quad, int c, int i, int end,
@@ -58,7 +59,8 @@ template <class F>
   }
 }
 
-/// The same of one triangle, with derivatives that are those of point i everywhere: told of in its group only.
+/// The same for fragments of one triangle that all have the derivatives of fragment i; only the group of fragment i
+/// stores them.
 template <class F>
 [[gnu::always_inline]] inline void store_affine_float(const FragmentBatch& batch, const Linear<F>& a,
                                                       const Interpolation::Quad& quad, int c, int i, int end,
@@ -68,14 +70,14 @@ template <class F>
   for (int k = i + FragmentBatch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
 }
 
-/// A quad at points [i, end), of one triangle.
+/// Interpolates a quad at fragments [i, end), all of one triangle.
 template <class F>
-[[gnu::always_inline]] inline void interpolate_run(const FragmentBatch& batch, const TriangleVertices& corners,
+[[gnu::always_inline]] inline void interpolate_run(const FragmentBatch& batch, const TriangleVertices& vertices,
                                                    const Interpolation::Quad& quad, int i, int end, ShadingState& p) {
   const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
-  const float* const v0 = corners.record[0][leader] + quad.place;
-  const float* const v1 = corners.record[1][leader] + quad.place;
-  const float* const v2 = corners.record[2][leader] + quad.place;
+  const float* const v0 = vertices.record[0][leader] + quad.offset;
+  const float* const v1 = vertices.record[1][leader] + quad.offset;
+  const float* const v2 = vertices.record[2][leader] + quad.offset;
   const bool has_uniform_derivatives =
       i + FragmentBatch::group < end && batch.has_uniform_derivatives[i / FragmentBatch::group + 1];
   for (int c = 0; c < 4; ++c) {
@@ -96,14 +98,14 @@ template <class F>
   }
 }
 
-/// All quads of a vector of points of any triangles.
+/// Interpolates all quads of a vector of fragments of any triangles.
 template <class F, class Records>
-[[gnu::always_inline]] inline void interpolate_points(const FragmentBatch& batch, const Records& records,
-                                                      const Interpolation& what, int i, ShadingState& p) {
-  for (int n = 0; n < what.quads; ++n) {
-    const Interpolation::Quad& quad = what.quad[n];
+[[gnu::always_inline]] inline void interpolate_fragments(const FragmentBatch& batch, const Records& records,
+                                                         const Interpolation& interpolation, int i, ShadingState& p) {
+  for (int n = 0; n < interpolation.quads; ++n) {
+    const Interpolation::Quad& quad = interpolation.quad[n];
     F v[3][4];
-    for (int k = 0; k < 3; ++k) F::load_quads([&](int lane) { return records(k, i + lane) + quad.place; }, v[k]);
+    for (int k = 0; k < 3; ++k) F::load_quads([&](int lane) { return records(k, i + lane) + quad.offset; }, v[k]);
     for (int c = 0; c < 4; ++c)
       if (!quad.value[c].is_none())
         store_float(batch, Linear<F>{v[0][c], v[1][c] - v[0][c], v[2][c] - v[0][c]}, quad, c, i, i + F::lanes, p);
@@ -111,26 +113,29 @@ template <class F, class Records>
 }
 
 template <class F, class Records>
-[[gnu::always_inline]] inline void interpolate_all(const FragmentBatch& batch, const TriangleVertices& corners,
-                                                   const Records& records, const Interpolation& what, ShadingState& p) {
+[[gnu::always_inline]] inline void interpolate_all(const FragmentBatch& batch, const TriangleVertices& vertices,
+                                                   const Records& records, const Interpolation& interpolation,
+                                                   ShadingState& p) {
   for (int i = 0; i < p.count;) {
     if (batch.is_flat_run[i / FragmentBatch::group]) {
       const int end = batch.run_end[i / FragmentBatch::group] * FragmentBatch::group;
-      for (int n = 0; n < what.quads; ++n) interpolate_run<F>(batch, corners, what.quad[n], i, end, p);
+      for (int n = 0; n < interpolation.quads; ++n)
+        interpolate_run<F>(batch, vertices, interpolation.quad[n], i, end, p);
       i = end;
     } else {
-      interpolate_points<F>(batch, records, what, i, p);
+      interpolate_fragments<F>(batch, records, interpolation, i, p);
       i += F::lanes;
     }
   }
 }
 
 template <class F>
-void interpolate(const FragmentBatch& batch, const TriangleVertices& corners, const Interpolation& what,
+void interpolate(const FragmentBatch& batch, const TriangleVertices& vertices, const Interpolation& interpolation,
                  ShadingState& p) {
-  if (corners.first != nullptr)
-    return interpolate_all<F>(batch, corners, RecordsByVertex{batch, corners.first, corners.stride}, what, p);
-  interpolate_all<F>(batch, corners, RecordsByPoint{corners}, what, p);
+  if (vertices.first != nullptr)
+    return interpolate_all<F>(batch, vertices, RecordsByVertex{batch, vertices.first, vertices.stride}, interpolation,
+                              p);
+  interpolate_all<F>(batch, vertices, RecordsByFragment{vertices}, interpolation, p);
 }
 
 template <class F>
@@ -151,14 +156,14 @@ void map_coordinates(const CoordinateMap& map, const FragmentBatch& batch, const
   }
 }
 
-/// One number of each point's placement: `first` is that of placement 0.
+/// One element of the transform of each fragment's instance; `first` is that element of transform 0.
 template <class F>
-[[gnu::always_inline]] inline F placed(const FragmentBatch& batch, const TriangleVertices& corners, const float* first,
-                                       int i) {
+[[gnu::always_inline]] inline F transform_element(const FragmentBatch& batch, const TriangleVertices& vertices,
+                                                  const float* first, int i) {
   using Int = typename F::Int;
   constexpr std::int32_t stride = sizeof(InstanceTransform) / sizeof(float);
   const int group = i / FragmentBatch::group;
-  if (corners.one_instance[group])
+  if (vertices.one_instance[group])
     return F(first[std::ptrdiff_t{stride} * static_cast<std::ptrdiff_t>(batch.instance[batch.leader(
                                                 static_cast<std::size_t>(group) * FragmentBatch::group)])]);
   const auto* instance = reinterpret_cast<const std::int32_t*>(batch.instance);
@@ -167,9 +172,9 @@ template <class F>
 
 /// x column 0 + y column 1 + z column 2 of the 3 × 3 matrices that begin at `first`.
 template <class F>
-[[gnu::always_inline]] inline Vector<F> turned(const FragmentBatch& batch, const TriangleVertices& corners,
-                                               const float* first, Vector<F> v, int i) {
-  const auto element = [&](int e) { return placed<F>(batch, corners, first + e, i); };
+[[gnu::always_inline]] inline Vector<F> transformed(const FragmentBatch& batch, const TriangleVertices& vertices,
+                                                    const float* first, Vector<F> v, int i) {
+  const auto element = [&](int e) { return transform_element<F>(batch, vertices, first + e, i); };
   const Vector<F> x{element(0), element(1), element(2)};
   const Vector<F> y{element(3), element(4), element(5)};
   const Vector<F> z{element(6), element(7), element(8)};
@@ -177,29 +182,29 @@ template <class F>
 }
 
 template <class F>
-void place_positions(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
-                     ShadingState& p) {
-  const float* world = placements->world_from_object;
+void transform_positions(const FragmentBatch& batch, const TriangleVertices& vertices,
+                         const InstanceTransform* transforms, ShadingState& p) {
+  const float* world = transforms->world_from_object;
   for (int i = 0; i < p.count; i += F::lanes) {
-    const auto element = [&](int e) { return placed<F>(batch, corners, world + e, i); };
+    const auto element = [&](int e) { return transform_element<F>(batch, vertices, world + e, i); };
     const Vector<F> origin{element(9), element(10), element(11)};
-    (turned(batch, corners, world, Vector<F>::load(p.position, i), i) + origin).store(p.position, i);
+    (transformed(batch, vertices, world, Vector<F>::load(p.position, i), i) + origin).store(p.position, i);
   }
 }
 
 template <class F>
-void place_normals(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
-                   ShadingState& p) {
+void transform_normals(const FragmentBatch& batch, const TriangleVertices& vertices,
+                       const InstanceTransform* transforms, ShadingState& p) {
   for (int i = 0; i < p.count; i += F::lanes)
-    turned(batch, corners, placements->normal, Vector<F>::load(p.normal, i), i).store(p.normal, i);
+    transformed(batch, vertices, transforms->normal, Vector<F>::load(p.normal, i), i).store(p.normal, i);
 }
 
 template <class F>
-void place_tangents(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
-                    ShadingState& p) {
+void transform_tangents(const FragmentBatch& batch, const TriangleVertices& vertices,
+                        const InstanceTransform* transforms, ShadingState& p) {
   for (int i = 0; i < p.count; i += F::lanes) {
-    turned(batch, corners, placements->world_from_object, Vector<F>::load(p.tangent, i), i).store(p.tangent, i);
-    const F handedness = placed<F>(batch, corners, &placements->handedness, i);
+    transformed(batch, vertices, transforms->world_from_object, Vector<F>::load(p.tangent, i), i).store(p.tangent, i);
+    const F handedness = transform_element<F>(batch, vertices, &transforms->handedness, i);
     (F::load(p.tangent[3] + i) * handedness).store(p.tangent[3] + i);
   }
 }
@@ -213,31 +218,31 @@ template <class F>
   return select(Int::load(batch.is_front + i) > Int(0), F(1.0f), F(-1.0f));
 }
 
-/// True if the normal is the same all over the triangle that is told of at a point.
-inline bool is_flat(const TriangleVertices& corners, std::size_t leader) {
-  const float *const v0 = corners.record[0][leader], *const v1 = corners.record[1][leader];
-  const float* const v2 = corners.record[2][leader];
+/// True if the triangle of a run has the same normal at all vertices.
+inline bool is_flat(const TriangleVertices& vertices, std::size_t leader) {
+  const float *const v0 = vertices.record[0][leader], *const v1 = vertices.record[1][leader];
+  const float* const v2 = vertices.record[2][leader];
   bool is_same = true;
   for (int c = 0; c < 3; ++c) is_same = is_same && v1[c] == v0[c] && v2[c] == v0[c];
   return is_same;
 }
 
 template <class F>
-void find_normals(const FragmentBatch& batch, const TriangleVertices& corners, const InstanceTransform* placements,
+void find_normals(const FragmentBatch& batch, const TriangleVertices& vertices, const InstanceTransform* transforms,
                   ShadingState& p) {
   for (int i = 0; i < p.count;) {
     const int group = i / FragmentBatch::group;
     Vector<F> n = Vector<F>::load(p.normal, i);
-    const bool keeps = corners.one_instance[group] &&
-                       placements[batch.instance[batch.leader(static_cast<std::size_t>(group) * FragmentBatch::group)]]
+    const bool keeps = vertices.one_instance[group] &&
+                       transforms[batch.instance[batch.leader(static_cast<std::size_t>(group) * FragmentBatch::group)]]
                                .keeps_normals != 0;
-    if (!keeps) n = turned(batch, corners, placements->normal, n, i);
-    // Adding +0 leaves no trace of which way was taken.
+    if (!keeps) n = transformed(batch, vertices, transforms->normal, n, i);
+    // Adding +0 gives the same bits on both ways: -0 becomes +0.
     const Vector<F> normal = normalize(n + Vector<F>{F(0.0f), F(0.0f), F(0.0f)}) * facing<F>(batch, i);
     normal.store(p.normal, i);
     i += F::lanes;
     if (batch.is_flat_run[group] && batch.run_begin[group] == group &&
-        is_flat(corners, static_cast<std::size_t>(group) * FragmentBatch::group))
+        is_flat(vertices, static_cast<std::size_t>(group) * FragmentBatch::group))
       for (const int end = batch.run_end[group] * FragmentBatch::group; i < end; i += F::lanes)
         normal.store(p.normal, i);
   }
@@ -260,7 +265,7 @@ void bend_normals(const FragmentBatch& batch, const float* const texel[4], float
   }
 }
 
-/// Where the viewer is, seen from points. What is the same for all of them is read once, before their loop.
+/// The viewer as seen from fragments. Values that all fragments share are read once, before the loop.
 template <class F>
 struct Viewer {
   bool is_orthographic, has_rays;
@@ -275,7 +280,7 @@ struct Viewer {
         ray_dx(Vector<F>::all(v.ray_dx)),
         ray_dy(Vector<F>::all(v.ray_dy)) {}
 
-  /// The way to the viewer, of any length.
+  /// The vector to the viewer, of any length.
   [[gnu::always_inline]] Vector<F> way(const FragmentBatch& batch, const ShadingState& p, int i) const {
     using Int = typename F::Int;
     if (is_orthographic) return towards;

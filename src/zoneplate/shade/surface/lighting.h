@@ -4,27 +4,27 @@ namespace zoneplate {
 
 struct Light;
 
-/// A light as kernels see it.
+/// A light in the form that kernels read.
 struct PreparedLight {
   bool is_directional = true, is_spot = false, is_quadratic = false;
   float radiance[3] = {0, 0, 0};  ///< colour × intensity
   float towards[3] = {0, 0, 1};   ///< directional: unit direction to the light
   float position[3] = {0, 0, 0};
   float axis[3] = {0, 0, -1};  ///< spot: unit direction in which it shines
-  float inverse_range4 = 0;    ///< 1 / range⁴; 0 for no end
+  float inverse_range4 = 0;    ///< 1 / range⁴; 0: unlimited range
   float attenuation[3] = {1, 0, 0};
   float cone_scale = 0, cone_offset = 1;  ///< glTF's lightAngleScale and lightAngleOffset
 };
 
 PreparedLight prepare(const Light& light);
 
-/// Nearer than this, the fading with distance goes no further: 1 mm. It keeps 1 / d² finite.
+/// Distances below 1 mm count as 1 mm, which keeps 1 / d² finite.
 inline constexpr float least_distance_squared = 1e-6f;
 
-/// How a point light fades at a squared distance.
+/// The attenuation of a point light at a squared distance.
 ///
 /// Inverse square: max(min(1 - (d / range)⁴, 1), 0) / d². Quadratic: 1 / (a0 + a1 d + a2 d²).
-/// Edges     d² below `least_distance_squared` counts as that; a quadratic below 1e-6 counts as 1e-6.
+/// Edges     d² below `least_distance_squared` counts as that value; a quadratic below 1e-6 counts as 1e-6.
 /// Source    KHR_lights_punctual, "Range Property"; the fixed-function attenuation of OpenGL 1.x.
 template <class F>
 [[gnu::always_inline]] inline F fading(const PreparedLight& light, F distance_squared) {
@@ -37,12 +37,13 @@ template <class F>
   return max(window, F(0.0f)) / d2;
 }
 
-/// A spot light's share at the cosine of the angle off its axis: clamp(cosine × scale + offset, 0, 1)².
+/// The angular attenuation of a spot light, by the cosine of the angle to its axis: clamp(cosine × scale + offset, 0,
+/// 1)².
 /// Source: KHR_lights_punctual, "Inner and Outer Cone Angles".
 template <class F>
 [[gnu::always_inline]] inline F cone(const PreparedLight& light, F cosine) {
-  const F share = min(max(cosine * F(light.cone_scale) + F(light.cone_offset), F(0.0f)), F(1.0f));
-  return share * share;
+  const F cone_weight = min(max(cosine * F(light.cone_scale) + F(light.cone_offset), F(0.0f)), F(1.0f));
+  return cone_weight * cone_weight;
 }
 
 }  // namespace zoneplate

@@ -16,20 +16,20 @@ template <class F>
   return {F(0.0f), F(0.0f), F(0.0f)};
 }
 
-/// What most pictures have: one light from far away, opaque surfaces without emission. Known when this is compiled.
-struct PlainIllumination {
+/// The most frequent case, fixed at compile time: one directional light, opaque surfaces without emission.
+struct PlainUniforms {
   static constexpr int lights = 1;
   static constexpr bool has_sun_only = true;
   static constexpr bool has_occlusion = false, has_emissive = false, has_emissive_texture = false;
   static constexpr bool has_bare_meshes = false, is_blended = false;
 };
 
-/// The same of any illumination.
-struct AnyIllumination {
+/// The general case, read at run time.
+struct AnyUniforms {
   int lights;
   static constexpr bool has_sun_only = false;
   bool has_occlusion, has_emissive, has_emissive_texture, has_bare_meshes, is_blended;
-  explicit AnyIllumination(const ShadingUniforms& s)
+  explicit AnyUniforms(const ShadingUniforms& s)
       : lights(s.lights),
         has_occlusion(s.has_occlusion),
         has_emissive(s.has_emissive),
@@ -43,7 +43,7 @@ inline bool is_plain(const ShadingUniforms& s, const ShadingState& p) {
          !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended;
 }
 
-/// What of a light arrives at points, perpendicular to its direction.
+/// The irradiance of a light at fragments, perpendicular to its direction.
 template <class F>
 struct Arriving {
   Vector<F> from;  ///< unit direction to the light
@@ -62,7 +62,7 @@ template <class F>
   return {l, radiance * strength};
 }
 
-/// What arrives of radiance at points where light number k is shadowed, or all of it.
+/// The radiance of light k times its visibility at the fragments.
 template <class F>
 [[gnu::always_inline]] inline Vector<F> visible(Vector<F> radiance, const ShadingState& p, int k, int i) {
   if (p.light_visibility == nullptr) return radiance;
@@ -74,14 +74,14 @@ template <class F>
 [[gnu::always_inline]] inline void store_color(Vector<F> color, bool is_blended, const ShadingState& p,
                                                FragmentOutputs& out, int i) {
   const F low(0.0f), high(brightest_color);
-  Vector<F> shown{min(max(color.x, low), high), min(max(color.y, low), high), min(max(color.z, low), high)};
+  Vector<F> color_out{min(max(color.x, low), high), min(max(color.y, low), high), min(max(color.z, low), high)};
   const F alpha = is_blended ? F::load(p.base[3] + i) : F(1.0f);
-  if (is_blended) shown = shown * alpha;
-  shown.x.store(out.r + i), shown.y.store(out.g + i), shown.z.store(out.b + i);
+  if (is_blended) color_out = color_out * alpha;
+  color_out.x.store(out.r + i), color_out.y.store(out.g + i), color_out.z.store(out.b + i);
   alpha.store(out.a + i);
 }
 
-/// What comes after the reflected light: emission, points that are not lit, alpha.
+/// Adds what does not depend on lights: emission, the colour of fragments without normals, alpha.
 template <class F, class Kind>
 [[gnu::always_inline]] inline void finish(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
                                           Vector<F> sum, Vector<F> base, FragmentOutputs& out, int i) {
@@ -94,7 +94,7 @@ template <class F, class Kind>
   store_color(sum, kind.is_blended, p, out, i);
 }
 
-/// What comes from all sides, less what is occluded.
+/// Ambient light, attenuated by occlusion.
 template <class F, class Kind>
 [[gnu::always_inline]] inline Vector<F> unoccluded(const Kind& kind, const ShadingState& p, Vector<F> light, int i) {
   return kind.has_occlusion ? light * F::load(p.occlusion + i) : light;
@@ -102,8 +102,8 @@ template <class F, class Kind>
 
 enum class Highlight { None, BlinnPhong, Phong };
 
-/// The square of max(n · h, 0) with h halfway between l and the way to the viewer, whose length need not be one; 0
-/// where there is no h.
+/// The square of max(n · h, 0) with h halfway between l and the vector `way` to the viewer, of any length; 0 where h
+/// does not exist.
 template <class F>
 [[gnu::always_inline]] inline F halfway_cosine_square(Vector<F> n, Vector<F> l, Vector<F> way) {
   const Vector<F> h = l * sqrt(dot(way, way)) + way;
@@ -111,13 +111,13 @@ template <class F>
   return select(square > F(1e-36f), nh * nh / square, F(0.0f));
 }
 
-/// What of a batch's points a light needs.
+/// The cosines of one light at a batch's fragments.
 struct Cosines {
   alignas(64) float diffuse[FragmentBatch::padded_capacity];
   alignas(64) float highlight[FragmentBatch::padded_capacity];  ///< the cosine's power
 };
 
-/// The cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in shade/surface/brdf.h.
+/// Computes the cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in shade/surface/brdf.h.
 template <class F, Highlight highlight>
 [[gnu::always_inline]] inline void find_cosines(const ShadingUniforms& s, const PreparedLight& of, bool is_sun,
                                                 const FragmentBatch& batch, const ShadingState& p, Cosines& out) {
@@ -132,7 +132,7 @@ template <class F, Highlight highlight>
   }
 }
 
-/// Vectors that go the same way side by side.
+/// Several independent vectors with one operation on all of them, so that their latencies overlap.
 template <class F, int size>
 struct Several {
   F v[size];
@@ -152,7 +152,7 @@ struct Several {
   }
 };
 
-/// Cosines are found apart from their powers, because both are long chains of operations that wait for each other.
+/// Raises the cosines to the exponent. This is a loop of its own because both computations are long dependency chains.
 template <class F, Highlight highlight>
 [[gnu::always_inline]] inline void raise_cosines(const Exponent& exponent, Cosines& cosines, int count) {
   constexpr int vectors = 8 / F::lanes < 2 ? 2 : 8 / F::lanes;
@@ -166,7 +166,7 @@ template <class F, Highlight highlight>
   }
 }
 
-/// Light gathered at points, for base colour and highlight.
+/// The light accumulated at fragments, for base colour and highlight.
 template <class F>
 struct Gathered {
   Vector<F> diffuse, specular;
@@ -181,23 +181,23 @@ template <class F, Highlight highlight>
   return {radiance * F::load(cosines.diffuse + i), radiance * F::load(cosines.highlight + i)};
 }
 
-/// The colour under the light that was gathered.
+/// Stores the colour that follows from the accumulated light.
 template <class F, Highlight highlight, class Kind>
-[[gnu::always_inline]] inline void show_gathered(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
-                                                 const Gathered<F>& light, FragmentOutputs& out, int i) {
+[[gnu::always_inline]] inline void store_gathered(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
+                                                  const Gathered<F>& light, FragmentOutputs& out, int i) {
   const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
   Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
   if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * light.specular;
   finish(s, kind, p, sum, base, out, i);
 }
 
-/// `s` is a copy, and so is each light: what stands in them is read once, not again after each store.
+/// `s` and each light are copies, so that their members are loaded once and not again after each store.
 template <class F, Highlight highlight, class Kind>
 void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch& batch, const ShadingState& p,
                  FragmentOutputs& out) {
   if (kind.lights == 0) {
     for (int i = 0; i < p.count; i += F::lanes)
-      show_gathered<F, highlight>(s, kind, p, {zeros<F>(), zeros<F>()}, out, i);
+      store_gathered<F, highlight>(s, kind, p, {zeros<F>(), zeros<F>()}, out, i);
     return;
   }
   Cosines cosines;
@@ -215,7 +215,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
       if (k + 1 < kind.lights) {
         all.diffuse.store(diffuse, i), all.specular.store(specular, i);
       } else {
-        show_gathered<F, highlight>(s, kind, p, all, out, i);
+        store_gathered<F, highlight>(s, kind, p, all, out, i);
       }
     }
   }
@@ -223,8 +223,8 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
 
 template <class F, Highlight highlight>
 void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
-  if (is_plain(s, p)) return light_phong<F, highlight>(s, PlainIllumination(), batch, p, out);
-  light_phong<F, highlight>(s, AnyIllumination(s), batch, p, out);
+  if (is_plain(s, p)) return light_phong<F, highlight>(s, PlainUniforms(), batch, p, out);
+  light_phong<F, highlight>(s, AnyUniforms(s), batch, p, out);
 }
 
 template <class F>
@@ -237,7 +237,7 @@ void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const Sha
 template <class F, bool has_texture>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   const auto environment = Vector<F>::all(s.environment);
-  const AnyIllumination kind(s);
+  const AnyUniforms kind(s);
   const Viewer<F> viewer(s.viewpoint);
   const SpecularFit<F> one_fit{F(s.roughness)};
   for (int i = 0; i < p.count; i += F::lanes) {

@@ -12,7 +12,7 @@ namespace {
 
 bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-/// True if the slot's texture changes what the material looks like.
+/// True if the slot's texture affects the material's colour.
 bool uses_slot(const Material& m, TextureSlotIndex slot) {
   if (slot == TextureSlotIndex::BaseColor) return true;
   if (m.model == ShadingModel::Unlit) return false;
@@ -24,7 +24,7 @@ TexelMeaning meaning_of(const MaterialTextureSlot& slot) {
   return slot.is_color ? TexelMeaning::Color : TexelMeaning::Values;
 }
 
-/// Calls use(slot number, slot) for every slot whose texture changes what the material looks like.
+/// Calls use(slot index, slot) for every slot whose texture affects the material's colour.
 template <class Use>
 void for_used_slots(const Material& m, Use use) {
   for (std::size_t i = 0; i < texture_slot_count; ++i)
@@ -54,8 +54,8 @@ void copy_factors(const Material& m, MaterialPlan& plan) {
   plan.exponent = make_exponent(std::clamp(m.exponent, 0.0f, 1e5f));
 }
 
-/// Diffuse and ambient light are gathered before they meet the base colour, which is cheapest; the ambient term is
-/// ambient × light × what base colour there would be with a factor of 1.
+/// Diffuse and ambient light are added up before the multiplication with the base colour, which is cheapest. The
+/// ambient term is ambient × light × the base colour that a factor of 1 would give.
 void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) {
   constexpr float least_divisor = 0x1p-32f;
   if (m.model != ShadingModel::BlinnPhong && m.model != ShadingModel::Phong) return;
@@ -63,7 +63,7 @@ void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) 
   const float light[3] = {s.ambient_light.x, s.ambient_light.y, s.ambient_light.z};
   for (int c = 0; c < 3; ++c) {
     if (plan.factor[c] >= least_divisor)
-      plan.ambient_share[c] = ambient[c] / plan.factor[c] * light[c];
+      plan.ambient_factor[c] = ambient[c] / plan.factor[c] * light[c];
     else
       plan.own_ambient[c] = ambient[c] * light[c];
     if (plan.own_ambient[c] > 0) plan.has_own_ambient = true;
@@ -77,7 +77,7 @@ void find_slots(const Material& m, const TextureSet& textures, int anisotropy, M
   });
 }
 
-/// Which stages are needed, given the lights and textures there are.
+/// Decides which stages are needed, from the lights and textures that exist.
 void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   const bool is_metallic = m.model == ShadingModel::MetallicRoughness;
   const bool has_lights = !s.lights.empty();
@@ -159,16 +159,16 @@ bool share_taps(const TextureSlot& a, const TextureSlot& b) {
          a.map == b.map;
 }
 
-std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures) {
+std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& view, const TextureSet& textures) {
   std::vector<MaterialPlan> plans(scene.materials.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     copy_factors(scene.materials[i], plans[i]);
-    plan_ambient(scene.materials[i], surroundings, plans[i]);
-    find_slots(scene.materials[i], textures, surroundings.anisotropy, plans[i]);
-    decide(surroundings, scene.materials[i], plans[i]);
+    plan_ambient(scene.materials[i], view, plans[i]);
+    find_slots(scene.materials[i], textures, view.anisotropy, plans[i]);
+    decide(view, scene.materials[i], plans[i]);
   }
 
-  // What some mesh of a material has or lacks, all of the material's batches are ready for.
+  // All batches of a material have the stages that any of its meshes needs.
   for (const Mesh& mesh : scene.meshes) {
     MaterialPlan& plan = plans[static_cast<std::size_t>(mesh.material)];
     if (!mesh.color.empty()) plan.attributes.color = true;

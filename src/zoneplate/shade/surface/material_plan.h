@@ -16,15 +16,15 @@
 
 namespace zoneplate {
 
-/// The textures of a scene's materials; an image that serves as colour and as data is there twice.
+/// The textures of a scene's materials. An image that is used both as colour and as data makes two textures.
 class TextureSet {
  public:
-  /// Makes the levels of what the materials use, one image after the other. With `raw_colors` the codes of colours are
-  /// values; light stays light.
+  /// Makes the mip levels of the images that materials use, one image after the other. With `raw_colors` the encoded
+  /// values of colours are taken as linear; images that are linear already stay as they are.
   /// Errors    ErrorKind::Input where an image that is used is empty; OutOfMemory("texture levels").
   TextureSet(const Scene& scene, bool raw_colors);
-  /// The same, and takes the images with it: each is freed as soon as its texels are in the levels, those that no
-  /// material uses are freed at once. Afterwards all images of the scene are empty: only this set can texture it.
+  /// The same, and frees the images: each as soon as its texels are copied to the levels, unused images at once.
+  /// Afterwards all images of the scene are empty, and only this set can texture the scene.
   static TextureSet take(Scene& scene, bool raw_colors);
 
   /// Null where the use names no image.
@@ -50,13 +50,14 @@ struct TextureSlot {
   int uv_set = 0;
 };
 
-/// The map of a use: scaled, rotated, moved; u' = cos u + sin v, v' = cos v - sin u (KHR_texture_transform).
+/// The coordinate map of a texture use: scale, then rotation u' = cos u + sin v, v' = cos v - sin u, then offset
+/// (KHR_texture_transform).
 CoordinateMap coordinate_map(const TextureUse& use);
 
 /// Whether two slots look up the same texels with the same weights.
 bool share_taps(const TextureSlot& a, const TextureSlot& b);
 
-/// What is decided once for a material: which stages its points go through, with which constants.
+/// The decisions that are made once for a material: which stages shade its fragments, with which constants.
 struct MaterialPlan {
   ShadingModel model = ShadingModel::Unlit;
   AlphaMode alpha_mode = AlphaMode::Opaque;
@@ -71,10 +72,10 @@ struct MaterialPlan {
   float specular[3] = {0, 0, 0};
   Exponent exponent;
 
-  // (Blinn-)Phong's ambient term, channel by channel: a share of the base colour, or, where the base colour's factor is
-  // too small to divide by, light of its own.
-  float ambient_share[3] = {0, 0, 0};  ///< times the base colour
-  float own_ambient[3] = {0, 0, 0};    ///< times the base colour without its factor
+  // (Blinn-)Phong's ambient term by channel: a multiple of the base colour, or, where the base colour's factor is too
+  // small to divide by, a term that is added like emission.
+  float ambient_factor[3] = {0, 0, 0};  ///< times the base colour
+  float own_ambient[3] = {0, 0, 0};     ///< times the base colour without its factor
   bool has_own_ambient = false;
 
   bool is_lit = false;        ///< lights or an environment change its colour
@@ -87,6 +88,6 @@ struct MaterialPlan {
 };
 
 /// The plans of a scene's materials, by material.
-std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures);
+std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& view, const TextureSet& textures);
 
 }  // namespace zoneplate

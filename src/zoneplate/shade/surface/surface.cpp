@@ -18,8 +18,8 @@ Viewpoint make_viewpoint(const ViewUniforms& s) {
   const float3 back = normalize(-s.view_direction, {0, 0, 1});
   Viewpoint v{{s.eye.x, s.eye.y, s.eye.z}, {back.x, back.y, back.z}, s.is_orthographic, s.rays.has_value()};
   if (!s.rays) return v;
-  const auto put = [](float3 from, float(&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
-  put(s.rays->first, v.ray), put(s.rays->dx, v.ray_dx), put(s.rays->dy, v.ray_dy);
+  const auto store = [](float3 from, float(&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
+  store(s.rays->first, v.ray), store(s.rays->dx, v.ray_dx), store(s.rays->dy, v.ray_dy);
   return v;
 }
 
@@ -29,9 +29,9 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
   return prepared;
 }
 
-/// A material under the scene's lights, which stay where they are.
-ShadingUniforms make_illumination(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
-                                  const Viewpoint& viewpoint, float3 environment) {
+/// The constants of a material under the scene's lights; `lights` must outlive them.
+ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
+                                      const Viewpoint& viewpoint, float3 environment) {
   const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
   ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
@@ -42,7 +42,7 @@ ShadingUniforms make_illumination(const MaterialPlan& plan, const std::vector<Pr
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
   copy(plan.emissive_factor, s.emissive);
   s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
-  copy(plan.ambient_share, s.ambient), copy(plan.specular, s.specular);
+  copy(plan.ambient_factor, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   s.metallic = plan.metallic, s.roughness = plan.roughness;
@@ -54,61 +54,61 @@ ShadingUniforms make_illumination(const MaterialPlan& plan, const std::vector<Pr
 }  // namespace
 
 struct SurfaceShader::Data {
-  Data(const Scene& scene_in, const ViewUniforms& surroundings_in, const TextureSet& textures_in,
+  Data(const Scene& scene_in, const ViewUniforms& view_in, const TextureSet& textures_in,
        const InterleavedVertices& records_in)
       : scene(scene_in),
-        surroundings(surroundings_in),
+        view(view_in),
         records(records_in),
-        plans(make_plans(scene_in, surroundings_in, textures_in)),
-        placements(make_placements(scene_in.instances)),
-        lights(prepare_all(surroundings_in.lights)),
-        viewpoint(make_viewpoint(surroundings_in)),
+        plans(make_plans(scene_in, view_in, textures_in)),
+        transforms(make_instance_transforms(scene_in.instances)),
+        lights(prepare_all(view_in.lights)),
+        viewpoint(make_viewpoint(view_in)),
         kernels(SurfaceKernels::of()),
         filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
-      illuminations.push_back(make_illumination(plans[m], lights, viewpoint, surroundings.environment));
+      shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view.environment));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
     }
   }
 
-  /// What points need of their triangles' corners, and where it goes.
+  /// The vertex attributes that fragments need, and their interpolation.
   struct Needs {
     Attributes attributes;
     Interpolation interpolation;
   };
 
-  /// To know the way to the viewer may ask for the points' places.
+  /// The direction to the viewer may require the fragments' positions.
   Needs make_needs(int material, Attributes attributes, bool needs_viewer) const {
     if (needs_viewer && !viewpoint.is_orthographic && !viewpoint.has_rays) attributes.position = true;
     return {attributes, interpolation(records.layout(material), attributes)};
   }
 
   const Scene& scene;
-  const ViewUniforms surroundings;
+  const ViewUniforms view;
   const InterleavedVertices& records;
   const std::vector<MaterialPlan> plans;
-  const std::vector<InstanceTransform> placements;
+  const std::vector<InstanceTransform> transforms;
   const std::vector<PreparedLight> lights;
   const Viewpoint viewpoint;
   const SurfaceKernels& kernels;
   const FilteringKernels& filtering;
-  std::vector<ShadingUniforms> illuminations;  ///< by material
-  std::vector<Needs> needs_of_color;           ///< by material
+  std::vector<ShadingUniforms> shading_uniforms;  ///< by material
+  std::vector<Needs> needs_of_color;              ///< by material
 
   struct BatchShading;
 };
 
-/// One batch on its way through the stages of its material's plan.
+/// One batch between the stages of its material's plan.
 struct SurfaceShader::Data::BatchShading {
   const Data& d;
   const MaterialPlan& plan;
   const FragmentBatch& batch;
   const SurfaceKernels& kernels = d.kernels;
   ShadingState p;
-  TriangleVertices corners;
+  TriangleVertices vertices;
   Coordinates coordinates;
   Taps taps;
-  const TextureSlot* taps_of = nullptr;  ///< the slot for which `taps` stands
+  const TextureSlot* taps_of = nullptr;  ///< the slot whose texture look-up made `taps`
   alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
@@ -129,18 +129,18 @@ struct SurfaceShader::Data::BatchShading {
   void light(FragmentOutputs& out);
 };
 
-/// Vertices to points: positions and tangents in world space, normals as the mesh has them.
+/// From vertices to fragments: positions and tangents in world space, normals in the mesh's space.
 void SurfaceShader::Data::BatchShading::interpolate(const Needs& needs) {
   const Attributes& attributes = needs.attributes;
-  find_corners(d.records, batch, corners);
-  if (needs.interpolation.quads > 0) kernels.interpolate(batch, corners, needs.interpolation, p);
-  if (attributes.position) kernels.place_positions(batch, corners, d.placements.data(), p);
+  find_vertex_records(d.records, batch, vertices);
+  if (needs.interpolation.quads > 0) kernels.interpolate(batch, vertices, needs.interpolation, p);
+  if (attributes.position) kernels.transform_positions(batch, vertices, d.transforms.data(), p);
   if (!attributes.tangent) return;
   if (plan.has_meshes_without_tangents) make_missing_tangents(d.scene, batch, attributes.tangent_uv_set, p);
-  kernels.place_tangents(batch, corners, d.placements.data(), p);
+  kernels.transform_tangents(batch, vertices, d.transforms.data(), p);
 }
 
-/// Where a slot's texture is looked up.
+/// The coordinates at which a slot's texture is looked up.
 Footprint SurfaceShader::Data::BatchShading::footprint(const TextureSlot& slot) {
   const auto s = slot.uv_set;
   if (!slot.is_mapped) {
@@ -157,7 +157,7 @@ Footprint SurfaceShader::Data::BatchShading::footprint(const TextureSlot& slot) 
   return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.has_uniform_derivatives};
 }
 
-/// The slot's texture at the points. Slots of one size and one sampler share their taps.
+/// Samples the slot's texture at the fragments. Slots with the same size and sampler share their taps.
 void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* const out[4]) {
   if (slot.filtering.anisotropy > 1)
     return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, footprint(slot), out, p.count);
@@ -168,7 +168,7 @@ void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* c
   d.filtering.mix_taps(slot.texture->view(), taps, out, p.count);
 }
 
-/// Factor × texture × vertex colour.
+/// base = factor × texture × vertex colour.
 void SurfaceShader::Data::BatchShading::find_base() {
   const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
   float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
@@ -181,15 +181,15 @@ void SurfaceShader::Data::BatchShading::find_base() {
     }
     if (plan.attributes.color) kernels.multiply(p.base[c], p.color[c], p.count);
   }
-  // A texture's alpha lies in [0, 1] by itself.
+  // The alpha of a texture lies in [0, 1] already.
   const bool may_leave = plan.attributes.color || !(plan.factor[3] >= 0 && plan.factor[3] <= 1);
   if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
 void SurfaceShader::Data::BatchShading::find_normals() {
   if (plan.slot(TextureSlotIndex::Normal).texture == nullptr)
-    return kernels.find_normals(batch, corners, d.placements.data(), p);
-  kernels.place_normals(batch, corners, d.placements.data(), p);
+    return kernels.find_normals(batch, vertices, d.transforms.data(), p);
+  kernels.transform_normals(batch, vertices, d.transforms.data(), p);
   sample(plan.slot(TextureSlotIndex::Normal), texel);
   kernels.bend_normals(batch, texel, plan.normal_scale, p);
 }
@@ -200,7 +200,7 @@ void SurfaceShader::Data::BatchShading::find_emissive() {
   for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
 }
 
-/// The ambient term of channels whose base colour has next to no factor: the surface seems to emit it.
+/// Adds the ambient term of channels whose base colour factor is too small to divide by: it counts as emission.
 void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
   const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
@@ -219,7 +219,7 @@ void SurfaceShader::Data::BatchShading::add_own_ambient() {
   }
 }
 
-/// 1 + strength (texture - 1).
+/// occlusion = 1 + strength (texture - 1).
 void SurfaceShader::Data::BatchShading::find_occlusion() {
   if (plan.slot(TextureSlotIndex::Occlusion).texture == nullptr) return;
   sample(plan.slot(TextureSlotIndex::Occlusion), texel);
@@ -233,7 +233,7 @@ void SurfaceShader::Data::BatchShading::find_metallic() {
   kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
 }
 
-/// Base colour and normal to the colour that is seen.
+/// From base colour and normal to the fragment's colour.
 void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   find_occlusion();
   find_emissive();
@@ -242,26 +242,26 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
 
-  const ShadingUniforms& what = d.illuminations[static_cast<std::size_t>(batch.material)];
+  const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic) {
-    kernels.light_metallic(what, batch, p, out);
+    kernels.light_metallic(uniforms, batch, p, out);
   } else {
-    kernels.light_phong(what, batch, p, out);
+    kernels.light_phong(uniforms, batch, p, out);
   }
 }
 
-SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures,
+SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& view, const TextureSet& textures,
                              const InterleavedVertices& records)
-    : data_(std::make_unique<Data>(scene, surroundings, textures, records)),
-      brightest_(brightest_point(data_->plans, data_->lights, surroundings.environment)) {}
+    : data_(std::make_unique<Data>(scene, view, textures, records)),
+      brightest_(brightest_fragment(data_->plans, data_->lights, view.environment)) {}
 
 SurfaceShader::~SurfaceShader() = default;
 
 void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const {
   if (batch.count == 0) return;
-  Data::BatchShading walk(*data_, batch);
-  const MaterialPlan& plan = walk.plan;
-  ShadingState& p = walk.p;
+  Data::BatchShading shading(*data_, batch);
+  const MaterialPlan& plan = shading.plan;
+  ShadingState& p = shading.p;
 
   // Data besides the colour may need more vertex attributes.
   const Data::Needs* needs = &data_->needs_of_color[static_cast<std::size_t>(batch.material)];
@@ -274,23 +274,23 @@ void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, Fragme
     needs = &more;
   }
 
-  walk.interpolate(*needs);
-  if (outputs.color || outputs.albedo) walk.find_base();
-  if (needs->attributes.normal) walk.find_normals();
+  shading.interpolate(*needs);
+  if (outputs.color || outputs.albedo) shading.find_base();
+  if (needs->attributes.normal) shading.find_normals();
   if (outputs.color && plan.is_lit)
-    walk.light(out);
+    shading.light(out);
   else if (outputs.color)
-    walk.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
+    shading.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
 
   const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
   if (outputs.normal) {
-    if (plan.has_bare_meshes) walk.kernels.default_normals(data_->viewpoint, batch, p);
+    if (plan.has_bare_meshes) shading.kernels.default_normals(data_->viewpoint, batch, p);
     for (int c = 0; c < 3; ++c) copy(p.normal[c], out.normal[c]);
   }
   if (outputs.albedo)
     for (int c = 0; c < 3; ++c) copy(p.base[c], out.albedo[c]);
   if (outputs.uv) {
-    const Footprint at = walk.footprint(plan.slot(TextureSlotIndex::BaseColor));
+    const Footprint at = shading.footprint(plan.slot(TextureSlotIndex::BaseColor));
     copy(at.u, out.uv[0]), copy(at.v, out.uv[1]);
   }
 }
@@ -306,14 +306,14 @@ std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int 
 
 void SurfaceShader::alpha(const FragmentBatch& batch, float* out) const {
   if (batch.count == 0) return;
-  Data::BatchShading walk(*data_, batch);
+  Data::BatchShading shading(*data_, batch);
   Attributes attributes;
-  attributes.color = walk.plan.attributes.color;
-  if (walk.plan.slot(TextureSlotIndex::BaseColor).texture != nullptr)
-    attributes.uv[walk.plan.slot(TextureSlotIndex::BaseColor).uv_set] = true;
-  walk.interpolate(data_->make_needs(batch.material, attributes, false));
-  walk.find_base();
-  std::copy_n(walk.p.base[3], walk.p.count, out);
+  attributes.color = shading.plan.attributes.color;
+  if (shading.plan.slot(TextureSlotIndex::BaseColor).texture != nullptr)
+    attributes.uv[shading.plan.slot(TextureSlotIndex::BaseColor).uv_set] = true;
+  shading.interpolate(data_->make_needs(batch.material, attributes, false));
+  shading.find_base();
+  std::copy_n(shading.p.base[3], shading.p.count, out);
 }
 
 }  // namespace zoneplate

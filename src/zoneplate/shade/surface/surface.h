@@ -13,32 +13,33 @@ namespace zoneplate {
 class TextureSet;
 class InterleavedVertices;
 
-/// The way from a pixel to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
+/// The vector from pixel (x, y) to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
 struct PixelRays {
   float3 first, dx, dy;
 };
 
-/// What the whole picture has in common for shading.
+/// The shading inputs that are the same for the whole image.
 struct ViewUniforms {
   float3 eye{0, 0, 0};              ///< camera position, world space
-  float3 view_direction{0, 0, -1};  ///< the way an orthographic camera looks
+  float3 view_direction{0, 0, -1};  ///< of an orthographic camera
   bool is_orthographic = false;
-  std::optional<PixelRays> rays;  ///< of a perspective camera; without them they are made from positions
+  std::optional<PixelRays>
+      rays;  ///< of a perspective camera; without rays, the vectors to the viewer follow from positions
   std::vector<Light> lights;      ///< in world space
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
-  bool raw_colors = false;        ///< images are taken as they are, not decoded from sRGB (--color-management raw)
-  int anisotropy = 1;             ///< probes of a texture's footprint, for all samplers that blend levels
+  bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
+  int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.
 ///
-/// It keeps references to the scene, its textures and its vertices. `shade` and `alpha` are const and may be called
-/// from any thread.
+/// The shader keeps references to the scene, its textures and its vertices. `shade` and `alpha` are const and may be
+/// called from any thread.
 class SurfaceShader {
  public:
-  /// `textures`, `records`: those of the scene. The lights are those of `surroundings`.
-  SurfaceShader(const Scene& scene, const ViewUniforms& surroundings, const TextureSet& textures,
+  /// `textures` and `records` belong to the scene. The lights are those of `view`.
+  SurfaceShader(const Scene& scene, const ViewUniforms& view, const TextureSet& textures,
                 const InterleavedVertices& records);
   ~SurfaceShader();
   SurfaceShader(const SurfaceShader&) = delete;
@@ -47,16 +48,16 @@ class SurfaceShader {
   /// Shades a batch. Opaque and alpha-tested surfaces have a = 1.
   void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const;
 
-  /// Alpha of a batch (base colour factor, texture and vertex colour), the same bits as `shade` works with.
+  /// Alpha of a batch (base colour factor, texture and vertex colour), with the bits that `shade` uses.
   void alpha(const FragmentBatch& batch, float* out) const;
 
-  /// What no channel of any colour is above.
+  /// An upper bound of every channel of every colour.
   float brightest() const { return brightest_; }
 
   /// Whether a material's batches need dbdx and dbdy.
   bool needs_derivatives(int material) const;
 
-  /// What shading reads of an instance's first vertex; the other vertices follow.
+  /// The record of an instance's first vertex, which shading reads; those of the other vertices follow.
   std::span<const float> vertex_record(std::uint32_t instance, int material) const;
 
  private:

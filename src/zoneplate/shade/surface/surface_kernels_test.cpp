@@ -21,11 +21,11 @@ const SurfaceKernels& kernels(Isa isa) { return SurfaceKernels::of(isa); }
 /// Everything the stages touch, filled with numbers: mostly usual ones, some zeros, some large.
 struct Bench {
   FragmentBatch batch;
-  TriangleVertices corners;
+  TriangleVertices vertices;
   ShadingState points;
   Coordinates coordinates;
   FragmentOutputs shaded;
-  InstanceTransform placements[5];
+  InstanceTransform transforms[5];
   float texel[4][ShadingState::capacity];
   float records[FragmentBatch::capacity][24];
   PreparedLight lights[4];
@@ -45,7 +45,7 @@ struct Bench {
       }
       ++key;
     };
-    fill(batch.b), fill(batch.dbdx), fill(batch.dbdy), fill(records), fill(placements), fill(texel);
+    fill(batch.b), fill(batch.dbdx), fill(batch.dbdy), fill(records), fill(transforms), fill(texel);
     ShadingState& p = points;
     fill(p.position), fill(p.normal), fill(p.tangent), fill(p.color), fill(p.uv), fill(p.uv_dx), fill(p.uv_dy);
     fill(p.is_lit), fill(p.base), fill(p.metallic), fill(p.roughness), fill(p.occlusion);
@@ -57,7 +57,7 @@ struct Bench {
     for (std::uint32_t i = 0; i < FragmentBatch::capacity; ++i) {
       batch.x[i] = static_cast<std::int32_t>(hash(i, 2) % 400000),
       batch.y[i] = static_cast<std::int32_t>(hash(i, 3) % 300000);
-      for (std::uint32_t k = 0; k < 3; ++k) corners.record[k][i] = records[hash(i, 4 + k) % FragmentBatch::capacity];
+      for (std::uint32_t k = 0; k < 3; ++k) vertices.record[k][i] = records[hash(i, 4 + k) % FragmentBatch::capacity];
     }
     for (int g = 0; g < FragmentBatch::groups; ++g) {
       batch.is_flat_run[g] = g % 4 != 3;
@@ -66,9 +66,9 @@ struct Bench {
       batch.has_uniform_derivatives[g] = g / 4 % 2 == 1 && (g % 4 == 1 || g % 4 == 2);
       if (batch.has_uniform_derivatives[g])
         repeat_derivatives(batch.run_begin[g] * FragmentBatch::group, g * FragmentBatch::group);
-      corners.one_instance[g] = batch.is_flat_run[g] || g % 3 != 0;
+      vertices.one_instance[g] = batch.is_flat_run[g] || g % 3 != 0;
     }
-    for (InstanceTransform& placement : placements) placement.keeps_normals = &placement == placements ? 1 : 0;
+    for (InstanceTransform& placement : transforms) placement.keeps_normals = &placement == transforms ? 1 : 0;
     make_lights();
   }
 
@@ -80,7 +80,7 @@ struct Bench {
           std::fill_n(derivative + group, FragmentBatch::group, derivative[leader]);
   }
 
-  PointsArray array(const float* of) const {
+  StateArray array(const float* of) const {
     return {static_cast<std::int32_t>(reinterpret_cast<const unsigned char*>(of) -
                                       reinterpret_cast<const unsigned char*>(&points))};
   }
@@ -133,23 +133,23 @@ std::vector<Stage> stages() {
        [](K k, B b) {
          Interpolation what;
          what.quads = 2;
-         what.quad[0].place = 4, what.quad[1].place = 20;
+         what.quad[0].offset = 4, what.quad[1].offset = 20;
          for (int c = 0; c < 4; ++c) what.quad[0].value[c] = b.array(b.points.color[c]);
          for (int c = 0; c < 2; ++c) {
            what.quad[1].value[2 * c] = b.array(b.points.uv[0][c]);
            what.quad[1].dx[2 * c] = b.array(b.points.uv_dx[0][c]);
            what.quad[1].dy[2 * c] = b.array(b.points.uv_dy[0][c]);
          }
-         k.interpolate(b.batch, b.corners, what, b.points);
+         k.interpolate(b.batch, b.vertices, what, b.points);
        }},
       {"map_coordinates",
        [](K k, B b) {
          k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.batch, b.points, 1, b.coordinates);
        }},
-      {"place_positions", [](K k, B b) { k.place_positions(b.batch, b.corners, b.placements, b.points); }},
-      {"place_normals", [](K k, B b) { k.place_normals(b.batch, b.corners, b.placements, b.points); }},
-      {"place_tangents", [](K k, B b) { k.place_tangents(b.batch, b.corners, b.placements, b.points); }},
-      {"find_normals", [](K k, B b) { k.find_normals(b.batch, b.corners, b.placements, b.points); }},
+      {"transform_positions", [](K k, B b) { k.transform_positions(b.batch, b.vertices, b.transforms, b.points); }},
+      {"transform_normals", [](K k, B b) { k.transform_normals(b.batch, b.vertices, b.transforms, b.points); }},
+      {"transform_tangents", [](K k, B b) { k.transform_tangents(b.batch, b.vertices, b.transforms, b.points); }},
+      {"find_normals", [](K k, B b) { k.find_normals(b.batch, b.vertices, b.transforms, b.points); }},
       {"bend_normals",
        [](K k, B b) {
          const float* const texel[4] = {b.texel[0], b.texel[1], b.texel[2], b.texel[3]};

@@ -93,11 +93,11 @@ struct Outcome {
   float3 normal(std::size_t i = 0) const { return {shaded.normal[0][i], shaded.normal[1][i], shaded.normal[2][i]}; }
 };
 
-std::unique_ptr<Outcome> shade(const Scene& scene, const ViewUniforms& surroundings, const Hand& hand) {
+std::unique_ptr<Outcome> shade(const Scene& scene, const ViewUniforms& view, const Hand& hand) {
   auto outcome = std::make_unique<Outcome>();
   std::memset(static_cast<void*>(outcome.get()), 0, sizeof *outcome);
   FragmentOutputs& shaded = outcome->shaded;
-  Surfaces(scene, surroundings).shader.shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
+  Surfaces(scene, view).shader.shade(hand.batch, {.normal = true, .uv = true, .albedo = true}, shaded);
   // What lies behind the points within a vector means nothing.
   const int end = hand.batch.padded(),
             whole = (end + FragmentBatch::max_lanes - 1) / FragmentBatch::max_lanes * FragmentBatch::max_lanes;
@@ -107,8 +107,8 @@ std::unique_ptr<Outcome> shade(const Scene& scene, const ViewUniforms& surroundi
   return outcome;
 }
 
-float4 color_of(const Scene& scene, const ViewUniforms& surroundings, float3 weights = {0.5f, 0.25f, 0.25f}) {
-  return shade(scene, surroundings, Hand{weights})->color();
+float4 color_of(const Scene& scene, const ViewUniforms& view, float3 weights = {0.5f, 0.25f, 0.25f}) {
+  return shade(scene, view, Hand{weights})->color();
 }
 
 void expect_near(float4 actual, float4 expected, float tolerance) {
@@ -192,20 +192,20 @@ Scene ambient_triangle(float diffuse) {
 TEST(Surface, AmbientLightDoesNotNeedDiffuseReflection) {
   // Light of 2 from all sides; half of it reflected in red, a quarter in green, and the diffuse term is next to
   // nothing.
-  const ViewUniforms surroundings{.ambient_light = {2, 2, 2}};
+  const ViewUniforms view{.ambient_light = {2, 2, 2}};
   for (const float diffuse : {0.0f, 1e-44f, 1e-38f, 1e-20f, 2e-10f, 2.4e-10f, 1e-6f}) {
     Scene scene = ambient_triangle(diffuse);
     EXPECT_EQ(color_of(scene, {}), (float4{0, 0, 0.125f, 1})) << diffuse;
-    expect_near(color_of(scene, surroundings), {1, 0.5f, 1.625f, 1}, 4e-7f);
+    expect_near(color_of(scene, view), {1, 0.5f, 1.625f, 1}, 4e-7f);
     scene.lights = {sun({0, 0, -1})};
-    expect_near(color_of(scene, surroundings), {1, 0.5f, 2.125f, 1}, 2e-6f);
+    expect_near(color_of(scene, view), {1, 0.5f, 2.125f, 1}, 2e-6f);
     scene.materials[0].model = ShadingModel::Phong;
-    expect_near(color_of(scene, surroundings), {1, 0.5f, 2.125f, 1}, 2e-6f);
+    expect_near(color_of(scene, view), {1, 0.5f, 2.125f, 1}, 2e-6f);
   }
 }
 
 TEST(Surface, AmbientLightMeetsTexturesAndVertexColours) {
-  const ViewUniforms surroundings{.ambient_light = {2, 2, 2}};
+  const ViewUniforms view{.ambient_light = {2, 2, 2}};
   for (const float diffuse : {0.0f, 1e-6f}) {
     Scene scene = ambient_triangle(diffuse);
     scene.images = {{"base", one_texel({255, 0, 255, 255})},
@@ -214,7 +214,7 @@ TEST(Surface, AmbientLightMeetsTexturesAndVertexColours) {
     Material& m = scene.materials[0];
     m.base_color_texture.image = 0, m.occlusion_texture.image = 1, m.emissive_texture.image = 2;
     scene.meshes[0].color.assign(3, float4{0.5f, 1, 1, 1});
-    expect_near(color_of(scene, surroundings), {0.1f, 0, 0.3f + 0.125f, 1}, 1e-6f);
+    expect_near(color_of(scene, view), {0.1f, 0, 0.3f + 0.125f, 1}, 1e-6f);
   }
 }
 
@@ -454,18 +454,18 @@ TEST(Surface, EachSlotLooksUpItsOwnTexels) {
   wide(1, 0) = {0, 255, 255, 255};
   scene.images = {{"", halves}, {"", wide}};
   const Sampler nearest{.magnify = TexelFilter::Nearest};
-  const ViewUniforms surroundings{.ambient_light = {1, 1, 1}};
+  const ViewUniforms view{.ambient_light = {1, 1, 1}};
   m.base_color_texture = {.image = 0, .sampler = nearest};
   const float3 at{0.75f, 0.25f, 0};  // u = 0.25
 
   m.emissive_texture = m.base_color_texture;
-  EXPECT_EQ(color_of(scene, surroundings, at), (float4{2, 0, 0, 1}));
+  EXPECT_EQ(color_of(scene, view, at), (float4{2, 0, 0, 1}));
   m.emissive_texture.offset = {0.5f, 0};
-  EXPECT_EQ(color_of(scene, surroundings, at), (float4{1, 1, 0, 1}));
+  EXPECT_EQ(color_of(scene, view, at), (float4{1, 1, 0, 1}));
   m.emissive_texture = {.image = 1, .sampler = nearest};
-  EXPECT_EQ(color_of(scene, surroundings, at), (float4{1, 1, 1, 1}));
+  EXPECT_EQ(color_of(scene, view, at), (float4{1, 1, 1, 1}));
   m.emissive_texture = {.image = 0, .sampler = {}};
-  EXPECT_EQ(color_of(scene, surroundings, at), (float4{2, 0, 0, 1}));
+  EXPECT_EQ(color_of(scene, view, at), (float4{2, 0, 0, 1}));
 }
 
 /// Materials that use images 0 and 2 as colours, 0 as data too; nothing uses image 1.
@@ -503,9 +503,9 @@ TEST(TextureSet, TakesTheImagesWithIt) {
                       &expected = kept.find({.image = image}, meaning)->view();
     const std::int32_t at = 4 * view.texel(0, 0, 0);
     if (meaning == TexelMeaning::Color)
-      EXPECT_EQ(std::memcmp(view.codes15 + at, expected.codes15 + at, 8), 0);
+      EXPECT_EQ(std::memcmp(view.unorm15 + at, expected.unorm15 + at, 8), 0);
     else
-      EXPECT_EQ(std::memcmp(view.codes8 + at, expected.codes8 + at, 4), 0);
+      EXPECT_EQ(std::memcmp(view.unorm8 + at, expected.unorm8 + at, 4), 0);
   }
   try {
     const TextureSet again(scene, false);
@@ -599,13 +599,12 @@ constexpr ShadingModel all_models[] = {ShadingModel::MetallicRoughness, ShadingM
 
 TEST(Surface, EveryInstructionSetGivesTheSameBits) {
   Scene scene = everything();
-  const ViewUniforms surroundings{
-      .eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}, .ambient_light = {0.2f, 0.2f, 0.2f}};
+  const ViewUniforms view{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}, .ambient_light = {0.2f, 0.2f, 0.2f}};
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
     for (const int count : {1, 7, 8, 33, 128}) {
       const auto shaded_with = [&](Isa isa) {
-        return with_isa(isa, [&] { return shade(scene, surroundings, random_points(count)); });
+        return with_isa(isa, [&] { return shade(scene, view, random_points(count)); });
       };
       const auto expected = shaded_with(Isa::Scalar);
       for (const Isa isa : supported_isas()) {
@@ -637,11 +636,11 @@ TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
 
 TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
   Scene scene = everything();
-  const ViewUniforms surroundings{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}};
+  const ViewUniforms view{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}};
   const Hand all = random_points(128);
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
-    const auto together = shade(scene, surroundings, all);
+    const auto together = shade(scene, view, all);
     for (std::size_t i = 0; i < 128; i += 9) {
       Hand alone;
       alone.add({0, all.batch.b[0][i], all.batch.b[1][i]}, all.batch.instance[i], all.batch.is_front[i] != 0);
@@ -652,7 +651,7 @@ TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
       // As eight points of any triangles, and as eight of one that is told of once.
       for (const bool is_shared : {false, true}) {
         alone.batch.is_flat_run[0] = is_shared, alone.batch.run_end[0] = 1;
-        const auto outcome = shade(scene, surroundings, alone);
+        const auto outcome = shade(scene, view, alone);
         ASSERT_EQ(std::memcmp(&together->shaded.r[i], &outcome->shaded.r[0], sizeof(float)), 0) << i;
         ASSERT_EQ(outcome->color(), together->color(i)) << i;
         ASSERT_EQ(outcome->normal(), together->normal(i)) << i;

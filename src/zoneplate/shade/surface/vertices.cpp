@@ -30,17 +30,17 @@ float4 face_tangent(const Mesh& mesh, const Triangle& t, int uv_set) {
 
 std::vector<RecordLayout> make_layouts(const Scene& scene) {
   std::vector<RecordLayout> layouts(scene.materials.size());
-  const auto take = [](int& place, RecordLayout& layout) {
-    if (place < 0) place = layout.floats, layout.floats += 4;
+  const auto reserve = [](int& offset, RecordLayout& layout) {
+    if (offset < 0) offset = layout.floats, layout.floats += 4;
   };
   for (const Mesh& mesh : scene.meshes) {
     const auto m = static_cast<std::size_t>(mesh.material);
     const Material& material = scene.materials[m];
     for (const TextureUse* use : texture_slots(material))
-      if (use->uv_set == 1) take(layouts[m].uv1, layouts[m]);
-    if (material.normal_texture.image >= 0) take(layouts[m].tangent, layouts[m]);
-    if (!mesh.color.empty()) take(layouts[m].color, layouts[m]);
-    if (!mesh.uv1.empty()) take(layouts[m].uv1, layouts[m]);
+      if (use->uv_set == 1) reserve(layouts[m].uv1, layouts[m]);
+    if (material.normal_texture.image >= 0) reserve(layouts[m].tangent, layouts[m]);
+    if (!mesh.color.empty()) reserve(layouts[m].color, layouts[m]);
+    if (!mesh.uv1.empty()) reserve(layouts[m].uv1, layouts[m]);
   }
   return layouts;
 }
@@ -51,14 +51,14 @@ void write_record(const Mesh& mesh, const RecordLayout& layout, std::size_t v, f
   const float2 uv = mesh.uv0.empty() ? float2{} : mesh.uv0[v];
   to[0] = n.x, to[1] = n.y, to[2] = n.z, to[3] = p.x;
   to[4] = p.y, to[5] = p.z, to[6] = uv.x, to[7] = uv.y;
-  const auto put = [&](int place, float4 value) {
-    float* const at = to + place;
-    if (place >= 0) at[0] = value.x, at[1] = value.y, at[2] = value.z, at[3] = value.w;
+  const auto store = [&](int offset, float4 value) {
+    float* const at = to + offset;
+    if (offset >= 0) at[0] = value.x, at[1] = value.y, at[2] = value.z, at[3] = value.w;
   };
-  put(layout.tangent, mesh.tangent.empty() ? float4{} : mesh.tangent[v]);
-  put(layout.color, mesh.color.empty() ? float4{1, 1, 1, 1} : mesh.color[v]);
+  store(layout.tangent, mesh.tangent.empty() ? float4{} : mesh.tangent[v]);
+  store(layout.color, mesh.color.empty() ? float4{1, 1, 1, 1} : mesh.color[v]);
   const float2 uv1 = mesh.uv1.empty() ? float2{} : mesh.uv1[v];
-  put(layout.uv1, {uv1.x, uv1.y, 0, 0});
+  store(layout.uv1, {uv1.x, uv1.y, 0, 0});
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ InterleavedVertices::InterleavedVertices(const Scene& scene)
     const Mesh& mesh = scene.meshes[m];
     const RecordLayout& layout = layouts_[static_cast<std::size_t>(mesh.material)];
     const auto stride = static_cast<std::size_t>(layout.floats);
-    auto* const records = reinterpret_cast<float*>(meshes_[m].room(mesh.position.size() * stride * sizeof(float)));
+    auto* const records = reinterpret_cast<float*>(meshes_[m].reserve(mesh.position.size() * stride * sizeof(float)));
     first[m] = records;
     parallel_ranges(mesh.position.size(), vertices_per_range, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) write_record(mesh, layout, v, records + v * stride);
@@ -80,10 +80,10 @@ InterleavedVertices::InterleavedVertices(const Scene& scene)
   for (const Instance& instance : scene.instances) instances_.push_back(first[static_cast<std::size_t>(instance.mesh)]);
 }
 
-void find_corners(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out) {
+void find_vertex_records(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out) {
   const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
   if (batch.one_instance) {
-    // Records that stand in one array are found when they are needed.
+    // Records in one array are addressed where they are read.
     out.first = records.of_instance(batch.instance[0]), out.stride = stride;
     std::fill(std::begin(out.one_instance), std::end(out.one_instance), true);
     return;
@@ -114,8 +114,8 @@ void find_corners(const InterleavedVertices& records, const FragmentBatch& batch
 
 namespace {
 
-/// Array i of those that begin at a member of ShadingState.
-PointsArray array(std::size_t member, std::size_t i = 0) {
+/// Array i of a member of ShadingState that is an array of arrays.
+StateArray array(std::size_t member, std::size_t i = 0) {
   return {static_cast<std::int32_t>(member + i * sizeof(ShadingState::Array))};
 }
 
@@ -124,13 +124,13 @@ PointsArray array(std::size_t member, std::size_t i = 0) {
 Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes) {
   constexpr std::size_t position = offsetof(ShadingState, position), normal = offsetof(ShadingState, normal);
   constexpr std::size_t tangent = offsetof(ShadingState, tangent), color = offsetof(ShadingState, color);
-  Interpolation what;
-  const auto quad = [&](bool is_wanted, int place) -> Interpolation::Quad* {
-    if (!is_wanted || place < 0) return nullptr;
-    what.quad[what.quads].place = place;
-    return &what.quad[what.quads++];
+  Interpolation out;
+  const auto quad = [&](bool is_needed, int offset) -> Interpolation::Quad* {
+    if (!is_needed || offset < 0) return nullptr;
+    out.quad[out.quads].offset = offset;
+    return &out.quad[out.quads++];
   };
-  const auto want_coordinates = [&](Interpolation::Quad& q, std::size_t first, std::size_t set) {
+  const auto store_coordinates = [&](Interpolation::Quad& q, std::size_t first, std::size_t set) {
     for (std::size_t c = 0; c < 2; ++c) {
       q.value[first + c] = array(offsetof(ShadingState, uv), 2 * set + c);
       q.dx[first + c] = array(offsetof(ShadingState, uv_dx), 2 * set + c);
@@ -144,14 +144,14 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
   }
   if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
     if (attributes.position) q->value[0] = array(position, 1), q->value[1] = array(position, 2);
-    if (attributes.uv[0]) want_coordinates(*q, 2, 0);
+    if (attributes.uv[0]) store_coordinates(*q, 2, 0);
   }
   if (auto* q = quad(attributes.tangent, layout.tangent))
     for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(tangent, c);
   if (auto* q = quad(attributes.color, layout.color))
     for (std::size_t c = 0; c < 4; ++c) q->value[c] = array(color, c);
-  if (auto* q = quad(attributes.uv[1], layout.uv1)) want_coordinates(*q, 0, 1);
-  return what;
+  if (auto* q = quad(attributes.uv[1], layout.uv1)) store_coordinates(*q, 0, 1);
+  return out;
 }
 
 void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& p) {
@@ -172,31 +172,31 @@ void mark_lit(const Scene& scene, const FragmentBatch& batch, float* is_lit) {
   }
 }
 
-std::vector<InstanceTransform> make_placements(std::span<const Instance> instances) {
-  std::vector<InstanceTransform> placements;
-  placements.reserve(instances.size());
+std::vector<InstanceTransform> make_instance_transforms(std::span<const Instance> instances) {
+  std::vector<InstanceTransform> transforms;
+  transforms.reserve(instances.size());
   for (const Instance& instance : instances) {
     InstanceTransform p{};
     const float4x4& world = instance.world_from_object;
     const float4x4 normal = normal_matrix(world);
 
-    // Cofactors of tiny or huge placements are brought near 1, so that their squares stay in range; those that are out
-    // of range themselves count as none.
+    // Cofactors of tiny or huge transforms are scaled to about 1, so that their squares stay in range; cofactors that
+    // are out of range themselves become 0.
     float greatest = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const float4 v = normal.column[c];
       greatest = std::max({greatest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     }
     const bool is_in_range = greatest > 1e-36f && greatest < 1e36f;
-    const auto put = [](float4 v, float* to) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
-    for (std::size_t c = 0; c < 4; ++c) put(world.column[c], p.world_from_object + 3 * c);
+    const auto store = [](float4 v, float* to) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
+    for (std::size_t c = 0; c < 4; ++c) store(world.column[c], p.world_from_object + 3 * c);
     for (std::size_t c = 0; c < 3; ++c)
-      if (is_in_range) put(normal.column[c] * (1 / greatest), p.normal + 3 * c);
+      if (is_in_range) store(normal.column[c] * (1 / greatest), p.normal + 3 * c);
     p.handedness = determinant3(world) < 0 ? -1.0f : 1.0f;
     p.keeps_normals = normal == float4x4{} ? 1.0f : 0.0f;
-    placements.push_back(p);
+    transforms.push_back(p);
   }
-  return placements;
+  return transforms;
 }
 
 }  // namespace zoneplate

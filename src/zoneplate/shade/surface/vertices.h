@@ -5,17 +5,17 @@
 
 #include "zoneplate/raster/geometry/arena.h"
 #include "zoneplate/scene/scene.h"
-#include "zoneplate/shade/surface/points.h"
+#include "zoneplate/shade/surface/shading_state.h"
 
 namespace zoneplate {
 
 /// The attributes that a material needs.
 struct Attributes {
   bool position = false, normal = false, tangent = false, uv[2] = {false, false}, color = false;
-  int tangent_uv_set = 0;  ///< which coordinates a tangent is made from where a mesh has none
+  int tangent_uv_set = 0;  ///< the coordinates from which tangents are made where a mesh has none
 };
 
-/// Where the attributes stand in a vertex's record. What no mesh of a material has, its records have no room for.
+/// The offsets of the attributes in a vertex record. Records hold only attributes that some mesh of the material has.
 ///
 /// Shape     floats: normal x y z, position x | position y z, u v | tangent x y z w | colour r g b a | second u v, 0,
 /// 0.
@@ -24,13 +24,13 @@ struct RecordLayout {
   int tangent = -1, color = -1, uv1 = -1;  ///< first float; -1: absent
 };
 
-/// The attributes of a scene's vertices, one vertex after the other: what shading reads of a vertex lies together.
+/// The attributes of a scene's vertices, interleaved: all that shading reads of one vertex is contiguous.
 ///
-/// What a mesh lacks and others of its material have is 0, its colour (1, 1, 1, 1). A record of eight floats lies
-/// within one cache line, and large meshes in large pages: shading reads vertices from anywhere.
+/// An attribute that a mesh lacks and another mesh of its material has is 0, a missing colour (1, 1, 1, 1). A record of
+/// eight floats lies within one cache line, and large meshes in large pages, because the access is random.
 class InterleavedVertices {
  public:
-  /// Made in parallel. A material without a normal map has no tangents.
+  /// The records are made in parallel. Those of a material without a normal map have no tangents.
   explicit InterleavedVertices(const Scene& scene);
 
   const RecordLayout& layout(int material) const { return layouts_[static_cast<std::size_t>(material)]; }
@@ -42,19 +42,19 @@ class InterleavedVertices {
   std::vector<const float*> instances_;
 };
 
-/// Finds the records of a batch's corners.
-void find_corners(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out);
+/// Finds the vertex records of a batch's triangles.
+void find_vertex_records(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out);
 
-/// Which float of the records goes where in the points.
+/// The interpolation of the attributes from records of this layout.
 Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes);
 
-/// Gives the points of meshes without tangents the direction of growing u over their triangle (zero where the triangle
-/// has no area in u, v; w: the sign of that area).
+/// Sets the tangents of fragments of meshes without tangents: the direction in which u grows over the triangle (zero
+/// where the triangle has no area in u, v); w: the sign of that area.
 void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& points);
 
-/// 1 for the points of meshes that have normals, else 0.
+/// Sets `is_lit` to 1 for the fragments of meshes that have normals, else to 0.
 void mark_lit(const Scene& scene, const FragmentBatch& batch, float* is_lit);
 
-std::vector<InstanceTransform> make_placements(std::span<const Instance> instances);
+std::vector<InstanceTransform> make_instance_transforms(std::span<const Instance> instances);
 
 }  // namespace zoneplate

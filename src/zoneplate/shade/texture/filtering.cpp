@@ -80,8 +80,8 @@ void mix_values(const Value* values, const Taps& taps, float* const out[4], int 
 }
 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
-  if (t.codes8 != nullptr) return mix_codes(t.codes8, 7, 1.0f / 32640.0f, taps, out, count);
-  if (t.codes15 != nullptr) return mix_codes(t.codes15, 0, 1.0f / 32767.0f, taps, out, count);
+  if (t.unorm8 != nullptr) return mix_codes(t.unorm8, 7, 1.0f / 32640.0f, taps, out, count);
+  if (t.unorm15 != nullptr) return mix_codes(t.unorm15, 0, 1.0f / 32767.0f, taps, out, count);
   if (t.halves != nullptr) return mix_values(t.halves, taps, out, count);
   mix_values(t.values, taps, out, count);
 }

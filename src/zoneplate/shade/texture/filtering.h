@@ -56,23 +56,23 @@ struct Taps {
   std::int32_t down(int level, int i) const { return bilinear_weight[level][by_fours(i) + 4]; }
 };
 
-/// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity; what stands in a footprint's
-/// arrays up to the next multiple of 16 may be read.
+/// Texture look-up in two stages. Counts are multiples of 8, at most Taps::capacity; a footprint's arrays may be read
+/// up to the next multiple of 16.
 ///
-/// The level is log2 of the footprint: D = ½ log2 max(|∂(s,t)/∂x|², |∂(s,t)/∂y|²) with (s, t) in texels of level 0,
-/// clamped to the levels there are. D > 0 minifies, else the picture is magnified. The coordinate is wrapped before
-/// it is scaled to a level. Nearest takes the texel that holds the point; linear the four whose centres surround
-/// it, mixed by their distances: first along y, then x, then between levels (floor D and the next; or, without
-/// blending, the level nearest to D).
+/// The LOD is log2 of the footprint: D = ½ log2 max(|∂(s,t)/∂x|², |∂(s,t)/∂y|²) with (s, t) in texels of level 0,
+/// clamped to the texture's levels. D > 0 minifies, else the image is magnified. The coordinate is wrapped before it is
+/// scaled to a level. Nearest filtering takes the texel that contains the coordinate; linear filtering the four texels
+/// whose centres surround it, mixed by their distances: first along y, then x, then between levels (floor D and the
+/// next; or, without blending, the level nearest to D).
 ///
-/// Level and weights are cut off after 15 bits; log2 is that of coarse_log2.
+/// LOD and weights are truncated after 15 bits; log2 is coarse_log2.
 ///
 /// Edges     any coordinate and any derivative, infinities and NaN included, give texels inside the texture.
-/// Exact     a point on a texel's centre (of a size that is a power of two) gives that texel; texels of one value give
-///           that value; 0 and 1 are exact. Mixing is in fixed point: codes of 8 bits with 7 more below them, codes of
-///           15 bits as they are, weights of 15 bits, each of the mixes rounded to the nearest. A value is off by at
-///           most 2 units of 1/32640 or 1/32767, where graphics interfaces require weights of 8 bits. Floats are mixed
-///           in floats, with the same weights; half floats likewise, after their exact conversion to floats.
+/// Exact     a coordinate at a texel's centre (of a size that is a power of two) gives that texel; texels of one value
+///           give that value; 0 and 1 are exact. Mixing is in fixed point: unorm8 texels with 7 more fraction bits,
+///           unorm15 texels without, weights of 15 bits, each mix rounded to the nearest. The error of a value is at
+///           most 2 units of 1/32640 or 1/32767, where graphics interfaces require weights of 8 bits. Float textures
+///           are mixed in floats, with the same weights; half floats likewise, after their exact conversion to floats.
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
 struct FilteringKernels : PerIsa<FilteringKernels> {
@@ -80,10 +80,10 @@ struct FilteringKernels : PerIsa<FilteringKernels> {
                     int count);
   void (*mix_taps)(const TextureView& texture, const Taps& taps, float* const out[4], int count);
 
-  /// Both stages for footprints that are longer than wide: the mean of N probes along the longer axis, at the level of
+  /// Both stages for footprints that are longer than wide: the mean of N probes along the longer axis, at the LOD of
   /// an N-th of its length: N = ceil(longer / shorter), at most `anisotropy` and ceil(longer) in texels of level 0.
   /// Probe i of N lies at i / (N + 1) - 1/2 of the axis.
-  /// Source    EXT_texture_filter_anisotropic (but for the last bound, which only spares probes nearer than a texel).
+  /// Source    EXT_texture_filter_anisotropic; the bound by texels is ours and only drops probes nearer than a texel.
   void (*sample_anisotropic)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint,
                              float* const out[4], int count);
 };

@@ -8,34 +8,34 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace {
 
-// Two texels side by side of a row, of each of two points: those are a block of 128 bits, as 16-bit lanes in two
-// vectors, and so is what they are mixed to. Eight points are a vector of four blocks, two of two or four of one.
+// A block of 128 bits holds two neighbouring texels of a row for each of two fragments, as 16-bit lanes in two vectors;
+// their mixture has the same form. Eight fragments are one vector of four blocks, two of two or four of one.
 using Fixed = hn::CappedTag<std::int16_t, 32>;
 using V = hn::Vec<Fixed>;
 constexpr int blocks = static_cast<int>(hn::MaxLanes(Fixed())) / 8;
 constexpr int vectors = 4 / blocks;
 
-/// Of eight points the first of the two in a vector's block: such that weights by fours and results are turned by
+/// The first of the two fragments of a vector's block, chosen so that weights by fours and results are permuted by
 /// blocks only.
 constexpr int point_of(int vector, int block) {
   return blocks == 1 ? 2 * vector : blocks == 2 ? 2 * vector + 4 * block : block % 2 * 4 + block / 2 * 2;
 }
 
-/// On x86 one instruction multiplies bytes by -128, but none by 128: there numbers have the other sign until they are
-/// stored, and are mixed to the same bits.
+/// x86 has an instruction that multiplies bytes by -128, but none that multiplies them by 128: there values are negated
+/// until they are stored, and mix to the same bits.
 constexpr bool are_negative = HWY_ARCH_X86 != 0;
 
 /// a + (b - a) × weight / 32768, to the nearest.
 HWY_INLINE V mix(V a, V b, V weight) { return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), weight)); }
-/// The same of negative numbers, whose difference is rounded as that of positive ones.
+/// The same for negated values, whose difference is rounded like that of the positive values.
 HWY_INLINE V mix_negative(V a, V b, V weight) { return hn::Sub(a, hn::MulFixedPoint15(hn::Sub(a, b), weight)); }
 
-/// Which bytes of the weights by fours go into which lanes of a block. `pair`: which two of the four points the block
-/// has; 64 bytes from `pair` 0 on are those of four blocks.
+/// Shuffles from the weights by fours to the lanes of a block. `pair`: which two of the four fragments the block has;
+/// the 64 bytes from `pair` 0 on serve four blocks.
 struct Spread {
-  alignas(64) std::uint8_t down[2][32];         ///< four lanes of each point
-  alignas(64) std::uint8_t down_one[2][2][32];  ///< all of the first point, or of the second
-  alignas(64) std::uint8_t right[2][32];        ///< two lanes of each point, twice
+  alignas(64) std::uint8_t down[2][32];         ///< four lanes of each fragment
+  alignas(64) std::uint8_t down_one[2][2][32];  ///< all of the first fragment, or of the second
+  alignas(64) std::uint8_t right[2][32];        ///< two lanes of each fragment, twice
 };
 
 constexpr Spread make_spread() {
@@ -51,7 +51,7 @@ constexpr Spread make_spread() {
 }
 constexpr Spread spread = make_spread();
 
-/// The weights by fours of the points of vector n of the eight from i on.
+/// The weights by fours of vector n of the eight fragments from i on.
 HWY_INLINE V load_weights(const std::int16_t* weights, int i, [[maybe_unused]] int n) {
   if constexpr (blocks == 4) {
     const auto eight = hn::Load(hn::Half<Fixed>(), weights + 2 * i);
@@ -66,7 +66,7 @@ HWY_INLINE V spread_weights(V weights, const std::uint8_t (&bytes)[2][32], int n
   return hn::BitCast(Fixed(), hn::TableLookupBytes(hn::BitCast(d, weights), hn::Load(d, bytes[n % 2])));
 }
 
-/// A vector of what `block` gives of each of its blocks.
+/// The vector whose blocks are block(0), block(1), ...
 template <class Load>
 HWY_INLINE V join_blocks(Load block) {
   if constexpr (blocks == 4) {
@@ -85,13 +85,12 @@ HWY_INLINE V every_second_pair(V upper, V lower) {
   return hn::BitCast(Fixed(), every_second_word<first>(hn::BitCast(d, upper), hn::BitCast(d, lower)));
 }
 
-/// What is mixed along x: of each of a block's points two channels, then its other two.
+/// The operands of the mix along x: two channels of each fragment of a block, then its other two.
 struct Sides {
   V left, right;
 };
 
-/// Codes of 8 bits, which are brought to 15. The channels that stand beside each other are red and blue, green and
-/// alpha.
+/// unorm8 texels, which are widened to 15 bits. The channel pairs are red and blue, green and alpha.
 struct Codes8 {
   const std::uint8_t* codes;
   static constexpr bool is_negative = are_negative;
@@ -102,7 +101,7 @@ struct Codes8 {
     return codes + std::ptrdiff_t{4} * texel[point];
   }
 
-  /// The texels at the points' places and on their right.
+  /// The texels of the fragments and their right neighbours.
   HWY_INLINE V pairs(const std::int32_t* texel, [[maybe_unused]] int n) const {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     const auto quad = [&](int p) HWY_ATTR {
@@ -158,14 +157,14 @@ struct Codes8 {
   static HWY_INLINE V mixed(V a, V b, V weight) { return is_negative ? mix_negative(a, b, weight) : mix(a, b, weight); }
 };
 
-/// Codes of 15 bits. The channels that stand beside each other are red and green, blue and alpha.
+/// unorm15 texels. The channel pairs are red and green, blue and alpha.
 struct Codes15 {
   const std::uint16_t* codes;
   static constexpr bool is_negative = false;
   static constexpr float unit = 1.0f / 32767.0f;
   static constexpr int channel[4] = {0, 1, 2, 3};
 
-  /// The texels at one point of each block, and on its right.
+  /// The texels of one fragment of each block and their right neighbours.
   HWY_INLINE V pairs(const std::int32_t* texel, int n, int p) const {
     return join_blocks([&](int block) HWY_ATTR {
       const std::uint16_t* const from = codes + std::ptrdiff_t{4} * texel[point_of(n, block) + p];
@@ -184,7 +183,7 @@ struct Codes15 {
   static HWY_INLINE V mixed(V a, V b, V weight) { return mix(a, b, weight); }
 };
 
-/// A level of the points of vector n of the eight from i on.
+/// Mixes one level of vector n of the eight fragments from i on.
 template <class Codes>
 HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, int n) {
   const V weights = load_weights(taps.bilinear_weight[level], i, n);
@@ -192,7 +191,7 @@ HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, i
   return Codes::mixed(sides.left, sides.right, spread_weights(weights, spread.right, n));
 }
 
-/// Both levels.
+/// Mixes both levels.
 template <class Codes>
 HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, int i, int n) {
   const V first = mix_level(codes, taps, 0, i, n);
@@ -214,7 +213,7 @@ struct Channels {
   }
 };
 
-/// Eight points' channels, from point i on.
+/// Stores the channels of eight fragments, from fragment i on.
 template <class Codes>
 HWY_INLINE void store_channels(const V (&mixed)[vectors], float* const out[4], int i) {
   using Words = hn::Repartition<std::int32_t, Fixed>;
@@ -243,7 +242,7 @@ HWY_INLINE void store_channels(const V (&mixed)[vectors], float* const out[4], i
 #endif
 }
 
-/// True if one of eight points from i on needs its second level.
+/// True if one of the eight fragments from i on needs its second level.
 HWY_INLINE bool blends(const Taps& taps, int i) {
   const hn::CappedTag<std::int16_t, 16> d;
   auto any = hn::Zero(d);
@@ -302,8 +301,8 @@ void mix_values(const Value* values, const Taps& taps, float* const out[4], int 
 }
 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
-  if (t.codes8 != nullptr) return mix_codes(Codes8{t.codes8}, taps, out, count);
-  if (t.codes15 != nullptr) return mix_codes(Codes15{t.codes15}, taps, out, count);
+  if (t.unorm8 != nullptr) return mix_codes(Codes8{t.unorm8}, taps, out, count);
+  if (t.unorm15 != nullptr) return mix_codes(Codes15{t.unorm15}, taps, out, count);
   if (t.halves != nullptr) return mix_values(t.halves, taps, out, count);
   mix_values(t.values, taps, out, count);
 }

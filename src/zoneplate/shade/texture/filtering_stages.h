@@ -7,32 +7,32 @@
 
 namespace zoneplate {
 
-/// A texture's level at each point: its size in 1/32768 texel, and how its texels lie.
+/// The mip level of a texture at each fragment: its size in 1/32768 texel, and the layout of its texels.
 template <class F>
 struct MipLevel {
   F width, height;
   typename F::Int columns, rows, pitch, offset;
 };
 
-/// The level of all points.
+/// The same level for all fragments.
 template <class F, class View>
-[[gnu::always_inline]] inline MipLevel<F> place_level(const View& t, std::int32_t level) {
+[[gnu::always_inline]] inline MipLevel<F> mip_level(const View& t, std::int32_t level) {
   using Int = typename F::Int;
   const std::int32_t w = t.width[level], h = t.height[level];
   const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
   return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[level])};
 }
 
-/// The level of each point.
+/// The level of each fragment.
 template <class F, class View>
-[[gnu::always_inline]] inline MipLevel<F> place_levels(const View& t, typename F::Int level) {
+[[gnu::always_inline]] inline MipLevel<F> mip_levels(const View& t, typename F::Int level) {
   using Int = typename F::Int;
   static_assert(View::max_levels == 16);
   const Int w = Int::look_up(t.width, level), h = Int::look_up(t.height, level);
   return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::look_up(t.offset, level)};
 }
 
-/// A coordinate brought into [0, 1]; NaN gives 0.
+/// A coordinate wrapped to [0, 1]; NaN gives 0.
 template <class F>
 [[gnu::always_inline]] inline F wrap(F u, bool mirrors, bool clamps) {
   const F zero(0.0f), one(1.0f);
@@ -47,8 +47,8 @@ template <class F>
   return min(max(w, zero), one);
 }
 
-/// What most samplers are: repeating, linear within and between levels. Known when this is compiled.
-struct UsualFiltering {
+/// The most frequent sampler, fixed at compile time: repeating, linear within and between mip levels.
+struct TrilinearRepeat {
   static constexpr bool mirror_u = false, clamp_u = false, mirror_v = false, clamp_v = false;
   static constexpr bool nearest_magnify = false, nearest_minify = false;
   static constexpr bool has_mips = true, blends_mips = true;
@@ -59,7 +59,7 @@ template <class Filter>
   return f.nearest_magnify || f.nearest_minify;
 }
 
-inline bool is_usual(const SamplerState& f) {
+inline bool is_trilinear_repeat(const SamplerState& f) {
   return !f.mirror_u && !f.clamp_u && !f.mirror_v && !f.clamp_v && !may_be_nearest(f) && f.has_mips && f.blends_mips;
 }
 
@@ -83,7 +83,7 @@ template <class F>
   if (may_be_nearest) weight = select(is_nearest, Int(0), weight);
   if (repeats) return {first, weight, may_be_nearest ? is_nearest : weight < Int(0)};
 
-  // A coordinate in [0, 1] leaves the level by one texel at most. Where it does not repeat, both are the same there.
+  // A coordinate in [0, 1] leaves the level by one texel at most. Without repetition both texels are the same there.
   const auto is_same = (first < Int(1)) | (first > count - Int(1)) | (may_be_nearest ? is_nearest : weight < Int(0));
   first = min(max(first, Int(1)), count);
   return {first, select(is_same, Int(0), weight), is_same};
@@ -99,35 +99,35 @@ template <class F>
 }
 
 template <class F>
-struct WrappedPoint {
+struct WrappedCoordinates {
   F u, v;
   typename F::Bool is_nearest;
 };
 
-/// Asks for texels that will be mixed some stages later.
+/// Prefetches texels that a later stage mixes.
 struct TexelFetch {
   const unsigned char* codes;
   int shift;  ///< log2 of a texel's bytes
 
   template <class View>
   explicit TexelFetch(const View& t)
-      : codes(t.codes8 != nullptr    ? t.codes8
-              : t.codes15 != nullptr ? reinterpret_cast<const unsigned char*>(t.codes15)
+      : codes(t.unorm8 != nullptr    ? t.unorm8
+              : t.unorm15 != nullptr ? reinterpret_cast<const unsigned char*>(t.unorm15)
               : t.halves != nullptr  ? reinterpret_cast<const unsigned char*>(t.halves)
                                      : reinterpret_cast<const unsigned char*>(t.values)),
-        shift(t.codes8 != nullptr                           ? 2
-              : t.codes15 != nullptr || t.halves != nullptr ? 3
+        shift(t.unorm8 != nullptr                           ? 2
+              : t.unorm15 != nullptr || t.halves != nullptr ? 3
                                                             : 4) {}
-  [[gnu::always_inline]] void ask_for(std::int32_t texel) const {
+  [[gnu::always_inline]] void prefetch(std::int32_t texel) const {
     __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
   }
 };
 
-/// The levels to look at.
+/// The mip levels to read.
 template <class F>
 struct Levels {
   typename F::Int first;
-  F mip_weight;  ///< weight of the next one
+  F mip_weight;  ///< weight of the next level
   typename F::Bool is_minified;
 };
 
@@ -139,106 +139,107 @@ template <class F, class Filter>
   return {truncate(fine), mip_weight, lod > F(0.0f)};
 }
 
-/// Where points look: the levels, and how to weigh them.
+/// The mip levels of fragments, and their weights.
 template <class F>
 struct Lookup {
   F last_level;
-  MipLevel<F> place[2];
+  MipLevel<F> level[2];
   typename F::Int first;       ///< the first level
   typename F::Int mip_weight;  ///< weight of the second level, in 1/32768
   typename F::Bool is_nearest;
 };
 
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void place_lookup(const View& t, const Filter& f, typename F::Int first, Lookup<F>& at) {
+[[gnu::always_inline]] inline void set_levels(const View& t, const Filter& f, typename F::Int first, Lookup<F>& at) {
   using Int = typename F::Int;
   const bool has_second = f.has_mips && f.blends_mips;
   at.first = first;
   if (first.is_uniform()) {
-    at.place[0] = place_level<F>(t, first.first());
-    if (has_second) at.place[1] = place_level<F>(t, first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1);
+    at.level[0] = mip_level<F>(t, first.first());
+    if (has_second) at.level[1] = mip_level<F>(t, first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1);
   } else {
-    at.place[0] = place_levels<F>(t, first);
-    if (has_second) at.place[1] = place_levels<F>(t, min(first + Int(1), Int(t.levels - 1)));
+    at.level[0] = mip_levels<F>(t, first);
+    if (has_second) at.level[1] = mip_levels<F>(t, min(first + Int(1), Int(t.levels - 1)));
   }
 }
 
-/// `at`: of the points before, which mostly look at the same levels; these then need not be known before the texels'
-/// addresses are on their way.
+/// Updates `at`, the look-up of the fragments before, which mostly read the same levels: then the texel addresses do
+/// not depend on this computation.
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F lod, Lookup<F>& at) {
   using Int = typename F::Int;
   const Levels<F> levels = find_levels<F>(at.last_level, f, lod);
   const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
-  if (!levels.first.equals(at.first)) place_lookup(t, f, levels.first, at);
+  if (!levels.first.equals(at.first)) set_levels(t, f, levels.first, at);
   at.mip_weight = min(truncate(levels.mip_weight * F(32768.0f) + F(0.5f)), Int(32767));
   at.is_nearest = select(levels.is_minified, minify, magnify) > F(0.5f);
 }
 
-/// That of points at the first level.
+/// The look-up of fragments at the first level.
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline Lookup<F> begin_lookup(const View& t, const Filter& f) {
   Lookup<F> at;
   at.last_level = F(static_cast<float>(t.levels - 1));
-  place_lookup(t, f, typename F::Int(0), at);
+  set_levels(t, f, typename F::Int(0), at);
   return at;
 }
 
-/// Asks for the lower texels of one or both ends of the points, which mostly are a row.
+/// Stores the taps of one level, and prefetches the lower texels at one or both ends of the fragments, which mostly are
+/// a row.
 template <class F, class Filter>
-[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedPoint<F>& p,
-                                               const MipLevel<F>& place, Taps& out, int which, int i) {
+[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedCoordinates<F>& p,
+                                               const MipLevel<F>& level, Taps& out, int which, int i) {
   using Int = typename F::Int;
   const bool nearest = may_be_nearest(f), repeats_v = !f.mirror_v && !f.clamp_v;
-  const AxisTaps<F> x = axis_taps(p.u, place.width, place.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
-  const AxisTaps<F> y = axis_taps(p.v, place.height, place.rows, nearest, p.is_nearest, repeats_v);
-  const Int upper = place.offset + y.first * place.pitch + x.first;
-  const Int below = repeats_v && !nearest ? place.pitch : select(y.is_same, Int(0), place.pitch);
+  const AxisTaps<F> x = axis_taps(p.u, level.width, level.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
+  const AxisTaps<F> y = axis_taps(p.v, level.height, level.rows, nearest, p.is_nearest, repeats_v);
+  const Int upper = level.offset + y.first * level.pitch + x.first;
+  const Int below = repeats_v && !nearest ? level.pitch : select(y.is_same, Int(0), level.pitch);
   upper.store(out.upper[which] + i);
   x.weight.store_by_fours(y.weight, out.bilinear_weight[which], i);
   const Int lower = upper + below;
   lower.store(out.lower[which] + i);
-  fetch.ask_for(lower.first());
+  fetch.prefetch(lower.first());
   // A row of the second level has half as many texels.
-  if (which == 0) fetch.ask_for(out.lower[which][i + F::lanes - 1]);
+  if (which == 0) fetch.prefetch(out.lower[which][i + F::lanes - 1]);
 }
 
-/// The taps of points at (u, v), the i-th of `out` and on.
+/// Stores the taps of fragments at (u, v), from the i-th of `out` on.
 template <class F, class Filter>
 [[gnu::always_inline]] inline void store_taps(const TexelFetch& fetch, const Filter& f, const Lookup<F>& at, F u, F v,
                                               Taps& out, int i) {
   at.mip_weight.store_by_fours(at.mip_weight, out.mip_weight, i);
-  const WrappedPoint<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
+  const WrappedCoordinates<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
   for (int which = 0; which < (f.has_mips && f.blends_mips ? 2 : 1); ++which)
-    store_level<F>(fetch, f, p, at.place[which], out, which, i);
+    store_level<F>(fetch, f, p, at.level[which], out, which, i);
 }
 
-/// `at` is a copy: its pointers are read once, not again after each store.
+/// `at` is a copy, so that its pointers are loaded once and not again after each store.
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint at, Taps& out,
                                                  int count) {
   static constexpr bool none[Taps::groups] = {};
   static constexpr int step = F::lanes < 8 ? 8 : F::lanes;
   const bool* const repeats = at.repeats != nullptr ? at.repeats : none;
-  // True if all points from i on, of one group or two, are at the levels of those before them. A vector of two groups
-  // repeats what it was if that was of one footprint.
+  // True if all fragments from i on, of one group or two, have the levels of the fragments before them. A vector of two
+  // groups repeats the vector before it if that had one footprint.
   const auto is_known = [&](int i) {
     const int g = i / 8;
     if constexpr (step == 8) return repeats[g];
     return repeats[g] && repeats[g + 1] && repeats[g - 1];
   };
-  // Apart from the addresses, because both are long chains of operations that wait for each other.
+  // The levels are found in a loop before the addresses, because both are long dependency chains.
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0]));
-  int told = 0;
+  int leader = 0;
   for (int i = 0; i < count; i += step) {
     if (is_known(i)) continue;
     for (int k = i; k < i + step; k += F::lanes) footprint_level(w, h, at, k).store(out.lod + k);
     if constexpr (step == 8) continue;
     for (int k = i; k < i + step; k += 8) {
       if (repeats[k / 8]) {
-        std::copy_n(out.lod + told, 8, out.lod + k);
+        std::copy_n(out.lod + leader, 8, out.lod + k);
       } else {
-        told = k;
+        leader = k;
       }
     }
   }
@@ -256,11 +257,11 @@ template <class F, class View, class Filter>
 /// The stage `find_taps` of shade/texture/filtering.h.
 template <class F, class View>
 void find_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
-  if (is_usual(f)) return find_all_taps<F>(t, UsualFiltering{}, footprint, out, count);
+  if (is_trilinear_repeat(f)) return find_all_taps<F>(t, TrilinearRepeat{}, footprint, out, count);
   find_all_taps<F>(t, f, footprint, out, count);
 }
 
-/// Points' longer axes of their footprints, how many probes lie along them, and their level.
+/// The longer axes of the fragments' footprints, the numbers of probes along them, and the probes' LOD.
 struct Probes {
   alignas(64) float du[Taps::padded_capacity], dv[Taps::padded_capacity];
   alignas(64) float count[Taps::padded_capacity], lod[Taps::padded_capacity];
@@ -276,33 +277,33 @@ template <class F, class View>
   const auto is_wide = x > y;
   const F longer = max(x, y);
 
-  // As many as the footprint is longer than wide; but no more than it has texels.
-  const F wanted = min(-floor(-sqrt(min(longer / min(x, y), longer))), F(static_cast<float>(anisotropy)));
-  const F count = max(wanted, one);
+  // One probe per shorter axis along the longer one, but at most one per texel.
+  const F ratio = min(-floor(-sqrt(min(longer / min(x, y), longer))), F(static_cast<float>(anisotropy)));
+  const F count = max(ratio, one);
   select(is_wide, ux, uy).store(out.du + i), select(is_wide, vx, vy).store(out.dv + i);
   count.store(out.count + i);
   (F(0.5f) * coarse_log2(longer / (count * count))).store(out.lod + i);
 }
 
-/// The same from i on as before i, where all points are alike.
+/// Copies the probes before i to i and on, where all fragments have the same footprint.
 template <class F>
 [[gnu::always_inline]] inline void repeat_probes(Probes& p, int i) {
   for (float* const of : {p.du, p.dv, p.count, p.lod}) F::load(of + i - F::lanes).store(of + i);
 }
 
-/// Some groups' probes in one list of taps: of a group the first of all points before the second of any, as many as the
-/// point has that has most.
+/// The probes of several groups in one list of taps. Of a group, probe n of all fragments comes before probe n + 1;
+/// every fragment has as many entries as the fragment of the group with the most probes.
 struct ProbeTaps {
   static_assert(Taps::capacity >= 8 * SamplerState::max_anisotropy);
   Taps taps;
   int count = 0;            ///< of taps
-  int first = 0, last = 0;  ///< the points
-  int most[Taps::groups];   ///< of probes, by group from that of the first point on
+  int first = 0, last = 0;  ///< the range of fragments
+  int most[Taps::groups];   ///< the most probes of a fragment, by group from that of the first fragment on
 
   bool has_room(int probes) const { return count + 8 * probes <= Taps::capacity; }
 };
 
-/// The taps of eight points' probes.
+/// Stores the taps of the probes of eight fragments.
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void store_probes(const View& t, const Filter& f, const Footprint& at,
                                                 const Probes& probes, int most, Lookup<F>& lookup, ProbeTaps& out) {
@@ -322,18 +323,18 @@ template <class F, class View, class Filter>
   out.last += 8;
 }
 
-/// The means of the points whose probes are mixed.
+/// Stores the mean of each fragment's probes.
 template <class F>
 [[gnu::always_inline]] inline void store_means(const ProbeTaps& of, const Probes& probes, const float* const mixed[4],
                                                float* const out[4]) {
   for (int i = of.first, from = 0; i < of.last; i += 8) {
     const int most = of.most[(i - of.first) / 8];
     for (int k = 0; k < 8; k += F::lanes) {
-      const F all = F::load(probes.count + i + k), share = F(1.0f) / all;
+      const F all = F::load(probes.count + i + k), mean_weight = F(1.0f) / all;
       F sum[4];
-      for (int c = 0; c < 4; ++c) sum[c] = F::load(mixed[c] + from + k) * share;
+      for (int c = 0; c < 4; ++c) sum[c] = F::load(mixed[c] + from + k) * mean_weight;
       for (int n = 1; n < most; ++n) {
-        const F weight = select(F(static_cast<float>(n + 1)) > all, F(0.0f), share);
+        const F weight = select(F(static_cast<float>(n + 1)) > all, F(0.0f), mean_weight);
         for (int c = 0; c < 4; ++c) sum[c] = sum[c] + F::load(mixed[c] + from + 8 * n + k) * weight;
       }
       for (int c = 0; c < 4; ++c) sum[c].store(out[c] + i + k);
@@ -358,7 +359,7 @@ template <class F, class View, class Mix>
   alignas(64) float mixed[4][Taps::padded_capacity];
   float* const means[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
   const float* const from[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
-  const bool usual = is_usual(f);
+  const bool usual = is_trilinear_repeat(f);
   Lookup<F> lookup = begin_lookup<F>(t, f);
   while (taps.last < count) {
     taps.first = taps.last, taps.count = 0;
@@ -368,7 +369,7 @@ template <class F, class View, class Mix>
       const int n = static_cast<int>(greatest(most));
       if (!taps.has_room(n)) break;
       if (usual) {
-        store_probes<F>(t, UsualFiltering{}, at, probes, n, lookup, taps);
+        store_probes<F>(t, TrilinearRepeat{}, at, probes, n, lookup, taps);
       } else {
         store_probes<F>(t, f, at, probes, n, lookup, taps);
       }

@@ -305,7 +305,7 @@ struct Staircase {
       if (w == 1 && h == 1) break;
     }
     codes.resize(codes.size() + 8);
-    view.codes8 = codes.data();
+    view.unorm8 = codes.data();
   }
   /// The level at which each point looked.
   std::vector<double> levels(const SamplerState& filtering, const Points& points) const {

@@ -25,7 +25,7 @@ GrowingMemory::GrowingMemory(std::size_t size) {
   }
   const std::size_t at = reinterpret_cast<std::uintptr_t>(mapped_);
   data_ = static_cast<std::byte*>(mapped_) + (is_large ? rounded_up(at, large_page) - at : 0);
-  // A wish; where it is not granted the memory is as good.
+  // Large pages are optional: without them the memory works as well.
   if (is_large) ::madvise(data_, rounded_up(size, large_page), MADV_HUGEPAGE);
 }
 

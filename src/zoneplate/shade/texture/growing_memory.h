@@ -5,14 +5,14 @@
 
 namespace zoneplate {
 
-/// Zeroed memory that grows where it lies: its addresses are reserved at once, its bytes are taken from the front on
-/// when they are needed. What is reserved and not taken counts towards no limit of memory.
+/// Zeroed memory that grows in place: its addresses are reserved at once, its bytes are committed from the front on as
+/// needed. Memory that is reserved but not committed counts towards no memory limit.
 class GrowingMemory {
  public:
   /// Reserves nothing.
   GrowingMemory() = default;
-  /// Reserves `size` bytes, on a cache line's start; of many, in large pages where the system has any.
-  /// Errors    bad_alloc where there are not as many addresses.
+  /// Reserves `size` bytes, aligned to a cache line; large sizes use large pages where the system has them.
+  /// Errors    bad_alloc where the address space is too small.
   explicit GrowingMemory(std::size_t size);
   ///@{
   /// Takes over the memory; it stays at its address.
@@ -21,16 +21,16 @@ class GrowingMemory {
   ///@}
   ~GrowingMemory();
 
-  /// Takes memory up to the first `size` bytes; it is zero.
-  /// Requires  no more than is reserved.
-  /// Errors    bad_alloc; what was taken before stays.
+  /// Commits the first `size` bytes; new bytes are zero.
+  /// Requires  `size` is at most the reserved size.
+  /// Errors    bad_alloc; the bytes committed before stay.
   void grow(std::size_t size);
 
   /// The first byte, which never moves; null if nothing was reserved.
   std::byte* data() const { return data_; }
 
  private:
-  void* mapped_ = nullptr;  ///< with what is before the first large page
+  void* mapped_ = nullptr;  ///< the whole mapping, which may begin before the first large page
   std::size_t mapped_size_ = 0;
   std::byte* data_ = nullptr;
   std::size_t taken_ = 0;

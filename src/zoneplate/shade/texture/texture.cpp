@@ -28,7 +28,7 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-/// A sum of weighted texels, and its mean: exact for codes, rounded to the nearest.
+/// A sum of weighted texels, and its mean: exact for unorm texels, rounded to the nearest.
 template <class Code>
 using Sum = std::conditional_t<std::is_integral_v<Code>, std::uint64_t, double>;
 
@@ -62,8 +62,8 @@ struct Cover {
   std::uint64_t weight[3];
 };
 
-/// Along an axis of n texels that becomes one of `to` texels: as many, or half as many, rounded down. The weights sum
-/// to `total_weight(n, to)`.
+/// The texels along an axis of n texels that is reduced to `to` texels: n, or n / 2 rounded down. The weights add up to
+/// `total_weight(n, to)`.
 Cover cover(std::int32_t n, std::int32_t to, std::int32_t i) {
   if (n == to) return {i, 1, {1, 0, 0}};
   if (n % 2 == 0) return {2 * i, 2, {1, 1, 0}};
@@ -77,14 +77,14 @@ std::uint64_t total_weight(std::int32_t n, std::int32_t to) {
   return n == to ? 1 : n % 2 == 0 ? 2 : static_cast<std::uint64_t>(n);
 }
 
-/// Around a row of the level: copies of its last and its first texel.
+/// Fills the border of a row with copies of its last and its first texel.
 template <class Code>
 void close_row(Code* row, std::int32_t width) {
   std::copy_n(row, 4, row + std::ptrdiff_t{4} * width);
   std::copy_n(row + std::ptrdiff_t{4} * (width - 1), 4, row - 4);
 }
 
-/// Above and below a level whose rows are closed: copies of its last and its first row.
+/// Fills the border above and below a level, whose rows have theirs, with copies of its last and its first row.
 template <class Code>
 void close_level(Code* codes, const TextureView& view, int l) {
   const std::ptrdiff_t pitch = std::ptrdiff_t{4} * view.pitch(l);
@@ -131,7 +131,7 @@ void shrink_row(const std::array<const Code*, 3>& source, const Cover& rows, Siz
   }
 }
 
-/// The rows that row y of the smaller image covers, each as `row(y, its number)`.
+/// The rows that row y of the smaller image covers, each as `row(y, its index among them)`.
 template <class Code, class Row>
 std::array<const Code*, 3> covered_rows(const Cover& rows, const Row& row) {
   std::array<const Code*, 3> source{};
@@ -139,18 +139,18 @@ std::array<const Code*, 3> covered_rows(const Cover& rows, const Row& row) {
   return source;
 }
 
-/// The image, smaller: `row(y, room)` gives its row y, for which there is room.
+/// The image at a smaller size. `row(y, buffer)` returns row y of the image, for which `buffer` has the capacity.
 template <class Code, class Row>
 std::vector<Code> shrunk(Size from, Size to, const Row& row) {
   const std::size_t width = std::size_t{4} * static_cast<std::size_t>(from.width);
   const std::size_t out_width = std::size_t{4} * static_cast<std::size_t>(to.width);
   std::vector<Code> out(out_width * static_cast<std::size_t>(to.height));
   parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
-    std::vector<Code> room(3 * width);
+    std::vector<Code> buffer(3 * width);
     for (std::size_t y = begin; y < end; ++y) {
       const Cover rows = cover(from.height, to.height, static_cast<std::int32_t>(y));
       const auto source = covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t number) {
-        return row(at, room.data() + width * static_cast<std::size_t>(number));
+        return row(at, buffer.data() + width * static_cast<std::size_t>(number));
       });
       shrink_row(source, rows, from, to, out.data() + out_width * y);
     }
@@ -164,7 +164,7 @@ Size fitted(Size size) {
   return {part(size.width), part(size.height)};
 }
 
-/// Fills the sizes and offsets of all levels; gives the number of texels, with those that are only read.
+/// Sets the sizes and offsets of all levels; returns the number of texels, including borders and padding.
 std::size_t lay_out(Size size, TextureView& view) {
   std::int64_t texels = 0;
   for (std::int32_t w = size.width, h = size.height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
@@ -179,7 +179,7 @@ std::size_t lay_out(Size size, TextureView& view) {
   return static_cast<std::size_t>(texels);
 }
 
-/// Each 8-bit sRGB code as 15-bit linear light. Neighbouring codes differ by 9 or more, so none is lost.
+/// Each 8-bit sRGB value as 15-bit linear light. Neighbouring values differ by 9 or more, so that none is lost.
 std::array<std::uint16_t, 256> linear_codes() {
   std::array<std::uint16_t, 256> table;
   for (int code = 0; code < 256; ++code)
@@ -188,7 +188,7 @@ std::array<std::uint16_t, 256> linear_codes() {
   return table;
 }
 
-/// From 0 to `most`; 0 where it is not a number.
+/// The value clamped to [0, most]; NaN gives 0.
 float clamped(float value, float most) { return value > 0 ? std::min(value, most) : 0.0f; }
 
 float value_of(std::uint16_t code) { return static_cast<float>(code) / 65535.0f; }
@@ -234,13 +234,13 @@ void Texture::Levels::fill(const Plane<Pixel>& image, const Code* TextureView::*
   const auto decode_row = [&](std::int32_t y, Code* out) {
     for (const Pixel& p : image.row(y)) decode(p, out), out += 4;
   };
-  // What is too large for level 0 is made smaller on the way there.
+  // An image that is too large for level 0 is reduced while it is copied.
   Size size{image.width(), image.height()};
   std::vector<Code> smaller;
   if (fitted(size) != size) {
-    smaller = shrunk<Code>(size, fitted(size), [&](std::int32_t y, Code* room) {
-      decode_row(y, room);
-      return room;
+    smaller = shrunk<Code>(size, fitted(size), [&](std::int32_t y, Code* buffer) {
+      decode_row(y, buffer);
+      return buffer;
     });
     size = fitted(size);
   }
@@ -269,7 +269,7 @@ void Texture::Levels::fill(const Plane<Pixel>& image, const Code* TextureView::*
   close_level(target, view, 0);
 }
 
-/// Makes all levels from level 0, each from the one before.
+/// Makes all levels from level 0, each from the level before it.
 template <class Code>
 void Texture::Levels::make_levels(const Code* TextureView::*texels) {
   if (view.*texels == nullptr) return;
@@ -320,10 +320,10 @@ void Texture::Levels::make_first_level(const TexelImage& image, TexelMeaning mea
   const Rgba8Image white(1, 1, Rgba8{255, 255, 255, 255});
   const Rgba8Image& codes = image.empty() ? white : image.as<Rgba8>();
   if (!is_color)
-    return fill(codes, &TextureView::codes8,
+    return fill(codes, &TextureView::unorm8,
                 [](const Rgba8& p, std::uint8_t* out) { out[0] = p.r, out[1] = p.g, out[2] = p.b, out[3] = p.a; });
   const auto table = linear_codes();
-  fill(codes, &TextureView::codes15, [&](const Rgba8& p, std::uint16_t* out) {
+  fill(codes, &TextureView::unorm15, [&](const Rgba8& p, std::uint16_t* out) {
     out[0] = table[p.r], out[1] = table[p.g], out[2] = table[p.b];
     out[3] = static_cast<std::uint16_t>((p.a * 32767 + 127) / 255);
   });
@@ -331,8 +331,8 @@ void Texture::Levels::make_first_level(const TexelImage& image, TexelMeaning mea
 
 /// One of the four is set.
 void Texture::Levels::make_other_levels() {
-  make_levels(&TextureView::codes8);
-  make_levels(&TextureView::codes15);
+  make_levels(&TextureView::unorm8);
+  make_levels(&TextureView::unorm15);
   make_levels(&TextureView::halves);
   make_levels(&TextureView::values);
 }

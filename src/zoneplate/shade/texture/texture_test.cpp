@@ -34,7 +34,7 @@ std::vector<std::uint32_t> codes_of(const TextureView& view, int level) {
   for (int y = 0; y < view.height[level]; ++y)
     for (int i = 0; i < 4 * view.width[level]; ++i) {
       const std::ptrdiff_t at = std::ptrdiff_t{4} * view.texel(level, 0, y) + i;
-      codes.push_back(view.codes8 != nullptr ? std::uint32_t{view.codes8[at]} : view.codes15[at]);
+      codes.push_back(view.unorm8 != nullptr ? std::uint32_t{view.unorm8[at]} : view.unorm15[at]);
     }
   return codes;
 }
@@ -94,7 +94,7 @@ TEST(Texture, TheBorderRepeatsTheLevel) {
   const TextureView& view = texture.view();
   for (int l = 0; l < view.levels; ++l) {
     const int w = view.width[l], h = view.height[l];
-    const auto at = [&](int x, int y) { return view.codes8 + std::ptrdiff_t{4} * view.texel(l, x, y); };
+    const auto at = [&](int x, int y) { return view.unorm8 + std::ptrdiff_t{4} * view.texel(l, x, y); };
     for (int y = -1; y <= h; ++y)
       for (int x = -1; x <= w; ++x)
         EXPECT_EQ(std::memcmp(at(x, y), at((x + w) % w, (y + h) % h), 4), 0) << x << " " << y;
@@ -151,7 +151,7 @@ TEST(Texture, ColoursAreDecodedAndAlphaIsNot) {
   for (int i = 0; i < 256; ++i) {
     const double code = i / 255.0;
     const double linear = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-    const std::uint16_t* const texel = texture.view().codes15 + std::ptrdiff_t{4} * texture.view().texel(0, i, 0);
+    const std::uint16_t* const texel = texture.view().unorm15 + std::ptrdiff_t{4} * texture.view().texel(0, i, 0);
     EXPECT_NEAR(texel[0], 32767 * linear, 0.51);
     EXPECT_NEAR(texel[3], 32767 * code, 0.51);
   }

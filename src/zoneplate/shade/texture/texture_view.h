@@ -6,18 +6,18 @@
 
 namespace zoneplate {
 
-/// How kernels see a texture: plain data, valid as long as the Texture.
+/// A texture in the form that kernels read: plain data, valid as long as the Texture.
 ///
-/// Shape     texel (x, y) of level l is number offset[l] + (y + 1) pitch(l) + x + 1, four channels each. A level has a
-///           border of one texel, which repeats it: of two neighbours the second always follows the first, and the row
-///           below lies a pitch further on. Two texels after the last one may be read.
+/// Shape     texel (x, y) of level l has the index offset[l] + (y + 1) pitch(l) + x + 1, four channels each. A level has
+///           a border of one texel, which repeats the opposite side: the right neighbour of a texel always follows it,
+///           and the texel below lies a pitch further on. Two texels after the last one may be read.
 /// Range     levels are `max_size` texels wide and high at most; values are finite, colours in [0, 1e9], alpha and data
 ///           in [0, 1]. Half floats are at most 65504.
 struct TextureView {
   static constexpr int max_levels = 16;    ///< enough for `max_size`
   static constexpr int max_size = 32768;   ///< texels along a side
-  const std::uint8_t* codes8 = nullptr;    ///< a value is code / 255; exactly one of the four is set
-  const std::uint16_t* codes15 = nullptr;  ///< a value is code / 32767
+  const std::uint8_t* unorm8 = nullptr;    ///< a value is unorm8 / 255; exactly one of the four pointers is set
+  const std::uint16_t* unorm15 = nullptr;  ///< a value is unorm15 / 32767
   const Half* halves = nullptr;            ///< half floats
   const float* values = nullptr;           ///< floats
   std::int32_t levels = 0;                 ///< of the mip pyramid; level 0 is the largest

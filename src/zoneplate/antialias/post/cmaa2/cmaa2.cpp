@@ -1,8 +1,8 @@
-// CMAA2: only pixels with a corner are looked at; they are softened a little, and where the corner is one step of a
-// long, nearly symmetric edge (a Z), the pixels along it are mixed as MLAA would.
+// CMAA2: processes only pixels at a corner of edges. They are blurred slightly, and where the corner is a step of a
+// long, nearly symmetric edge (a Z shape), the pixels along the edge are blended as by MLAA.
 //
-// Leaves text and texture nearly alone: no change without a corner. Weak where edges are uneven or short, which it
-// hardly smooths.
+// Preserves text and texture: pixels without a corner do not change. Weak on uneven or short edges, which it hardly
+// smooths.
 //
 // Source: Strugar, Conservative Morphological Anti-Aliasing 2.0, Intel, 2018 (v2.3); without its packing of colours.
 #include "zoneplate/antialias/post/cmaa2/cmaa2.h"
@@ -60,33 +60,33 @@ namespace antialias {
 namespace {
 
 constexpr int longest_line = 86;
-/// How far from its corner a Z mixes pixels: half a line.
+/// The greatest distance from its corner at which a Z shape blends pixels: half a line.
 constexpr int farthest_item = longest_line / 2 + 1;
 constexpr int reach = longest_line + farthest_item + 4;
 
 /// The constants of the original, and of its extra sharpness.
 struct Tuning {
   float contrast, bluriness, dampening, growth, growth_offset;
-  float fade_start, fade_step;  ///< of simple shapes, by the number of edges around
-  float shortening_round;       ///< what is added before a Z's lines are shortened by a whole number
+  float fade_start, fade_step;  ///< of simple shapes, by the number of surrounding edges
+  float shortening_round;       ///< the offset before the lengths of a Z's lines are truncated to integers
 };
 constexpr Tuning usual = {0.10f, 0.10f, 0.15f, 1.25f, 0.25f, 1.30f, 10, 0};
 constexpr Tuning sharp = {0.15f, 0.07f, 0.11f, 1.20f, 0.20f, 1.15f, 8, 0.5f};
 constexpr float symmetry_correction = 0.22f;
 
-/// Which borders of a pixel are edges, as the bits of Cmaa2Kernels::shape_row.
+/// The borders of a pixel that are edges, as the bits of Cmaa2Kernels::shape_row.
 enum : std::uint8_t { right_bit = 1, below_bit = 2, left_bit = 4, above_bit = 8 };
 struct Borders {
   float r, g, b, a;  ///< right, below, left, above, as the original names them; 0 or 1
   explicit Borders(std::uint8_t bits) : r(bits & 1), g(bits >> 1 & 1), b(bits >> 2 & 1), a(bits >> 3 & 1) {}
 };
 
-/// The same borders with the picture turned a quarter clockwise: what was above is on the right.
+/// The borders of the image turned clockwise by 90 degrees: the border above becomes the one on the right.
 std::uint8_t turned(std::uint8_t bits) { return static_cast<std::uint8_t>((bits << 1 | bits >> 3) & 15); }
 
 float saturated(float v) { return std::clamp(v, 0.0f, 1.0f); }
 
-/// What a shape gives to one pixel.
+/// The contribution of a shape to one pixel.
 struct Item {
   std::uint32_t pixel;
   float weight;
@@ -94,7 +94,7 @@ struct Item {
 };
 constexpr float simple_weight = 0.8f, complex_weight = 1.8f;
 
-/// The items that the corners of one block of rows make, by the block of rows in which they fall.
+/// The contributions of the corners of one block of rows, by the block of rows that receives them.
 struct BlockItems {
   static constexpr int around = farthest_item / static_cast<int>(rows_a_block) + 1;
   std::array<std::vector<Item>, 2 * around + 1> of_block;
@@ -102,7 +102,7 @@ struct BlockItems {
 
 using Shapes = Bordered<std::uint8_t>;
 
-/// The luma of each code of each channel.
+/// The luma of each value of each channel.
 struct LumaTables {
   std::array<float, 256> r, g, b;
   LumaTables() {
@@ -113,7 +113,7 @@ struct LumaTables {
   }
 };
 
-/// Finds the shapes around every pixel, and in bit x of a row of `corners` whether there is one.
+/// Finds the edges around every pixel, and sets bit x of a row of `corners` for pixels with a corner.
 Shapes find_shapes(const Rgba8Image& image, const Cmaa2Options& options, Plane<std::uint64_t>& corners) {
   const int width = image.width(), height = image.height();
   const Cmaa2Kernels& kernels = Cmaa2Kernels::of();
@@ -131,7 +131,7 @@ Shapes find_shapes(const Rgba8Image& image, const Cmaa2Options& options, Plane<s
         row[x] = tables.r[pixels[x].r] + tables.g[pixels[x].g] + tables.b[pixels[x].b];
       window.end_row(y);
     };
-    // Edges of a row and of the one above it take turns.
+    // Two buffers alternate between the edges of a row and of the row above it.
     constexpr std::size_t before = 32;
     std::vector<std::uint8_t> edges[2];
     for (auto& e : edges) e.assign(n + 2 * before + 32, 0);
@@ -181,7 +181,7 @@ class Corners {
         {static_cast<std::uint32_t>(y * image_.width() + x), weight, c});
   }
 
-  /// Every corner takes a little of the neighbours across its edges.
+  /// Blends every corner slightly with the neighbours across its edges.
   void soften(int x, int y) {
     const std::uint8_t* p = shapes_.at(x, y);
     const Borders e(*p), l(p[-1]), r(p[1]), t(*(p - shapes_.stride())), b(*(p + shapes_.stride()));
@@ -225,7 +225,7 @@ class Corners {
     return upright.score > level.score ? upright : level;
   }
 
-  /// The lengths of the lines to both sides of a step, followed together so that one outgrows the other but little.
+  /// The lengths of the lines to both sides of a step, followed in parallel so that their lengths differ only slightly.
   struct Lengths {
     int left = 1, right = 1;
   };
@@ -292,7 +292,7 @@ std::vector<BlockItems> make_items(const Rgba8Image& image, const Shapes& shapes
   return blocks;
 }
 
-/// Adds up what falls in one block of rows, in the order of the blocks that gave it.
+/// Adds up the contributions to one block of rows, in the order of the blocks that made them.
 void apply_items(const std::vector<BlockItems>& blocks, int block, std::span<Rgba8> out, std::size_t first_pixel,
                  std::size_t pixels) {
   struct Sum {
@@ -343,8 +343,8 @@ namespace {
 constexpr std::string_view presets[] = {"low", "medium", "high", "ultra"};
 constexpr float thresholds[] = {0.15f, 0.10f, 0.07f, 0.05f};
 constexpr Param params[] = {
-    {.name = "preset", .meaning = "how faint an edge is found", .value = 2, .names = presets},
-    {.name = "sharp", .meaning = "1: the original's extra sharpness", .value = 0, .low = 0, .high = 1},
+    {.name = "preset", .meaning = "sensitivity of edge detection", .value = 2, .names = presets},
+    {.name = "sharp", .meaning = "1: the extra sharpness of the original", .value = 0, .low = 0, .high = 1},
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {
@@ -356,7 +356,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 Method cmaa2() {
   return {.name = "cmaa2",
-          .summary = "corners softened a little, long symmetric steps mixed along their lines",
+          .summary = "slight blur at corners, blending along long symmetric steps",
           .source = "Strugar 2018, CMAA2 2.3",
           .params = params,
           .make = make,

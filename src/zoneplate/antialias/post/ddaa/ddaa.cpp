@@ -1,6 +1,7 @@
-// DDAA: near the axes an edge search as FXAA's, but at every pixel; near the diagonals a short blur along the edge.
+// DDAA: for edges near the axes an edge search like FXAA's, but at every pixel; for edges near the diagonals a short
+// blur along the edge.
 //
-// Treats all angles more alike than FXAA does. Weak at diagonals of one pixel, which the blur thins.
+// Treats different angles more uniformly than FXAA. Weak on diagonals one pixel wide, which the blur thins.
 //
 // Source: Klein, Directional Diffusion Anti-Aliasing 2.4, 2025; gradients after Scharr.
 #include "zoneplate/antialias/post/ddaa/ddaa.h"
@@ -28,7 +29,7 @@ Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8
   const DdaaKernels& kernels = DdaaKernels::of();
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
-  // Blocks are large, for the power within reach of both is made by each of two.
+  // Blocks are large, because both of two neighbouring blocks compute the power along their common border.
   constexpr std::size_t rows = 128;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
     RollingRows<float> power(image.width(), image.height(), reach, static_cast<int>(begin));
@@ -59,8 +60,8 @@ struct Threshold {
 constexpr Threshold thresholds[] = {{"low", 0.25f, 0.0833f}, {"medium", 0.166f, 0.0625f}, {"extreme", 0.031f, 0.0078f}};
 constexpr std::string_view threshold_names[] = {"low", "medium", "extreme"};
 constexpr Param params[] = {
-    {.name = "threshold", .meaning = "what contrast is treated", .value = 1, .names = threshold_names},
-    {.name = "strength", .meaning = "of the blur along edges", .value = 3, .low = 0, .high = 9},
+    {.name = "threshold", .meaning = "minimum contrast of edges", .value = 1, .names = threshold_names},
+    {.name = "strength", .meaning = "strength of the blur along edges", .value = 3, .low = 0, .high = 9},
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {
@@ -74,7 +75,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 Method ddaa() {
   return {.name = "ddaa",
-          .summary = "an edge search near the axes, a blur along edges near the diagonals",
+          .summary = "edge search for edges near the axes, blur along edges near the diagonals",
           .source = "Klein 2025, DDAA 2.4",
           .params = params,
           .make = make,

@@ -1,7 +1,8 @@
-// DLAA: blur every pixel a little along the direction in which it changes less, and where long edges run, interpolate
-// it anew between its neighbours by a blur of sixteen pixels along them.
+// DLAA: blurs every pixel slightly along the direction of smaller change; on long edges, interpolates it between its
+// neighbours by a blur of sixteen pixels along the edge.
 //
-// Needs no search and no decision, and so never jumps. Weak in that it softens all contrast, text and texture included.
+// Has neither searches nor discrete decisions, so that the result changes continuously. Weak in that it softens all
+// contrast, including text and texture.
 //
 // Source: Andreev, Anti-Aliasing from a Different Perspective, GDC 2011 (Star Wars: The Force Unleashed 2).
 #include "zoneplate/antialias/post/dlaa/dlaa.h"
@@ -65,7 +66,7 @@ float4 values_of(const std::uint8_t* c) {
           static_cast<float>(c[3]) / 255};
 }
 float luma(const float4& c) { return (c.x + c.y + c.z) / 3; }
-float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // what is not a number gives 0
+float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // NaN gives 0
 float4 mixed(const float4& a, const float4& b, float t) {
   return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
 }
@@ -93,7 +94,7 @@ float4 long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
           static_cast<float>(a) / scale};
 }
 
-/// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
+/// The strength of a long edge at a pixel, from the sum of the sixteen edge values around it.
 float mask_of(int sum) { return 2 * sum <= Constants::whole ? 0 : static_cast<float>(2 * sum) / Constants::whole - 1; }
 
 void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float upright_mask, std::uint8_t* to) {
@@ -144,7 +145,7 @@ namespace {
 using Constants = DlaaConstants;
 constexpr int reach = Constants::half_blur + 1;
 
-/// The picture with its border, and the first pass: four times the Laplacian's luma, as a code.
+/// The image with its border, and the first pass: four times the luma of the Laplacian, in 8 bits.
 struct Source {
   Bordered<Rgba8> colors;
   Bordered<std::uint8_t> edges;
@@ -171,7 +172,7 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
-    // The sums of the edge codes of eight rows above and below move down with the rows.
+    // The sums of the edge values of eight rows above and below are updated from row to row.
     std::vector<std::int16_t> level(room), upright(room);
     std::vector<std::uint8_t> seen(room), nothing(room);
     ResultRow result(image, out);
@@ -196,7 +197,7 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
 
 Method dlaa() {
   return {.name = "dlaa",
-          .summary = "short and long blurs along edges, without a search",
+          .summary = "short and long blurs along edges, without an edge search",
           .source = "Andreev 2011",
           .make = [](const Settings&) -> std::unique_ptr<Resolver> {
             return make_post_process(reach, Mixing::Encoded, [](const Rgba8Image& i) { return apply_dlaa(i); });

@@ -25,7 +25,7 @@ struct DlaaRows {
   const std::int16_t *level, *upright;
 };
 
-/// What of DLAA is asked at every pixel.
+/// The operations of DLAA on all pixels of a row.
 ///
 /// Shape     rows of colours are four codes a pixel, those of `here` valid from one pixel before the first to one after
 ///           the last. Sums are made in whole vectors: rows of codes are read up to 31 values after the n-th, and

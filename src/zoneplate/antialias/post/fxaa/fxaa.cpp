@@ -1,11 +1,11 @@
-// FXAA 3.11: find the direction of an edge by luma, walk along it to its ends, and fetch each pixel's colour up to half
-// a pixel across it.
+// FXAA 3.11: finds the direction of an edge by luma, follows it to its ends, and fetches each pixel's colour from up to
+// half a pixel across it.
 //
-// Smooths every edge that can be seen, whatever made it, at the lowest price of all. Weak where an edge is nearly
-// level: the walk ends after a dozen pixels; and it takes fine text and single pixels towards their neighbours.
+// Smooths all visible edges, of geometry and of shading, at the lowest cost of all methods. Weak where an edge is
+// nearly horizontal or vertical, since the search ends after a dozen pixels; and it blurs fine text and single pixels.
 //
 // Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the quality path with its presets and the console
-// path. Colours are mixed as codes, as there, unless light is asked for.
+// path. Encoded values are blended, as there, unless mix=light selects linear light.
 #include "zoneplate/antialias/post/fxaa/fxaa.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ namespace zoneplate {
 namespace antialias {
 namespace {
 
-/// A preset's search: the distances from the pixel at which it looks, in half pixels, and the last one, which it takes
-/// without looking.
+/// A preset's search: the distances from the pixel at which luma is tested, in half pixels. The last distance is used
+/// without a test.
 ///
 /// Source    the steps of FXAA 3.11, FXAA_QUALITY__P0 and so on, added up.
 struct Search {
@@ -65,7 +65,7 @@ std::span<const int> distances_of(int preset) {
   return {search->distance.begin(), end};
 }
 
-/// What of `share` × greatest and `least` the contrast must reach, as the greatest whole contrast that does not.
+/// The threshold max(`share` × greatest, `least`), as the greatest integer contrast below it.
 FxaaContrast contrast_of(const FxaaOptions& options) {
   const auto below = [](double v) { return static_cast<int>(std::ceil(v)) - 1; };
   const auto is_right = [&](int factor) {
@@ -83,7 +83,7 @@ Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
   return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
 
-/// The luma of what lies within reach of one row after the other.
+/// The luma of the rows within reach of the current row.
 class Luma {
  public:
   Luma(const Rgba8Image& image, const FxaaOptions& options, int first)
@@ -105,8 +105,8 @@ class Luma {
   RollingRows<std::uint8_t> rows_;
 };
 
-/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, for the luma within reach of both
-/// is made by each of two.
+/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, because two neighbouring blocks
+/// both compute the luma along their common border.
 template <class Body>
 void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const Body& body) {
   constexpr std::size_t rows = 128;
@@ -117,7 +117,7 @@ void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const 
   });
 }
 
-/// The memory for what the kernels find in one row.
+/// The memory for the results of the kernels in one row.
 struct RowMemory {
   std::vector<std::uint8_t> bits, tied_bits, flags;
   std::vector<float> shift;
@@ -138,7 +138,7 @@ void for_bits(const std::vector<std::uint8_t>& bits, const Body& body) {
   }
 }
 
-/// Clears the bits of what lies beyond the picture.
+/// Clears the bits of pixels beyond the image.
 void clear_beyond(std::vector<std::uint8_t>& bits, std::size_t width) {
   if (width % 8 != 0) bits[width / 8] = static_cast<std::uint8_t>(bits[width / 8] & ((1 << width % 8) - 1));
   std::fill(bits.begin() + static_cast<std::ptrdiff_t>((width + 7) / 8), bits.end(), std::uint8_t{0});
@@ -168,7 +168,7 @@ void mix_row(const Rgba8Image& image, const Luma& luma, const FxaaOptions& optio
   });
 }
 
-/// The console path: its pixels have no ends to be found.
+/// The console path, which does not search for the ends of edges.
 Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image out) {
   const FxaaConsoleKernels& kernels = FxaaConsoleKernels::of();
   const auto width = static_cast<std::size_t>(image.width());
@@ -193,7 +193,7 @@ Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rg
 
 int fxaa_reach(const FxaaOptions& options) {
   if (options.preset == FxaaOptions::console) return FxaaConsoleRows::reach;
-  // The last distance is taken without looking.
+  // The last distance is used without a test.
   const std::span<const int> distances = distances_of(options.preset);
   return (distances[distances.size() - 2] + 1) / 2 + 1;
 }
@@ -228,7 +228,7 @@ namespace {
 constexpr std::string_view presets[] = {"10", "11", "12", "13", "14", "15", "20", "21", "22",
                                         "23", "24", "25", "26", "27", "28", "29", "39", "console"};
 
-/// The contrast that is treated, by the names and values of the original's comments.
+/// Contrast thresholds, by the names and values of the comments in the original.
 struct Threshold {
   std::string_view name;
   double share, least;
@@ -242,11 +242,17 @@ constexpr std::string_view threshold_names[] = {"fastest", "low", "medium", "hig
 constexpr std::string_view lumas[] = {"rec601", "green"};
 constexpr std::string_view mixings[] = {"codes", "light"};
 constexpr Param params[] = {
-    {.name = "preset", .meaning = "how far and how finely edges are followed", .value = 2, .names = presets},
-    {.name = "threshold", .meaning = "what contrast is treated", .value = 2, .names = threshold_names},
-    {.name = "subpixel", .meaning = "percent of single pixels' smoothing", .value = 75, .low = 0, .high = 100},
-    {.name = "luma", .meaning = "what contrast is measured in", .value = 0, .names = lumas},
-    {.name = "mix", .meaning = "blend space: sRGB-encoded values or linear light", .value = 0, .names = mixings},
+    {.name = "preset",
+     .meaning = "length and step size of the edge search, as FXAA_QUALITY__PRESET, or the console path",
+     .value = 2,
+     .names = presets},
+    {.name = "threshold", .meaning = "minimum contrast of edges", .value = 2, .names = threshold_names},
+    {.name = "subpixel", .meaning = "sub-pixel smoothing, in percent", .value = 75, .low = 0, .high = 100},
+    {.name = "luma", .meaning = "luma that measures contrast", .value = 0, .names = lumas},
+    {.name = "mix",
+     .meaning = "blending in sRGB-encoded values (codes) or in linear light",
+     .value = 0,
+     .names = mixings},
 };
 
 FxaaOptions options_of(const Settings& s) {
@@ -276,7 +282,7 @@ constexpr std::string_view variants[] = {"preset=39", "preset=console"};
 
 Method fxaa() {
   return {.name = "fxaa",
-          .summary = "one fetch across each edge, as far as its ends are near",
+          .summary = "one fetch across each edge, shifted by the distance to the edge's ends",
           .source = "Lottes 2011, FXAA 3.11",
           .params = params,
           .make = make,

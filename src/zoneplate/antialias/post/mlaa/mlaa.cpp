@@ -1,7 +1,8 @@
-// Morphological antialiasing: take the borders between unlike pixels for steps of straight lines, and give each pixel
-// the share of the other side that the line through the steps' middles cuts off.
+// Morphological antialiasing: interprets borders between different pixels as steps of straight lines, and blends each
+// pixel with the other side by the area that the line through the midpoints of the steps cuts off.
 //
-// SMAA's ancestor, in both published forms. Weak at corners, which it rounds, and where noise breaks the borders.
+// The predecessor of SMAA, in both published forms. Weak at corners, which it rounds, and where noise breaks the
+// borders.
 //
 // Source: Jimenez, Masia, Echevarria, Navarro, Gutierrez, Practical Morphological Anti-Aliasing, GPU Pro 2, 2011 (code
 // 2.0); Reshetov, Morphological Antialiasing, HPG 2009 (see reshetov.cpp).
@@ -19,7 +20,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// Areas of every pair of distances and of what crosses the ends, without the smoothing that SMAA added; in codes.
+/// Areas for every pair of distances and every pair of crossing edges, without the smoothing that SMAA added; in 1/255.
 class MlaaAreas {
  public:
   explicit MlaaAreas(int greatest) : size_(greatest + 1), codes_(16 * static_cast<std::size_t>(size_ * size_)) {
@@ -66,7 +67,7 @@ struct Line {
 
   int is(int i, int j, std::uint8_t edge) const { return pixel[i * along + j * across] & edge ? 1 : 0; }
 
-  /// How far the line goes on; of the last two pixels it is not known which one was an edge.
+  /// The length of the line; of the last two pixels the fetch does not determine which one was an edge.
   int distance(int direction, int steps) const {
     for (int i = 0; i < steps; ++i) {
       const int both = is(direction * (2 * i + 1), 0, own) + is(direction * (2 * i + 2), 0, own);
@@ -83,7 +84,7 @@ struct Line {
   }
 };
 
-/// Every weight's mixture counts by its weight.
+/// Each blended colour is weighted by its blending weight.
 Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
   const auto at = [&](int i, int j) {
     const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));
@@ -126,7 +127,7 @@ void weigh(const EdgePlane& edges, const MlaaAreas& table, int steps, int y, Wei
         const auto codes = Line{pixel, edges.stride(), 1, left_edge, top_edge}.areas(table, steps);
         w.from_left = codes.below, w.to_left = codes.above;
       }
-      if (*pixel != 0) out.put(x, w);
+      if (*pixel != 0) out.set(x, w);
     }
   }
 }
@@ -159,14 +160,17 @@ constexpr std::string_view mixings[] = {"light", "codes"};
 constexpr int step_choices[] = {4, 8, 16, 32, 64};
 constexpr Param params[] = {
     {.name = "kind",
-     .meaning = "of limited length with a table, or the first of any length",
+     .meaning = "jimenez: limited length, with an area table; reshetov: the original, any length",
      .value = 0,
      .names = kinds},
     {.name = "steps",
-     .meaning = "jimenez: how far an edge is followed, by two pixels",
+     .meaning = "jimenez: length of the edge search, in steps of two pixels",
      .value = 16,
      .choices = step_choices},
-    {.name = "mix", .meaning = "blend space: linear light or sRGB-encoded values", .value = 0, .names = mixings},
+    {.name = "mix",
+     .meaning = "blending in linear light or in sRGB-encoded values (codes)",
+     .value = 0,
+     .names = mixings},
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {
@@ -183,7 +187,7 @@ constexpr std::string_view variants[] = {"kind=reshetov"};
 
 Method mlaa() {
   return {.name = "mlaa",
-          .summary = "borders taken for steps of straight lines, pixels mixed by the areas cut off",
+          .summary = "borders between pixels interpreted as straight lines, pixels blended by area",
           .source = "Reshetov 2009, Jimenez 2011",
           .params = params,
           .make = make,

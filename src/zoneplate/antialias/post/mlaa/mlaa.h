@@ -6,24 +6,24 @@ namespace zoneplate::antialias {
 
 struct MlaaOptions {
   enum class Kind {
-    Jimenez,   ///< of the graphics processor, 2011: searches of limited length, areas from a table
-    Reshetov,  ///< the first, 2009: lines of any length, split where the colours of both sides meet
+    Jimenez,   ///< for GPUs, 2011: searches of limited length, areas from a table
+    Reshetov,  ///< the original, 2009: lines of any length, split where the colours of both sides meet
   };
 
   Kind kind = Kind::Jimenez;
-  double threshold = 0.1;   ///< Jimenez: least difference of luma, code / 255
-  int steps = 16;           ///< Jimenez: of two pixels, along an edge; 4, 8 or 16 in the original
-  bool mixes_light = true;  ///< mix linear light; else codes
+  double threshold = 0.1;   ///< Jimenez: minimum difference of luma, as encoded value / 255
+  int steps = 16;           ///< Jimenez: search steps of two pixels along an edge; 4, 8 or 16 in the original
+  bool mixes_light = true;  ///< blend linear light, otherwise encoded values
 };
 
-/// Morphological antialiasing of a picture of codes; `memory` as for apply_smaa.
+/// Morphological antialiasing of an sRGB-encoded image; `memory` as for apply_smaa.
 ///
-/// Edges     beyond the sides the outermost pixels go on (Jimenez); a line ends at the sides (Reshetov).
+/// Edges     the outermost pixels are repeated beyond the sides (Jimenez); a line ends at the sides (Reshetov).
 /// Source    Reshetov, Morphological Antialiasing, HPG 2009; Jimenez et al., Practical Morphological Anti-Aliasing, GPU
 ///           Pro 2, 2011.
 Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8Image memory = {});
 
-/// The weights of all edges of the first kind, which have no order of rows.
+/// The weights of all edges by Reshetov's method, which cannot be computed row by row.
 using WeightPlane = Bordered<EdgeWeights>;
 WeightPlane mlaa_reshetov_weights(const Rgba8Image& image);
 

@@ -1,8 +1,8 @@
-// The first morphological antialiasing: separation lines of any length, in shapes of L, Z and U.
+// The original morphological antialiasing: separation lines of any length, in L, Z and U shapes.
 //
-// A Z or U is split at its middle into two L; each L is a triangle from a height on the step at its end down to the
-// middle (or to the far end, of a single L). The height is where the mixed colours of the two sides meet. Lines of both
-// directions count from the picture as it was, not one after the other.
+// A Z or U shape is split at its middle into two L shapes; each L is a triangle from a height on the step at its end to
+// the middle (for a single L, to the far end). The height is chosen so that the blended colours of both sides agree.
+// Lines of both directions are found in the original image, not in each other's result.
 //
 // Source: Reshetov, Morphological Antialiasing, HPG 2009.
 #include <algorithm>
@@ -75,14 +75,14 @@ EdgePlane find_edges(const Rgba8Image& image) {
 
 constexpr std::uint64_t ones = 0x0101010101010101;
 
-/// A bit for each of eight pixels that has one of its edges, in that edge's place of every byte.
+/// For each of eight pixels with one of the edges, the bit of that edge in its byte.
 std::uint64_t edges_of_eight(const std::uint8_t* pixels, std::uint8_t edge) {
   std::uint64_t eight = 0;
   std::memcpy(&eight, pixels, sizeof eight);
   return eight & edge * ones;
 }
 
-/// The same as eight bits that follow each other, the first pixel's lowest.
+/// The same as eight consecutive bits, the first pixel's lowest.
 std::uint64_t bits_of_eight(const std::uint8_t* pixels) {
   constexpr std::uint64_t gather = 0x0102040810204080;
   return edges_of_eight(pixels, left_edge) * gather >> 56;
@@ -96,7 +96,7 @@ class Lines {
   Lines(const Rgba8Image& image, const EdgePlane& edges, WeightPlane& weights, bool is_horizontal)
       : image_(image), edges_(edges), weights_(weights), is_horizontal_(is_horizontal) {}
 
-  /// Weighs the horizontal lines above row y, which are looked for by eight pixels.
+  /// Weighs the horizontal lines above row y, which are searched by eight pixels at a time.
   void weigh_row(int y) {
     const std::uint8_t* row = edges_.at(0, y);
     for (int x = 0; x < length();) {
@@ -112,8 +112,8 @@ class Lines {
     }
   }
 
-  /// Weighs the vertical lines on the left of `strip` columns from `first` on, all of them row by row: a column by
-  /// itself would take a line of the cache for every pixel.
+  /// Weighs the vertical lines on the left of `strip` columns from `first` on, row by row: a single column would load a
+  /// cache line for every pixel.
   void weigh_strip(int first) {
     std::array<int, strip> begin;
     std::uint64_t open = 0;
@@ -143,11 +143,11 @@ class Lines {
   int count() const { return is_horizontal_ ? image_.height() : image_.width(); }
   int length() const { return is_horizontal_ ? image_.width() : image_.height(); }
   const std::uint8_t& edge(int i, int j) const { return *(is_horizontal_ ? edges_.at(i, j) : edges_.at(j, i)); }
-  /// Whether something crosses before pixel i of row j; nothing does at the picture's sides.
+  /// Whether an edge crosses the line before pixel i of row j; none does at the image's sides.
   bool crosses(int i, int j) const {
     return i > 0 && i < length() && edge(i, j) & (is_horizontal_ ? left_edge : top_edge);
   }
-  /// The sum of a pixel's codes, weighed as luma.
+  /// The sum of a pixel's encoded values, weighted as luma.
   int luma(int i, int j) const {
     const int jj = std::clamp(j, 0, count() - 1);
     const Rgba8 c = is_horizontal_ ? image_(i, jj) : image_(jj, i);
@@ -158,7 +158,7 @@ class Lines {
     const bool below[2] = {crosses(begin, j), crosses(end, j)}, above[2] = {crosses(begin, j - 1), crosses(end, j - 1)};
     Side side[2];
     for (int k = 0; k < 2; ++k) side[k] = below[k] == above[k] ? Side::None : below[k] ? Side::Below : Side::Above;
-    // What crosses on both sides joins the other end's side to a Z.
+    // An edge that crosses on both sides is joined with the side of the other end to a Z.
     for (int k = 0; k < 2; ++k)
       if (below[k] && above[k] && side[1 - k] != Side::None)
         side[k] = below[1 - k] && above[1 - k] ? Side::None : side[1 - k] == Side::Below ? Side::Above : Side::Below;

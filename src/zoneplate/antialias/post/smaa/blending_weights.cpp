@@ -277,7 +277,7 @@ void SmaaBlendingWeights::find(int y, WeightRow& out) const {
     std::memcpy(&any, row + block, sizeof any);
     for (any = (any | any >> 1) & 0x0101010101010101; any != 0; any &= any - 1) {
       const int x = block + std::countr_zero(any) / 8;
-      if (x < edges_.width()) out.put(x, weights_of(row + x, edges_.stride(), *tables_, options_));
+      if (x < edges_.width()) out.set(x, weights_of(row + x, edges_.stride(), *tables_, options_));
     }
   }
 }

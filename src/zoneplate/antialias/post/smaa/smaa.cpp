@@ -1,18 +1,18 @@
-// SMAA: find edges by contrast, follow each to its ends, and give its pixels the areas that the line through them
-// takes.
+// SMAA: detects edges by contrast, follows each to its ends, and blends its pixels by the area under the line through
+// the ends.
 //
-// Keeps corners, finds diagonals, and smooths long edges better than FXAA. Weak where there is less than a pixel: thin
-// wires stay broken, and an edge beyond the search's length is taken for two. S2x mends the wires and steep edges; long
-// edges that stand alone come out farther from the truth than with one sample, for the original's areas of samples
-// beside the centre are the mean of each step's line and of two halves.
+// Preserves corners, detects diagonals, and smooths long edges better than FXAA. Weak on details thinner than a pixel:
+// thin wires stay broken, and an edge longer than the search is split in two. S2x improves wires and steep edges; long
+// isolated edges have a greater error than with one sample, because the original's areas for off-centre samples are the
+// mean of each step's line and of two halves.
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
-// code v2.8: 1x, S2x and predicated thresholds. Edges are found on codes, colours are mixed in linear light.
+// code v2.8: 1x, S2x and predicated thresholds. Edges are detected on encoded values, colours blended in linear light.
 //
-// Predication doubles the thresholds except where a second buffer changes, by which textures are left alone and faint
-// outlines are still found. The original reads any buffer; of the depth buffer as it is tested it says that it serves
-// short ranges only. Here the buffer holds the logarithm of the distance along the view axis, so that 0.01 is one
-// percent everywhere, or the objects' numbers. Weak where neither changes: creases and coplanar borders.
+// Predication doubles the thresholds except where a second buffer changes, which leaves textures unchanged and still
+// finds faint outlines. The original reads any buffer, and notes that the depth buffer itself works for short depth
+// ranges only. Here the buffer holds the logarithm of the distance along the view axis, so that 0.01 is one percent
+// everywhere, or object ids. Weak where neither changes: creases and coplanar borders.
 #include "zoneplate/antialias/post/smaa/smaa.h"
 
 #include <algorithm>
@@ -49,22 +49,41 @@ constexpr std::string_view modes[] = {"1x", "s2x"};
 constexpr std::string_view mixings[] = {"light", "codes"};
 constexpr std::string_view predications[] = {"none", "depth", "objects"};
 constexpr Param params[] = {
-    {.name = "preset", .meaning = "how faint and how long edges are found", .value = 2, .names = preset_names},
-    {.name = "edges", .meaning = "what edges are found in", .value = 0, .names = edges_names},
-    {.name = "mode", .meaning = "s2x: two samples a pixel, each treated as a picture", .value = 0, .names = modes},
-    {.name = "predication", .meaning = "what lowers the threshold where it changes", .value = 0, .names = predications},
+    {.name = "preset",
+     .meaning = "edge threshold and search length, as in the original",
+     .value = 2,
+     .names = preset_names},
+    {.name = "edges", .meaning = "values in which edges are detected", .value = 0, .names = edges_names},
+    {.name = "mode",
+     .meaning = "s2x: two samples per pixel, each filtered as an image of its own",
+     .value = 0,
+     .names = modes},
+    {.name = "predication", .meaning = "buffer whose changes lower the threshold", .value = 0, .names = predications},
     {.name = "pthreshold",
-     .meaning = "least change of the logarithm of depth, or of object ids",
+     .meaning = "minimum change of the logarithm of depth, or of object ids",
      .value = 0.01,
      .low = 0,
      .high = 1,
      .decimals = 3},
-    {.name = "pscale", .meaning = "of the threshold elsewhere", .value = 2, .low = 1, .high = 5, .decimals = 1},
-    {.name = "pstrength", .meaning = "share by which it is lowered", .value = 0.4, .low = 0, .high = 1, .decimals = 2},
-    {.name = "mix", .meaning = "blend space: linear light or sRGB-encoded values", .value = 0, .names = mixings},
+    {.name = "pscale",
+     .meaning = "factor of the threshold where the predication buffer does not change",
+     .value = 2,
+     .low = 1,
+     .high = 5,
+     .decimals = 1},
+    {.name = "pstrength",
+     .meaning = "fraction by which the threshold is lowered where it changes",
+     .value = 0.4,
+     .low = 0,
+     .high = 1,
+     .decimals = 2},
+    {.name = "mix",
+     .meaning = "blending in linear light or in sRGB-encoded values (codes)",
+     .value = 0,
+     .names = mixings},
 };
 
-/// What the predication buffer is made of.
+/// The contents of the predication buffer.
 enum class Predication { None, Depth, Objects };
 
 SmaaOptions options_of(const Settings& s) {
@@ -109,7 +128,7 @@ class Smaa : public Resolver {
   }
 
  private:
-  /// Of depths the logarithms: their differences are relative ones, whatever the scene's size and the projection are.
+  /// Depths are stored as logarithms, whose differences are relative: independent of the scene's size and projection.
   Plane<float> predication_buffer(const Frame& frame) const {
     if (predication_ == Predication::Depth)
       return changed(frame.depth, [](float d) { return d < std::numeric_limits<float>::infinity() ? log(d) : d; });
@@ -134,8 +153,8 @@ Display mean_of(const Display& a, const Display& b, Mixing mixing) {
   return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
 }
 
-/// S2x: each sample of the standard pattern of two makes a display-referred picture, which is treated by itself, with
-/// the areas of the sample's place.
+/// S2x: each sample of the standard pattern of two makes a display-referred image, which is filtered on its own, with
+/// the areas for the sample's position.
 class SmaaS2x : public Resolver {
  public:
   explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
@@ -182,7 +201,7 @@ constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "predication
 
 Method smaa() {
   return {.name = "smaa",
-          .summary = "edges followed to their ends, pixels mixed by the areas of the lines through them",
+          .summary = "edges followed to their ends, pixels blended by the area under the line through them",
           .source = "Jimenez 2012, SMAA 2.8",
           .params = params,
           .make = make,

@@ -13,16 +13,16 @@ struct SmaaOptions {
   enum class Edges { Luma, Color, Depth };
 
   Edges edges = Edges::Luma;
-  double threshold = 0.1;               ///< least difference of codes / 255 that is an edge; a tenth of it for depth
-  bool is_predicated = false;           ///< thresholds depend on a predication buffer; not for Edges::Depth
-  double predication_threshold = 0.01;  ///< least difference of the predication buffer that crosses a border
-  double predication_scale = 2;         ///< of the threshold of borders that are not crossed
-  double predication_strength = 0.4;    ///< the share by which it is lower at those that are
-  int steps = 16;                       ///< of two pixels, along an edge; at most 112
-  int diagonal_steps = 8;               ///< of one pixel, along a diagonal; 0: none; at most 20
-  int corner_rounding = 25;             ///< percent; 100: corners are not looked for
-  std::array<int, 4> slots = {};        ///< of the areas for left edges, top edges and the two diagonals
-  bool mixes_light = true;              ///< mix linear light; else codes
+  double threshold = 0.1;      ///< minimum difference of encoded values / 255 at an edge; a tenth of it for depth
+  bool is_predicated = false;  ///< thresholds depend on a predication buffer; not for Edges::Depth
+  double predication_threshold = 0.01;  ///< minimum difference of the predication buffer across a border
+  double predication_scale = 2;         ///< factor of the threshold at borders without that difference
+  double predication_strength = 0.4;    ///< fraction by which the threshold is lowered at borders with it
+  int steps = 16;                       ///< search steps of two pixels along an edge; at most 112
+  int diagonal_steps = 8;               ///< search steps of one pixel along a diagonal; 0: none; at most 20
+  int corner_rounding = 25;             ///< percent; 100: corners are not detected
+  std::array<int, 4> slots = {};        ///< area tables for left edges, top edges and the two diagonals
+  bool mixes_light = true;              ///< blend linear light, otherwise encoded values
   bool is_postprocessing = false;       ///< for tests: the rounded areas and signed corner distances of another program
 };
 
@@ -33,26 +33,26 @@ struct SmaaOptions {
 //                                                                      v
 //   areas under lines (tables.h), search steps ---> blending weight calculation, row by row
 //                                                                      |
-//                                                                      v  weights: shares of the four neighbours
+//                                                                      v  weights of the four neighbours
 //   picture, sRGB-encoded ------------------------> neighborhood blending ---> picture, sRGB-encoded
-//                                                   (decodes the pixels that it mixes, mixes linear light, encodes)
+//                                                   (decodes the pixels that it blends, blends linear light, encodes)
 //
-// Luma and colour differences are those of sRGB-encoded values: a threshold is then about as visible in the dark as in
-// the light. Only the last pass needs linear light.
+// Luma and colour differences are computed on sRGB-encoded values: a threshold is then about equally visible in dark
+// and bright regions. Only the last pass needs linear light.
 
-/// Edge detection, on the sRGB-encoded picture or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer
-/// where `is_predicated` is set, of any unit; a difference that is not a number (of two infinities) crosses nothing.
+/// Edge detection, on the sRGB-encoded image or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer,
+/// of any unit, if `is_predicated` is set; a difference that is NaN (of two infinities) is below any threshold.
 EdgePlane smaa_edge_detection(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options);
 
 struct SmaaTables;
 
-/// Blending weight calculation, row by row. The edges and options outlive it.
+/// Blending weight calculation, row by row. The edges and options must outlive this object.
 class SmaaBlendingWeights {
  public:
   SmaaBlendingWeights(const EdgePlane& edges, const SmaaOptions& options);
   ~SmaaBlendingWeights();
 
-  /// Puts the weights of row y into a cleared row.
+  /// Stores the weights of row y in a cleared row.
   void find(int y, WeightRow& out) const;
 
  private:
@@ -65,16 +65,16 @@ class SmaaBlendingWeights {
 Rgba8Image smaa_neighborhood_blending(const Rgba8Image& image, const SmaaBlendingWeights& weights,
                                       const SmaaOptions& options, Rgba8Image memory);
 
-/// SMAA 1x; `memory` may be any picture, whose storage is reused where its size fits.
+/// SMAA 1x; `memory` may be any image, whose storage is reused if it has the same size.
 ///
 /// Requires  `depth` for Edges::Depth and, as the predication buffer, for `is_predicated`.
-/// Edges     beyond the sides the outermost pixels go on.
-/// Exact     what shaders fetch between pixels is read from its bits, so that all searches are exact.
+/// Edges     the outermost pixels are repeated beyond the sides.
+/// Exact     bits are read where shaders decode bilinear fetches, so that all searches are exact.
 /// Source    Jimenez, Echevarria, Sousa, Gutierrez, SMAA, Eurographics 2012; code v2.8.
 Rgba8Image apply_smaa(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options,
                       Rgba8Image memory = {});
 
-/// How far away a pixel can be that decides another one.
+/// The greatest distance between a pixel and one that it affects.
 int smaa_reach(const SmaaOptions& options);
 
 }  // namespace zoneplate::antialias

@@ -221,7 +221,7 @@ const AreaSlot& area_slot(int slot, AreaRounding rounding) {
 }
 
 std::vector<std::uint8_t> make_search_table() {
-  // A fetch between four pixels weighs them by 1, 3, 7 and 21 in 32, so that its value tells which of them are set.
+  // A fetch between four pixels weights them by 1, 3, 7 and 21 in 32, so that its value determines which are set.
   constexpr int unset = -1;
   std::array<int, 33> bits;
   bits.fill(unset);

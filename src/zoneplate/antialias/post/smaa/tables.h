@@ -42,7 +42,7 @@ struct AreaSlot {
   std::array<std::uint8_t, 2 * size * size> orthogonal{}, diagonal{};
 };
 
-/// Slots 0 to 6; the diagonal part of 5 and 6 is empty. Made when first asked for, and kept.
+/// Slots 0 to 6; the diagonal part of 5 and 6 is empty. A table is made at its first use, and kept.
 ///
 /// Source    Jimenez et al., SMAA, v2.8, AreaTex.
 const AreaSlot& area_slot(int slot, AreaRounding rounding = AreaRounding::Down);

@@ -42,7 +42,7 @@ Fragment AlphaEdges::corner_point(const Asked& a, int column, int row) const {
 void AlphaEdges::solve() {
   edges_.clear();
   find_mixed();
-  find_corners();
+  find_grid_points();
   find_crossings();
 }
 
@@ -68,7 +68,7 @@ void AlphaEdges::find_mixed() {
   }
 }
 
-void AlphaEdges::find_corners() {
+void AlphaEdges::find_grid_points() {
   points_.clear();
   for (const Edge& e : edges_)
     for (int row = 0; row <= cells; ++row)

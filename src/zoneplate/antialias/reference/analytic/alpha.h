@@ -11,16 +11,16 @@
 
 namespace zoneplate::antialias {
 
-/// Asks how far the alpha of masked triangles is above their cutoffs, for one footprint.
+/// Computes the difference of alpha and cutoff of alpha-tested triangles, for one footprint.
 class AlphaTester {
  public:
   AlphaTester(const ProjectedDraws& projected, const FragmentShader& shader, Target target, float spacing)
       : target_(std::move(target)), shader_(projected, shader, target_) {
     target_.spacing = spacing;
   }
-  AlphaTester(const AlphaTester&) = delete;  // the shader looks at this target
+  AlphaTester(const AlphaTester&) = delete;  // the shader refers to this target
 
-  /// By point: alpha less the cutoff. The surface is there where that is >= 0.
+  /// By position: alpha minus the cutoff. The surface is present where that is >= 0.
   std::span<const float> margins(std::span<const Fragment> points) {
     shader_.find_alpha_margins(points, margins_);
     return margins_;
@@ -33,17 +33,18 @@ class AlphaTester {
   std::vector<float> margins_;
 };
 
-/// Where masked triangles are there: the line where alpha crosses the cutoff, as a polyline, in parts of a pixel.
+/// The regions of a pixel where alpha-tested triangles are present: the contour where alpha crosses the cutoff, as a
+/// polyline, computed in parts of a pixel.
 ///
-/// A part is one of grid × grid squares. Where alpha at its four corners lies on one side of the cutoff, and alpha at
-/// its centre for the footprint of the whole part hardly differs from their mean, the triangle is there all over the
-/// part, or nowhere in it. Else the part is divided into 4 × 4 squares, and where the corners of one differ the line
-/// runs straight between its crossings of the square's sides (marching squares). A crossing is found by bisection to
-/// 1/256 pixel and interpolated from there.
+/// A part is one of grid × grid squares. If alpha at its four corners lies on one side of the cutoff, and alpha at its
+/// centre for the footprint of the whole part hardly differs from their mean, the triangle is present in all of the
+/// part or in none of it. Otherwise the part is divided into 4 × 4 squares; where the corners of a square differ, the
+/// contour is a straight line between its crossings of the square's sides (marching squares). A crossing is found by
+/// bisection to 1/256 pixel and interpolated from there.
 ///
-/// Alpha     is asked for a footprint of 1/16 of a part, and beyond the triangle's sides, whose planes go on.
-/// Errors    a smooth edge is off by its sagitta over a quarter of a part; an edge at which alpha jumps (textures that
-///           are not interpolated) by 1/512 pixel. Holes and islands smaller than a quarter of a part may be missed.
+/// Alpha     is evaluated for a footprint of 1/16 of a part, also beyond the triangle's sides, by extrapolation.
+/// Errors    of a smooth contour: its sagitta over a quarter of a part; of a contour where alpha jumps (nearest-texel
+///           filtering): 1/512 pixel. Holes and islands smaller than a quarter of a part may be missed.
 /// Source    Lorensen and Cline, Marching Cubes, SIGGRAPH 1987, in two dimensions.
 class AlphaEdges {
  public:
@@ -54,14 +55,15 @@ class AlphaEdges {
 
   void clear() { asked_.clear(); }
   std::size_t size() const { return asked_.size(); }
-  /// Forgets what was asked after the first `count`.
+  /// Drops all queries after the first `count`.
   void shrink(std::size_t count) { asked_.resize(count); }
-  /// Asks for a triangle in a part of the pixel (x, y); gives the number of the answer.
+  /// Adds a query for a triangle in a part of the pixel (x, y); returns the index of its result.
   std::uint32_t ask(int x, int y, std::int32_t id, std::uint32_t part);
-  /// Answers all that was asked.
+  /// Evaluates all queries.
   void solve();
 
-  /// Splits a polygon in the part of answer `number`: calls there(p) and away(p) with its pieces.
+  /// Splits a polygon by result `number`: calls there(p) for the pieces where the triangle is present, away(p) for the
+  /// others.
   /// Requires  not more than 12 corners.
   template <class There, class Away>
   void split(std::uint32_t number, const ConvexPolygon& polygon, There there, Away away) const;
@@ -70,21 +72,21 @@ class AlphaEdges {
 
  private:
   static constexpr std::size_t corners = (cells + 1) * (cells + 1);
-  static constexpr std::size_t sides = 2 * cells * (cells + 1);  ///< level ones row by row, then upright ones
+  static constexpr std::size_t sides = 2 * cells * (cells + 1);  ///< horizontal sides row by row, then vertical ones
 
   struct Asked {
     std::int32_t x, y;  ///< the pixel, in 1/256 pixel
     std::int32_t id;
     int column, row;  ///< of the part
     bool is_there = false;
-    std::int32_t edge = -1;  ///< of edges_, where the answer is not the same all over the part
+    std::int32_t edge = -1;  ///< index into edges_ if the contour crosses the part
   };
   struct Edge {
     std::uint32_t asked;
     std::array<float, corners> margin;  ///< row by row
-    std::array<float, sides> crossing;  ///< where it is on a side, from its left or upper end: in [0, 1]
+    std::array<float, sides> crossing;  ///< position of the crossing on a side, from its left or upper end: in [0, 1]
   };
-  /// A side of a square that alpha's edge crosses, between two places of the lattice.
+  /// A crossing of alpha's contour with a side of a square, between two points of the lattice.
   struct Crossing {
     std::uint32_t edge, side;
     Fragment low, high;  ///< in x or y
@@ -95,12 +97,12 @@ class AlphaEdges {
   std::int32_t place(int cell) const;
   Fragment corner_point(const Asked& a, int column, int row) const;
   void find_mixed();
-  void find_corners();
+  void find_grid_points();
   void find_crossings();
   void add_crossing(std::uint32_t edge, std::uint32_t side, int column, int row, bool is_upright);
   void bisect();
   Place crossing_place(const Asked& a, const Edge& e, int column, int row, bool is_upright) const;
-  /// Lines that cut off what is there of a square (`keeps`), or what is away.
+  /// Lines that cut off the region of a square where the triangle is present (`keeps`), or absent.
   struct Cuts {
     bool keeps;
     int count = 0;

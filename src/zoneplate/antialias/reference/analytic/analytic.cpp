@@ -1,12 +1,12 @@
-// Exact coverage: the visible polygons of every pixel, hidden surfaces removed exactly, and the filter's integral over
-// each in closed form. What every other method can be measured from, without any noise of sampling.
+// Exact coverage: the visible polygons of every pixel, with exact hidden-surface removal, and the integral of the
+// filter over each polygon in closed form. A reference for all other methods, free of sampling noise.
 //
-// Coverage is exact; colour is that of each visible surface at the centroid of what is seen of it in the pixel, or with
-// shading=n the mean of n × n parts of the pixel. Alpha-masked surfaces end along the line where alpha crosses the
-// cutoff, which is followed in mask × mask parts; blended ones are laid over each other in their exact order. Pixels
-// that are too crowded for polygons are sampled, up to 4,096 times, and the method estimates the error of that (--aov
-// error: 0 where nothing was sampled). Weak where shading changes within a pixel faster than its parts: highlights and
-// textures far below a pixel are sampled like elsewhere.
+// Coverage is exact; the colour is that of each visible surface at the centroid of its visible part of the pixel, or
+// with shading=n the mean over n × n parts of the pixel. Alpha-tested surfaces end along the line where alpha crosses
+// the cutoff, which is followed in mask × mask parts; blended ones are composited in their exact order. Pixels that are
+// too crowded for polygons are sampled, up to 4,096 times, with an estimate of the error (--aov error: 0 where no
+// samples were taken). Weak where shading varies faster than the parts of a pixel: highlights and textures far smaller
+// than a pixel are only sampled.
 //
 // Source: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978; wider filters: Duff, Polygon Scan
 // Conversion by Exact Convolution, 1989; as a measure for sampled methods: Auzinger et al., Non-Sampled Anti-Aliasing,
@@ -43,19 +43,22 @@ class Analytic : public Resolver {
 constexpr std::string_view filters[] = {"box", "tent", "quadratic", "b-spline", "mitchell", "catmull-rom"};
 constexpr std::string_view orders[] = {"scene", "display"};
 constexpr Param params[] = {
-    {.name = "filter", .meaning = "integrated exactly over what is seen", .value = 0, .names = filters},
+    {.name = "filter",
+     .meaning = "reconstruction filter, integrated exactly over the visible surfaces",
+     .value = 0,
+     .names = filters},
     {.name = "shading",
-     .meaning = "n × n parts of a pixel, each surface shaded in each",
+     .meaning = "each surface is shaded in n × n parts of a pixel",
      .value = 1,
      .low = 1,
      .high = 16},
     {.name = "mask",
-     .meaning = "n × n parts of a pixel where a mask's edge is followed",
+     .meaning = "edges of alpha-tested surfaces are followed in n × n parts of a pixel",
      .value = 8,
      .low = 1,
      .high = 64},
     {.name = "order",
-     .meaning = "filter the scene's light, or what the display shows of it",
+     .meaning = "filter in linear HDR, then tone-map (scene), or tone-map first (display)",
      .value = 0,
      .names = orders},
 };
@@ -72,7 +75,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 Method analytic() {
   return {.name = "analytic",
-          .summary = "exact coverage by what is visible of each pixel, the reference for edges",
+          .summary = "exact coverage of each pixel by visible surfaces, the reference for edges",
           .source = "Catmull 1978",
           .params = params,
           .make = make,

@@ -9,19 +9,19 @@
 
 namespace zoneplate::antialias {
 
-/// A rectangle of pixels of the picture.
+/// A rectangle of pixels of the image.
 struct PixelRect {
-  int left = 0, top = 0, right = 0, bottom = 0;  ///< right and bottom are the first beyond
+  int left = 0, top = 0, right = 0, bottom = 0;  ///< right and bottom are excluded
 
   int width() const { return right - left; }
   int height() const { return bottom - top; }
   bool contains(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
-/// Of each pixel of a rectangle, the triangles that may be seen in it, in an order that their numbers do not enter.
+/// For each pixel of a rectangle, the triangles that may be visible in it, in an order independent of their ids.
 ///
-/// A triangle is listed where it has area within the pixel and is not wholly behind an opaque one that covers the
-/// pixel. Whether it covers the pixel is decided by exact integers.
+/// A triangle is listed if it has area within the pixel and is not wholly behind an opaque one that covers the pixel.
+/// Whether a triangle covers the pixel is decided by exact integers.
 class PixelCandidates {
  public:
   struct Candidate {
@@ -47,7 +47,7 @@ class PixelCandidates {
   std::vector<double> hidden_below_;  ///< by pixel: the least depth of the nearest opaque triangle that covers it
 };
 
-/// The triangle as the pixel (x, y) sees it.
+/// The triangle relative to the pixel (x, y).
 PixelTriangle at_pixel(const ScreenTriangle& triangle, bool covers_pixel, int x, int y);
 
 }  // namespace zoneplate::antialias

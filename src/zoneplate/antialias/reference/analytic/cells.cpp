@@ -6,7 +6,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int many_corners = 12;  // a cell has no more; three edges, or a grid, may add four before it is asked again
+constexpr int many_corners = 12;  // of a cell; three edges, or a grid, may add four before the next check
 
 /// Where a is nearer than b.
 Line nearer(const PixelTriangle& a, const PixelTriangle& b) { return {a.zx - b.zx, a.zy - b.zy, a.z - b.z}; }

@@ -9,27 +9,26 @@
 
 namespace zoneplate::antialias {
 
-/// A triangle as one pixel sees it.
+/// A triangle relative to one pixel.
 struct PixelTriangle {
   Line edge[3];                  ///< inside where all are positive
-  bool covers_all = false;       ///< of the region at work: the edges are not looked at
-  bool is_piece = false;         ///< of a clipped triangle: others may have its id
+  bool covers_all = false;       ///< covers the whole region: the edges are ignored
+  bool is_piece = false;         ///< a piece of a clipped triangle: others may have its id
   double z = 0, zx = 0, zy = 0;  ///< reversed depth at the pixel's top-left corner, and its change per pixel
   std::int32_t id = 0;
   AlphaMode alpha_mode = AlphaMode::Opaque;
 };
 
-/// What is visible in a pixel, or a convex region of it: convex polygons that fill it without a gap or an overlap, each
-/// with its layers.
+/// The visible surfaces of a pixel, or of a convex region of it: convex polygons that fill it without gaps or overlaps,
+/// each with its layers.
 ///
-/// TransparentStack are triangles from near to far, the same order all over the polygon; an opaque one is the last.
-/// Masked triangles are layers like blended ones: whether they are there is asked later. Where triangles pass through
-/// each other polygons are cut along the line of equal depths. Of equal depths the triangle with the lower id is
-/// nearer; of pieces of one triangle (one id) a polygon has one.
+/// Layers are triangles from near to far, in the same order all over the polygon; an opaque triangle is the last layer.
+/// Alpha-tested triangles are layers like blended ones: their alpha is tested later. Where triangles intersect,
+/// polygons are cut along the line of equal depths. Of triangles with equal depths the one with the lower id is nearer;
+/// a polygon has at most one piece of a clipped triangle (one id).
 ///
-/// Exact     the areas of the polygons sum to the region's within 1e-12; no part is dropped, however small.
-/// Requires  triangles come in an order that does not depend on how they are numbered, if the bits of the polygons are
-///           not to.
+/// Exact     the areas of the polygons add up to the region's within 1e-12; no part is dropped, however small.
+/// Requires  an order of insertion that is independent of triangle ids, for results that are independent of them.
 /// Source    subtraction of nearer polygons: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978.
 class PixelCells {
  public:
@@ -40,26 +39,26 @@ class PixelCells {
     std::uint32_t first_layer = 0, layers = 0;
   };
 
-  /// Nothing is in the region, a convex part of the pixel or all of it.
+  /// Begins an empty region, a convex part of the pixel or all of it.
   void clear(const ConvexPolygon& region);
   void insert(const PixelTriangle& triangle);
 
-  /// True once the cells or their layers are too many: they are then not complete, and nothing is inserted any more.
+  /// True if there are too many cells or layers: the result is then incomplete, and insertions are ignored.
   bool is_full() const { return is_full_; }
 
   std::span<const Cell> cells() const { return cells_; }
-  /// Of a cell: numbers of triangles, in the order of insertion, near to far.
+  /// The layers of a cell, near to far: indices of triangles in the order of insertion.
   std::span<const std::uint32_t> layers_of(const Cell& cell) const {
     return {layers_.data() + cell.first_layer, cell.layers};
   }
-  /// Entries in the cells' lists of layers, and in those that no cell has any more.
+  /// The number of entries in all lists of layers, including lists that are no longer used.
   std::size_t layer_count() const { return layers_.size(); }
   const PixelTriangle& triangle(std::uint32_t number) const { return triangles_[number]; }
 
  private:
   struct Piece {
     ConvexPolygon polygon;
-    std::uint32_t next_layer;  ///< what is before it is in front
+    std::uint32_t next_layer;  ///< the layers before it are in front of the piece
   };
 
   void insert_in(std::size_t cell, std::uint32_t number);

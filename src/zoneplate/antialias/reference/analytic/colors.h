@@ -8,15 +8,15 @@
 
 namespace zoneplate::antialias {
 
-/// How large a fragment is for its shader: the side of its part of the pixel, in pixels.
+/// The texture footprint of fragments: the side of a fragment's part of the pixel, in pixels.
 struct Footprints {
-  float part = 1;        ///< of most
-  float fine = 1;        ///< of those in a part of the masked surfaces' grid: half of its side
-  float alpha = 1;       ///< of a place where alpha is tested
-  float alpha_part = 1;  ///< where alpha is asked for a whole part of that grid
+  float part = 1;        ///< of most fragments
+  float fine = 1;        ///< of fragments in a part of the grid of alpha-tested surfaces: half of its side
+  float alpha = 1;       ///< of alpha tests at a point
+  float alpha_part = 1;  ///< of alpha tests for a whole part of that grid
 };
 
-/// Gives fragments their colours: shades their layers and lays them over each other from far to near.
+/// Computes the colours of fragments: shades their layers and composites them from far to near.
 class AreaFragmentColors {
  public:
   AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target,
@@ -24,13 +24,13 @@ class AreaFragmentColors {
 
   void find(const AreaFragmentTable& table);
 
-  /// Of fragment number i of that table.
+  /// The colour of fragment i of that table.
   Linear color(std::size_t i) const { return colors_[i]; }
 
   std::uint64_t shaded() const { return parts_.shader.shaded() + fine_.shader.shaded(); }
 
  private:
-  /// Points of one footprint, with the places of their colours among all.
+  /// Fragments of one footprint, with the indices of their colours.
   struct Group {
     Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Target of, float spacing);
     Group(const Group&) = delete;  // the shader looks at this target
@@ -43,7 +43,7 @@ class AreaFragmentColors {
   /// A layer of a fragment.
   struct Seen {
     std::size_t fragment;
-    bool is_surface;  ///< it hides what is behind it
+    bool is_surface;  ///< opaque: hides all layers behind it
     Linear color;
   };
 

@@ -158,7 +158,7 @@ bool CrowdSampler::advance(Sample& s) {
   return false;
 }
 
-/// Asks alphas, of all samples together from the nearest surface on, and adds what is seen to the fragments.
+/// Tests alpha for all samples together, from the nearest surface on, and adds visible layers to the fragments.
 void CrowdSampler::finish_samples() {
   waiting_.clear();
   for (std::uint32_t i = 0; i < samples_.size(); ++i)

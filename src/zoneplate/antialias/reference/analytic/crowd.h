@@ -12,17 +12,17 @@
 
 namespace zoneplate::antialias {
 
-/// Samples the pixels that are too crowded for polygons: exact depths and alpha at stratified places, as many as the
-/// spread of their light asks for.
+/// Samples the pixels that are too crowded for polygons: exact depths and alpha at stratified positions, in a number
+/// that depends on the variance of their colours.
 ///
-/// The samples of a round form four groups, each stratified by itself; the spread of the groups' means gives a standard
-/// error, the greatest of the channels. It is too great as a rule, because all samples together are stratified finer.
-/// A pixel takes 256 samples, then 1,024, then 4,096, until that estimate is at most `bound`, or until more than
-/// `most_shaded` layers were shaded for it. What the samples of a
-/// part of the pixel see of one surface is shaded once, at its centroid.
+/// The samples of a round form four groups, each stratified on its own; the variance of the groups' means gives a
+/// standard error, the maximum of the channels. It mostly overestimates the error, because all samples together are
+/// stratified more finely. A pixel takes 256 samples, then 1,024, then 4,096, until that estimate is at most `bound`,
+/// or until more than `most_shaded` layers were shaded for it. The part of one surface that the samples of one part of
+/// the pixel hit is shaded once, at its centroid.
 ///
-/// Units     `bound` and the errors: of the light, or of what the display shows of it.
-/// Exact     the same bits for any order of the triangles, any crop: places depend on the pixel's coordinates alone.
+/// Units     `bound` and the errors: of scene-linear or of display-linear light.
+/// Exact     the same bits for any order of the triangles and any crop: positions depend only on the pixel's coordinates.
 /// Cost      time near n log n for n triangles; memory for the layers of a few thousand samples at most, and of one
 ///           sample at least.
 class CrowdSampler {
@@ -30,7 +30,7 @@ class CrowdSampler {
   static constexpr double bound = 1.0 / 512;
   static constexpr std::size_t most_shaded = std::size_t{1} << 17;
 
-  /// What a pixel gives to one around it: weighted light and alpha, and the square of its standard error.
+  /// The contribution of a pixel to one around it: weighted colour and alpha, and the square of its standard error.
   struct Share {
     double r = 0, g = 0, b = 0, a = 0, variance = 0;
   };
@@ -41,9 +41,9 @@ class CrowdSampler {
   /// Samples the pixel (x, y).
   void find(std::span<const PixelTriangle> triangles, int x, int y, const DisplayLight* display_light);
 
-  /// By pixel around, rows from the top.
+  /// By neighbouring pixel, rows from the top.
   std::span<const Share> shares() const { return shares_; }
-  /// The share of the pixel where a surface hides what is behind.
+  /// The fraction of the pixel that opaque surfaces cover.
   double covered() const { return covered_; }
 
   std::uint64_t shaded() const { return colors_.shaded() + alpha_.asked(); }
@@ -65,7 +65,7 @@ class CrowdSampler {
     double x, y;
     std::uint32_t group;
     std::uint32_t first, hits, next;  ///< in hits_
-    std::uint32_t seen;               ///< so many of its hits, moved to the front, are seen
+    std::uint32_t seen;               ///< number of visible hits, which are moved to the front
   };
 
   void take_round(std::size_t round);
@@ -87,7 +87,7 @@ class CrowdSampler {
   AreaFragmentColors colors_;
   std::vector<double> density_;  ///< by square of 8 × 8: the filter's mean weight there, for each pixel around
 
-  int x_ = 0, y_ = 0;  ///< the pixel at work
+  int x_ = 0, y_ = 0;  ///< the current pixel
   SampleNet::Shift shift_;
   std::span<const PixelTriangle> triangles_;
   bool is_fine_ = false;  ///< some are masked: the pixel has grid × grid parts, else shading × shading

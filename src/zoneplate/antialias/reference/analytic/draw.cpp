@@ -1,4 +1,4 @@
-// The exact picture, a tile at a time: candidates of each pixel, its visible polygons, their colours, their sum.
+// The exact image, tile by tile: the candidates of each pixel, its visible polygons, their colours, their sum.
 #include "zoneplate/antialias/reference/analytic/draw.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr std::size_t enough_fragments = 2048;   // that are shaded together
 constexpr std::size_t mixed_primitives = 32768;  // of a tile that is not drawn at once
 constexpr std::size_t enough_masked = 8192;      // polygons and alphas that are resolved together
 
-/// What all tiles look at.
+/// The data that all tiles read.
 struct Whole {
   const CustomDraw& drawing;
   const ProjectedDraws& projected;
@@ -53,7 +53,7 @@ PixelRect rect_around(const PixelRect& r, int reach, Viewport viewport) {
 
 int fine_grid(const Whole& whole) { return std::max(whole.options.shading, whole.options.mask); }
 
-/// As many texels count for a part of a pixel as lie in it, or in the whole pixel where that is asked for.
+/// Textures are filtered over the footprint of a part of a pixel, or of the whole pixel if the options say so.
 Footprints footprints(const Whole& whole) {
   if (!whole.drawing.options.sample_footprint) return {};
   const float fine = 1 / static_cast<float>(fine_grid(whole));

@@ -24,13 +24,13 @@ class PolynomialFilter {
   /// "box", "tent", "quadratic" (the B-spline of degree 2), "b-spline" (of degree 3), "mitchell", "catmull-rom".
   explicit PolynomialFilter(std::string_view name);
 
-  int reach() const { return reach_; }         ///< pixels around that a part of a pixel counts for
+  int reach() const { return reach_; }  ///< radius, in pixels, of the pixels to which a part of a pixel contributes
   int span() const { return 2 * reach_ + 1; }  ///< the same, as a width
   std::size_t weight_count() const { return static_cast<std::size_t>(span() * span()); }
 
   double value(double x) const;  ///< f(x), on one side of a jump
 
-  /// Adds ∫∫ f(x - x_k) f(y - y_k) over a part of the pixel to `weights`, for each pixel k around.
+  /// Adds ∫∫ f(x - x_k) f(y - y_k) over a part of the pixel to `weights`, for each neighbouring pixel k.
   void add_weights(const ConvexPolygon& polygon, std::span<double> weights) const;
 
   /// Σ of a pixel's weights along an axis over the pixels in [0, size) of a picture: 1 where the picture's end is out

@@ -16,7 +16,7 @@ struct Layer {
   bool operator==(const Layer&) const = default;
 };
 
-/// A part of a pixel with one order of layers, shaded at one place: the centroid of its area.
+/// A part of a pixel with one order of layers, shaded at one position: the centroid of its area.
 struct AreaFragment {
   int x = 0, y = 0;                           ///< the pixel
   std::uint32_t part = 0;                     ///< of the pixel's grid, if it is cut by one
@@ -25,19 +25,19 @@ struct AreaFragment {
   bool is_fine = false;  ///< its grid is the finer one, of masked surfaces
 };
 
-/// Fragments in the order of their pixels, each with so many weights. What of a part of a pixel shows the same layers
-/// is one fragment.
+/// Fragments in the order of their pixels, each with a fixed number of weights. All areas of a part of a pixel that
+/// have the same layers form one fragment.
 class AreaFragmentTable {
  public:
   explicit AreaFragmentTable(std::size_t weights) : weights_each_(weights) {}
 
   void clear();
-  /// What is found from now on is of the pixel (x, y).
+  /// Begins the pixel (x, y), to which the following fragments belong.
   void begin_pixel(int x, int y);
-  /// Forgets the fragments of this pixel.
+  /// Drops the fragments of this pixel.
   void abandon_pixel();
 
-  /// The number of the pixel's fragment of this part with these layers, which is new and empty if there was none.
+  /// The index of the pixel's fragment of this part with these layers; a new, empty one if there was none.
   std::size_t find(std::uint32_t part, bool is_fine, std::span<const Layer> layers);
   /// Adds a fragment that no later `find` finds.
   void append(const AreaFragment& fragment, Layer layer, std::span<const double> weights);
@@ -58,7 +58,7 @@ class AreaFragmentTable {
   std::vector<AreaFragment> fragments_;
   std::vector<double> weights_;
   std::vector<Layer> layers_;
-  int x_ = 0, y_ = 0;                                     ///< the pixel at work
+  int x_ = 0, y_ = 0;                                     ///< the current pixel
   std::size_t first_of_pixel_ = 0, layers_of_pixel_ = 0;  ///< fragments and layers before it
   std::vector<std::int32_t> head_;                        ///< its fragments by a hash: the last one, or -1
   std::vector<std::int32_t> next_;                        ///< by fragment: an earlier one of the same hash, or -1
@@ -75,14 +75,14 @@ class AreaFragmentList {
   void begin_pixel(int x, int y) { table_.begin_pixel(x, y); }
   void abandon_pixel() { table_.abandon_pixel(); }
   void add(const ConvexPolygon& polygon, std::span<const Layer> layers);
-  /// A polygon that lies in one part of the grid of masked surfaces.
+  /// A polygon that lies in one part of the grid of alpha-tested surfaces.
   void add_fine(const ConvexPolygon& polygon, std::uint32_t part, std::span<const Layer> layers);
   /// A pixel that one opaque triangle covers.
   void add_whole(std::int32_t id, int x, int y);
 
   const AreaFragmentTable& table() const { return table_; }
   std::span<const AreaFragment> fragments() const { return table_.fragments(); }
-  /// Of fragment number i: for each pixel around, rows from the top.
+  /// The weights of fragment i, one for each neighbouring pixel, rows from the top.
   std::span<const double> weights_of(std::size_t i) const { return table_.weights_of(i); }
 
  private:

@@ -10,25 +10,25 @@
 
 namespace zoneplate::antialias {
 
-/// The polygons of pixels that masked surfaces lie over, until alpha is known: cut by a grid, then along alpha's edges.
+/// The polygons under alpha-tested surfaces until alpha is evaluated: cut by a grid, then along the contours of alpha.
 class MaskedPolygons {
  public:
-  static constexpr std::size_t most_triangles = 8;  ///< masked, in a pixel
+  static constexpr std::size_t most_triangles = 8;  ///< alpha-tested ones in a pixel
 
   MaskedPolygons(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
                  Footprints footprints)
       : grid_(grid), edges_(projected, shader, target, grid, footprints.alpha_part, footprints.alpha) {}
 
   void clear();
-  /// Polygons and alphas that are asked.
+  /// The number of pending polygons and alpha queries.
   std::size_t size() const { return stored_.size() + edges_.size(); }
   void begin_pixel(int x, int y);
-  /// Forgets the polygons of this pixel.
+  /// Drops the polygons of this pixel.
   void abandon_pixel();
-  /// Stores a polygon with its layers. False, and nothing is stored, past the limits of a pixel.
+  /// Stores a polygon with its layers. Returns false, and stores nothing, beyond the limits of a pixel.
   bool add(const ConvexPolygon& polygon, std::span<const Layer> layers);
 
-  /// Asks the alphas and adds what is seen to the list, pixel by pixel.
+  /// Evaluates alpha and adds the visible fragments to the list, pixel by pixel.
   void resolve(AreaFragmentList& out);
 
   std::uint64_t shaded() const { return edges_.shaded(); }

@@ -8,7 +8,7 @@ namespace zoneplate::antialias {
 namespace {
 
 constexpr std::size_t crowd = 16;       // triangles that cut, beyond which a region is quartered
-constexpr std::size_t large = 256;      // so many are quartered even where the last two times were in vain
+constexpr std::size_t large = 256;      // regions with more are divided even if the last two divisions did not help
 constexpr std::size_t most_levels = 6;  // of quartering: regions of 1/64 pixel
 
 ConvexPolygon square_at(double x, double y, double side) {

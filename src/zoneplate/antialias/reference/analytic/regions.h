@@ -9,14 +9,14 @@
 
 namespace zoneplate::antialias {
 
-/// Finds what is visible in a pixel, a region at a time: a crowded pixel is quartered, and crowded quarters again, so
-/// that each triangle meets only what is near it. Triangles that cover a region in one order, however many, are no
-/// crowd: they cut nothing.
+/// Finds the visible surfaces of a pixel, region by region: a crowded pixel is divided into quarters, and crowded
+/// quarters again, so that each triangle is compared only with triangles near it. Any number of triangles that cover a
+/// region in one order is no crowd, since they cause no cuts.
 ///
-/// Exact     as PixelCells: the regions' polygons together fill the pixel. Whether a region is quartered depends on the
-///           triangles' places alone.
-/// Cost      with n triangles that are seen, near n log n in place of n². A pixel that would need more than `most_work`
-///           is given up.
+/// Exact     as PixelCells: the polygons of all regions together fill the pixel. Whether a region is divided depends only
+///           on the positions of the triangles.
+/// Cost      about n log n for n visible triangles, instead of n². A pixel that would need more than `most_work` is given
+///           up.
 class PixelRegions {
  public:
   /// Returns false to give the pixel up.
@@ -25,8 +25,8 @@ class PixelRegions {
   static constexpr std::size_t most_work = std::size_t{1}
                                            << 24;  ///< cells that triangles are compared with, and layers in four
 
-  /// Calls `use` with the cells of every region that has triangles. False if the pixel is given up, because of `use` or
-  /// because its cells are too many; what was given to `use` is then not all.
+  /// Calls `use` with the cells of every region that has triangles. Returns false if the pixel is given up, because of
+  /// `use` or because it has too many cells; `use` was then not called for all regions.
   bool find(std::span<const PixelTriangle> triangles, const Use& use);
 
  private:

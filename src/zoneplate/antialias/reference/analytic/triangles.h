@@ -12,7 +12,7 @@
 
 namespace zoneplate::antialias {
 
-/// A triangle on the screen: the rasterizer's own snapped vertices and depth plane, whether it holds a sample or not.
+/// A triangle on the screen, with the rasterizer's snapped vertices and depth plane, whether it covers a sample or not.
 struct ScreenTriangle {
   Triangle shape;  ///< every triangle owns its edges: E is the exact doubled area
   AlphaMode alpha_mode = AlphaMode::Opaque;
@@ -21,8 +21,7 @@ struct ScreenTriangle {
 
 /// The triangles of a frame, culled and clipped as for drawing, by the tiles whose pixels they may touch.
 ///
-/// Only their numbers are kept, of some rows of tiles at a time; the triangles themselves are made for the rows of
-/// pixels that are at work.
+/// Only ids are stored, for some rows of tiles at a time; the triangles are set up for the current rows of pixels.
 ///
 /// Exact     each tile gets the same triangles for any number of threads, in any order.
 /// Memory    4 bytes for each triangle and tile of the rows that are listed: not more than `most_listed`, or one row.

@@ -1,8 +1,8 @@
-// The converged reference: so many shaded samples a pixel that what is left of the error can be told from their spread.
+// The converged reference: many shaded samples per pixel, whose variance gives an estimate of the remaining error.
 //
-// The truth for what happens inside of a surface, textures and highlights and alpha, where exact coverage has no closed
-// form; any reconstruction filter, and an estimate of each pixel's error (--aov error). Weak for its cost, and for
-// edges along an axis, which the samples' lattice of 1/256 pixel knows to half a step: there `analytic` is exact.
+// The reference for shading inside surfaces (textures, highlights, alpha), for which exact coverage has no closed form;
+// with any reconstruction filter, and an error estimate for each pixel (--aov error). Weak in its cost, and on edges
+// along an axis, which the samples' lattice of 1/256 pixel resolves to half a step: there `analytic` is exact.
 //
 // Source: Owen-scrambled Sobol points, Owen 1995; the estimate by independent groups is the method of batch means.
 #include "zoneplate/antialias/reference/converged/draw.h"
@@ -40,10 +40,10 @@ constexpr std::string_view filters[] = {"box",         "tent",     "quadratic", 
                                         "kaiser"};
 constexpr std::string_view orders[] = {"scene", "display"};
 constexpr Param params[] = {
-    {.name = "samples", .meaning = "a pixel, each shaded", .value = 1024, .choices = counts},
-    {.name = "filter", .meaning = "weighs the samples around; gaussian has sigma 0.5", .value = 0, .names = filters},
+    {.name = "samples", .meaning = "shaded samples per pixel", .value = 1024, .choices = counts},
+    {.name = "filter", .meaning = "reconstruction filter; gaussian has sigma 0.5", .value = 0, .names = filters},
     {.name = "order",
-     .meaning = "filter the scene's light, or what the display shows of it",
+     .meaning = "filter in linear HDR, then tone-map (scene), or tone-map first (display)",
      .value = 0,
      .names = orders},
 };
@@ -60,7 +60,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 Method converged() {
   return {.name = "converged",
-          .summary = "very many stratified samples and an estimate of their error, the reference for shading",
+          .summary = "many stratified samples with an error estimate, the reference for shading",
           .source = "Owen 1995",
           .params = params,
           .make = make,

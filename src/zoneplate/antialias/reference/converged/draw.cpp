@@ -1,4 +1,4 @@
-// The converged picture: passes of a few samples over a strip of the picture at a time, each added up at once.
+// The converged image: passes of a few samples over one strip of the image at a time, each added up at once.
 #include "zoneplate/antialias/reference/converged/draw.h"
 
 #include <algorithm>

@@ -13,16 +13,16 @@ struct ConvergedOptions {
   FilterOrder order = FilterOrder::Scene;
 };
 
-/// Draws many stratified samples a pixel, each shaded, weighted by a reconstruction filter about the pixel's centre.
+/// Draws many stratified samples per pixel, each shaded, weighted by a reconstruction filter about the pixel's centre.
 ///
-/// The samples are taken in four groups, each stratified by itself. The standard error of a pixel is estimated from the
-/// spread of the groups' means; because all of them together are stratified finer, the true error is smaller as a rule.
+/// The samples are taken in four groups, each stratified on its own. The standard error of a pixel is estimated from
+/// the variance of the groups' means; because all samples together are stratified more finely, the actual error is
+/// mostly smaller.
 ///
-/// Edges     a picture ends where its pixels do: weights are divided by their sum over the samples inside.
-/// Exact     the same bits for any number of threads and any crop. Places are multiples of 1/256 pixel, as vertices
-/// are:
-///           the share of an upright or level edge is known to 1/512 at best, whatever the number of samples.
-/// Cost      one shaded point a sample; memory does not grow with the samples.
+/// Edges     the image ends at its outermost pixels: weights are divided by their sum over the samples inside.
+/// Exact     the same bits for any number of threads and any crop. Positions are multiples of 1/256 pixel, as vertices
+///           are: coverage by a vertical or horizontal edge is accurate to 1/512 at best, for any number of samples.
+/// Cost      one shaded fragment per sample; memory does not grow with the number of samples.
 void draw_converged(const CustomDraw& drawing, const ConvergedOptions& options);
 
 }  // namespace zoneplate::antialias

@@ -6,11 +6,11 @@
 
 namespace zoneplate::antialias {
 
-/// Stratified random places in a pixel: the first points of the Sobol sequence, scrambled.
+/// Stratified random positions in a pixel: the first points of the Sobol sequence, scrambled.
 ///
-/// Every run of 2^k points that starts at a multiple of 2^k is stratified: each of its 2^k equal upright or level
-/// boxes holds one. Places are rounded to the nearest 1/256 pixel and kept within [1, 255] of it, so that their mean
-/// stays at the pixel's centre.
+/// Every run of 2^k points that starts at a multiple of 2^k is stratified: each of 2^k equal boxes, vertical or
+/// horizontal, contains one. Positions are rounded to the nearest 1/256 pixel and clamped to [1, 255] of it, so that
+/// their mean stays at the pixel's centre.
 ///
 /// Requires  `samples` a power of two.
 /// Source    Owen, Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences, 1995: each digit is flipped by a hash of those

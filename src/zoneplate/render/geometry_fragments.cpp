@@ -1,22 +1,23 @@
-#include "zoneplate/render/geometry_points.h"
+#include "zoneplate/render/geometry_fragments.h"
 
 namespace zoneplate {
 
-GeometryPoints::GeometryPoints(const Scene& scene, const Camera& camera, const FragmentShader& surfaces)
+GeometryFragmentShader::GeometryFragmentShader(const Scene& scene, const Camera& camera, const FragmentShader& surfaces)
     : scene_(scene), surfaces_(surfaces), to_viewer_(normalize(xyz(camera.world_from_camera.column[2]), {0, 0, 1})) {
   const float4x4 camera_from_world = inverse(camera.world_from_camera);
   for (const Instance& instance : scene.instances) {
     const float4x4 m = camera_from_world * instance.world_from_object;
-    placed_.push_back(
+    instances_.push_back(
         {normal_matrix(instance.world_from_object), {-m.column[0].z, -m.column[1].z, -m.column[2].z, -m.column[3].z}});
   }
 }
 
-GeometryPoints::Corners GeometryPoints::corners_of(const FragmentBatch& batch, std::size_t leader) const {
+GeometryFragmentShader::TriangleGeometry GeometryFragmentShader::geometry_of(const FragmentBatch& batch,
+                                                                             std::size_t leader) const {
   const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(scene_.instances[batch.instance[leader]].mesh)];
-  const Placed& placed = placed_[batch.instance[leader]];
+  const InstanceGeometry& placed = instances_[batch.instance[leader]];
   const float side = batch.is_front[leader] > 0 ? 1.0f : -1.0f;
-  Corners out;
+  TriangleGeometry out;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint32_t v = batch.vertex[k][leader];
     const float3 p = mesh.position[v];
@@ -29,18 +30,18 @@ GeometryPoints::Corners GeometryPoints::corners_of(const FragmentBatch& batch, s
   return out;
 }
 
-void GeometryPoints::shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const {
-  Corners corners;
+void GeometryFragmentShader::shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const {
+  TriangleGeometry triangle;
   std::uint32_t known = 0;
   for (int i = 0; i < batch.count; ++i) {
     const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
-    if (i == 0 || batch.triangle[leader] != known) corners = corners_of(batch, leader);
+    if (i == 0 || batch.triangle[leader] != known) triangle = geometry_of(batch, leader);
     known = batch.triangle[leader];
     const float b = batch.b[0][i], c = batch.b[1][i];
     const auto mix = [&](const auto& at) { return at[0] + ((at[1] - at[0]) * b + (at[2] - at[0]) * c); };
-    const float3 normal = normalize(mix(corners.normal), to_viewer_);
+    const float3 normal = normalize(mix(triangle.normal), to_viewer_);
     out.r[i] = normal.x, out.g[i] = normal.y, out.b[i] = normal.z;
-    out.a[i] = mix(corners.distance);
+    out.a[i] = mix(triangle.distance);
   }
 }
 

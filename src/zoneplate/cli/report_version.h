@@ -1,0 +1,9 @@
+#pragma once
+
+namespace zoneplate::cli {
+
+/// The version of the JSON reports, their field `version`: it rises when the name or the meaning of a field changes.
+/// CHANGELOG.md lists the changes.
+inline constexpr int report_version = 2;
+
+}  // namespace zoneplate::cli
