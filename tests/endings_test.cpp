@@ -233,8 +233,9 @@ TEST_F(Endings, AnimationsKeepAFrameOnceAtMost) {
   constexpr std::uint64_t frame = 512 * 512 * 4, more = 24;
   for (const char* output : {"a.apng", "a.webp"})
     EXPECT_LT(peak(output, "32"), peak(output, "8") + more * frame * 3 / 2);
-  if (std::system("command -v ffmpeg >/dev/null 2>&1") == 0)
+  if (std::system("command -v ffmpeg >/dev/null 2>&1") == 0) {
     EXPECT_LT(peak("a.mp4", "32"), peak("a.mp4", "8") + more * frame / 4);
+  }
 }
 
 TEST_F(Endings, ManyItemsNeedNoMoreMemoryThanAFew) {

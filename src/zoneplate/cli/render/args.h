@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"

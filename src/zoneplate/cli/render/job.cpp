@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/sequence.h"
 #include "zoneplate/cli/report_version.h"

@@ -1,4 +1,5 @@
 #include "zoneplate/shade/texture/sample.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 #include <gtest/gtest.h>
 
