@@ -41,7 +41,7 @@ inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
 inline constexpr Param resolve_param = {
     .name = "resolve",
-    .meaning = "averages light, light that weighs less the brighter, or display-referred colour",
+    .meaning = "box: linear light; karis, max3: less weight the brighter; display: after tone mapping",
     .names = resolve_names};
 inline constexpr std::string_view mix_names[] = {"light", "codes"};
 inline constexpr Param mix_param = {.name = "mix",

@@ -17,7 +17,7 @@ void tell(const RenderArgs& args, const Summary& summary) {
     for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
     say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", args.output, summary.width, summary.height,
                          args.method, summary.counts.triangles, summary.threads, name_of(args.isa)));
-    say_note(fmt::format("{}{} MB at most", times, summary.peak_memory >> 20));
+    say_note(fmt::format("{}peak memory {} MB", times, summary.peak_memory >> 20));
   }
   if (!args.wants_json) return;
   const std::string line = Json(summary_json(args, summary)).text() + '\n';

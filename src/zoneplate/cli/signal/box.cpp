@@ -26,7 +26,7 @@ Plot kernels_plot(const BoxArgs& args) {
   const double reach = 0.6 * *std::max_element(args.widths.begin(), args.widths.end());
   const int narrowest = *std::min_element(args.widths.begin(), args.widths.end());
   Plot plot{.title = "Boxes, each of area 1",
-            .x = {"place (pixels)", -reach, reach},
+            .x = {"position (pixels)", -reach, reach},
             .y = {"weight", 0, 1.15 / narrowest},
             .curves = {}};
   for (const int width : args.widths) {

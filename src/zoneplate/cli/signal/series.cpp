@@ -51,7 +51,7 @@ Sum summarize(Wave wave, int highest) {
 
 Plot sums_plot(Wave wave, const SeriesArgs& args) {
   Plot plot{.title = fmt::format("A {} wave from its harmonics", name_of(wave)),
-            .x = {"place (periods)", 0, 1},
+            .x = {"position (periods)", 0, 1},
             .y = {"value", -1.3, 1.3},
             .curves = {}};
   Curve whole{"the wave", {}, Curve::Mark::Line, Curve::grey};
