@@ -2,9 +2,8 @@
 
 #include <span>
 
+#include "zoneplate/image/display_step.h"
 #include "zoneplate/image/rgb.h"
-#include "zoneplate/image/tone_mapping.h"
-#include "zoneplate/image/tonemap_kernels.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {
