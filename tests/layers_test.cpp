@@ -162,4 +162,33 @@ TEST(Layers, EachTypeNameIsDefinedOnce) {
   }
 }
 
+// A table of kernels is `foo.h`; `foo.cpp` defines its scalar member and `foo_simd.cpp` those of the instruction sets.
+// A kernel written once for both is a template in a `*_lanes.h`, which knows no vectors but its lane type.
+TEST(Layers, KernelsHaveOneLayout) {
+  const auto read = [](const fs::path& file) {
+    std::ifstream stream(source / file);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  static const std::regex table(R"(struct (\w+) : PerIsa<\1>)");
+  int tables = 0;
+  for (const fs::path& file : source_files()) {
+    const std::string stem = file.stem(), text = read(file);
+    EXPECT_FALSE(stem.ends_with("_kernels") || stem.ends_with("_stages")) << file << ": name what the kernels do";
+    EXPECT_TRUE(!stem.ends_with("_lanes") || text.find("hwy") == std::string::npos) << file;
+    std::smatch found;
+    if (is_test(file) || !std::regex_search(text, found, table)) continue;
+    ++tables;
+    EXPECT_EQ(file.extension(), ".h") << file;
+    const auto defines = [&](const char* suffix, const std::string& member) {
+      const std::regex definition("PerIsa<(\\w+::)?" + found[1].str() + ">::" + member + " =");
+      const fs::path other = file.parent_path() / (stem + suffix);
+      EXPECT_TRUE(std::regex_search(read(other), definition))
+          << other << " does not define " << member << " of " << file;
+    };
+    defines(".cpp", "scalar");
+    defines("_simd.cpp", "HWY_NAMESPACE");
+  }
+  EXPECT_GT(tables, 20);
+}
+
 }  // namespace

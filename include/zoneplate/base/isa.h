@@ -58,6 +58,9 @@ const char* name_of(Isa isa);
 ///
 ///     template <>
 ///     const FooKernels PerIsa<FooKernels>::HWY_NAMESPACE = {.sum = HWY_NAMESPACE::sum};
+///
+/// Where both are one text it is a template over the lane types of math/lanes.h, in `foo_lanes.h`; `foo.cpp`
+/// instantiates it for single numbers and `foo_simd.cpp` for vectors.
 template <class Table>
 struct PerIsa {
   static const Table scalar, N_SSE4, N_AVX2, N_AVX3, N_NEON, N_WASM;  ///< those of other architectures are not defined

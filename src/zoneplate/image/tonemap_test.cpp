@@ -10,7 +10,6 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/display_transform.h"
-#include "zoneplate/image/tone_curves.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "zoneplate/antialias/geometric/bilateral.h"
 #include "zoneplate/antialias/geometric/gbaa.h"
-#include "zoneplate/antialias/geometric/sraa_kernels.h"
 #include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "zoneplate/antialias/sampling/accumulate_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/display_transform.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "zoneplate/antialias/sampling/accumulate_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"

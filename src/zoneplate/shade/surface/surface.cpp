@@ -7,7 +7,7 @@
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
-#include "zoneplate/shade/surface/surface_kernels.h"
+#include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/filtering.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/material.h"
-#include "zoneplate/shade/lanes/lanes.h"
-#include "zoneplate/shade/texture/filtering_stages.h"
+#include "zoneplate/shade/texture/filtering_lanes.h"
 #include "zoneplate/shade/texture/texture.h"
 #include "zoneplate/shade/texture/texture_view.h"
 

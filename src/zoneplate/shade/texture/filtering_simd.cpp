@@ -1,7 +1,7 @@
 #include "zoneplate/math/halves_simd.h"
-#include "zoneplate/shade/lanes/lanes_simd.h"
+#include "zoneplate/math/lanes_simd.h"
 #include "zoneplate/shade/texture/filtering.h"
-#include "zoneplate/shade/texture/filtering_stages.h"
+#include "zoneplate/shade/texture/filtering_lanes.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 HWY_BEFORE_NAMESPACE();

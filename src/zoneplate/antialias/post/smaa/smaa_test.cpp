@@ -9,7 +9,7 @@
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/antialias/post/encoded.h"
-#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
+#include "zoneplate/antialias/post/smaa/edge_detection.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
