@@ -46,7 +46,7 @@ class Collection {
   void write(const std::string& name, const Bytes& bytes) const;
 
  private:
-  bool is_wanted(std::string_view kind);
+  bool is_needed(std::string_view kind);
   void list(std::string_view kind, const std::string& name, std::size_t bytes, const char* codes,
             const Options& options);
 

@@ -87,9 +87,9 @@ Team::~Team() {
 
 void Team::start(std::size_t helpers) {
   const std::lock_guard lock(mutex_);
-  const std::size_t wanted = std::min(helpers, static_cast<std::size_t>(limit_ - 1));
+  const std::size_t needed = std::min(helpers, static_cast<std::size_t>(limit_ - 1));
   try {
-    while (threads_.size() < wanted) {
+    while (threads_.size() < needed) {
       const int index = static_cast<int>(threads_.size()) + 1;
       threads_.emplace_back([this, index] { help(index); });
     }
@@ -187,7 +187,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, const std::function<v
 }
 
 void with_threads(int threads, const std::function<void()>& body) {
-  // More threads than cores are given where they are asked for.
+  // An explicit number of threads may exceed the number of cores.
   Team team(threads > 0 ? threads : usable_processors());
   struct Return {
     Place outer;

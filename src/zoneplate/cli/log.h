@@ -11,7 +11,7 @@ void print(const std::string& text);
 
 enum class Verbosity { Quiet, Normal, Verbose };
 
-/// One line to people on stderr: `zoneplate: warning: ...`. Control characters are shown as '?'.
+/// Prints one line to stderr: `zoneplate: warning: ...`. Control characters are replaced by '?'.
 ///
 /// The kind of line is coloured on a terminal; NO_COLOR and TERM=dumb say no, CLICOLOR_FORCE says yes anywhere.
 void say_error(const std::string& message);

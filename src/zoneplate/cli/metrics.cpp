@@ -36,7 +36,7 @@ struct Bound {
 struct MetricsArgs {
   std::string metric_names, map_path, threshold;
   int threads = 0;
-  bool wants_json = false;
+  bool prints_json = false;
 };
 
 std::vector<Choice> choose(const std::string& names) {
@@ -209,7 +209,7 @@ Syntax make_syntax(MetricsArgs& args) {
                      "Write the error map of the first metric that has one, as PNG; of several images, the worst one's",
                      "Options", true, [&](auto& text) { args.map_path = text; }},
                     {"--json", "", "Print one line of JSON, including measured curves", "Options", true,
-                     [&](auto&) { args.wants_json = true; }},
+                     [&](auto&) { args.prints_json = true; }},
                     {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
                      "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
@@ -243,7 +243,7 @@ void run(std::span<const std::string> arguments) {
   if (comparison.results.empty()) throw Error(ErrorKind::Input, test + ": expected the size of " + reference);
   if (!args.map_path.empty()) save_map(args.map_path, comparison);
   const std::string missing = shortfall(comparison, bounds);
-  print(args.wants_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));
+  print(args.prints_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));
   if (!missing.empty()) throw Difference(missing);
 }
 

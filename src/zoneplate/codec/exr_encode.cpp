@@ -111,13 +111,13 @@ Bytes prepared(const Bytes& raw) {
 /// A block as it is stored: deflated, or as it was where that is not longer.
 Bytes packed(Bytes raw) {
   constexpr std::size_t most_part = std::size_t{1} << 24;
-  const Bytes wanted = prepared(raw);
+  const Bytes data = prepared(raw);
   Bytes out = {0x78, 0x01};
-  for (std::size_t at = 0; at < wanted.size(); at += most_part) {
-    const std::size_t n = std::min(most_part, wanted.size() - at);
-    deflate_part(std::span(wanted).subspan(at, n), at + n == wanted.size(), out);
+  for (std::size_t at = 0; at < data.size(); at += most_part) {
+    const std::size_t n = std::min(most_part, data.size() - at);
+    deflate_part(std::span(data).subspan(at, n), at + n == data.size(), out);
   }
-  const std::uint32_t sum = PngRowKernels::of().adler(wanted.data(), wanted.size());
+  const std::uint32_t sum = PngRowKernels::of().adler(data.data(), data.size());
   for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(sum >> shift));
   return out.size() < raw.size() ? out : raw;
 }

@@ -50,7 +50,7 @@ int most_scans(const jpeg_decompress_struct& jpeg) {
 
 /// Called by libjpeg between rows of blocks, while scans are read and while pixels are made.
 ///
-/// An exception cannot pass through its frames: after the jump whoever decodes asks for the time again.
+/// An exception cannot pass through libjpeg's frames: the caller checks the deadline again after the jump.
 void check_progress(j_common_ptr jpeg) {
   const auto* const decoder = reinterpret_cast<j_decompress_ptr>(jpeg);
   const bool has_time = [] {

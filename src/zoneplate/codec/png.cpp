@@ -273,7 +273,7 @@ class Writer {
   png_infop info_ = nullptr;
 };
 
-/// Where small files are wanted, filters pay for shaded pictures and cost for drawn ones: both are tried.
+/// For small files, filters help with shaded images and hurt with drawn ones: both are tried.
 std::vector<std::uint8_t> encode(Rows rows, const PngOptions& options) {
   if (!options.is_small) return Writer().encode(rows, options);
   rows.filters = PNG_FILTER_NONE;

@@ -151,12 +151,12 @@ void expect_decodes(const Noise& noise) {
   ASSERT_EQ(image.pixels16.empty(), noise.bit_depth != 16);
   for (int y = 0; y < noise.height; ++y) {
     for (int x = 0; x < noise.width; ++x) {
-      const Rgba16 wanted = wanted_pixel(noise, x, y);
+      const Rgba16 expected = wanted_pixel(noise, x, y);
       const auto rounded = [](int code) { return static_cast<std::uint8_t>((2 * code + 257) / 514); };
-      const Rgba8 wanted8{rounded(wanted.r), rounded(wanted.g), rounded(wanted.b), rounded(wanted.a)};
+      const Rgba8 wanted8{rounded(expected.r), rounded(expected.g), rounded(expected.b), rounded(expected.a)};
       ASSERT_EQ(image.pixels(x, y), wanted8) << "type " << noise.type << ", " << noise.bit_depth << " bits";
       if (noise.bit_depth == 16) {
-        ASSERT_EQ(image.pixels16(x, y), wanted);
+        ASSERT_EQ(image.pixels16(x, y), expected);
       }
     }
   }

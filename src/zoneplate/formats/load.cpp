@@ -66,22 +66,22 @@ namespace {
 
 /// Reads a file of a format that is known, or finds out why it is not.
 Scene read_file(const std::string& name, const LoadOptions& options) {
-  std::string wanted;
-  for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
+  std::string readable;
+  for (const SceneFormat& format : formats) readable.append(readable.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
-    throw Error(ErrorKind::Usage, "standard input requires --format (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "standard input requires --format (" + readable + ")");
   const std::string extension = extension_of(name, options.format);
   for (std::size_t i = 0; i < std::size(formats); ++i)
     if (extension == formats[i].extension) return loaders[i](name, options);
   for (const SceneFormat& format : assimp_formats())
     if (extension == format.extension) return load_by_assimp(name, extension, limits_of(options));
 
-  wanted += " and others, see zoneplate list formats";
+  readable += " and others, see zoneplate list formats";
   if (!options.format.empty())
-    throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + readable + ")");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(name, ignored);
-  throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + wanted + ")"
+  throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + readable + ")"
                                        : name + ": no such file, and no built-in scene of that name");
 }
 

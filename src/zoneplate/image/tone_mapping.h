@@ -4,14 +4,14 @@ namespace zoneplate {
 
 enum class ToneMapping {
   None,     ///< clamped to [0, 1]
-  Aces,     ///< Stephen Hill's fit of the ACES RRT and ODT, of color / 0.6, as three.js does it
+  Aces,     ///< Stephen Hill's fit of the ACES RRT and ODT, of color / 0.6, as in three.js
   Neutral,  ///< Khronos PBR Neutral
 };
 
 /// The constants of the tone curves, shared by the scalar and the vector code.
 namespace tone {
 
-/// Light above this counts as this, which keeps every intermediate value finite.
+/// Radiance is clamped to this, which keeps every intermediate value finite.
 inline constexpr float greatest = 0x1p24f;
 
 /// Hill's fit: by rows, sRGB to the space of the curve and back, and the curve (v (v + a) - b) / (v (c v + d) + e).

@@ -13,11 +13,11 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// x clamped to [0, 1]; 0 where it is not a number.
+/// x clamped to [0, 1]; NaN gives 0.
 template <class D>
 HWY_INLINE hn::Vec<D> clamp_unit(D d, hn::Vec<D> x) {
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-#if HWY_ARCH_X86  // where a maximum with what is not a number is the second operand
+#if HWY_ARCH_X86  // where the maximum of NaN and x is the second operand
   return hn::Min(hn::Max(x, zero), one);
 #else
   x = hn::IfThenElse(hn::Gt(x, zero), x, zero);

@@ -34,7 +34,7 @@ std::string objection(const Metric& metric, const Picture& reference, const Pict
   return {};
 }
 
-/// Refuses pictures of different sizes where no metric wants them so.
+/// Throws for images of different sizes if no metric allows them.
 void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test, std::size_t index) {
   const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
   const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
@@ -55,8 +55,8 @@ void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string
 /// Judges the last frames of the window, of which the newest is picture `index`.
 void measure(Measurement& m, Frames reference, Frames test, std::size_t index, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
-  const auto wanted = static_cast<std::size_t>(metric.frames);
-  const std::size_t frames = metric.starts_short ? std::min(wanted, reference.size()) : wanted;
+  const auto required = static_cast<std::size_t>(metric.frames);
+  const std::size_t frames = metric.starts_short ? std::min(required, reference.size()) : required;
   if (m.is_left_out || reference.size() < frames) return;
   const std::string why = objection(metric, reference.back(), test.back());
   if (!why.empty()) return leave_out(m, unfit, index, why);

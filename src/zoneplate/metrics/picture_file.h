@@ -7,13 +7,13 @@
 
 namespace zoneplate::metrics {
 
-/// A picture from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, told apart by its first bytes. "-" is stdin.
+/// An image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, recognised by its first bytes. "-" is stdin.
 ///
-/// HDR, EXR and PFM are light, unbounded; their codes are what a screen shows of it, clamped.
+/// HDR, EXR and PFM hold unbounded linear light; their display-referred values are clamped.
 /// Errors    ErrorKind::Input naming the file and what is wrong with it.
 Picture load_picture(const std::string& path);
 
-/// The files that one operand names, in order.
+/// The files of one operand, in order.
 ///
 /// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr and .pfm files by name, numbers in names as numbers (9 before
 /// 10), nothing of its folders. A name with `####` or `%04d` in its last part: the files that have a number there, in

@@ -207,7 +207,7 @@ std::string style_of(const Terminal& terminal, int width, int height) {
       terminal.name, width, height, text_px * terminal.font, terminal.more);
 }
 
-// What gnuplot is told.
+// The input of gnuplot.
 std::string script_of(std::span<const Plot> plots, int columns, const PlotSize& size, const Terminal& terminal) {
   assert(!plots.empty() && columns >= 1);
   const int count = static_cast<int>(plots.size()), rows = (count + columns - 1) / columns;

@@ -15,7 +15,7 @@ struct Camera {
   bool is_orthographic = false;
   float vertical_fov = 0.5235988f;  ///< radians (30°)
   float half_height = 1;            ///< orthographic: half the picture's height, world units
-  float aspect = 0;                 ///< the file's own width / height; 0: the picture's
+  float aspect = 0;                 ///< the file's own width / height; 0: the image's
   float near = 0.01f, far = 1000;   ///< distances along the view axis; far may be infinite (perspective only)
 
   /// The projection for a picture of the given aspect (width / height).
@@ -28,7 +28,7 @@ struct AutoFit {
   float elevation = 0.3490659f;  ///< radians above the horizon
   float vertical_fov = 0.5235988f;
   bool is_orthographic = false;
-  float margin = 0.05f;  ///< share of the picture left free on the tightest side
+  float margin = 0.05f;  ///< fraction of the image that stays free on the tightest side
   float3 up{0, 1, 0};
 };
 

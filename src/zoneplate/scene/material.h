@@ -13,7 +13,7 @@ namespace zoneplate {
 
 enum class Wrap { Repeat, Mirror, Clamp };
 
-/// How texels of one level are combined, and how levels are (None: level 0 only).
+/// The filter between texels of one level, and between levels (None: level 0 only).
 enum class TexelFilter { Nearest, Linear };
 enum class LevelFilter { None, Nearest, Linear };
 
@@ -28,14 +28,14 @@ struct Sampler {
 
 /// A decoded image file.
 struct TextureImage {
-  /// Texels along a side. Images that are wider or higher are drawn at a half, a quarter, ... of that side.
+  /// Maximum of texels along a side. Larger images are reduced to a half, a quarter, ... of that side.
   static constexpr int most_side = 32768;
 
-  std::string name;  ///< the file or image it came from, for messages
+  std::string name;  ///< its file or image, for messages
   TexelImage pixels;
 };
 
-/// A use of an image in one slot of a material. `image` < 0: no texture, the factor stands alone.
+/// A use of an image in one slot of a material. `image` < 0: no texture, only the factor.
 ///
 /// The coordinate is (offset + rotation(angle) * (scale * uv)), KHR_texture_transform's order: uv is scaled, then
 /// rotated counter-clockwise in a +v-up sense as the extension's matrix says, then moved.
@@ -49,13 +49,13 @@ struct TextureUse {
 
 enum class ShadingModel { MetallicRoughness, BlinnPhong, Phong, Unlit };
 
-/// What a surface is made of. Factors are linear; codes of base colour and emissive images are sRGB, those of the
-/// others linear.
+/// The parameters of a surface. Factors are linear; base colour and emissive images are sRGB-encoded, the others
+/// linear.
 struct Material {
   std::string name;
   ShadingModel model = ShadingModel::MetallicRoughness;
   AlphaMode alpha_mode = AlphaMode::Opaque;
-  float alpha_cutoff = 0.5f;  ///< a masked surface is there where alpha >= cutoff
+  float alpha_cutoff = 0.5f;  ///< an alpha-tested surface is present where alpha >= cutoff
   bool double_sided = false;
 
   float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
@@ -74,11 +74,11 @@ struct Material {
   float exponent = 32;                    ///< (Blinn-)Phong only: Ns
 };
 
-/// A place for a texture in a material.
+/// A texture slot of a material.
 struct MaterialTextureSlot {
-  std::string_view gltf_name;  ///< of the property that holds the texture in a glTF material
+  std::string_view gltf_name;  ///< the property of a glTF material with this texture
   TextureUse Material::*use;
-  bool is_color;               ///< its codes are sRGB, else linear
+  bool is_color;               ///< sRGB-encoded, otherwise linear
   bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
 };
 

@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// The names of numbered things. Things of the same name share its text: each takes four bytes more.
+/// The names of a list of items. Items with the same name share its text: each takes four more bytes.
 class NameList {
  public:
   NameList() = default;
@@ -26,15 +26,15 @@ class NameList {
   bool empty() const { return text_of_.empty(); }
   const std::string& operator[](std::size_t i) const { return texts_[text_of_[i]]; }
 
-  /// Adds a thing with a text of its own.
+  /// Adds an item with a new name.
   void push_back(std::string name) {
     text_of_.push_back(static_cast<std::uint32_t>(texts_.size()));
     texts_.push_back(std::move(name));
   }
-  /// Adds a thing that shares the text of thing `i`.
+  /// Adds an item that shares the name of item `i`.
   void share(std::size_t i) { text_of_.push_back(text_of_[i]); }
 
-  /// The texts in the order of their first use, and the index of each thing's text.
+  /// The texts in the order of their first use, and the index of each item's text.
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<std::uint32_t>& text_of() const { return text_of_; }
 
@@ -59,7 +59,7 @@ class NameList {
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
 
-  /// Whether the things have the same names, however they share them.
+  /// Whether the items have the same names, regardless of sharing.
   bool operator==(const NameList& other) const {
     if (size() != other.size()) return false;
     for (std::size_t i = 0; i < size(); ++i)

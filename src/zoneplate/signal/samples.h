@@ -6,7 +6,7 @@
 
 namespace zoneplate {
 
-/// A sample's place in its pixel, in 1/256 pixel from the pixel's top-left corner.
+/// A sample's position in its pixel, in 1/256 pixel from the pixel's top-left corner.
 struct SamplePosition {
   std::uint8_t x = 128, y = 128;
   bool operator==(const SamplePosition&) const = default;

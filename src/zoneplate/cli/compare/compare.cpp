@@ -273,8 +273,8 @@ void run_compare(std::span<const std::string> arguments) {
   with_isa(args.render.options.isa,
            [&] { with_threads(args.render.threads, [&] { made = compare_all(args, options); }); });
   save_folder(args.render.output, made.files);  // without other threads, as it requires
-  if (args.render.verbosity != Verbosity::Quiet || args.render.wants_json)
-    print(args.render.wants_json ? made.json : made.text);
+  if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
+    print(args.render.prints_json ? made.json : made.text);
 }
 
 }  // namespace zoneplate::cli

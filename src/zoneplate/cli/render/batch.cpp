@@ -204,7 +204,7 @@ void render_batch(const RenderArgs& common) {
     batch.add(input, [&] {
       RenderArgs args = common;
       args.input = input;
-      if (!args.sequence.is_wanted()) args.output = frame_name(args.output, 0, model_of(input));
+      if (!args.sequence.is_sequence()) args.output = frame_name(args.output, 0, model_of(input));
       check_outputs(args);
       return args;
     });

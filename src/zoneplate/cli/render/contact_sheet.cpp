@@ -62,7 +62,7 @@ Panel panel_of(const SheetArgs& args, const std::string& input, const std::strin
     ItemProcess process({.name = input,
                          .load = render.load.limits,
                          .seconds = render.max_seconds,
-                         .is_sandboxed = wants_sandbox(render.is_sandboxed),
+                         .is_sandboxed = uses_sandbox(render.is_sandboxed),
                          .readable = readable_paths(input, render.load)},
                         1, [&](std::size_t, ItemSender& sender) { return render_cell(render, sender); });
     const std::vector<std::uint8_t> codes = process.next({});

@@ -75,10 +75,10 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     } catch (const LibraryNeeded& needed) {
       sender.needs_library(needed.library(), needed.what());
     } catch (const Error& error) {
-      // What fails after reading, or while rendering, does not know the model's name.
+      // Errors after reading, or while rendering, do not contain the model's name.
       const std::string message = error.what();
-      const bool wants_name = sender.is_past_reading() || error.trouble() == ErrorKind::Failed;
-      const bool is_named = !wants_name || message.find(limits_.name) != message.npos;
+      const bool needs_name = sender.is_past_reading() || error.trouble() == ErrorKind::Failed;
+      const bool is_named = !needs_name || message.find(limits_.name) != message.npos;
       sender.failure(error.trouble(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
@@ -131,8 +131,8 @@ void within_import_time(const std::string& name, const LoadLimits& limits, const
   with_deadline(limits.seconds, ErrorKind::Input, late_reading(name, limits), read);
 }
 
-bool wants_sandbox(bool is_asked_for) {
-  if (!is_asked_for) return false;
+bool uses_sandbox(bool is_requested) {
+  if (!is_requested) return false;
   static const bool is_there = [] {
     const bool filters = sandbox_support().filters_calls;
     if (!filters) say_warning("this system has no seccomp filters: models are read with all rights of the user");

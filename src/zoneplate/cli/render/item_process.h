@@ -70,6 +70,6 @@ void within_import_time(const std::string& name, const LoadLimits& limits, const
 
 /// Warns, once a process, where files are read without a sandbox because the kernel has none, and returns whether items
 /// are to be sandboxed.
-bool wants_sandbox(bool is_asked_for);
+bool uses_sandbox(bool is_requested);
 
 }  // namespace zoneplate::cli

@@ -105,7 +105,7 @@ std::string output_path(const RenderArgs& args, int frame, int layer) {
 void check_outputs(const RenderArgs& args) {
   if (args.output == "-" && ::isatty(STDOUT_FILENO) == 1)
     throw Error(ErrorKind::Usage, "a picture will not be written to a terminal");
-  const int frame = args.sequence.is_wanted() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
+  const int frame = args.sequence.is_sequence() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
   for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
     check_savable(output_path(args, frame, layer));
 }

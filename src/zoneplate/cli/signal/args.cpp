@@ -30,7 +30,7 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
 
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
   return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
-          {"--json", "", "The numbers as one line of JSON", group, true, [&](auto&) { args.wants_json = true; }},
+          {"--json", "", "The numbers as one line of JSON", group, true, [&](auto&) { args.prints_json = true; }},
           {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group,
            false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
 }
@@ -101,9 +101,9 @@ void save_plots(const std::string& path, const std::vector<Plot>& plots, int col
 }
 
 void tell(const SignalArgs& args, const std::string& text, const Json::Object& json) {
-  const std::string line = args.wants_json ? Json(json).text() + '\n' : text;
+  const std::string line = args.prints_json ? Json(json).text() + '\n' : text;
   if (args.output != "-") return print(line);
-  if (args.wants_json) std::fwrite(line.data(), 1, line.size(), stderr);
+  if (args.prints_json) std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 std::vector<int> parse_whole_list(const std::string& text, int low, int high) {

@@ -16,7 +16,7 @@ namespace zoneplate::cli {
 /// What the subcommands of `signal` have in common.
 struct SignalArgs {
   std::string output;  ///< a file, "-" for stdout, or empty: numbers only
-  bool wants_json = false;
+  bool prints_json = false;
   bool uses_codes = false;  ///< work on display codes instead of linear light
   int threads = 0;
 };
@@ -32,7 +32,7 @@ Option border_option(Border& border, const std::string& rules);
 
 /// The one operand of a subcommand.
 ///
-/// Errors    ErrorKind::Usage where there is none or more than one, saying that `what` is wanted.
+/// Errors    ErrorKind::Usage for none or more than one; the message names `what`.
 const std::string& only_operand(const Syntax& syntax, const std::string& what);
 
 /// What IMAGE may be and what the patterns are, for the end of the help.
@@ -53,7 +53,7 @@ void save_result(const std::string& path, const LinearImage& values, const std::
 inline constexpr const char* result_meaning =
     "The picture to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 
-/// The plots as the output's name wants them.
+/// The plots in the format of the output's extension.
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
 
 /// The results on stdout, for people or as a line of JSON. Where the picture takes stdout JSON goes to stderr instead.

@@ -55,7 +55,7 @@ Plot responses_plot(const BoxArgs& args) {
 Syntax make_syntax(BoxArgs& args) {
   Syntax syntax{
       .verb = "signal box",
-      .summary = "Show boxes beside their spectra: wider in space, narrower in frequency",
+      .summary = "Show boxes and their spectra: wider in space, narrower in frequency",
       .operands = "--widths W,...",
       .examples =
           "  zoneplate signal box --widths 3,7,15 -o boxes.svg\n"

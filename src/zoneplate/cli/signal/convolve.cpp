@@ -179,7 +179,7 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
                  {magnitude_panel(of_kernel, {.peak = kernel_peak}),
                   "Spectrum of the kernel\nOn the same scale of frequency."},
                  {magnitude_panel(of_result, {.peak = image_peak * kernel_peak}),
-                  "Spectrum of the convolution\nThe product of the two beside it."}}},
+                  "Spectrum of the convolution\nThe product of the other two."}}},
        .text = {}});
 }
 
@@ -197,7 +197,7 @@ void run_image(const ConvolveArgs& args, const std::string& input) {
 
 Plane<double> parse_values(const std::string& text) {
   Plane<double> values = parse_number_rows(text);
-  if (values.height() != 1) throw Error(ErrorKind::Usage, "one row of numbers is wanted");
+  if (values.height() != 1) throw Error(ErrorKind::Usage, "expected one row of numbers");
   return values;
 }
 

@@ -1,4 +1,4 @@
-// zoneplate signal decimate: every n-th pixel beside filtering first.
+// zoneplate signal decimate: every n-th pixel, with and without filtering first.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -200,7 +200,7 @@ void run_signal_filter(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.passes_given != 1)
-    throw Error(ErrorKind::Usage, "one of --low-pass, --high-pass, --band-pass and --band-stop is wanted");
+    throw Error(ErrorKind::Usage, "expected one of --low-pass, --high-pass, --band-pass and --band-stop");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage before = load_signal(input, args.uses_codes);

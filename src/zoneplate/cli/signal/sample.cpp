@@ -28,8 +28,8 @@ struct SampleArgs : SignalArgs {
 // Two periods of the slower wave, but some samples and no thicket of the faster one.
 double duration_of(const SampleArgs& args) {
   const double slow = std::abs(args.apparent());
-  const double wanted = slow > 0 ? 2 / slow : 8 / args.rate;
-  return std::max(std::min(wanted, 14 / args.frequency), 6 / args.rate);
+  const double preferred = slow > 0 ? 2 / slow : 8 / args.rate;
+  return std::max(std::min(preferred, 14 / args.frequency), 6 / args.rate);
 }
 
 Curve wave_curve(const std::string& name, double frequency, double duration, int color) {
@@ -165,7 +165,7 @@ void run_signal_sample(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   if (!syntax.found_operands.empty())
     throw Error(ErrorKind::Usage, "signal sample takes no operands: --frequency F --rate R");
-  if (args.frequency == 0 || args.rate == 0) throw Error(ErrorKind::Usage, "--frequency and --rate are wanted");
+  if (args.frequency == 0 || args.rate == 0) throw Error(ErrorKind::Usage, "--frequency and --rate are required");
   if (args.frequency > 1000 * args.rate) throw Error(ErrorKind::Usage, "--frequency is more than 1000 times the rate");
   check_plot_name(args.output);
   if (!args.output.empty())

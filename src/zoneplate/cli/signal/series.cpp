@@ -69,7 +69,7 @@ Plot sums_plot(Wave wave, const SeriesArgs& args) {
   return plot;
 }
 
-// Shown to a number of harmonics that can still be told apart.
+// Only as many harmonics as can be distinguished are drawn.
 Plot harmonics_plot(Wave wave, const SeriesArgs& args) {
   const int last = std::clamp(*std::max_element(args.terms.begin(), args.terms.end()), 5, 40);
   Curve bars{"amplitude of the harmonic", {}, Curve::Mark::Stems, 0}, fall{"", {}, Curve::Mark::Dashed, Curve::grey};

@@ -84,7 +84,7 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
   if (const auto found = buffers_.find(i); found != buffers_.end()) return found->second.bytes;
   budget_.check_time();
   const JsonView json = root_->element("buffers", i, "buffer");
-  const std::uint64_t wanted = json.whole("byteLength");
+  const std::uint64_t expected = json.whole("byteLength");
   GltfBytes data;
   if (json.has("uri"))
     data = load_uri(json, json.text("uri"));
@@ -92,9 +92,9 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
     data.bytes = binary_;
   else
     json.fail("uri is missing" + std::string(i == 0 ? ", and so is the GLB's binary chunk" : ""));
-  if (data.bytes.size() < wanted)
-    json.fail("holds " + bytes_text(data.bytes.size()) + ", expected " + std::to_string(wanted));
-  data.bytes = data.bytes.first(static_cast<std::size_t>(wanted));
+  if (data.bytes.size() < expected)
+    json.fail("holds " + bytes_text(data.bytes.size()) + ", expected " + std::to_string(expected));
+  data.bytes = data.bytes.first(static_cast<std::size_t>(expected));
   return (buffers_[i] = std::move(data)).bytes;
 }
 

@@ -106,7 +106,7 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   light.inner_cone = spot.number("innerConeAngle", 0.0f);
   light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
   if (!(light.inner_cone >= 0 && light.outer_cone > 0 && light.outer_cone <= 1.5707964f))
-    spot.fail("wants 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+    spot.fail("expected 0 <= innerConeAngle < outerConeAngle <= pi / 2");
   light.inner_cone = std::min(light.inner_cone, 0.999f * light.outer_cone);  // common exporters write equal angles
   return light;
 }
@@ -164,7 +164,7 @@ class SceneReader {
   std::optional<std::size_t> variant_;
   Scene scene_;
 
-  /// Vertices as read, and those that a primitive uses, once they had to be told apart.
+  /// Vertices as read, and the used ones among them, if the difference was needed.
   struct Bounds {
     Box all;
     std::optional<Box> used = std::nullopt;
@@ -250,7 +250,7 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
   return range;
 }
 
-/// What no primitive uses may lie where it wants: that is looked at only where it matters, and once a mesh.
+/// Unused vertices may have any position: they are determined only if it matters, once per mesh.
 bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
   Bounds& bounds = bounds_[mesh];
   if (zoneplate::is_near(bounds.all, world_from_object)) return true;

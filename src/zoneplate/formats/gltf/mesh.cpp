@@ -34,10 +34,10 @@ template <class Read>
 auto read_attribute(const Primitive& p, const char* key, Read read) -> decltype(read(p.file, p.json, key, p.range)) {
   if (!p.attributes.has(key)) return {};
   const JsonView owner = p.attributes.renamed(p.json.place());
-  const std::uint64_t count = count_elements(p.file, owner, key), wanted = count_elements(p.file, owner, "POSITION");
-  if (count != wanted)
+  const std::uint64_t count = count_elements(p.file, owner, key), expected = count_elements(p.file, owner, "POSITION");
+  if (count != expected)
     owner.fail(std::string(key) + " has " + std::to_string(count) + " elements, POSITION has " +
-               std::to_string(wanted));
+               std::to_string(expected));
   return read(p.file, owner, key, p.range);
 }
 
@@ -230,7 +230,7 @@ void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   budget.give_back(working + most + before - m.position.size() * vertex_size(m));
 }
 
-/// The number of the primitive's material, in the variant that is asked for.
+/// The index of the primitive's material in the chosen variant.
 std::optional<std::size_t> find_material(const JsonView& json, const GltfPose& pose, std::size_t count) {
   const auto variants = json.extension("KHR_materials_variants");
   for (std::size_t i = 0; variants && pose.variant && i < variants->count("mappings"); ++i) {

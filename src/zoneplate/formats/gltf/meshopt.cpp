@@ -9,7 +9,7 @@
 namespace zoneplate {
 namespace {
 
-/// The library's functions. It is opened by the first file that wants it: to open it with the program would take as
+/// The library's functions. It is loaded by the first file that needs it: loading it with the program would take as
 /// long as a small picture.
 struct MeshoptLibrary {
   decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;

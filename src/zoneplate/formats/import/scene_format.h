@@ -4,7 +4,7 @@
 
 namespace zoneplate {
 
-/// A kind of file that holds a scene.
+/// A file format, by its extension.
 struct SceneFormat {
   std::string_view extension;  ///< lower case, with its dot
   std::string_view summary;

@@ -191,7 +191,7 @@ class PartReader {
     if (tally.count++ == 0) tally.line = line_, tally.word = word.substr(0, 40);
   }
 
-  /// Nothing is refused by a part that does not know its lines' numbers.
+  /// Parts without line numbers report no errors.
   [[noreturn]] void fail(std::string cause) const {
     if (!known_) throw NeedsMore{};
     throw ObjLineError{line_, std::move(cause)};

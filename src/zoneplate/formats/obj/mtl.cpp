@@ -68,8 +68,8 @@ MtlTexture read_texture(LineWords words) {
 class MtlReader {
  public:
   MtlReader(const std::string& file, std::vector<std::string>& warnings,
-            const std::function<bool(const std::string&)>& is_wanted)
-      : file_(file), warnings_(warnings), is_wanted_(is_wanted) {}
+            const std::function<bool(const std::string&)>& is_used)
+      : file_(file), warnings_(warnings), is_used_(is_used) {}
 
   std::vector<MtlMaterial> take() {
     close();
@@ -90,9 +90,9 @@ class MtlReader {
   }
 
  private:
-  /// Keeps the material that was read last, if it is wanted.
+  /// Keeps the material that was read last, if it is used.
   void close() {
-    if (open_ && is_wanted_(open_->name)) materials_.push_back(std::move(*open_));
+    if (open_ && is_used_(open_->name)) materials_.push_back(std::move(*open_));
     open_.reset();
   }
 
@@ -173,7 +173,7 @@ class MtlReader {
 
   const std::string& file_;
   std::vector<std::string>& warnings_;
-  const std::function<bool(const std::string&)>& is_wanted_;
+  const std::function<bool(const std::string&)>& is_used_;
   std::optional<MtlMaterial> open_;  ///< the one that is being read
   std::vector<MtlMaterial> materials_;
   std::uint64_t line_ = 0;
@@ -183,10 +183,10 @@ class MtlReader {
 }  // namespace
 
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings,
-                                   const std::function<bool(const std::string&)>& is_wanted) {
+                                   const std::function<bool(const std::string&)>& is_used) {
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
-  MtlReader reader(file, warnings, is_wanted);
+  MtlReader reader(file, warnings, is_used);
   // A backslash at a line's end may end a folder's name, but no file's: it continues the line, as in OBJ.
   TextLines lines(text, 1, separator);
   constexpr std::uint64_t lines_per_check = 1024;

@@ -157,7 +157,7 @@ void fill_shares(const ObjFile& file, const ObjRun& run, Neighbours& n) {
   }
 }
 
-/// Sums of places where so many faces meet that comparing each with each would take too long.
+/// Sums for positions where too many faces meet to compare all pairs.
 using Crowds = std::map<std::pair<std::size_t, std::uint32_t>, float3>;
 
 Crowds sum_crowds(const Neighbours& n) {

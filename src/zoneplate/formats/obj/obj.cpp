@@ -25,12 +25,12 @@ std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-/// The materials that are wanted, by name; of several libraries the first that has one counts.
+/// The used materials, by name; of several libraries the first that defines a material counts.
 class Libraries {
  public:
-  Libraries(ModelFolder& folder, const std::vector<std::string>& wanted)
-      : folder_(folder), wanted_(wanted.begin(), wanted.end()) {
-    folder.budget().take(wanted.size() * (sizeof(std::string_view) + 48));
+  Libraries(ModelFolder& folder, const std::vector<std::string>& used)
+      : folder_(folder), used_(used.begin(), used.end()) {
+    folder.budget().take(used.size() * (sizeof(std::string_view) + 48));
   }
 
   /// What an mtllib statement says: one name that may hold spaces, or several.
@@ -75,9 +75,9 @@ class Libraries {
   };
 
   /// Whether a material is one to keep; what it takes is counted.
-  bool is_wanted(const std::string& name) {
+  bool is_used(const std::string& name) {
     constexpr std::uint64_t of_the_table = 64;
-    if (!wanted_.contains(name) || materials_.contains(name)) return false;
+    if (!used_.contains(name) || materials_.contains(name)) return false;
     folder_.budget().check_time();
     folder_.budget().take(2 * sizeof(Found) + 2 * name.size() + of_the_table);
     return true;
@@ -98,7 +98,7 @@ class Libraries {
     const std::size_t slash = name.find_last_of("/\\");
     const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
     std::vector<MtlMaterial> found =
-        parse_mtl(text_of(file), name, scene.warnings, [&](const std::string& m) { return is_wanted(m); });
+        parse_mtl(text_of(file), name, scene.warnings, [&](const std::string& m) { return is_used(m); });
     for (MtlMaterial& m : found) {
       std::string key = m.name;
       materials_.try_emplace(std::move(key), Found{std::move(m), within});
@@ -107,7 +107,7 @@ class Libraries {
 
   // In order and not hashed, as a file may choose names that collide.
   ModelFolder& folder_;
-  std::set<std::string_view> wanted_;
+  std::set<std::string_view> used_;
   std::size_t names_ = 0, missing_ = 0, undefined_ = 0;
   std::map<std::string, Found> materials_;
   std::set<std::string> statements_, opened_;

@@ -73,7 +73,7 @@ void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>
 
 std::uint64_t size_of(const ObjPart& part) { return part.vertices.bytes() + part.chunk.bytes(); }
 
-/// Reads the parts by themselves, and then anew those that need to know the others; gives what comes before each.
+/// Reads the parts independently, then again those that depend on others; returns the totals before each part.
 std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, char separator, ImportBudget& budget,
                                   const std::function<void(std::string_view)>& done, std::vector<ObjPart>& parts) {
   std::vector<char> is_read(parts.size());

@@ -18,7 +18,7 @@ double one_of(PlyType type);
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::Float;    ///< of the value, or of the items of a list, as they are stored
-  PlyType stated = PlyType::Float;  ///< the same as the header says it: what range it has
+  PlyType stated = PlyType::Float;  ///< the type in the header, which defines the range
   bool is_list = false;
   PlyType count_type = PlyType::Uint8;
 };

@@ -87,7 +87,7 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
     if (mesh.normal[i] == float3{}) mesh.normal[i] = normalize(sum[i], {0, 1, 0});
 }
 
-/// The vertices, and beside them the triangles if they are plain: of either, finding the memory takes longest.
+/// The vertices, and in parallel the triangles if they are plain: for both, page faults take most of the time.
 void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   const bool are_plain = found.faces && are_plain_triangles(*found.faces);
   const std::uint64_t bytes = are_plain ? found.faces->count() * 3 * sizeof(std::uint32_t) : 0;

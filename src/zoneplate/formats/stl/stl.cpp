@@ -75,7 +75,7 @@ class FacetColor {
   std::array<float, 32> linear_{};
 };
 
-/// Arrays for so many separate triangles. They are made side by side, as finding their pages takes longest.
+/// Arrays for `count` separate triangles. They are allocated in parallel, as page faults take most of the time.
 Mesh make_triangles(std::uint64_t count) {
   Mesh mesh;
   const std::size_t corners = 3 * static_cast<std::size_t>(count);

@@ -204,13 +204,13 @@ double mean_of_plane(const Plane<double>& plane) {
 /// What is left below the bands: contrast to the mean luminance, not masked.
 std::vector<double> difference_in_baseband(const OpponentPlanes& reference, const OpponentPlanes& test,
                                            double frequency) {
-  const double wanted = std::max(least_luminance, mean_of_plane(reference[0]));
+  const double expected = std::max(least_luminance, mean_of_plane(reference[0]));
   const double found = std::max(least_luminance, mean_of_plane(test[0]));
   std::vector<double> out;
   for (std::size_t c = 0; c < reference.size(); ++c) {
-    const double weight = Sensitivity(static_cast<int>(c), frequency).at(wanted) * ten_to(sensitivity_decibels / 20);
+    const double weight = Sensitivity(static_cast<int>(c), frequency).at(expected) * ten_to(sensitivity_decibels / 20);
     const double whole = pooled(reference[c].width(), reference[c].height(), [&](int x, int y) {
-      return std::abs(test[c](x, y) / found - reference[c](x, y) / wanted) * weight;
+      return std::abs(test[c](x, y) / found - reference[c](x, y) / expected) * weight;
     });
     out.push_back(whole * baseband_weight[c]);
   }
@@ -238,9 +238,9 @@ std::vector<double> visible_difference(const OpponentPlanes& reference, const Op
     } else {
       OpponentPlanes a_below = reduced(a), b_below = reduced(b);
       const double factor = i == 0 ? 1 : 2;
-      Band wanted = make_band(a, a_below, factor), found = make_band(b, b_below, factor);
-      weigh(wanted, found, frequencies[i]);
-      differences = difference_in_band(wanted, found);
+      Band expected = make_band(a, a_below, factor), found = make_band(b, b_below, factor);
+      weigh(expected, found, frequencies[i]);
+      differences = difference_in_band(expected, found);
       a = std::move(a_below), b = std::move(b_below);
     }
     for (std::size_t c = 0; c < bands.size(); ++c) bands[c].push_back(differences[c] * channel_weight[c]);

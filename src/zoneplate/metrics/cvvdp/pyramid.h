@@ -11,7 +11,7 @@ namespace zoneplate::metrics {
 /// Requires  at least 2 × 2.
 Plane<double> reduce(const Plane<double>& in);
 
-/// Twice the size, less one where the size asked for is odd: the inverse step, with the same filter.
+/// The inverse step, with the same filter: twice the size, less one if `width` or `height` is odd.
 ///
 /// Requires  `in` is (width + 1) / 2 × (height + 1) / 2.
 Plane<double> expand(const Plane<double>& in, int width, int height);

@@ -228,14 +228,14 @@ Metric edge_response() {
           .perfect = std::nullopt,
           .is_default = false,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            const auto wanted = measure_edge(reference[0].linear), found = measure_edge(test[0].linear);
-            if (!wanted || !found) return std::nullopt;
+            const auto expected = measure_edge(reference[0].linear), found = measure_edge(test[0].linear);
+            if (!expected || !found) return std::nullopt;
             Score score{.value = found->half_transfer, .more = {}};
-            score.more = {{"reference_mtf50", wanted->half_transfer, "cycles/pixel"},
+            score.more = {{"reference_mtf50", expected->half_transfer, "cycles/pixel"},
                           {"mtf_nyquist", found->nyquist_transfer, ""},
-                          {"reference_mtf_nyquist", wanted->nyquist_transfer, ""},
+                          {"reference_mtf_nyquist", expected->nyquist_transfer, ""},
                           {"rise", found->rise, "pixels"},
-                          {"reference_rise", wanted->rise, "pixels"},
+                          {"reference_rise", expected->rise, "pixels"},
                           {"overshoot", found->overshoot, "share of the step"},
                           {"angle", found->angle_deg, "degrees"}};
             score.curves = {

@@ -7,7 +7,7 @@
 
 namespace zoneplate::metrics {
 
-/// How a picture draws one straight edge: what its sampling and its filter made of a step.
+/// The response of an image to one straight edge: the result of its sampling and filter for a step.
 ///
 /// Units     pixels along the edge's normal; frequencies in cycles per pixel, along it too.
 struct EdgeResponse {

@@ -33,8 +33,8 @@ std::vector<double> flip_exposures(const LinearImage& reference);
 /// Edges     negative light counts as none. Not symmetric: the reference alone chooses the exposures.
 Plane<float> hdr_flip_map(const LinearImage& reference, const LinearImage& test, double pixels_per_degree);
 
-/// A FLIP map with its mean as value and, beside it, the weighted quartiles and the weighted median (a quarter, a half
-/// and three quarters of all error are in pixels up to them), the 99th percentile, the minimum and the maximum.
+/// A FLIP map with its mean as value, and additionally the weighted quartiles and the weighted median (a quarter, a
+/// half and three quarters of all error are in pixels up to them), the 99th percentile, the minimum and the maximum.
 Score score_of_flip(Plane<float> map);
 
 }  // namespace zoneplate::metrics

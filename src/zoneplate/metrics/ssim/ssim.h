@@ -5,7 +5,7 @@
 
 namespace zoneplate::metrics {
 
-/// What structural similarity says of two grey pictures with values in [0, 1].
+/// The structural similarity of two grey images with values in [0, 1].
 struct Similarity {
   double ssim = 1;      ///< mean of luminance × contrast-structure
   double contrast = 1;  ///< mean of contrast-structure alone, what the coarser scales of MS-SSIM take

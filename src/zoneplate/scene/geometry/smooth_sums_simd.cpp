@@ -71,9 +71,9 @@ class Group {
 
  private:
   HWY_INLINE bool has(std::uint32_t v) const {
-    const auto wanted = hn::Set(words, v);
+    const auto vertex = hn::Set(words, v);
     const auto is = [&](std::size_t part) {
-      return hn::VecFromMask(words, hn::Eq(hn::LoadU(words, index_ + part * lanes), wanted));
+      return hn::VecFromMask(words, hn::Eq(hn::LoadU(words, index_ + part * lanes), vertex));
     };
     return !hn::AllFalse(words, hn::MaskFromVec(hn::Or(hn::Or(is(0), is(1)), is(2))));
   }
