@@ -291,7 +291,7 @@ class InvalidFiles : public testing::Test {
   // Judges the command's answer; what it wrote is removed.
   void judge(const fs::path& file, int code, const std::string& words) const {
     std::vector<std::string> command = command_for(file);
-    const fs::path out = folder / "out" / "picture.png";
+    const fs::path out = folder / "out" / "image.png";
     command.push_back(out.string());
     const Result r = run(command, folder / "err");
     const std::string about = file.string() + ": " + r.err;

@@ -59,7 +59,7 @@ struct Followed {
   float greatest_miss = 0, greatest_step = 0;  // pixels
 };
 
-// Follows every point back to the last picture, and finds by its name how far beside itself it lands.
+// Follows every point back to the last image, and finds by its name how far beside itself it lands.
 Followed follow(Look now, Look last) {
   const Scene first = last.scene;
   const Moment before = last.moment();

@@ -1,4 +1,4 @@
-// What a texture holds beyond 8 bits and above white, in the picture that the command writes.
+// What a texture holds beyond 8 bits and above white, in the image that the command writes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ class TexturePrecision : public testing::Test {
   void write(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
     save_bytes((place_ / name).string(), bytes);
   }
-  /// The red values of a picture of a strip, 8 by 1, with this material.
+  /// The red values of an image of a strip, 8 by 1, with this material.
   std::vector<float> reds(const std::string& material) const {
     write("m.mtl", "newmtl m\n" + material);
     write("m.obj",

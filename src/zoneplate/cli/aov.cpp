@@ -27,7 +27,7 @@ float code(float value, float top) {
 }
 std::uint8_t code8(float value) { return static_cast<std::uint8_t>(code(value, 255)); }
 
-// The picture of a plane, pixel by pixel; transparent where depth says that nothing is there.
+// The image of a plane, pixel by pixel; transparent where depth says that nothing is there.
 template <class T, class Colour>
 std::vector<std::uint8_t> data_picture(const Frame& frame, const Plane<T>& plane, const PngOptions& options,
                                        Colour colour) {
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> id_picture(const Frame& frame, const Scene&) {
                       [&](std::uint32_t id) { return id == Frame::no_id ? nothing : id_color(id); });
 }
 
-// As colours stand for names in the id passes, but of names: the same in every picture of any scene.
+// As colours stand for names in the id passes, but of names: the same in every image of any scene.
 template <MatteKind kind>
 std::vector<std::uint8_t> matte_picture(const Frame& frame, const Scene& scene) {
   const Cryptomatte matte = make_cryptomatte(frame, scene, kind);

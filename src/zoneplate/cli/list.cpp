@@ -121,7 +121,7 @@ Json formats_json() {
   Json::Array passes;
   for (const Aov& aov : aovs()) passes.emplace_back(Json::Object{{"name", aov.name}, {"meaning", aov.meaning}});
   return Json::Object{{"models", rows(scene_formats(), assimp_formats())},
-                      {"pictures", rows(picture_formats)},
+                      {"images", rows(picture_formats)},
                       {"aovs", std::move(passes)}};
 }
 

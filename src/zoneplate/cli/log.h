@@ -4,7 +4,7 @@
 
 namespace zoneplate::cli {
 
-/// Writes text to stdout, all of it or an error; nothing else of the program writes there but pictures for "-".
+/// Writes text to stdout, all of it or an error; nothing else of the program writes there but images for "-".
 ///
 /// Errors    ErrorKind::Output where stdout is closed or full.
 void print(const std::string& text);

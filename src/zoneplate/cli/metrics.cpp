@@ -1,4 +1,4 @@
-// zoneplate metrics: how far pictures are from a reference, by any of the catalogue's metrics.
+// zoneplate metrics: how far images are from a reference, by any of the catalogue's metrics.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -146,7 +146,7 @@ Json json_of(const Comparison& comparison, const std::string& reference, const s
                       {"metrics", std::move(rows)}};
 }
 
-/// The verdict where the pictures differ or a metric misses its threshold; else empty.
+/// The verdict where the images differ or a metric misses its threshold; else empty.
 std::string shortfall(const Comparison& comparison, const std::vector<Bound>& bounds) {
   if (bounds.empty()) return comparison.are_same ? "" : "the images differ";
   std::string text;

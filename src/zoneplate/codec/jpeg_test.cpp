@@ -28,7 +28,7 @@ struct Kind {
   bool is_subsampled = false;
 };
 
-/// A smooth picture, of which a good JPEG keeps every code within a few.
+/// A smooth image, of which a good JPEG keeps every code within a few.
 int smooth(int x, int y, int channel) {
   const double phase = 0.11 * x + 0.07 * y * (channel + 1) + channel;
   return static_cast<int>(std::lround(128 + 100 * std::sin(phase)));
@@ -70,7 +70,7 @@ Bytes jpeg_of(int width, int height, const Kind& kind) {
   return bytes;
 }
 
-/// The greatest difference of a code from the smooth picture, after `expected` has mixed its channels.
+/// The greatest difference of a code from the smooth image, after `expected` has mixed its channels.
 template <class Wanted>
 int worst_difference(const Rgba8Image& image, Wanted expected) {
   int worst = 0;
@@ -93,7 +93,7 @@ TEST(Jpeg, DecodesColorAndGrey) {
       const Bytes grey = jpeg_of(width, height, {JCS_GRAYSCALE, JCS_GRAYSCALE, 1, is_progressive});
       const auto expected = [](int x, int y, int) { return smooth(x, y, 0); };
       EXPECT_LE(worst_difference(decode_jpeg(grey, "a"), expected), 2);
-      // Halved chroma blurs this picture; it still is the picture and not another.
+      // Halved chroma blurs this image; it still is the image and not another.
       const Bytes half = jpeg_of(width, height, {.is_progressive = is_progressive, .is_subsampled = true});
       EXPECT_LE(worst_difference(decode_jpeg(half, "a"), smooth), 20);
     }
@@ -164,7 +164,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedJpeg);
 INSTANTIATE_TEST_SUITE_P(Images, SharedJpeg, testing::ValuesIn(shared_files_ending("data/models", {".jpg"})));
 INSTANTIATE_TEST_SUITE_P(Invalid, SharedJpeg, testing::ValuesIn(shared_files_ending("data/invalid", {".jpg"})));
 
-/// A grey picture in as many scans as a coefficient and a bit at a time give: 1 + 63 * 3.
+/// A grey image in as many scans as a coefficient and a bit at a time give: 1 + 63 * 3.
 Bytes in_many_scans(int size) {
   std::vector<jpeg_scan_info> scans = {{1, {0}, 0, 0, 0, 0}};
   for (int bit = 2; bit >= 0; --bit)

@@ -38,10 +38,10 @@ constexpr LumaWeights rec601_luma{0.299, 0.587, 0.114};     ///< ITU-R BT.601-7
 /// Luma: the weighted sum of encoded values (not of linear light).
 constexpr double luma(Codes c, LumaWeights w = rec709_luma) { return w.r * c.r + w.g * c.g + w.b * c.b; }
 
-/// The luma of every pixel of a picture on black.
+/// The luma of every pixel of an image on black.
 Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights = rec709_luma);
 
-/// Rec.709 luminance of every pixel of a picture on black, in linear light.
+/// Rec.709 luminance of every pixel of an image on black, in linear light.
 Plane<double> luminance_plane(const LinearImage& image);
 
 }  // namespace zoneplate::metrics

@@ -186,15 +186,15 @@ PicturePairs pair_pictures(const std::string& reference, const std::string& test
   PicturePairs pairs{list_pictures(reference), list_pictures(test)};
   if (is_directory(reference) && is_directory(test)) {
     if (const std::string* alone = find_alone(pairs.reference, pairs.test)) {
-      throw Error(ErrorKind::Input, fmt::format("{}: no picture of that name in {}", *alone, test));
+      throw Error(ErrorKind::Input, fmt::format("{}: no image of that name in {}", *alone, test));
     }
     if (const std::string* alone = find_alone(pairs.test, pairs.reference)) {
-      throw Error(ErrorKind::Input, fmt::format("{}: no picture of that name in {}", *alone, reference));
+      throw Error(ErrorKind::Input, fmt::format("{}: no image of that name in {}", *alone, reference));
     }
   }
   if (pairs.reference.size() != pairs.test.size()) {
-    throw Error(ErrorKind::Input, fmt::format("{} has {} pictures, {} has {}", reference, pairs.reference.size(), test,
-                                              pairs.test.size()));
+    throw Error(ErrorKind::Input,
+                fmt::format("{} has {} images, {} has {}", reference, pairs.reference.size(), test, pairs.test.size()));
   }
   return pairs;
 }

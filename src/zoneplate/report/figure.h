@@ -10,7 +10,7 @@ namespace zoneplate {
 /// One image of a figure, with its caption.
 struct Panel {
   Rgba8Image picture;
-  std::string caption;  ///< UTF-8; wrapped at the picture's width; of several lines, the first is a heading, in bold
+  std::string caption;  ///< UTF-8; wrapped at the image's width; of several lines, the first is a heading, in bold
 };
 
 /// A figure: a title, rows of captioned images, and a text below.

@@ -126,7 +126,7 @@ std::string axis_of(char name, const Axis& axis) {
   return text;
 }
 
-// Data are sent with 10 digits, far finer than a picture shows and the same whatever computed the last bits.
+// Data are sent with 10 digits, far finer than an image shows and the same whatever computed the last bits.
 std::string data_of(const Curve& curve, const std::string& block) {
   std::string text = block + " << EOD\n";
   assert(curve.labels.empty() || curve.labels.size() == curve.points.size());

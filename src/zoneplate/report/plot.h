@@ -53,7 +53,7 @@ struct PlotSize {
   int width = 720, height = 440;  ///< pixels of the PNG; the SVG has the same shape
 };
 
-/// The plot as the text of an SVG file, or as a picture; legible at half size.
+/// The plot as the text of an SVG file, or as an image; legible at half size.
 ///
 /// Drawn by gnuplot, a program of its own, in a child process with a time limit. Texts are shown as they are,
 /// but for ' which becomes ’.

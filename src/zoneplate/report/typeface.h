@@ -33,7 +33,7 @@ class Typeface {
   /// a joint (after a hyphen, before an ending or a capital), or anywhere.
   std::vector<std::string> wrapped(std::string_view text, int width) const;
 
-  /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the picture clips it.
+  /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the image clips it.
   void draw(Rgba8Image& picture, int left, int top, std::string_view line, Rgba8 ink) const;
 
  private:

@@ -14,15 +14,15 @@ struct Camera {
   float4x4 world_from_camera;
   bool is_orthographic = false;
   float vertical_fov = 0.5235988f;  ///< radians (30°)
-  float half_height = 1;            ///< orthographic: half the picture's height, world units
+  float half_height = 1;            ///< orthographic: half the image's height, world units
   float aspect = 0;                 ///< the file's own width / height; 0: the image's
   float near = 0.01f, far = 1000;   ///< distances along the view axis; far may be infinite (perspective only)
 
-  /// The projection for a picture of the given aspect (width / height).
+  /// The projection for an image of the given aspect (width / height).
   float4x4 clip_from_camera(float picture_aspect) const;
 };
 
-/// The default view: three-quarter, from the front right and above, the whole scene in the picture.
+/// The default view: three-quarter, from the front right and above, the whole scene in the image.
 struct AutoFit {
   float azimuth = 0.5235988f;    ///< radians about +Y from the front (+Z), towards +X
   float elevation = 0.3490659f;  ///< radians above the horizon

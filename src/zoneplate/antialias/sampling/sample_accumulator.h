@@ -36,12 +36,14 @@ inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
 inline constexpr Param resolve_param = {
     .name = "resolve",
-    .meaning = "averages light, light that weighs less the brighter, or display-referred colour",
+    .meaning = "mean of linear light, mean with smaller weights for brighter samples, or mean after tone mapping",
     .names = resolve_names};
 inline constexpr Param filter_param = {
-    .name = "filter", .meaning = "over samples of pixels around too, or the pixel's own", .names = filter_names};
+    .name = "filter",
+    .meaning = "reconstruction filter over the samples of the neighbourhood; pixel: those of the pixel alone",
+    .names = filter_names};
 inline constexpr Param radius_param = {.name = "radius",
-                                       .meaning = "of the filter, in pixels; 0: its own",
+                                       .meaning = "radius of the filter in pixels; 0: the default of the filter",
                                        .value = 0,
                                        .low = 0,
                                        .high = 4,

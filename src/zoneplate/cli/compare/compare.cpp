@@ -236,7 +236,7 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
     SceneTrials scene = compare_scene(
         args, name, options, [&](const std::string& method) { progress.begin(name + ", " + method, done++ / steps); });
     scene.name = folder_name(name, scenes);
-    progress.begin(name + ", pictures", done++ / steps);
+    progress.begin(name + ", images", done++ / steps);
     add_files(scene, files);
     // What is written already need not be kept.
     for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};

@@ -65,7 +65,7 @@ struct RenderArgs {
   std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };
 
-/// The longest side of a picture, in pixels: the reach of the rasterizer's fixed-point coordinates.
+/// The longest side of an image, in pixels: the reach of the rasterizer's fixed-point coordinates.
 inline constexpr int max_side = 16384;
 
 /// The options of the verb, which set `args`. It keeps a reference to it.
@@ -76,7 +76,7 @@ Syntax render_syntax(RenderArgs& args);
 /// Errors    ErrorKind::Usage.
 void check_args(RenderArgs& args);
 
-/// Errors    ErrorKind::Usage for a name whose ending is not that of a picture that can be written.
+/// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
 
 /// The ending of a name in lower case, with its dot.

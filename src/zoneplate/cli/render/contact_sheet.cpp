@@ -68,7 +68,7 @@ Panel panel_of(const SheetArgs& args, const std::string& input, const std::strin
     const std::vector<std::uint8_t> codes = process.next({});
     Rgba8Image image = blank(args);
     if (codes.size() != image.values().size_bytes())
-      throw Error(ErrorKind::Failed, input + ": a picture of a wrong size");
+      throw Error(ErrorKind::Failed, input + ": an image of a wrong size");
     std::memcpy(image.values().data(), codes.data(), codes.size());
     return {std::move(image), name};
   } catch (const std::exception& error) {

@@ -30,7 +30,7 @@ class ItemSender {
   /// The limit on the time to read no longer applies.
   void has_read();
   /// A whole file. `frame`: its number in a sequence, or -1; `layer`: its place among the data passes, or -1 for the
-  /// picture. The receiver makes the file's name of them.
+  /// image. The receiver makes the file's name of them.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
   /// A frame of a film that the receiver encodes.
   void film_frame(const Rgba8Image& image);

@@ -10,7 +10,7 @@
 
 namespace zoneplate::cli {
 
-/// Reads, renders and encodes what the arguments of one picture, or one sequence, describe, in the process of the
+/// Reads, renders and encodes what the arguments of one image, or one sequence, describe, in the process of the
 /// item; keeps the last model between jobs.
 class RenderJobs {
  public:

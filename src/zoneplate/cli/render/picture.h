@@ -37,10 +37,10 @@ std::string aov_path(const std::string& output, std::string_view name);
 void check_outputs(const RenderArgs& args);
 
 /// The name of a file of the item. `frame`: its number in a sequence, or -1; `layer`: the place of a data pass among
-/// `args.aovs`, or -1 for the picture.
+/// `args.aovs`, or -1 for the image.
 std::string output_path(const RenderArgs& args, int frame, int layer);
 
-/// Errors    ErrorKind::Failed where frame and picture need more than the limit on memory; ErrorKind::Usage where the
+/// Errors    ErrorKind::Failed where frame and image need more than the limit on memory; ErrorKind::Usage where the
 ///           method would leave no trace in a file of linear values.
 void check_request(const RenderArgs& args, const Request& request);
 
@@ -56,12 +56,12 @@ void set_look(const RenderArgs& args, Scene& scene);
 /// The settings of each frame from the arguments. The extension of `output` determines the image format.
 RenderSettings settings_of(const RenderArgs& args, const std::string& output);
 
-/// A rendered picture of `scene` in the formats that the ending of `output` decides, with its data passes. Its counts,
+/// A rendered image of `scene` in the formats that the ending of `output` decides, with its data passes. Its counts,
 /// times and size go into `summary`.
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const std::string& output,
                         Summary& summary);
 
-/// The picture's bytes in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
+/// The image's bytes in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
 std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output);
 
 /// Warns about an image without anything visible.

@@ -24,7 +24,7 @@ struct SignalArgs {
 /// --output, --json and --threads; `output_meaning` says what is written.
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
 
-/// --codes, for those who change pictures.
+/// --codes, for those who change images.
 Option codes_option(SignalArgs& args);
 
 /// --border with the rules that the subcommand allows, the default first: "clamp, reflect".
@@ -51,12 +51,12 @@ void save_result(const std::string& path, const LinearImage& values, const std::
 
 /// What save_result writes, for the help.
 inline constexpr const char* result_meaning =
-    "The picture to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
+    "The image to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 
 /// The plots in the format of the output's extension.
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
 
-/// The results on stdout, for people or as a line of JSON. Where the picture takes stdout JSON goes to stderr instead.
+/// The results on stdout, for people or as a line of JSON. Where the image takes stdout JSON goes to stderr instead.
 void tell(const SignalArgs& args, const std::string& text, const Json::Object& json);
 
 /// "1,3,5": whole numbers in [low, high], at least one.

@@ -56,7 +56,7 @@ Plot row_plot(const ConvolveArgs& args, const Row& row) {
     out.points.emplace_back(static_cast<double>(i), row.out[i]);
   }
   return {.title = "Convolution",
-          .x = {"place (samples)", -0.5, static_cast<double>(row.in.size()) - 0.5},
+          .x = {"position (samples)", -0.5, static_cast<double>(row.in.size()) - 0.5},
           .y = {"value"},
           .curves = {in, out}};
 }

@@ -51,7 +51,7 @@ Sum summarize(Wave wave, int highest) {
 
 Plot sums_plot(Wave wave, const SeriesArgs& args) {
   Plot plot{.title = fmt::format("A {} wave from its harmonics", name_of(wave)),
-            .x = {"place (periods)", 0, 1},
+            .x = {"position (periods)", 0, 1},
             .y = {"value", -1.3, 1.3},
             .curves = {}};
   Curve whole{"the wave", {}, Curve::Mark::Line, Curve::grey};
@@ -89,8 +89,8 @@ Plot harmonics_plot(Wave wave, const SeriesArgs& args) {
 }
 
 std::string text_of(Wave wave, const std::vector<Sum>& sums) {
-  std::string text = fmt::format(
-      "{} wave between -1 and 1\n  harmonics to   greatest   overshoot   rms of what is missing\n", name_of(wave));
+  std::string text =
+      fmt::format("{} wave between -1 and 1\n  harmonics to   greatest   overshoot   rms error\n", name_of(wave));
   for (const Sum& sum : sums) {
     const std::string overshoot =
         jump_of(wave) > 0 ? fmt::format("{:.3f} %", 100 * (sum.greatest - 1) / jump_of(wave)) : "none";
@@ -98,8 +98,8 @@ std::string text_of(Wave wave, const std::vector<Sum>& sums) {
   }
   if (jump_of(wave) > 0)
     text +=
-        "The overshoot, in per cent of the jump, tends to 8.949 % and stays: only its place moves to the jump "
-        "(Gibbs).\n";
+        "The overshoot, in per cent of the jump, tends to 8.949 % and not to 0: only its position moves to the jump "
+        "(Gibbs phenomenon).\n";
   return text;
 }
 
@@ -120,17 +120,17 @@ Json::Object json_of(Wave wave, const SeriesArgs& args, const std::vector<Sum>& 
 Syntax make_syntax(SeriesArgs& args) {
   Syntax syntax{
       .verb = "signal series",
-      .summary = "Build a wave from its harmonics (Fourier series)",
+      .summary = "Plot partial sums of the Fourier series of a wave",
       .operands = "square|triangle|sawtooth",
       .examples =
           "  zoneplate signal series square --terms 1,3,5,15 -o series.svg\n"
           "  zoneplate signal series triangle --terms 1,3,9 -o triangle.png\n"
           "  zoneplate signal series sawtooth --terms 100,1000 --json\n",
       .notes =
-          "Each of the waves is a sum of sines of 1, 2, 3, ... cycles per period; square and triangle have odd\n"
-          "ones only. A jump needs all of them: amplitudes fall as slowly as 1/n, and any sum that ends\n"
-          "overshoots the jump by 8.949 % of it, however long (Gibbs). The triangle only bends: it falls as\n"
-          "1/n², and does not. An edge in an image is such a jump: its frequencies are above those of any grid.\n"};
+          "Each wave is a sum of sines of 1, 2, 3, ... cycles per period; square and triangle have odd harmonics\n"
+          "only. At a discontinuity the amplitudes fall as slowly as 1/n, and every partial sum overshoots by\n"
+          "8.949 % of the jump in the limit (Gibbs phenomenon). The triangle is continuous: its amplitudes fall\n"
+          "as 1/n², without overshoot. An edge in an image is such a discontinuity: it is not band-limited.\n"};
   syntax.options = {{"--terms", "N,...", "Highest harmonic of each sum; default 1,3,5,15", "Options", true,
                      [&](auto& text) { args.terms = parse_whole_list(text, 1, greatest_term); }}};
   for (Option& option : signal_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))

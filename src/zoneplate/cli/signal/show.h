@@ -8,12 +8,12 @@
 
 namespace zoneplate::cli {
 
-// How images and spectra are shown in the pictures of `zoneplate signal`.
+// How images and spectra are shown in the images of `zoneplate signal`.
 
-/// The greatest side of a panel's picture.
+/// The greatest side of a panel's image.
 constexpr int panel_px = 512;
 
-/// Linear light, or display codes, premultiplied, as a picture. What is below 0 or above 1 is clamped.
+/// Linear light, or display codes, premultiplied, as a image. What is below 0 or above 1 is clamped.
 Rgba8Image shown(const LinearImage& image, bool uses_codes);
 
 /// An image of differences: 0 is mid-grey, code ½ + value / 2, opaque.
@@ -39,10 +39,10 @@ Rgba8Image paint_phase(const Spectrum& spectrum);
 /// The same at the size of a panel: of a large spectrum the strongest of each block of bins, so that no line is lost.
 Rgba8Image magnitude_panel(const Spectrum& spectrum, const MagnitudeScale& scale = {});
 
-/// The size at which a picture of width × height pixels is shown: enlarged by a whole factor, or reduced to panel_px.
+/// The size at which an image of width × height pixels is shown: enlarged by a whole factor, or reduced to panel_px.
 int2 panel_size(int width, int height);
 
-/// The picture at the size of a panel: pixels repeated, or reduced by a filter.
+/// The image at the size of a panel: pixels repeated, or reduced by a filter.
 Rgba8Image fitted(const Rgba8Image& picture);
 
 /// The phase at the size of a panel; of a large spectrum the middle, because phases have no mean.

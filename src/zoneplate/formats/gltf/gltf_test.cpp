@@ -86,7 +86,7 @@ TEST(Gltf, OnlyTheDefaultScene) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(objects(R"("scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],)"), Names{"b"});
   EXPECT_EQ(objects(R"("scenes":[{"nodes":[0]},{"nodes":[1]}],)"), Names{"a"});
-  EXPECT_EQ(objects(""), (Names{"a", "b"}));  // all nodes that are nobody's child
+  EXPECT_EQ(objects(""), (Names{"a", "b"}));  // all nodes without a parent
   EXPECT_THROW(objects(R"("scene":2,"scenes":[{},{}],)"), Error);
   EXPECT_THROW(objects(R"("scene":0,)"), Error);
   EXPECT_TRUE(objects(R"("scenes":[{}],)").empty());

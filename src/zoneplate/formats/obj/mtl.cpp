@@ -31,7 +31,7 @@ std::vector<float> take_numbers(LineWords& words, std::size_t most) {
   while (numbers.size() < most) {
     LineWords ahead = words;
     const std::optional<float> number = find_value(ahead.next());
-    if (!number || ahead.is_over()) break;  // the last word is the file's name, even if it is a number
+    if (!number || ahead.is_over()) break;  // the last argument is the file's name, even if it is a number
     numbers.push_back(*number);
     words = ahead;
   }

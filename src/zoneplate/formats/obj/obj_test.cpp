@@ -102,7 +102,7 @@ TEST_F(ObjModel, SharesVerticesInTheOrderOfFirstUse) {
 }
 
 TEST_F(ObjModel, SharesVerticesWhereOnePositionHasManyTextureCoordinates) {
-  // Thousands of vertices at one position, each used three times: more than near places can tell apart.
+  // Thousands of vertices at one position, each used three times: more than the hash of nearby vertices can separate.
   std::string text = square;
   for (int i = 0; i < 3000; ++i) text += "vt " + std::to_string(i) + " 0\n";
   for (int round = 0; round < 3; ++round)

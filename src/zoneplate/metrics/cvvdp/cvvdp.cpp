@@ -1,7 +1,7 @@
-// ColorVideoVDP: the difference between two pictures as an eye would see it on a stated screen.
+// ColorVideoVDP: the difference between two images as an eye would see it on a stated screen.
 //
-// Each picture becomes what the screen emits, opponent colours, bands of contrast; differences are weighed by the eye's
-// sensitivity, hidden where both pictures are busy, and pooled to one number that was fitted to people's judgements.
+// Each image becomes what the screen emits, opponent colours, bands of contrast; differences are weighed by the eye's
+// sensitivity, hidden where both images are busy, and pooled to one number that was fitted to people's judgements.
 //
 // Weak on what it was not fitted to: differences just at the threshold of sight; and its eye does not follow motion.
 #include "zoneplate/metrics/cvvdp/cvvdp.h"
@@ -79,7 +79,7 @@ double pooled(int width, int height, const ValueAt& value_at) {
   return SoftPower(0.5)(sum / (static_cast<double>(width) * height));
 }
 
-/// One level of one picture's pyramid as contrasts, and the luminance that they stand on.
+/// One level of one image's pyramid as contrasts, and the luminance that they stand on.
 struct Band {
   OpponentPlanes contrast;
   Plane<double> luminance;
@@ -153,7 +153,7 @@ Plane<double> blurred(const Plane<double>& in) {
   return out;
 }
 
-/// What both pictures have at a place, spread about it and raised: what can hide a difference there.
+/// What both images have at a place, spread about it and raised: what can hide a difference there.
 OpponentPlanes make_masks(const Band& reference, const Band& test) {
   const double factor = ten_to(mask_decades);
   OpponentPlanes masks;

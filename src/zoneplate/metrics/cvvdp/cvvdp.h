@@ -24,16 +24,16 @@ Viewing viewing_of(const Settings& settings);
 /// Least width and height.
 constexpr int least_visible_size = 16;
 
-/// A picture as luminance, red-green and violet-yellow (and, in a sequence, luminance that changes), in cd/m².
+/// An image as luminance, red-green and violet-yellow (and, in a sequence, luminance that changes), in cd/m².
 using OpponentPlanes = std::vector<Plane<double>>;
 
-/// The three opponent planes that a screen makes of a picture on black.
+/// The three opponent planes that a screen makes of an image on black.
 OpponentPlanes opponent_planes(const LinearImage& image, const Viewing& viewing);
 
 /// The visible difference by channel, pooled over the image and over all frequency bands.
 ///
 /// Requires  3 or 4 planes of one size, at least 16 × 16.
-/// Edges     0 in each channel where the pictures agree. Not symmetric: the reference's luminance sets the eye.
+/// Edges     0 in each channel where the images agree. Not symmetric: the reference's luminance sets the eye.
 /// Source    Mantiuk, Hanji, Ashraf, Asano, Chapiro, ColorVideoVDP: A Visual Difference Predictor for Image, Video
 ///           and Display Distortions, SIGGRAPH 2024; parameters of version 0.5.6.
 std::vector<double> visible_difference(const OpponentPlanes& reference, const OpponentPlanes& test,

@@ -16,7 +16,7 @@ Plane<double> reduce(const Plane<double>& in);
 /// Requires  `in` is (width + 1) / 2 × (height + 1) / 2.
 Plane<double> expand(const Plane<double>& in, int width, int height);
 
-/// The frequencies at which the bands of a picture peak, in cycles per degree, finest first; the last is that of
+/// The frequencies at which the bands of an image peak, in cycles per degree, finest first; the last is that of
 /// what is left below, 0.1.
 std::vector<double> band_frequencies(int width, int height, double pixels_per_degree);
 

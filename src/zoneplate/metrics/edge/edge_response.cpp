@@ -1,7 +1,7 @@
 // The edge response: sharpness as a modulation transfer function, from a slanted edge.
 //
 // A straight edge, not along an axis, is sampled by its rows at all distances; sorted by distance they show how a step
-// is drawn, four places to the pixel, though the picture has one. Weak on curved or textured edges: crop to one edge.
+// is drawn, four places to the pixel, though the image has one. Weak on curved or textured edges: crop to one edge.
 #include "zoneplate/metrics/edge/edge_response.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Plane<double> transposed(const Plane<double>& in) {
   return out;
 }
 
-/// True where the picture changes more from row to row than along its rows.
+/// True where the image changes more from row to row than along its rows.
 bool is_nearly_horizontal(const Plane<double>& in) {
   double across = 0, down = 0;
   for (int y = 0; y + 1 < in.height(); ++y) {
@@ -221,7 +221,7 @@ std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
 
 Metric edge_response() {
   return {.name = "edge_response",
-          .summary = "MTF50 of the one straight, slanted edge of the picture, in linear light",
+          .summary = "MTF50 of the one straight, slanted edge of the image, in linear light",
           .source = "ISO 12233:2017, annex D",
           .unit = "cycles/pixel",
           .better = Better::Higher,

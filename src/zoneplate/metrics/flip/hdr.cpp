@@ -1,7 +1,7 @@
-// FLIP for unbounded light: the pictures are looked at through all the exposures that show something of the
-// reference, and the worst counts.
+// FLIP for high dynamic range: the images are compared at a range of exposures derived from the reference, and
+// each pixel has its greatest error.
 //
-// Weak where nothing bounds the light: one fireflied pixel in the reference adds exposures that nobody would choose.
+// Weak for unbounded radiance: one outlier (firefly) in the reference adds irrelevant exposures.
 #include <algorithm>
 #include <cmath>
 #include <limits>

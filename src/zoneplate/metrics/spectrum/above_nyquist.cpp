@@ -1,7 +1,7 @@
-// Energy above Nyquist: how much of what a picture's pixels cannot show came back as something else.
+// Energy above Nyquist: how much of what an image's pixels cannot show came back as something else.
 //
-// A sampled picture has no frequencies above ½, so its aliases are found with a reference n × n times as large, which
-// still has them apart. In each ring of frequencies the picture is taken as the reference times one real factor, its
+// A sampled image has no frequencies above ½, so its aliases are found with a reference n × n times as large, which
+// still has them apart. In each ring of frequencies the image is taken as the reference times one real factor, its
 // filter there; the rest is no filtered copy of what should be there: aliases (and noise).
 //
 // Weak where a filter is not round, for what differs between directions counts as aliases, and in the few bins of the
@@ -18,7 +18,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the picture and
+/// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the image and
 /// samples lie in the middle of their pixels.
 Complex half_pixel(double f) {
   const SineCosine turn = sin_cos_pi(f);

@@ -1,7 +1,7 @@
-// The radial power spectrum of the error: at what size of detail a picture is wrong.
+// The radial power spectrum of the error: at what size of detail an image is wrong.
 //
 // Coarse errors are seen, fine ones much less; a method that moves its error upward is better at the same mean square.
-// Direction is lost: a picture that is wrong along one axis looks as one that is half as wrong along both.
+// Direction is lost: an image that is wrong along one axis looks as one that is half as wrong along both.
 #include "zoneplate/metrics/spectrum/radial_power.h"
 
 #include <algorithm>

@@ -74,7 +74,7 @@ Mesh sphere_mesh(int n) {
 
 Scene sphere_scene(const char* name, int n) {
   Scene scene = lit_scene(name, sphere_mesh(n), {});
-  // At this distance a unit sphere is 0.6 of the picture's height at 45°.
+  // At this distance a unit sphere is 0.6 of the image's height at 45°.
   const float3 eye = unit({0.35f, 0.30f, 1}) * 4.1456f;
   scene.cameras.push_back(camera_at(eye, {0, 0, 0}, 0.78539816f, 1, 10));
   return scene;

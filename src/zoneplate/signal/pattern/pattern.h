@@ -23,7 +23,7 @@ std::span<const PatternEntry> patterns();
 /// True where the text before a colon is the name of a pattern.
 bool is_pattern(std::string_view text);
 
-/// The picture of a text: `zone-plate:size=512`, `sine:frequency=0.2,angle=30`.
+/// The image of a text: `zone-plate:size=512`, `sine:frequency=0.2,angle=30`.
 ///
 /// Shape     size × size pixels, each the pattern's value at its centre: no filter, as a sampler takes it.
 /// Units     linear light; frequencies in cycles per pixel, angles in degrees, from +x towards +y (down).

@@ -17,7 +17,7 @@ namespace {
 
 using Edges = SmaaOptions::Edges;
 
-/// Hashes of what another implementation makes of the chart: edges and picture of red, green and blue, weights of all.
+/// Hashes of what another implementation makes of the chart: edges and image of red, green and blue, weights of all.
 struct Passes {
   std::uint64_t edges, weights, picture;
 };
@@ -126,7 +126,7 @@ TEST(Smaa, OutputsHaveTheirBits) {
   EXPECT_EQ(hash({.steps = 112, .diagonal_steps = 20, .mixes_light = false}), 0xc81311afcfdf17a6u);
 }
 
-/// A picture with texture of small contrast, and a predication buffer of steps, slopes and infinities.
+/// An image with texture of small contrast, and a predication buffer of steps, slopes and infinities.
 struct Predicated {
   Rgba8Image image = random_shapes(203, 77, 3);
   Plane<float> buffer{203, 77};
@@ -338,7 +338,7 @@ TEST(Smaa, LevelEdgesComeNearTheirArea) {
   }
 }
 
-/// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's picture to the other's place.
+/// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's image to the other's place.
 double error_of_s2x(const Band& band, bool exchanged) {
   const std::unique_ptr<Resolver> resolver = make_resolver(methods(), "smaa:mode=s2x");
   const Request request = resolver->request({});

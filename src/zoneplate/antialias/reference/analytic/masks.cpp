@@ -76,7 +76,7 @@ void MaskedPolygons::resolve(AreaFragmentList& out) {
   }
 }
 
-/// What is seen of a piece behind seen_, from a layer on; `answer` is that of the next masked layer.
+/// The visible parts of a piece behind seen_, from a layer on; `answer` is that of the next masked layer.
 void MaskedPolygons::walk(const Stored& stored, const ConvexPolygon& polygon, std::uint32_t layer, std::uint32_t answer,
                           AreaFragmentList& out) {
   if (polygon.count > many_corners) {
