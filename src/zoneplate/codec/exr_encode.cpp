@@ -98,8 +98,8 @@ Bytes rows_of(std::span<const ExrChannel> channels, std::size_t width, std::size
   return out;
 }
 
-/// What ZIP compression does before it deflates: bytes of even place before those of odd place, each as its difference
-/// from the one before, plus 128.
+/// The predictor of ZIP compression: bytes at even positions before those at odd positions, each as its difference from
+/// the previous one, plus 128.
 Bytes prepared(const Bytes& raw) {
   Bytes out(raw.size());
   const std::size_t middle = (raw.size() + 1) / 2;

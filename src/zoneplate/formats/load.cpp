@@ -46,7 +46,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The extension that says how the file is read.
+/// The extension that selects the reader.
 std::string extension_of(const std::string& name, const std::string& format) {
   if (format.empty()) return lower_case(std::filesystem::path(name).extension().string());
   return lower_case((format.starts_with('.') ? "" : ".") + format);
@@ -64,7 +64,7 @@ bool is_builtin_scene(std::string_view name) {
 
 namespace {
 
-/// Reads a file of a format that is known, or finds out why it is not.
+/// Reads a file of a supported format, or throws an error with the cause.
 Scene read_file(const std::string& name, const LoadOptions& options) {
   std::string readable;
   for (const SceneFormat& format : formats) readable.append(readable.empty() ? "" : ", ").append(format.extension);
@@ -92,7 +92,7 @@ Scene read_watched(const std::string& name, const LoadOptions& options) {
   return scene;
 }
 
-/// The same in a child process, as the libraries are that open one for themselves.
+/// read_watched in a child process with limits on its resources.
 Scene read_in_child(const std::string& name, const LoadOptions& options) {
   ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
   LimitedChild child(

@@ -104,7 +104,7 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
   if (S_ISDIR(status.st_mode)) throw read_error(path, "it is a directory");
 
-  // A file that says how large it is, is mapped; what cannot be mapped is read.
+  // A file with a known size is mapped; other inputs are read.
   if (S_ISREG(status.st_mode) && status.st_size > 0 && !is_stdin) {
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit) throw too_large(path, limit);

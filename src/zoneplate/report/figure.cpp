@@ -10,7 +10,7 @@ namespace {
 
 constexpr int least_width_em = 20;   // of a figure, so that a title has room over a small image
 constexpr int hairline_share = 110;  // of 255: how dark an image's outline is
-constexpr double title_scale = 1.5;  // as the header says
+constexpr double title_scale = 1.5;  // documented in the header
 
 struct Faces {
   explicit Faces(const FigureStyle& style)

@@ -13,7 +13,7 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t instances_per_range = 4096;
-/// Vertices that are looked at as quickly as a box.
+/// The number of vertices that cost as much as a box.
 constexpr std::size_t few_vertices = 64;
 
 /// As much as dot(axis, transform_point(m, p)), computed in floats, is for any point p of the box, or a little more.

@@ -209,7 +209,7 @@ std::vector<std::string> scenes_of(const std::vector<std::string>& operands) {
   return out;
 }
 
-/// Says what is wrong with the name of any scene before the first is drawn.
+/// Reports an invalid scene name before the first scene is drawn.
 void check_scenes(const CompareArgs& args) {
   std::error_code ignored;
   for (const std::string& name : args.scenes) {
@@ -219,7 +219,7 @@ void check_scenes(const CompareArgs& args) {
   }
 }
 
-/// What a run writes into its folder, and prints.
+/// The files and the text that a run writes.
 struct Comparison {
   std::vector<OutputFile> files;
   std::string text, json;
@@ -238,7 +238,7 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
     scene.name = folder_name(name, scenes);
     progress.begin(name + ", images", done++ / steps);
     add_files(scene, files);
-    // What is written already need not be kept.
+    // Images that are written already are freed.
     for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
     scenes.push_back(std::move(scene));
   }

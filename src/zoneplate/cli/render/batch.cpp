@@ -40,7 +40,7 @@ std::vector<Line> lines_of(const std::string& path) {
   return lines;
 }
 
-// The jobs of a manifest: each is what the command line says, with options of its own over that.
+// The jobs of a manifest: each has the options of the command line, overridden by its own.
 class Jobs {
  public:
   explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}

@@ -90,7 +90,7 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
   }
 }
 
-/// What goes wrong while the model is read is a trouble of the input; later, of rendering.
+/// A failure while the model is read is an error of the input; later, of rendering.
 void ItemProcess::read(std::span<std::uint8_t> out) {
   try {
     child_->read(out.data(), out.size());

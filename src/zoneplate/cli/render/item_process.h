@@ -16,7 +16,7 @@
 
 namespace zoneplate::cli {
 
-/// What the process of an item may have.
+/// The limits of an item's process.
 struct ItemLimits {
   std::string name;                                          ///< of the item's model, which begins errors
   LoadLimits load;                                           ///< memory holds for all of the item's work

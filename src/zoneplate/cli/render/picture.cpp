@@ -47,7 +47,7 @@ std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& d
   return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
 }
 
-// Codes one after the other as they stand in memory, rows from the top.
+// The encoded values in the order of memory, rows from the top.
 template <class T>
 std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
   static_assert(std::endian::native == std::endian::little, "16 bits are written low byte first");

@@ -13,7 +13,7 @@
 
 namespace zoneplate::cli {
 
-/// What the subcommands of `signal` have in common.
+/// The common options of the subcommands of `signal`.
 struct SignalArgs {
   std::string output;  ///< a file, "-" for stdout, or empty: numbers only
   bool prints_json = false;
@@ -21,7 +21,7 @@ struct SignalArgs {
   int threads = 0;
 };
 
-/// --output, --json and --threads; `output_meaning` says what is written.
+/// --output, --json and --threads; `output_meaning` is the help text of --output.
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
 
 /// --codes, for those who change images.
@@ -35,7 +35,7 @@ Option border_option(Border& border, const std::string& rules);
 /// Errors    ErrorKind::Usage for none or more than one; the message names `what`.
 const std::string& only_operand(const Syntax& syntax, const std::string& what);
 
-/// What IMAGE may be and what the patterns are, for the end of the help.
+/// The section of the help about IMAGE and the patterns.
 std::string image_notes();
 
 /// Refuses an output that does not end in .png (or, for a plot, .svg; for a result, .pfm or .exr) and is not "-".
@@ -46,10 +46,10 @@ void check_plot_name(const std::string& path);
 void save_picture(const std::string& path, const Rgba8Image& picture);
 
 /// Writes a result: to .pfm and .exr its values as they are, in floats, premultiplied, neither clamped nor shifted; to
-/// any other name `picture()`, which shows them.
+/// any other name the display image `picture()`.
 void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture);
 
-/// What save_result writes, for the help.
+/// The outputs of save_result, for the help.
 inline constexpr const char* result_meaning =
     "The image to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 

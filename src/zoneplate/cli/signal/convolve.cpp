@@ -18,7 +18,7 @@
 namespace zoneplate::cli {
 namespace {
 
-/// How far two ways to the same result are apart.
+/// The difference of two computations of the same result.
 struct Difference {
   double greatest = 0;
   int x = 0, y = 0;
@@ -122,7 +122,7 @@ Json::Object json_of(const std::string& input, const ConvolveArgs& args, const L
 }
 
 Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
-  // Weights that sum to nothing take the mean away: what is left are differences.
+  // Weights of sum 0 remove the mean: the result is signed.
   return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
 }
 

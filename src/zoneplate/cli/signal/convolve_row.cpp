@@ -1,4 +1,4 @@
-// One row of numbers as the image, the kernel along it: what a course does by hand.
+// Convolution of one row of numbers, as in a textbook exercise.
 #include <fmt/format.h>
 
 #include <algorithm>

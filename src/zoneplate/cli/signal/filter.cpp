@@ -89,7 +89,7 @@ Plot response_plot(const FilterArgs& args) {
 // A little less than paper, so that a figure draws the image's outline.
 constexpr float white = 254.0f / 255;
 
-/// The response as the transform sees it: a factor for every bin, black 0 and white 1.
+/// The response as applied to the transform: a factor for every bin, black 0 and white 1.
 Rgba8Image response_picture(const FilterArgs& args, int width, int height) {
   LinearImage image(width, height);
   for (int y = 0; y < height; ++y)

@@ -21,11 +21,11 @@ struct SeriesArgs : SignalArgs {
   std::vector<int> terms = {1, 3, 5, 15};
 };
 
-/// How well the harmonics 1 to `highest` make the wave.
+/// The error of the partial sum of the harmonics 1 to `highest`.
 struct Sum {
   int highest = 0;
   double greatest = 0;  ///< of the sum; the waves reach 1
-  double rms = 0;       ///< of what is missing, by Parseval: the harmonics left out
+  double rms = 0;       ///< of the omitted harmonics, by Parseval
 };
 
 double jump_of(Wave wave) { return wave == Wave::Triangle ? 0 : 2; }

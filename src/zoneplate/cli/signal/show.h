@@ -8,7 +8,7 @@
 
 namespace zoneplate::cli {
 
-// How images and spectra are shown in the images of `zoneplate signal`.
+// Display of images and spectra in the figures of `zoneplate signal`.
 
 /// The greatest side of a panel's image.
 constexpr int panel_px = 512;
@@ -22,7 +22,7 @@ Rgba8Image shown_around_grey(const LinearImage& image);
 /// Rec.709 luminance of the working numbers, on black.
 Plane<float> luminance(const LinearImage& image);
 
-/// How magnitudes are painted: the palest is `peak`, black what is `range_db` decibels below it.
+/// The scale of displayed magnitudes: white is `peak`, black `range_db` decibels below it.
 struct MagnitudeScale {
   double range_db = 80;
   double peak = 0;  ///< a magnitude |X|; 0: the strongest wave of the spectrum itself
@@ -48,7 +48,7 @@ Rgba8Image fitted(const Rgba8Image& picture);
 /// The phase at the size of a panel; of a large spectrum the middle, because phases have no mean.
 Rgba8Image phase_panel(const Spectrum& spectrum);
 
-/// What a figure calls its input: a file's name without its folders.
+/// The name of the input in a figure: a file's name without its folders.
 std::string title_of(const std::string& input);
 
 }  // namespace zoneplate::cli

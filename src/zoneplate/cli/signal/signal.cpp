@@ -1,4 +1,4 @@
-// zoneplate signal: the signal laboratory. A table of subcommands, each in a file of its own.
+// zoneplate signal: spectra, filters and sampling. A table of subcommands, each in a file of its own.
 #include "zoneplate/cli/signal/signal.h"
 
 #include <fmt/format.h>

@@ -36,7 +36,7 @@ struct Wave {
   double degrees() const { return angle_of(fy, fx) * 180 / std::numbers::pi; }
 };
 
-/// What the numbers say of an image.
+/// The statistics of an image.
 struct Summary {
   double mean = 0, deviation = 0;           ///< of the luminance that was transformed
   double coarse = 0, fine = 0, corner = 0;  ///< shares of the variance: below ¼, from ¼ to ½, beyond ½ cycle per pixel
@@ -44,7 +44,7 @@ struct Summary {
 };
 
 struct Analysis {
-  Plane<float> plane;  ///< what was transformed
+  Plane<float> plane;  ///< the input of the transform
   Spectrum spectrum;
   Summary summary;
 };
@@ -116,7 +116,7 @@ Plot radial_plot(const RadialProfile& profile, double range_db) {
     curve.points.emplace_back((static_cast<double>(ring) + 0.5) * profile.ring_width, decibels(profile.power[ring]));
     strongest = std::max(strongest, curve.points.back().second);
   }
-  // What is weaker than images show is rounding, and would flatten the rest.
+  // Values below the displayed range are rounding errors, and would compress the plot.
   const double high = curve.points.empty() ? 0 : 10 * std::ceil(strongest / 10 + 0.2), low = high - range_db - 40;
   std::erase_if(curve.points, [&](const auto& p) { return p.second < low; });
   return {.title = "Radial profile",

@@ -88,8 +88,7 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
   if (file.has_decoded(number)) {
     a.layout.bytes = file.decoded(number);
     a.layout.stride = a.layout.element_size();
-    if (a.layout.bytes.size() < a.layout.count * a.layout.stride)
-      a.json.fail("has another shape than what was decoded");
+    if (a.layout.bytes.size() < a.layout.count * a.layout.stride) a.json.fail("differs in shape from the decoded data");
   } else if (a.json.has("bufferView")) {
     place_in_view(file, a.json, "it", a.layout);
   } else if (a.layout.count > most_zeros) {

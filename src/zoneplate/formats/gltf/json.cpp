@@ -39,7 +39,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& e) override {
-    // The library says "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
+    // The library reports "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
     const std::string text = e.what();
     const std::size_t end = text.find("] ");
     throw Error(ErrorKind::Input, budget_.file() + ": not JSON: " + one_line(text.substr(end + 2)));

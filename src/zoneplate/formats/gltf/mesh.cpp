@@ -203,7 +203,7 @@ std::uint64_t vertex_size(const Mesh& m) {
          (m.color.empty() ? 0 : sizeof(float4));
 }
 
-/// Makes what the specification asks to be made where the file does not have it.
+/// Generates the attributes that the specification requires where the file lacks them.
 void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   ImportBudget& budget = p.file.budget();
   if (m.topology != Topology::Triangles) m.tangent.clear();
@@ -266,7 +266,7 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   m.position = read_attribute(p, "POSITION", read_float3);
   m.normal = read_attribute(p, "NORMAL", read_float3);
   if (normal_texture) m.tangent = read_attribute(p, "TANGENT", read_float4);
-  if (m.normal.empty()) m.tangent.clear();  // as the specification says
+  if (m.normal.empty()) m.tangent.clear();  // as the specification requires
   m.uv0 = read_attribute(p, "TEXCOORD_0", read_float2);
   m.uv1 = read_attribute(p, "TEXCOORD_1", read_float2);
   m.color = read_attribute(p, "COLOR_0", read_color);

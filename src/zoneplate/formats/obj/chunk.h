@@ -56,7 +56,7 @@ struct ObjVertices {
   }
 };
 
-/// How many of each there are: in a part, before it, or in the file.
+/// Numbers of elements of each kind: in a part, before it, or in the file.
 struct ObjCounts {
   std::uint64_t lines = 0, positions = 0, uvs = 0, normals = 0;
 };

@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-/// A finite number; "1.#IND" and the like are none here.
+/// A finite number; "1.#IND" and the like are rejected.
 std::optional<float> find_value(std::string_view word) {
   const std::optional<float> number = find_number(word);
   return number && std::isfinite(*number) ? number : std::nullopt;
@@ -85,7 +85,7 @@ class MtlReader {
       open_.emplace().name = words.rest();
       return;
     }
-    if (!open_) return warn(fmt::format("{} before newmtl passed over", key));
+    if (!open_) return warn(fmt::format("{} before newmtl is ignored", key));
     if (!read_color(key, words) && !read_value(key, words)) read_map(key, words);
   }
 
@@ -100,7 +100,7 @@ class MtlReader {
     constexpr int most = 20;
     if (++warned_ > most) return;
     warnings_.push_back(warned_ < most ? fmt::format("{}: line {}: {}", file_, line_, text)
-                                       : fmt::format("{}: line {}: and more that is passed over", file_, line_));
+                                       : fmt::format("{}: line {}: further warnings are omitted", file_, line_));
   }
 
   bool read_color(const std::string& key, LineWords words) {
@@ -168,7 +168,7 @@ class MtlReader {
     constexpr std::array known = {"ni",    "tf",     "sharpness", "km",      "ps",     "pc",      "pcr",
                                   "aniso", "anisor", "map_ka",    "map_aat", "xalpha", "spectral"};
     if (std::find(known.begin(), known.end(), key) == known.end())
-      warn(fmt::format("'{}' is not known and passed over", key.substr(0, 40)));
+      warn(fmt::format("'{}' is unknown and ignored", key.substr(0, 40)));
   }
 
   const std::string& file_;

@@ -33,7 +33,7 @@ class Libraries {
     folder.budget().take(used.size() * (sizeof(std::string_view) + 48));
   }
 
-  /// What an mtllib statement says: one name that may hold spaces, or several.
+  /// Adds the operand of an mtllib statement: one name that may contain spaces, or several.
   void add(const std::string& statement) {
     if (names_ >= most_names) return void(++names_);
     if (!statements_.insert(statement).second) return;
@@ -59,8 +59,8 @@ class Libraries {
             fmt::format("{}: {} more {}", folder_.budget().file(), count - most_named, text));
     };
     if (names_ > most_names)
-      folder_.scene().warnings.push_back(fmt::format(
-          "{}: names more than {} material libraries, the rest is passed over", folder_.budget().file(), most_names));
+      folder_.scene().warnings.push_back(fmt::format("{}: names more than {} material libraries, the rest is ignored",
+                                                     folder_.budget().file(), most_names));
     report(missing_, "material libraries are not found");
     report(undefined_, "materials are not defined");
   }
@@ -74,7 +74,7 @@ class Libraries {
     std::string within;
   };
 
-  /// Whether a material is one to keep; what it takes is counted.
+  /// Whether a material is kept; its memory is added to the budget.
   bool is_used(const std::string& name) {
     constexpr std::uint64_t of_the_table = 64;
     if (!used_.contains(name) || materials_.contains(name)) return false;
@@ -114,9 +114,12 @@ class Libraries {
 };
 
 void report_notes(const ObjFile& file, const std::string& name, std::vector<std::string>& warnings) {
-  constexpr const char* texts[] = {"has too few corners and is dropped", "is free-form geometry, which is not drawn",
-                                   "is not known and passed over",       "is not finite and taken as 0",
-                                   "index out of range, taken as none",  "index out of range, taken as none"};
+  constexpr const char* texts[] = {"has too few corners and is dropped",
+                                   "is free-form geometry, which is not drawn",
+                                   "is unknown and ignored",
+                                   "is not finite and set to 0",
+                                   "index out of range, treated as absent",
+                                   "index out of range, treated as absent"};
   for (std::size_t kind = 0; kind < std::size(texts); ++kind) {
     ObjTally sum;
     for (const ObjChunk& chunk : file.chunks) {

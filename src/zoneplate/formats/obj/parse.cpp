@@ -37,7 +37,7 @@ std::vector<std::string_view> cut(std::string_view text, char separator) {
   return parts;
 }
 
-/// What comes before each part, and the sum of all behind them.
+/// The counts before each part, followed by the totals.
 std::vector<ObjCounts> accumulate(const std::vector<ObjPart>& parts) {
   std::vector<ObjCounts> before(1);
   for (const ObjPart& part : parts) {
@@ -48,7 +48,7 @@ std::vector<ObjCounts> accumulate(const std::vector<ObjPart>& parts) {
   return before;
 }
 
-/// Appends a kind of what the parts say to each other, and frees it there.
+/// Concatenates one kind of data of all parts, and frees it there.
 template <class V, class Member>
 void join(std::vector<ObjPart>& parts, Member member, std::uint64_t count, std::vector<V>& out) {
   if (parts.size() == 1) return std::swap(out, parts.front().vertices.*member);
@@ -90,7 +90,7 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   if (std::max({all.positions, all.uvs, all.normals}) >= most_obj_items)
     throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
 
-  // Whichever thread meets an error, the first line that has one is reported.
+  // The error of the first line is reported, regardless of the thread that finds an error first.
   std::vector<std::optional<ObjLineError>> errors(parts.size());
   parallel_for(parts.size(), [&](std::size_t i) {
     const ObjCounts& named = parts[i].named;

@@ -35,7 +35,7 @@ float3 normal_at(float3 direction, float3 position) {
   return unit(cross(along_t, along_b));
 }
 
-/// Where the lines of a side's grid stand, so that they are at equal angles seen from the centre.
+/// The positions of the lines of a side's grid, at equal angles seen from the centre.
 ///
 /// The second half mirrors the first: neighbouring sides then have the same bits on their common edge.
 std::vector<float> grid_lines(int n) {

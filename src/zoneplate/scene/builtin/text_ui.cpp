@@ -1,4 +1,4 @@
-// A window full of text, drawn pixel for pixel: whatever a method changes here is a loss.
+// A window full of text, drawn pixel for pixel: every change by a method is an error.
 //
 // The panel has one texel a pixel in an image of its own size, and is read without a filter: every sample of a pixel
 // shows the same texel, so that methods which sample more give it exactly, and filters of the image pay their tax.

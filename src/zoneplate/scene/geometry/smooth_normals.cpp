@@ -25,7 +25,7 @@ void sum_all(Mesh& mesh, std::vector<char>& mark) {
   const std::size_t vertices = mesh.position.size(), triangles = mesh.index.size() / 3;
   const auto* const position = reinterpret_cast<const float*>(mesh.position.data());
   auto* const normal = reinterpret_cast<float*>(mesh.normal.data());
-  // Every thread goes through all triangles for vertices of its own: a vertex meets its triangles in their order.
+  // Every thread reads all triangles for its own range of vertices: a vertex adds its triangles in their order.
   const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
   parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
     const VertexRange own{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
@@ -83,7 +83,7 @@ float3 direction(const Sum& s, float3 otherwise) {
   return {static_cast<float>(s.x / length), static_cast<float>(s.y / length), static_cast<float>(s.z / length)};
 }
 
-/// A triangle's unit normal, and what it weighs at each of its corners.
+/// A triangle's unit normal, and its weight at each of its corners.
 struct Face {
   float3 normal;
   std::array<double, 3> weight;
@@ -125,7 +125,7 @@ class Faces {
 
  private:
   using Lane = std::array<double, most>;
-  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; what is found
+  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; the results
   Lane square_{};
 };
 

@@ -53,7 +53,7 @@ class Group {
     return load([&](std::size_t i) { return copies[i]; });
   }
 
-  /// How many of the corners of a whole group lie in the range: none, some or all.
+  /// Whether none, some or all corners of a whole group lie in the range.
   enum class Share { None, Some, All };
   HWY_INLINE Share share(VertexRange own) const {
     if (count_ < lanes || own.size == 0) return Share::Some;
@@ -99,7 +99,7 @@ class Group {
   bool has_copies_ = false;
 };
 
-/// What a group's triangles add at one corner: x and y by pairs, z.
+/// The summands of a group's triangles at one corner: x and y by pairs, z.
 struct Shares {
   alignas(32) float pair[2 * lanes], z[lanes];
 

@@ -269,7 +269,7 @@ void Texture::make_first_level(const TexelImage& image, TexelMeaning meaning) {
   });
 }
 
-/// Of the three one is there.
+/// Exactly one of the three is present.
 void Texture::make_other_levels() {
   make_levels(&TextureView::unorm8);
   make_levels(&TextureView::unorm15);
