@@ -157,7 +157,7 @@ Syntax make_syntax(DecimateArgs& args) {
       {"--kernel", "NAME", "Kernel of the filter; default lanczos3", group, true,
        [&](auto& text) { args.kernel = make_kernel(text).name; }},
       {"--all-kernels", "", "Print the figures of every kernel", group, true, [&](auto&) { args.compares_all = true; }},
-      {"--naive", "FILE", "Write the image of dropped pixels alone: .png, or the values as .pfm or .exr", group, false,
+      {"--naive", "FILE", "Write the unfiltered image alone: .png, or the values as .pfm or .exr", group, false,
        [&](auto& text) { args.naive_path = text; }},
       {"--filtered", "FILE", "Write the filtered image alone: .png, or the values as .pfm or .exr", group, false,
        [&](auto& text) { args.filtered_path = text; }},
