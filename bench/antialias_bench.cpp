@@ -1,9 +1,9 @@
-// Speed of the methods on shown pictures, against a copy of the same picture on the same threads.
+// Speed of the methods on shown images, against a copy of the same image on the same threads.
 //
 // Figures are of processor time, shared out to the threads: on a busy machine the clock on the wall counts its other
 // work too. `copy_ns` and `ns_a_pixel` are the least of all turns and `over_copy` their ratio; `median_over_copy` is
-// the median of the ratios of single turns. Four pictures of 33 MB take turns on either side, so that none is still in
-// the last cache when its turn comes; results are written into pictures that are there already, by both.
+// the median of the ratios of single turns. Four images of 33 MB take turns on either side, so that none is still in
+// the last cache when its turn comes; results are written into images that are there already, by both.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

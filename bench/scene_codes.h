@@ -14,7 +14,7 @@
 namespace zoneplate {
 
 /// A built-in scene with its own camera, or else the whole of it, one sample a pixel, as it is shown: what filters of
-/// pictures are timed on.
+/// images are timed on.
 inline Rgba8Image scene_codes(const std::string& name, int width, int height) {
   Scene scene = *make_builtin_scene(name);
   const float aspect = static_cast<float>(width) / static_cast<float>(height);

@@ -115,23 +115,24 @@ void find_weights(benchmark::State& state, bool has_rows) {
 
 void interpolate(benchmark::State& state, bool has_rows) {
   Surface s(has_rows);
-  Attributes wanted;
-  wanted.uv[0] = wanted.normal = true;
-  const Interpolation what = interpolation({}, wanted);
-  time_groups(state, [&] { s.kernels.interpolate(s.batch, s.corners, what, s.at); });
+  Attributes attributes;
+  attributes.uv[0] = attributes.normal = true;
+  const Interpolation interpolated = interpolation({}, attributes);
+  time_groups(state, [&] { s.kernels.interpolate(s.batch, s.corners, interpolated, s.at); });
 }
 
 void light_phong(benchmark::State& state) {
   Surface s(true);
   PreparedLight light;
   light.radiance[0] = light.radiance[1] = light.radiance[2] = 1, light.towards[2] = 1;
-  ShadingUniforms what;
-  what.light = &light, what.lights = 1, what.has_specular = true, what.exponent = {40, 40};
-  what.viewpoint.has_rays = true, what.viewpoint.ray[2] = 1;
-  what.viewpoint.ray_dx[0] = what.viewpoint.ray_dy[1] = 1e-5f;
+  ShadingUniforms interpolated;
+  interpolated.light = &light, interpolated.lights = 1, interpolated.has_specular = true,
+  interpolated.exponent = {40, 40};
+  interpolated.viewpoint.has_rays = true, interpolated.viewpoint.ray[2] = 1;
+  interpolated.viewpoint.ray_dx[0] = interpolated.viewpoint.ray_dy[1] = 1e-5f;
   for (auto& base : s.at.base) std::fill(std::begin(base), std::end(base), 0.5f);
   for (auto& normal : s.at.normal) std::fill(std::begin(normal), std::end(normal), 0.577f);
-  time_groups(state, [&] { s.kernels.light_phong(what, s.batch, s.at, s.shaded); });
+  time_groups(state, [&] { s.kernels.light_phong(interpolated, s.batch, s.at, s.shaded); });
 }
 
 BENCHMARK(find_taps);

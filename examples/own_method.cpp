@@ -1,5 +1,5 @@
 // An antialiasing method defined outside the library: rotated-grid supersampling and a vignette of the finished image.
-// Its catalogue stands beside that of the library.
+// Its catalogue is used together with that of the library.
 #include <cmath>
 #include <cstdio>
 

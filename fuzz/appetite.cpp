@@ -15,7 +15,7 @@ Collection::Collection(std::filesystem::path folder, bool has_one_of_each_kind)
   index_.open(folder_ / "index.jsonl");
 }
 
-bool Collection::is_wanted(std::string_view kind) { return kinds_.emplace(kind).second || !has_one_of_each_kind_; }
+bool Collection::is_needed(std::string_view kind) { return kinds_.emplace(kind).second || !has_one_of_each_kind_; }
 
 void Collection::write(const std::string& name, const Bytes& bytes) const {
   std::ofstream file(folder_ / name, std::ios::binary);
@@ -35,14 +35,14 @@ void Collection::list(std::string_view kind, const std::string& name, std::size_
 
 void Collection::add(std::string_view kind, const std::string& name, const Bytes& bytes, const char* codes,
                      const Options& options, std::size_t more) {
-  if (!is_wanted(kind)) return;
+  if (!is_needed(kind)) return;
   write(name, bytes);
   list(kind, name, bytes.size() + more, codes, options);
 }
 
 void Collection::add_builtin(std::string_view kind, const std::string& scene, const char* codes,
                              const Options& options) {
-  if (is_wanted(kind)) list(kind, scene, 0, codes, options);
+  if (is_needed(kind)) list(kind, scene, 0, codes, options);
 }
 
 void Collection::add_picture(std::string_view kind, const std::string& name, const std::string& extension,
@@ -51,7 +51,7 @@ void Collection::add_picture(std::string_view kind, const std::string& name, con
   const std::string square = "mtllib " + name +
                              ".mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
                              "usemtl a\nf 1/1 2/2 3/3 4/4\n";
-  if (!is_wanted(kind)) return;
+  if (!is_needed(kind)) return;
   write(name + extension, picture);
   write(name + ".mtl", Bytes(material.begin(), material.end()));
   write(name + ".obj", Bytes(square.begin(), square.end()));

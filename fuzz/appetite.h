@@ -39,14 +39,14 @@ class Collection {
   }
   /// Adds a built-in scene with options that ask for much.
   void add_builtin(std::string_view kind, const std::string& scene, const char* codes, const Options& options);
-  /// Adds a square with a picture on it: an OBJ file, its MTL file and the picture, `name` and then `extension`.
+  /// Adds a square with an image on it: an OBJ file, its MTL file and the image, `name` and then `extension`.
   void add_picture(std::string_view kind, const std::string& name, const std::string& extension, const Bytes& picture,
                    const char* codes);
   /// Writes a file that belongs to another.
   void write(const std::string& name, const Bytes& bytes) const;
 
  private:
-  bool is_wanted(std::string_view kind);
+  bool is_needed(std::string_view kind);
   void list(std::string_view kind, const std::string& name, std::size_t bytes, const char* codes,
             const Options& options);
 
@@ -61,7 +61,7 @@ std::string repeated(std::string_view text, std::size_t count, std::string_view 
 
 void add_gltf_claims(Collection& out);  ///< names, instances, nodes, accessors without bytes, poses, JSON
 void add_gltf_packed(Collection& out);  ///< Draco, meshopt, GLB chunks, images used often
-void add_crowds(Collection& out);       ///< masked, blended, clipped, lit and large pictures: what rendering takes
+void add_crowds(Collection& out);       ///< masked, blended, clipped, lit and large images: what rendering takes
 void add_png(Collection& out);
 void add_pictures(Collection& out);  ///< JPEG, WebP, HDR
 void add_exr(Collection& out);

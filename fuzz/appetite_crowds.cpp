@@ -1,4 +1,4 @@
-// What takes little to read and much to render: crowds of surfaces over the same pixels, and large pictures.
+// What takes little to read and much to render: crowds of surfaces over the same pixels, and large images.
 #include "appetite_gltf.h"
 
 namespace zoneplate::appetite {
@@ -64,7 +64,7 @@ void add_camera(Gltf& file) {
   file.add_root({{"camera", 0}});
 }
 
-/// Triangles that reach from behind the camera to far before it, and others whose corners lie far outside the picture.
+/// Triangles that reach from behind the camera to far before it, and others whose corners lie far outside the image.
 void add_clipped(Collection& out) {
   for (const char* aa : {"none", "msaa:n=16", "analytic"}) {
     Gltf file;
@@ -107,7 +107,7 @@ void add_lights(Collection& out) {
   out.add("lights", "lights-20k.glb", file.glb(), within_limits, {{"size", "800x600"}});
 }
 
-/// Pictures and films of more pixels than bytes are allowed.
+/// Images and films of more pixels than bytes are allowed.
 void add_large_pictures(Collection& out) {
   const auto add = [&](const char* kind, const char* scene, const Options& options) {
     out.add_builtin(kind, scene, within_limits, options);

@@ -1,4 +1,4 @@
-// EXR pictures that claim many pixels, tiles, parts or samples.
+// EXR images that claim many pixels, tiles, parts or samples.
 #include <zlib.h>
 
 #include <cstring>

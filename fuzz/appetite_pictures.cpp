@@ -1,4 +1,4 @@
-// JPEG, WebP and Radiance pictures of many pixels in few bytes.
+// JPEG, WebP and Radiance images of many pixels in few bytes.
 #include "appetite.h"
 
 namespace zoneplate::appetite {
@@ -53,7 +53,7 @@ void append_scan(Bytes& out, int first, int last, int before, int bit, const Byt
   append(out, data);
 }
 
-/// A grey picture whose coefficients are all zero, told in one scan of differences and many of one bit of one
+/// A grey image whose coefficients are all zero, told in one scan of differences and many of one bit of one
 /// coefficient.
 Bytes progressive_jpeg(unsigned side, int scans) {
   const std::uint32_t blocks = side / 8 * (side / 8);
@@ -75,7 +75,7 @@ Bytes progressive_jpeg(unsigned side, int scans) {
   return out;
 }
 
-/// A grey picture of one scan, two codes a block.
+/// A grey image of one scan, two codes a block.
 Bytes baseline_jpeg(unsigned side) {
   JpegBits bits;
   for (std::uint32_t i = 0; i < side / 8 * (side / 8); ++i) bits.put(6, 4);
@@ -99,7 +99,7 @@ void add_jpeg(Collection& out) {
   out.add_picture("jpeg-large", "jpeg-claim", ".jpg", claim, within_limits);
 }
 
-/// A lossless WebP picture of one colour: no pixel takes a bit.
+/// A lossless WebP image of one colour: no pixel takes a bit.
 Bytes flat_webp(unsigned width, unsigned height) {
   std::uint64_t bits = (width - 1) | std::uint64_t{height - 1} << 14;  // the rest of the header is zero
   Bytes data{0x2f};

@@ -1,4 +1,4 @@
-// PNG pictures of many pixels in few bytes.
+// PNG images of many pixels in few bytes.
 #include <zlib.h>
 
 #include <array>
@@ -88,7 +88,7 @@ Bytes zero_png(const Header& h) {
   return out;
 }
 
-/// A small picture with chunks before its rows.
+/// A small image with chunks before its rows.
 Bytes png_with(std::string_view type, const Bytes& data, int count) {
   const Header small{8, 8, 8, Color::Rgb};
   Bytes out = begin_png(small);

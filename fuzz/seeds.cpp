@@ -86,7 +86,7 @@ void write_images(const std::string& root) {
   write(root + "/webp", "rgb.webp", encode_webp(image, false));
 }
 
-/// A Radiance picture of these bytes.
+/// A Radiance image of these bytes.
 Bytes radiance(const std::string& lines, const std::string& scan, const Bytes& pixels) {
   Bytes out = bytes_of("#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + scan + "\n");
   out.insert(out.end(), pixels.begin(), pixels.end());

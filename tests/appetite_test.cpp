@@ -22,7 +22,7 @@ struct Input {
   std::vector<int> codes;
   nlohmann::json options;
 
-  std::string output() const { return options.value("output", "picture.png"); }
+  std::string output() const { return options.value("output", "image.png"); }
 };
 
 /// What the program is given, and what it is held to.
@@ -49,7 +49,7 @@ class Appetite : public testing::Test {
     std::string name = (fs::temp_directory_path() / "zoneplate_appetite_XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     place = name;
-    fs::create_directory(place / "pictures");
+    fs::create_directory(place / "images");
   }
   void TearDown() override {
     if (!place.empty()) fs::remove_all(place);
@@ -74,8 +74,8 @@ class Appetite : public testing::Test {
     return input.is_file ? (place / "in" / input.name).string() : input.name;
   }
   void empty_pictures() const {
-    fs::remove_all(place / "pictures");
-    fs::create_directory(place / "pictures");
+    fs::remove_all(place / "images");
+    fs::create_directory(place / "images");
   }
 
   void expect_within(const Limits& limits, const Input& input) const;
@@ -114,13 +114,13 @@ void Appetite::expect_within(const Limits& limits, const Input& input) const {
     EXPECT_EQ(run.err.find("error: "), std::string::npos) << run.err;
   else
     expect_one_error(run.err, run.code == 2 ? "" : input.name);
-  EXPECT_EQ(fs::is_empty(place / "pictures"), run.code != 0);
+  EXPECT_EQ(fs::is_empty(place / "images"), run.code != 0);
   empty_pictures();
 }
 
 /// One batch of hungry inputs with good ones between them.
 void Appetite::expect_others_are_done(const Limits& limits, const std::vector<Input>& hungry) const {
-  const fs::path folder = place / "pictures";
+  const fs::path folder = place / "images";
   std::ofstream manifest(place / "jobs.jsonl");
   const char* const good[] = {"teapot", "triangles", "sphere:triangles=1000"};
   std::size_t jobs = 0;

@@ -1,4 +1,4 @@
-// Many pictures by one command: several inputs, manifests, shards, sequences. Runs the built program.
+// Many images by one command: several inputs, manifests, shards, sequences. Runs the built program.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

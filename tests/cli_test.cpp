@@ -166,8 +166,10 @@ TEST_F(Cli, JsonIsOneLineThatTellsWhatWasDone) {
   EXPECT_EQ(json["height"], 24);
   EXPECT_EQ(json["method"], "msaa:n=8");
   EXPECT_EQ(json["triangles"], 2);
-  EXPECT_EQ(json["layers"]["depth"], "a.depth.png");
-  EXPECT_GT(json["ms"]["total"], 0);
+  EXPECT_EQ(json["format"], "zoneplate-render");
+  EXPECT_EQ(json["version"], 2);
+  EXPECT_EQ(json["data_passes"]["depth"], "a.depth.png");
+  EXPECT_GT(json["stage_ms"]["total"], 0);
   EXPECT_GT(json["peak_memory_bytes"], 1000000);
   EXPECT_EQ(json["warnings"].size(), 0u);
   EXPECT_EQ(files(), (Words{"a.depth.png", "a.object-id.png", "a.png"}));
@@ -226,38 +228,36 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2, {"-o", "a.png"}, "no input: give a model or a built-in scene"},
       {2,
        {"triangles", "teapot", "-o", "a.png"},
-       "several inputs want {model} in the output's name, as pictures/{model}.png"},
+       "several inputs require {model} in the output's name, as pictures/{model}.png"},
       {2,
        {"triangles", "-o", "a.xyz"},
        "--output: a.xyz is not a format that can be written (.png, .jpg, .webp, .exr, .pfm, .rgba)"},
       {2,
        {"triangles", "-o", "-", "--aov", "depth"},
-       "--aov writes files beside OUT, which cannot be -; an .exr holds them itself"},
+       "--aov writes files next to OUT, which cannot be -; an .exr contains the passes"},
       {2,
        {"triangles", "-o", "a.png", "--aov", "error"},
        "triangles: --aov error: msaa:n=8 has no estimate of its error; converged and analytic have"},
       {2,
        {"triangles", "-o", "a.exr", "--aa", "fxaa"},
-       "--anti-aliasing: fxaa works on the picture as shown, and .exr holds the light before that: write a .png, or "
-       "take "
+       "--anti-aliasing: fxaa works after tone mapping, and .exr is scene-linear: write a .png, or use "
        "a method such as msaa or ssaa"},
       {2,
        {"triangles", "-o", "-", "--output-format", "pfm", "--aa", "msaa:resolve=display"},
-       "--anti-aliasing: msaa:resolve=display works on the picture as shown, and .pfm holds the light before that: "
-       "write "
-       "a .png, or take a method such as msaa or ssaa"},
+       "--anti-aliasing: msaa:resolve=display works after tone mapping, and .pfm is scene-linear: write "
+       "a .png, or use a method such as msaa or ssaa"},
       {2,
        {"triangles", "-o", "a.png", "--size", "99999x1"},
        "--resolution: 99999x1 is too large: a side has at most 16384 pixels"},
       {2,
        {"triangles", "-o", "a.png", "--crop", "799,0,2,1"},
-       "--crop: the rectangle is not inside the picture of 800x600"},
+       "--crop: the rectangle is not inside the image of 800x600"},
       {2,
        {"triangles", "-o", "a.png", "--camera-index", "7"},
        "triangles: --camera-index: the scene has cameras 0 to 0, not 7"},
       {1,
        {"triangles", "-o", "a.png", "--size", "16384,16384", "--max-memory", "1G"},
-       "triangles: a picture of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},
+       "triangles: an image of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},
       {2, {"list", "method"}, "'method' is not one of methods, scenes, formats; did you mean methods?"},
       {2, {"info"}, "info takes one input: a model or a built-in scene"},
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
@@ -320,7 +320,7 @@ TEST_F(Cli, SignalsLeaveNoFile) {
     const pid_t child = start({"sphere:triangles=100000", "--size", "2048,2048", "--aa", "ssaa:n=16", "-o", "a.png",
                                "--progress", "json", "-t", "1"},
                               (place / "stdout").string());
-    // It is in the middle of the picture when its progress says so, and for seconds after.
+    // It is in the middle of the image when its progress says so, and for seconds after.
     for (int i = 0; i < 2000 && text_of(place / "stderr").find("render") == std::string::npos; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -31,7 +31,7 @@ TEST(Cryptomatte, IdsAreOrdinaryFloats) {
 }
 
 // Two squares side by side in one mesh each, the border through the pixels of column 5 at its middle, and a third one
-// beyond the picture.
+// beyond the image.
 Scene squares() {
   Scene scene = load_scene("checkerboard");
   scene.meshes.clear(), scene.instances.clear();

@@ -1,4 +1,4 @@
-// Data passes as the command writes them: layers of one file, files beside a picture, frames of a sequence.
+// Data passes as the command writes them: layers of one file, files beside an image, frames of a sequence.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

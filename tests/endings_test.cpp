@@ -81,7 +81,7 @@ class Endings : public testing::Test {
       if (entry.path().extension() == ".tmp") return true;
     return false;
   }
-  // Jobs whose pictures all differ, into a folder.
+  // Jobs whose images all differ, into a folder.
   void write_manifest(const std::string& name, const std::string& folder, int count) const {
     fs::create_directories(place / folder);
     std::ofstream file(place / name);
@@ -109,7 +109,7 @@ TEST_F(Endings, AFullDiskGives4AndLeavesNothing) {
   EXPECT_EQ(run({"signal", "filter", "bricks", "--low-pass", "0.06", "-o", "f.png"}, [] { allow_files_of(900); }), 4);
   EXPECT_TRUE(files().empty());
   EXPECT_FALSE(has_temporaries());
-  EXPECT_EQ(run({"teapot", "-o", "/dev/full", "--size", "20x20"}), 2);  // no picture's ending
+  EXPECT_EQ(run({"teapot", "-o", "/dev/full", "--size", "20x20"}), 2);  // no image's ending
 }
 
 TEST_F(Endings, AFilmOfAnotherProgramNeedsRoomToo) {

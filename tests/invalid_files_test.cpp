@@ -119,9 +119,10 @@ std::vector<Case> stl_cases() {
           {"cut.stl", ("solid a\n" + facet).substr(0, 60), 3, "line 5: '' is not a number"},
           {"no-number.stl", "solid a\n" + replaced(facet, "vertex 1 0 0", "vertex one 0 0") + "endsolid\n", 3,
            "line 5: 'one' is not a number"},
-          {"claims-more.stl", header + little_endian(1000000) + triangle, 3, "says it has 1000000 triangles, holds 1"},
+          {"claims-more.stl", header + little_endian(1000000) + triangle, 3,
+           "its header states 1000000 triangles, the file has 1"},
           {"claims-2^32.stl", header + little_endian(0xffffffffu) + triangle, 3,
-           "says it has 4294967295 triangles, holds 1"},
+           "its header states 4294967295 triangles, the file has 1"},
           {"claims-none.stl", header + little_endian(0), 3, "holds no triangles"}};
 }
 
@@ -229,8 +230,8 @@ std::vector<Case> glb_cases() {
       {"version-1.glb", glb(1, 20 + size, size, ""), 3, "GLB version 1, expected 2"},
       {"longer-than-file.glb", glb(2, 200 + size, size, ""), 3, "the file has 536"},
       {"chunk-past-end.glb", glb(2, 20 + size, size + 40, ""), 3,
-       "GLB chunk at byte 12 says 556 bytes, but 516 are left"},
-      {"chunk-2^32.glb", glb(2, 20 + size, 0xfffffff0u, ""), 3, "GLB chunk at byte 12 says 4294967280 bytes"},
+       "GLB chunk at byte 12 states 556 bytes, but 516 are left"},
+      {"chunk-2^32.glb", glb(2, 20 + size, 0xfffffff0u, ""), 3, "GLB chunk at byte 12 states 4294967280 bytes"},
       {"cut.glb", glb(2, 20 + size, size, "").substr(0, 100), 3, "the file has 100"}};
 }
 
@@ -291,7 +292,7 @@ class InvalidFiles : public testing::Test {
   // Judges the command's answer; what it wrote is removed.
   void judge(const fs::path& file, int code, const std::string& words) const {
     std::vector<std::string> command = command_for(file);
-    const fs::path out = folder / "out" / "picture.png";
+    const fs::path out = folder / "out" / "image.png";
     command.push_back(out.string());
     const Result r = run(command, folder / "err");
     const std::string about = file.string() + ": " + r.err;

@@ -1,6 +1,6 @@
 // Coverage of four samples a pixel beside an independent rasterizer: Mesa's llvmpipe, where libosmesa6 is installed.
 //
-// Vertices on the lattice of 1/16 pixel in a picture of 64 × 64 are exact in both, and edges often go through samples,
+// Vertices on the lattice of 1/16 pixel in an image of 64 × 64 are exact in both, and edges often go through samples,
 // so that the rule of ties is tested too. Each sample is asked for by itself, by a mask. Rows of OpenGL's framebuffer
 // objects count as ours do here: its first row is laid on our first one, and both rules are then the same.
 #include <dlfcn.h>

@@ -59,7 +59,7 @@ struct Followed {
   float greatest_miss = 0, greatest_step = 0;  // pixels
 };
 
-// Follows every point back to the last picture, and finds by its name how far beside itself it lands.
+// Follows every point back to the last image, and finds by its name how far beside itself it lands.
 Followed follow(Look now, Look last) {
   const Scene first = last.scene;
   const Moment before = last.moment();
@@ -88,11 +88,11 @@ Followed follow(Look now, Look last) {
         const auto here = at(0, 0), right = at(0.5f, 0), down = at(0, 0.5f);
         is_seen = is_seen && here && right && down;
         if (!is_seen) break;
-        const float2 wanted = now_frame[k].uv(x, y);
-        difference[2 * k] = here->x - wanted.x, dx[2 * k] = 2 * (right->x - here->x),
+        const float2 expected = now_frame[k].uv(x, y);
+        difference[2 * k] = here->x - expected.x, dx[2 * k] = 2 * (right->x - here->x),
                        dy[2 * k] = 2 * (down->x - here->x);
         if (k == 1) continue;
-        difference[1] = here->y - wanted.y, dx[1] = 2 * (right->y - here->y), dy[1] = 2 * (down->y - here->y);
+        difference[1] = here->y - expected.y, dx[1] = 2 * (right->y - here->y), dy[1] = 2 * (down->y - here->y);
       }
       if (!is_seen) continue;
       double xx = 0, xy = 0, yy = 0, xd = 0, yd = 0;

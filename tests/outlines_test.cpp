@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A model seen from the front: its camera as the pictures were made with.
+/// A model seen from the front: its camera as the images were made with.
 struct Scenario {
   const char *name, *model;
   float3 target;

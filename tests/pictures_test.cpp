@@ -18,7 +18,7 @@
 namespace zoneplate {
 namespace {
 
-/// A picture of a built-in scene with its own camera, or else the whole of it, lit if it has no lights.
+/// An image of a built-in scene with its own camera, or else the whole of it, lit if it has no lights.
 struct Shot {
   PreparedScene scene;
   Camera camera;
@@ -45,7 +45,7 @@ struct Shot {
   }
 };
 
-/// FNV-1a over the bits of the linear picture: what every machine, compiler and number of threads must agree on.
+/// FNV-1a over the bits of the linear image: what every machine, compiler and number of threads must agree on.
 std::uint64_t hash_of(const LinearImage& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Linear& c : image.values())
@@ -84,7 +84,7 @@ TEST(Pictures, TenPicturesHaveTheirBits) {
   }
 }
 
-/// FNV-1a over the codes of a picture as it is shown.
+/// FNV-1a over the codes of an image as it is shown.
 std::uint64_t hash_of(const Rgba8Image& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Rgba8& c : image.values())
@@ -110,7 +110,7 @@ struct ShownGolden {
 };
 
 /// Masked surfaces in every way, anisotropic and mipmapped textures, tone curves, blended layers, shared samples and
-/// filters of the shown picture, at sizes that end within tiles and vectors. Changed bits are a reviewed change.
+/// filters of the shown image, at sizes that end within tiles and vectors. Changed bits are a reviewed change.
 constexpr ShownGolden shown_goldens[] = {
     {"foliage", "none", Look::Plain, 97, 61, 0x371acfa444960f33u},
     {"foliage", "msaa:n=4", Look::Plain, 97, 61, 0xc2369104c8c9484au},
@@ -322,7 +322,7 @@ TEST(Pictures, SamplePlanesResolveToTheColour) {
 }
 
 TEST(Pictures, SupersamplingAndMultisamplingAgreeOnEdges) {
-  // An unlit scene has one colour a surface, so that only coverage counts: the two methods must be the same picture.
+  // An unlit scene has one colour a surface, so that only coverage counts: the two methods must be the same image.
   const Shot shot("cyclic");
   const LinearImage ms = shot.frame("msaa:grid=4").color, ss = shot.frame("ssaa:n=4").color;
   for (std::size_t i = 0; i < ms.values().size(); ++i) {
@@ -344,7 +344,7 @@ Scene one_mesh(Topology topology, std::vector<float3> position) {
   return scene;
 }
 
-/// The area of the picture that is covered, in pixels, by 256 samples a pixel.
+/// The area of the image that is covered, in pixels, by 256 samples a pixel.
 double area_of(const Scene& scene, const Camera& camera, const RenderOptions& options) {
   const Request request{.samples = grid_pattern(16), .rate = Rate::Sample};
   double area = 0;
@@ -362,7 +362,7 @@ TEST(Pictures, LinesAndPointsHaveTheirWidthInPixels) {
   RenderOptions options;
   options.width = options.height = 100;
   options.line_width = 3, options.point_size = 4;
-  // From (-0.6, -0.4) to (0.6, 0.5) on a picture of 50 pixels a unit: 75 pixels long.
+  // From (-0.6, -0.4) to (0.6, 0.5) on an image of 50 pixels a unit: 75 pixels long.
   EXPECT_NEAR(area_of(one_mesh(Topology::Lines, {{-0.6f, -0.4f, 0}, {0.6f, 0.5f, 0}}), camera, options), 75 * 3, 0.5);
   EXPECT_NEAR(area_of(one_mesh(Topology::Points, {{0.113f, 0.2f, 0}, {-0.5f, 0.31f, 1}}), camera, options), 2 * 16,
               0.3);

@@ -1,4 +1,4 @@
-// What a texture holds beyond 8 bits and above white, in the picture that the command writes.
+// What a texture holds beyond 8 bits and above white, in the image that the command writes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -29,7 +29,7 @@ Rgba8Image load_codes(const std::string& path, int width, int height) {
   Rgba8Image image(width, height);
   if (file.bytes().size() != image.values().size_bytes())
     throw Error(ErrorKind::Input,
-                fmt::format("{}: {} bytes, wants {}", path, file.bytes().size(), image.values().size_bytes()));
+                fmt::format("{}: {} bytes, expected {}", path, file.bytes().size(), image.values().size_bytes()));
   std::memcpy(image.values().data(), file.bytes().data(), file.bytes().size());
   return image;
 }

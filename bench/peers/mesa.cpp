@@ -201,7 +201,7 @@ struct Mesa::State {
   GLsizei indices = 0;
   std::vector<std::uint8_t> pixels;
 
-  State(const Scene& scene, const Work& asked) : work(asked) {
+  State(const Scene& scene, const Work& requested) : work(requested) {
     renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
     pixels.resize(static_cast<std::size_t>(work.width) * static_cast<std::size_t>(work.height) * 4);
     make_framebuffers();
@@ -223,11 +223,11 @@ struct Mesa::State {
 
   void* make_context() {
     // From the interface of OSMesa: format, depth bits, profile, version.
-    constexpr int wanted[] = {0x22, 0x1908, 0x30, 0, 0x33, 0x34, 0x36, 3, 0x37, 3, 0, 0};
+    constexpr int attributes[] = {0x22, 0x1908, 0x30, 0, 0x33, 0x34, 0x36, 3, 0x37, 3, 0, 0};
     const auto create = library.own<void* (*)(const int*, void*)>("OSMesaCreateContextAttribs");
     const auto use = library.own<GLboolean (*)(void*, void*, GLenum, GLsizei, GLsizei)>("OSMesaMakeCurrent");
     destroy = library.own<void (*)(void*)>("OSMesaDestroyContext");
-    void* made = create(wanted, nullptr);
+    void* made = create(attributes, nullptr);
     if (!made || !use(made, target.data(), GL_UNSIGNED_BYTE, 16, 16)) fail("no context");
     return made;
   }

@@ -7,7 +7,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// What kind of thing went wrong; the command line turns it into its exit code.
+/// The kind of an error; the command line maps it to its exit code.
 enum class ErrorKind {
   Failed,  ///< rendering or another run-time failure (exit 1)
   Usage,   ///< a wrong option, value or combination (exit 2)
@@ -15,9 +15,9 @@ enum class ErrorKind {
   Output,  ///< an output that cannot be written (exit 4)
 };
 
-/// The one exception of the library: the world (a file, a scene, an argument) is wrong.
+/// The exception of the library: an input (a file, a scene, an argument) is invalid, or the system fails.
 ///
-/// The message is one line that names the place, what was found and what was wanted:
+/// The message is one line that names the place, what was found and what was expected:
 /// `chair.gltf: mesh 3: POSITION holds 12 bytes, expected 36 (3 vertices)`.
 class Error : public std::runtime_error {
  public:

@@ -6,7 +6,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// An instruction set for which kernels are built. Scalar is the plain C++ twin; every one gives the same bits.
+/// An instruction set for which kernels are built. Scalar is the plain C++ twin; all give the same bits.
 enum class Isa {
   Scalar,  ///< plain C++, on every processor
   Sse4,    ///< x86-64 with SSE4.2
@@ -16,16 +16,16 @@ enum class Isa {
   Wasm,    ///< WebAssembly with simd128
 };
 
-/// Every set there is: those of x86-64 in order, then AArch64's and WebAssembly's.
+/// All instruction sets: those of x86-64 in order, then those of AArch64 and WebAssembly.
 inline constexpr Isa all_isas[] = {Isa::Scalar, Isa::Sse4, Isa::Avx2, Isa::Avx512, Isa::Neon, Isa::Wasm};
 
-/// The sets that this machine can run, Scalar first.
+/// The instruction sets that this machine supports, Scalar first.
 std::span<const Isa> supported_isas();
 
-/// The fastest of them.
+/// The fastest supported instruction set.
 inline Isa best_isa() { return supported_isas().back(); }
 
-/// The set of the innermost `with_isa` around the calling code; best_isa() outside of any.
+/// The instruction set of the innermost enclosing `with_isa`; best_isa() outside of any.
 Isa current_isa();
 /// Sets what `current_isa` returns on this thread and returns what it returned before, for threads that work on behalf
 /// of another (base/parallel.cpp).

@@ -7,23 +7,22 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-// Most of the time to load a large model goes into fresh pages of memory: one by one, where they are first touched,
-// they take longer than what is written into them.
+// Page faults dominate the time of loading a large model: touching new pages one by one takes longer than filling them.
 
-/// Asks the system to back memory that is not used yet by large pages, where it has any; a hint without consequences.
+/// Advises the system to back unused memory by large pages; a hint, which the system may ignore.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// The same, and has the pages found by all threads at once: for what one thread then fills at a stretch.
+/// The same, and prefaults the pages on all threads: for memory that a single thread then fills.
 void prefault(void* memory, std::size_t bytes);
 
-/// Room for so many elements in an empty vector, its pages found.
+/// Reserves capacity for `size` elements in an empty vector, with prefaulted pages.
 template <class T>
 void reserve_large(std::vector<T>& values, std::size_t count) {
   values.reserve(count);
   prefault(values.data(), count * sizeof(T));
 }
 
-/// Makes an empty vector so long, its elements zero.
+/// Resizes an empty vector to `size` elements of zero.
 template <class T>
 void make_large(std::vector<T>& values, std::size_t count) {
   values.reserve(count);

@@ -10,10 +10,10 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// A parameter of something that a text names: n of `msaa:n=4`.
+/// A parameter in a text of the form name:key=value: n of `msaa:n=4`.
 ///
-/// The value is one of the words `names` where there are any, one of the whole numbers `choices` where there are any,
-/// and else a number in [low, high] with at most `decimals` decimals.
+/// The value is one of the words `names` if there are any, one of the integers `choices` if there are any, and
+/// otherwise a number in [low, high] with at most `decimals` decimals.
 struct Param {
   static constexpr int real = -1;  ///< of `decimals`: any number of decimals, and an exponent
 
@@ -34,16 +34,16 @@ constexpr Param real_param(std::string_view name, std::string_view meaning, doub
 /// The values that a parameter takes, for help and messages: "1 to 1000", "2, 4 or 8".
 std::string values_of(const Param& param);
 
-/// The values of parameters: those that a text gives, and the defaults of the others.
+/// The values of parameters: from a text, or the defaults.
 ///
-/// Requires  the parameters outlive it.
+/// Requires  the parameters outlive this object.
 class Settings {
  public:
   /// All parameters with their default values.
   explicit Settings(std::span<const Param> params = {});
-  /// Parses a text such as `msaa` or `msaa:n=4,resolve=karis`; `kind` is what msaa is, for messages ("method").
+  /// Parses a text such as `msaa` or `msaa:n=4,resolve=karis`; `kind` is the noun for messages ("method").
   ///
-  /// Errors    ErrorKind::Usage naming a parameter that is unknown or given twice, or a value that it does not take.
+  /// Errors    ErrorKind::Usage naming an unknown or repeated parameter, or an invalid value.
   Settings(std::string_view kind, std::span<const Param> params, std::string_view text);
 
   int integer(std::string_view name) const;              ///< a whole number, or the index of a name
@@ -85,7 +85,7 @@ const Row* find_row(std::span<const Row> rows, std::string_view text) {
 }
 
 /// Throws the error for a name that is in no catalogue.
-/// Errors    ErrorKind::Usage: there is no such `kind` as the text names; with the closest of `names`, or all of them.
+/// Errors    ErrorKind::Usage: no `kind` has this name; the message has the closest of `names`, or all of them.
 [[noreturn]] void refuse_name(std::string_view kind, std::string_view text, std::span<const std::string_view> names);
 
 /// A row of a catalogue and the values of its parameters.
@@ -94,7 +94,7 @@ struct Spec {
   const Row& row;     ///< of the catalogue, which outlives the Spec
   Settings settings;  ///< the values of the row's parameters
 
-  /// What it was parsed from, in one form: `name` or `name:a=1,b=2`.
+  /// The text in canonical form: `name` or `name:a=1,b=2`.
   std::string text() const {
     const std::string given = settings.text();
     return std::string(row.name) + (given.empty() ? "" : ":" + given);
@@ -103,7 +103,7 @@ struct Spec {
 
 /// Parses a text such as `msaa:n=4` against a catalogue, whose rows have `name` and `params`.
 ///
-/// Errors    ErrorKind::Usage naming an unknown row, parameter or value, and the closest known one or all there are.
+/// Errors    ErrorKind::Usage naming an unknown row, parameter or value, with the closest known one or all of them.
 template <class Row>
 Spec<Row> parse_spec(std::string_view kind, std::span<const Row> rows, std::string_view text) {
   if (const Row* row = find_row(rows, text)) return {*row, Settings(kind, row->params, text)};

@@ -11,7 +11,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// A decoded PNG: codes as stored, widened to four channels; 16-bit files keep their precision in `pixels16`.
+/// A decoded PNG: values as stored, expanded to four channels; 16-bit files keep their precision in `pixels16`.
 struct PngImage {
   Rgba8Image pixels;     ///< 8 bits a channel; of a 16-bit file its values rounded
   Rgba16Image pixels16;  ///< empty unless the file has 16 bits a channel
@@ -35,12 +35,12 @@ struct PngOptions {
   bool has_alpha = true;        ///< false: RGB is written
   bool is_srgb = true;          ///< writes the sRGB chunk; false for data (depth, normals, ids)
   bool is_small = false;        ///< slower, smaller
-  bool may_be_indexed = false;  ///< an opaque picture of at most 256 colours is written as numbers of them
+  bool may_be_indexed = false;  ///< an opaque image of at most 256 colours is written with a palette
   std::vector<std::pair<std::string, std::string>> text = {};  ///< tEXt chunks (iTXt where not ASCII)
 };
 
 ///@{
-/// No time stamp is written: the same picture gives the same bytes.
+/// No time stamp is written: equal images give equal bytes.
 std::vector<std::uint8_t> encode_png(const Rgba8Image& image, const PngOptions& options = {});
 std::vector<std::uint8_t> encode_png(const Rgba16Image& image, const PngOptions& options = {});
 ///@}

@@ -12,13 +12,13 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// The file formats that `load_scene` reads by itself. Those of assimp.h it reads too.
+/// The file formats that `load_scene` reads itself, in addition to those of assimp.h.
 std::span<const SceneFormat> scene_formats();
 
 /// True for the name of a built-in scene, with or without parameters.
 bool is_builtin_scene(std::string_view name);
 
-/// How a scene is loaded.
+/// Options of loading a scene.
 struct LoadOptions {
   LoadLimits limits;          ///< of memory, time and files
   std::string format;         ///< an extension without its dot, "stl"; empty: that of the name
@@ -28,8 +28,8 @@ struct LoadOptions {
 
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".
 ///
-/// A built-in scene goes before a file of the same name, which is reached as "./teapot". "-" is standard input, and
-/// wants a format; what it refers to is looked for in the working directory.
+/// A built-in scene takes precedence over a file of the same name, which is given as "./teapot". "-" is standard input,
+/// and requires a format; files that it refers to are searched in the working directory.
 /// Errors    ErrorKind::Input naming a file that is missing, of an unknown format or wrong inside; ErrorKind::Usage for
 ///           parameters of a built-in scene, a format that is not read, and standard input without one.
 Scene load_scene(const std::string& name, const LoadOptions& options = {});

@@ -13,25 +13,25 @@ struct Linear {
   bool operator==(const Linear&) const = default;
 };
 
-/// A colour as sRGB code in [0, 1] (after tone mapping); alpha straight.
+/// A display-referred colour, sRGB-encoded, in [0, 1]; straight alpha.
 struct Display {
   float r = 0, g = 0, b = 0, a = 1;  ///< opaque black by default
   bool operator==(const Display&) const = default;
 };
 
-/// A colour as 8-bit sRGB code; alpha straight.
+/// A colour in 8-bit sRGB-encoded values; straight alpha.
 struct Rgba8 {
   std::uint8_t r = 0, g = 0, b = 0, a = 255;  ///< 0 to 255; opaque black by default
   bool operator==(const Rgba8&) const = default;
 };
 
-/// A colour as 16-bit code; alpha straight.
+/// A colour in 16-bit encoded values; straight alpha.
 struct Rgba16 {
   std::uint16_t r = 0, g = 0, b = 0, a = 65535;  ///< 0 to 65535; opaque black by default
   bool operator==(const Rgba16&) const = default;
 };
 
-/// Eight neighbouring pixels of a row, channel by channel: what vectors hold.
+/// Eight neighbouring pixels of a row, channel by channel, as vectors hold them.
 struct alignas(64) Linear8 {
   static constexpr int size = 8;  ///< pixels
   float r[8], g[8], b[8], a[8];   ///< one channel of the eight pixels, left to right

@@ -15,30 +15,30 @@ enum class ToneMapping {
 
 /// Maps one linear colour (not premultiplied) to linear display light in [0, 1].
 ///
-/// Edges     what is negative or not a number counts as 0, what is above 2^24 as 2^24.
+/// Edges     negative values and NaN count as 0, values above 2^24 as 2^24.
 float3 tone_map(float3 color, ToneMapping mapping);
 
-/// The background of pictures unless another one is given: dark grey, as F3D has it.
+/// The default background: dark grey, as in F3D.
 inline constexpr float4 default_background{0.2f, 0.2f, 0.2f, 1};
 
 /// How a scene-linear image becomes display-referred.
 struct DisplayOptions {
   ToneMapping mapping = ToneMapping::None;  ///< applied after the exposure
   float exposure = 1;                       ///< multiplies linear colour first
-  bool is_transparent = false;              ///< keep alpha; else the background shows through
-  float4 background{0, 0, 0, 1};            ///< sRGB code, straight alpha; shown as it is, not tone mapped
+  bool is_transparent = false;              ///< keep alpha instead of compositing over the background
+  float4 background{0, 0, 0, 1};            ///< sRGB-encoded, straight alpha; not tone-mapped
   bool raw = false;                         ///< no tone mapping and no sRGB encoding (--color-management raw)
 };
 
-/// The picture as it is shown: straight colour × exposure is tone mapped, laid over the background in linear
-/// light, and encoded. Where alpha is 0 a transparent picture holds (0, 0, 0, 0).
+/// The display-referred image: straight colour × exposure is tone-mapped, composited over the background in linear
+/// light, and encoded. A transparent image is (0, 0, 0, 0) where alpha is 0.
 ///
-/// Edges     every channel of the result is in [0, 1], whatever the picture holds; where alpha is 0 the
-///           background's own code is shown, where the picture is opaque nothing of it.
+/// Edges     every channel of the result is in [0, 1], for any input; where alpha is 0 the result is exactly the
+///           background, where the image is opaque it does not depend on the background.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
 
-/// Linear light × exposure over the background, premultiplied: the picture before tone mapping. A transparent picture
-/// stays without background.
+/// Linear light × exposure over the background, premultiplied, without tone mapping. A transparent image has no
+/// background.
 LinearImage over_background(LinearImage image, const DisplayOptions& options);
 
 }  // namespace zoneplate

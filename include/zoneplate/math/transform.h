@@ -21,7 +21,8 @@ float4x4 rotation(float3 axis, float angle);
 
 /// The rigid transform into a camera at `eye` that looks at `target` along -Z with `up` upwards.
 ///
-/// Where up is parallel to the view direction another up is chosen (+Z, then +X), so that it always exists.
+/// If up is parallel to the view direction, another up vector is used (+Z, then +X), so that the transform always
+/// exists.
 float4x4 look_at(float3 eye, float3 target, float3 up);
 
 /// Perspective projection to clip space with w = distance along the view axis and *reversed* depth:

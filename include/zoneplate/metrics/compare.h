@@ -10,40 +10,40 @@
 namespace zoneplate {
 namespace ZONEPLATE_API metrics {
 
-/// Pictures to compare, the i-th with the i-th; each is asked for once, in order, and let go when it has been judged.
+/// Pairs of images to compare; each is loaded once, in order, and released when it has been measured.
 struct Comparands {
   std::size_t count = 0;                                ///< the number of pairs
   std::function<Picture(std::size_t)> reference, test;  ///< make picture i of [0, count)
-  bool are_frames = false;  ///< of one sequence: metrics that look at several frames have a meaning
+  bool are_frames = false;  ///< the images are frames of one sequence, so that metrics over several frames apply
 };
 
-/// What to do with a metric that cannot judge these pictures (too small, too few, nothing there to measure).
+/// What to do with a metric that does not apply to the images (too small, too few, without the measured feature).
 enum class Unfit {
-  Leave,   ///< leave it out
+  Leave,   ///< omit the metric
   Refuse,  ///< ErrorKind::Input
 };
 
-/// One metric's answer.
+/// The result of one metric.
 struct Result {
   const Metric* metric = nullptr;  ///< a row of the catalogue, never null in a Comparison
-  double value = 0;                ///< pooled over all pictures
-  std::vector<double> values;      ///< of each picture, or of each run of `metric->frames` frames
+  double value = 0;                ///< pooled over all images
+  std::vector<double> values;      ///< of each image, or of each run of `metric->frames` frames
   std::size_t worst = 0;           ///< the index of the worst of `values`
-  Score score;                     ///< of the worst: its map, curves and further figures
+  Score score;                     ///< the map, curves and additional figures of the worst image
 };
 
 /// The results of all metrics.
 struct Comparison {
-  bool are_same = true;         ///< every pair has the same codes, alpha included
+  bool are_same = true;         ///< every pair has the same encoded values, including alpha
   int width = 0, height = 0;    ///< pixels of the last test picture
   std::size_t count = 0;        ///< the number of pairs that were compared
-  std::vector<Result> results;  ///< in the order of the choices, without those left out
+  std::vector<Result> results;  ///< in the order of the choices, without omitted ones
 };
 
-/// Judges pictures by metrics.
+/// Measures images with metrics.
 ///
 /// Requires  count > 0.
-/// Errors    ErrorKind::Input naming the picture's number and sizes where a metric wants other sizes; as Unfit says.
+/// Errors    ErrorKind::Input naming the image's index and sizes if a metric requires other sizes; otherwise as in Unfit.
 Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit);
 
 /// The metrics that are measured when the user names none.

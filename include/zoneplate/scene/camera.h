@@ -15,21 +15,21 @@ struct Camera {
   float4x4 world_from_camera;       ///< rigid; the identity by default: at the origin, looking along -Z
   bool is_orthographic = false;     ///< `half_height` then sets the scale in place of `vertical_fov`
   float vertical_fov = 0.5235988f;  ///< radians (30°)
-  float half_height = 1;            ///< orthographic: half the picture's height, world units
-  float aspect = 0;                 ///< the file's own width / height; 0: the picture's
+  float half_height = 1;            ///< orthographic: half the image's height, world units
+  float aspect = 0;                 ///< the file's own width / height; 0: the image's
   float near = 0.01f, far = 1000;   ///< distances along the view axis; far may be infinite (perspective only)
 
-  /// The projection for a picture of the given aspect (width / height).
+  /// The projection for an image of the given aspect (width / height).
   float4x4 clip_from_camera(float picture_aspect) const;
 };
 
-/// The default view: three-quarter, from the front right and above, the whole scene in the picture.
+/// The default view: three-quarter, from the front right and above, the whole scene in the image.
 struct AutoFit {
   float azimuth = 0.5235988f;       ///< radians about +Y from the front (+Z), towards +X
   float elevation = 0.3490659f;     ///< radians above the horizon
   float vertical_fov = 0.5235988f;  ///< radians (30°)
   bool is_orthographic = false;     ///< a parallel projection from the same direction
-  float margin = 0.05f;             ///< share of the picture left free on the tightest side
+  float margin = 0.05f;             ///< fraction of the image that stays free on the tightest side
   float3 up{0, 1, 0};               ///< the scene's upward axis
 };
 

@@ -16,24 +16,24 @@ enum class LightKind {
   Spot,         ///< light from `position` within a cone about `direction`
 };
 
-/// How a point or spot light fades with the distance d.
+/// The attenuation of a point or spot light with the distance d.
 enum class Falloff {
   InverseSquare,  ///< 1 / d², times glTF's window when `range` is finite (KHR_lights_punctual)
   Quadratic,      ///< 1 / (a0 + a1 d + a2 d²)
 };
 
-/// A light of no extent, in world space, or fixed to the camera.
+/// A punctual light, in world space or fixed to the camera.
 ///
 /// Units     `color` linear; `intensity` in lux (directional) or candela (point, spot), as KHR_lights_punctual;
 ///           angles from the axis in radians.
 struct Light {
   std::string name;                         ///< from the file, for listings; may be empty
   LightKind kind = LightKind::Directional;  ///< decides which of the following members count
-  bool is_in_camera_space = false;  ///< `position` and `direction` are in the space of the camera that sees the scene
-  float3 color{1, 1, 1};            ///< multiplies `intensity`
-  float intensity = 1;              ///< lux, or candela
-  float3 position{0, 0, 0};         ///< of point and spot lights
-  float3 direction{0, 0, -1};       ///< the way the light travels; of unit length where the light is in world space
+  bool is_in_camera_space = false;          ///< `position` and `direction` are in the space of the rendering camera
+  float3 color{1, 1, 1};                    ///< multiplies `intensity`
+  float intensity = 1;                      ///< lux, or candela
+  float3 position{0, 0, 0};                 ///< of point and spot lights
+  float3 direction{0, 0, -1};               ///< from the light; of unit length in world space
   float range = std::numeric_limits<float>::infinity();  ///< where Falloff::InverseSquare ends; infinite: nowhere
   Falloff falloff = Falloff::InverseSquare;              ///< of point and spot lights
   float3 attenuation{1, 0, 0};                           ///< a0, a1, a2 of Falloff::Quadratic
@@ -41,7 +41,7 @@ struct Light {
   float outer_cone = 0.7853982f;                         ///< of spot lights: no light beyond this angle
 };
 
-/// The light as `world_from_camera` places it: a light in camera space becomes one in world space, others stay.
+/// The light in world space: a light in camera space is transformed by `world_from_camera`, others are unchanged.
 Light in_world_space(Light light, const float4x4& world_from_camera);
 
 }  // namespace zoneplate

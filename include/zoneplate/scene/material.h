@@ -43,14 +43,14 @@ struct Sampler {
 
 /// A decoded image file.
 struct TextureImage {
-  /// Texels along a side. Images that are wider or higher are drawn at a half, a quarter, ... of that side.
+  /// Maximum of texels along a side. Larger images are reduced to a half, a quarter, ... of that side.
   static constexpr int most_side = 32768;
 
-  std::string name;   ///< the file or image it came from, for messages
+  std::string name;   ///< its file or image, for messages
   TexelImage pixels;  ///< in the file's own precision, row 0 at the top
 };
 
-/// A use of an image in one slot of a material. `image` < 0: no texture, the factor stands alone.
+/// A use of an image in one slot of a material. `image` < 0: no texture, only the factor.
 ///
 /// The coordinate is (offset + rotation(angle) * (scale * uv)), KHR_texture_transform's order: uv is scaled, then
 /// rotated counter-clockwise in a +v-up sense as the extension's matrix says, then moved.
@@ -70,13 +70,13 @@ enum class ShadingModel {
   Unlit,              ///< the base colour, without lights
 };
 
-/// What a surface is made of. Factors are linear; codes of base colour and emissive images are sRGB, those of the
-/// others linear.
+/// The parameters of a surface. Factors are linear; base colour and emissive images are sRGB-encoded, the others
+/// linear.
 struct Material {
   std::string name;                                      ///< need not be unique; Cryptomatte identifies materials by it
   ShadingModel model = ShadingModel::MetallicRoughness;  ///< decides which of the factors below count
   AlphaMode alpha_mode = AlphaMode::Opaque;              ///< what the alpha of the base colour means
-  float alpha_cutoff = 0.5f;                             ///< a masked surface is there where alpha >= cutoff
+  float alpha_cutoff = 0.5f;                             ///< an alpha-tested surface is present where alpha >= cutoff
   bool double_sided = false;                             ///< back faces are drawn too
 
   float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
@@ -95,11 +95,11 @@ struct Material {
   float exponent = 32;                    ///< (Blinn-)Phong only: Ns
 };
 
-/// A place for a texture in a material.
+/// A texture slot of a material.
 struct MaterialTextureSlot {
-  std::string_view gltf_name;  ///< of the property that holds the texture in a glTF material
+  std::string_view gltf_name;  ///< the property of a glTF material with this texture
   TextureUse Material::*use;   ///< the member of Material that is the slot
-  bool is_color;               ///< its codes are sRGB, else linear
+  bool is_color;               ///< sRGB-encoded, otherwise linear
   bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
 };
 

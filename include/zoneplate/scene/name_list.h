@@ -12,13 +12,13 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// The names of numbered things. Things of the same name share its text: each takes four bytes more.
+/// The names of a list of items. Items with the same name share its text: each takes four more bytes.
 class NameList {
  public:
-  /// A list without things.
+  /// An empty list.
   NameList() = default;
   ///@{
-  /// A thing for each name, with a text of its own.
+  /// One item for each name, each with its own text.
   NameList(std::initializer_list<std::string> names) : NameList(std::vector<std::string>(names)) {}
   NameList(std::vector<std::string> names) : texts_(std::move(names)) {
     for (std::uint32_t i = 0; i < texts_.size(); ++i) text_of_.push_back(i);
@@ -29,28 +29,28 @@ class NameList {
   NameList(std::vector<std::string> texts, std::vector<std::uint32_t> text_of)
       : texts_(std::move(texts)), text_of_(std::move(text_of)) {}
 
-  /// The number of things, not of texts.
+  /// The number of items, not of texts.
   std::size_t size() const { return text_of_.size(); }
-  /// True if there are no things.
+  /// True if there are no items.
   bool empty() const { return text_of_.empty(); }
-  /// The name of thing i.
+  /// The name of item i.
   const std::string& operator[](std::size_t i) const { return texts_[text_of_[i]]; }
 
-  /// Adds a thing with a text of its own.
+  /// Adds an item with a new name.
   void push_back(std::string name) {
     text_of_.push_back(static_cast<std::uint32_t>(texts_.size()));
     texts_.push_back(std::move(name));
   }
-  /// Adds a thing that shares the text of thing `i`.
+  /// Adds an item that shares the name of item `i`.
   void share(std::size_t i) { text_of_.push_back(text_of_[i]); }
 
-  /// The texts in the order of their first use, and the index of each thing's text.
+  /// The texts in the order of their first use, and the index of each item's text.
   ///@{
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<std::uint32_t>& text_of() const { return text_of_; }
   ///@}
 
-  /// An input iterator over the names, in the order of the things.
+  /// An input iterator over the names, in the order of the items.
   class Iterator {
    public:
     ///@{
@@ -78,7 +78,7 @@ class NameList {
   Iterator end() const { return {*this, size()}; }
   ///@}
 
-  /// Whether the things have the same names, however they share them.
+  /// Whether the items have the same names, regardless of sharing.
   bool operator==(const NameList& other) const {
     if (size() != other.size()) return false;
     for (std::size_t i = 0; i < size(); ++i)

@@ -10,9 +10,9 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// What the texels of a decoded image are. Alpha is straight in all of them.
+/// The type of the texels of a decoded image. Alpha is always straight.
 enum class TexelKind : std::uint8_t {
-  Codes8,   ///< Rgba8, codes as the file stores them: values in 1/255, or sRGB codes, which the image's use decides
+  Codes8,   ///< Rgba8 as stored in the file: linear or sRGB-encoded, depending on the use of the image
   Codes16,  ///< Rgba16, the same in 1/65535
   Light,    ///< float4 (red, green, blue, alpha): linear light, of HDR and EXR files; any floats, NaN included
 };

@@ -8,7 +8,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// A sample's place in its pixel, in 1/256 pixel from the pixel's top-left corner.
+/// A sample's position in its pixel, in 1/256 pixel from the pixel's top-left corner.
 struct SamplePosition {
   std::uint8_t x = 128, y = 128;  ///< to the right and downwards; the pixel's centre by default
   bool operator==(const SamplePosition&) const = default;

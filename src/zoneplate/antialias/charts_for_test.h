@@ -87,7 +87,7 @@ struct Band {
   }
 };
 
-/// FNV-1a over the bytes of a picture.
+/// FNV-1a over the bytes of a image.
 inline std::uint64_t hash_of(const Rgba8Image& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Rgba8& c : image.values())

@@ -5,7 +5,7 @@
 
 namespace zoneplate {
 
-/// Elements that begin at a cache line, as the kernels want their planes; zero at first.
+/// An array that is aligned to a cache line, as the kernels require of their planes; initially zero.
 template <class T>
 class AlignedArray {
  public:

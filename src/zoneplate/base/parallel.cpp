@@ -17,18 +17,18 @@
 namespace zoneplate {
 namespace {
 
-/// One loop: its items are taken one after the other by whoever is free.
+/// One loop: each free thread processes the next item.
 struct Loop {
   const std::function<void(std::size_t)>& body;
   const std::size_t count;
-  const Deadline* const deadline;  ///< of whoever began the loop
+  const Deadline* const deadline;  ///< of the thread that began the loop
   const Isa isa;                   ///< likewise
   std::exception_ptr error;        ///< the first one; guarded by the team's mutex
   std::atomic<int> helpers = 0;    ///< threads at work on it, besides the one that began it
   alignas(64) std::atomic<std::size_t> next = 0;
 };
 
-/// Calls `is_so` for some 50 µs until it says yes: to wake a sleeping thread takes as long.
+/// Calls `is_so` for some 50 µs until it is true: to wake a sleeping thread takes as long.
 template <class Condition>
 bool becomes_true(Condition is_so) {
   constexpr std::chrono::microseconds patience(50);
@@ -87,9 +87,9 @@ Team::~Team() {
 
 void Team::start(std::size_t helpers) {
   const std::lock_guard lock(mutex_);
-  const std::size_t wanted = std::min(helpers, static_cast<std::size_t>(limit_ - 1));
+  const std::size_t needed = std::min(helpers, static_cast<std::size_t>(limit_ - 1));
   try {
-    while (threads_.size() < wanted) {
+    while (threads_.size() < needed) {
       const int index = static_cast<int>(threads_.size()) + 1;
       threads_.emplace_back([this, index] { help(index); });
     }

@@ -27,7 +27,7 @@ TEST(Parallel, CallsEveryIndexOnce) {
 
 TEST(Parallel, RangesDoNotDependOnThreads) {
   using Ranges = std::vector<std::pair<std::size_t, std::size_t>>;
-  const Ranges wanted = {{0, 4}, {4, 8}, {8, 10}};
+  const Ranges expected = {{0, 4}, {4, 8}, {8, 10}};
   for (const int threads : {1, 2, 7}) {
     with_threads(threads, [&] {
       std::mutex mutex;
@@ -37,7 +37,7 @@ TEST(Parallel, RangesDoNotDependOnThreads) {
         ranges.emplace_back(begin, end);
       });
       std::sort(ranges.begin(), ranges.end());
-      EXPECT_EQ(ranges, wanted);
+      EXPECT_EQ(ranges, expected);
     });
   }
 }

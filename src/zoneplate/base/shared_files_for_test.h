@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-// Models and pictures of others are not part of the sources. Where they lie in `../shared`, parametrised tests take
+// Models and images of others are not part of the sources. Where they lie in `../shared`, parametrised tests take
 // them as well; elsewhere these tests do not exist, and what they show is tested on files that are made in code.
 
 /// Those of the named files of a folder of `../shared` that are there.

@@ -20,14 +20,14 @@ namespace {
 constexpr Rgba8 nothing{0, 0, 0, 0};
 const PngOptions data{.is_srgb = false};
 
-// A unit value as an integer code, rounded; what is outside is clamped, and what is not a number is 0.
+// A unit value as an integer code, rounded; values outside are clamped, and NaN is 0.
 float code(float value, float top) {
   const float unit = value > 0 ? std::min(value, 1.0f) : 0.0f;
   return std::floor(unit * top + 0.5f);
 }
 std::uint8_t code8(float value) { return static_cast<std::uint8_t>(code(value, 255)); }
 
-// The picture of a plane, pixel by pixel; transparent where depth says that nothing is there.
+// The image of a plane, pixel by pixel; transparent where the depth is infinite.
 template <class T, class Colour>
 std::vector<std::uint8_t> data_picture(const Frame& frame, const Plane<T>& plane, const PngOptions& options,
                                        Colour colour) {
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> id_picture(const Frame& frame, const Scene&) {
                       [&](std::uint32_t id) { return id == Frame::no_id ? nothing : id_color(id); });
 }
 
-// As colours stand for names in the id passes, but of names: the same in every picture of any scene.
+// The colour of an id is a hash of the name: the same in every image of any scene.
 template <MatteKind kind>
 std::vector<std::uint8_t> matte_picture(const Frame& frame, const Scene& scene) {
   const Cryptomatte matte = make_cryptomatte(frame, scene, kind);

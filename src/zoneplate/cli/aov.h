@@ -9,26 +9,27 @@
 
 namespace zoneplate::cli {
 
-/// A data pass as a PNG picture.
+/// A data pass as a PNG image.
 ///
-/// depth        16-bit grey: code 0 is the nearest and 65534 the farthest distance seen, linear between; 65535 is
-///              nothing. The distances are in the tEXt chunks "near" and "far".
-/// normal       8-bit: 0.5 + 0.5 n of the world-space normal; transparent where nothing is, as all below.
+/// depth        16-bit grey: 0 is the nearest and 65534 the farthest visible distance, linear between; 65535 is
+///              empty. The distances are in the tEXt chunks "near" and "far".
+/// normal       8-bit: 0.5 + 0.5 n of the world-space normal; transparent in empty pixels, as all below.
 /// albedo       8-bit sRGB base colour.
 /// uv           8-bit: red and green are the fractional parts of u and v; 0 for one that is not finite.
-/// *-id         a false colour for each number, the same in every picture.
-/// crypto-*     the colours of what owns parts of the pixel, each by its share; transparent by what is left.
-/// position     8-bit: from 0 to 1 between the least and the greatest of what is seen, axis by axis; these are in
-///              the tEXt chunks "least" and "greatest".
+/// *-id         a false colour for each id, the same in every image.
+/// crypto-*     the colours of the items that cover the pixel, weighted by coverage; transparent by the uncovered rest.
+/// position     8-bit: from 0 to 1 between the minimum and the maximum of the visible positions, axis by axis; these
+/// are
+///              in the tEXt chunks "least" and "greatest".
 /// motion, flow 8-bit: the hue is the direction (red to the right, green-yellow down), the saturation the length, full
-///              at the greatest of the picture, which is in the tEXt chunk "greatest", in pixels. Black where it is
+///              at the maximum of the image, which is in the tEXt chunk "greatest", in pixels. Black where it is
 ///              not finite.
-/// coverage     16-bit grey: share of the pixel's samples that a surface owns.
-/// error        16-bit grey: estimated standard error of the colour, white being the greatest of the picture; that and
-///              the root mean square, in light, are in the tEXt chunks "greatest" and "rms".
+/// coverage     16-bit grey: fraction of the pixel's samples that a surface owns.
+/// error        16-bit grey: estimated standard error of the colour, white being the maximum of the image; that and
+///              the root mean square, in linear light, are in the tEXt chunks "greatest" and "rms".
 std::vector<std::uint8_t> encode_data_png(const Aov& aov, const Frame& frame, const Scene& scene);
 
-/// The channels as those of an OpenEXR file.
+/// Converts the channels to those of an OpenEXR file.
 void add_exr_channels(const DataChannels& data, std::vector<ExrChannel>& out);
 
 /// The values themselves as a portable float map, of passes with at most three channels; nothing for others.

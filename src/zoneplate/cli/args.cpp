@@ -129,13 +129,13 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
 
 void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value) {
   // Names are few and parted by commas; that one is the beginning of another is excluded by what follows it.
-  const std::string wanted = "--" + name;
+  const std::string dashed = "--" + name;
   const auto has_name = [&](const Option& option) {
-    const std::size_t at = option.names.find(wanted), end = at + wanted.size();
+    const std::size_t at = option.names.find(dashed), end = at + dashed.size();
     return at != std::string::npos && (end == option.names.size() || option.names[end] == ',');
   };
   const auto option = std::find_if(syntax.options.begin(), syntax.options.end(), has_name);
-  if (option == syntax.options.end()) refuse_unknown(syntax, wanted);
+  if (option == syntax.options.end()) refuse_unknown(syntax, dashed);
   if (option->value.empty() && value) refuse_value(*option);
   if (!option->value.empty() && !value) throw Error(ErrorKind::Usage, missing_value(*option));
   set(*option, value.value_or(""));

@@ -11,25 +11,25 @@ namespace zoneplate::cli {
 /// One option of a verb. Parsing and help are made from the same row.
 struct Option {
   std::string names;                            ///< all forms, the one to be shown in messages first: "--output,-o"
-  std::string value;                            ///< what stands for the value in help, "FILE"; empty for a switch
+  std::string value;                            ///< placeholder of the value in help, "FILE"; empty for a switch
   std::string meaning;                          ///< one sentence, without a full stop
   std::string group;                            ///< heading in the full help
-  bool is_basic = false;                        ///< shown in the short help too
+  bool is_basic = false;                        ///< included in the short help
   std::function<void(const std::string&)> set;  ///< takes the value's text (empty for a switch)
 };
 
-/// What a verb accepts, and how its help teaches it.
+/// The arguments of a verb, and the texts of its help.
 struct Syntax {
   std::string verb, summary;
-  std::string operands;  ///< how they are shown: "IN"
-  std::string examples;  ///< lines of the short help, ready to be shown
+  std::string operands;  ///< placeholders: "IN"
+  std::string examples;  ///< lines of the short help, formatted
   std::string notes;     ///< paragraphs at the end of the full help
   std::vector<Option> options;
   std::vector<std::string> found_operands;  ///< filled by `parse`
 };
 
-/// Takes the arguments after the verb: options in any order, `--name=value` or `--name value`, `--` ends options,
-/// the last of a repeated option counts. Answers false where -h or --help was asked for and shown.
+/// Parses the arguments after the verb: options in any order, `--name=value` or `--name value`; `--` ends options, and
+/// the last of a repeated option counts. Returns false after printing the help for -h or --help.
 ///
 /// Errors    ErrorKind::Usage naming the option: unknown (with the closest one), without its value, or refused by
 /// `set`.

@@ -6,13 +6,13 @@
 
 namespace zoneplate::cli {
 
-/// Does work beside the caller: frames are encoded and written while the next ones are drawn.
+/// Runs work in the background: frames are encoded and written while the next ones are drawn.
 ///
-/// As many pieces go on at a time as there may be threads, with one thread each; where that is one, `run` does the work
-/// itself. A piece may end before one that was begun earlier.
+/// At most thread_limit() tasks run at a time, with one thread each; if the limit is one, `run` does the work itself.
+/// Tasks may end in any order.
 class Background {
  public:
-  /// Waits for what is still going on; what goes wrong then is lost, so `wait` comes first.
+  /// Waits for running tasks and ignores their errors; call `wait` first.
   ~Background();
 
   /// Begins the work, once there is room for it. Rethrows what earlier work threw.

@@ -121,7 +121,7 @@ Json formats_json() {
   Json::Array passes;
   for (const Aov& aov : aovs()) passes.emplace_back(Json::Object{{"name", aov.name}, {"meaning", aov.meaning}});
   return Json::Object{{"models", rows(scene_formats(), assimp_formats())},
-                      {"pictures", rows(picture_formats)},
+                      {"images", rows(picture_formats)},
                       {"aovs", std::move(passes)}};
 }
 
@@ -137,12 +137,12 @@ constexpr Topic topics[] = {{"methods", methods_text, methods_json},
 }  // namespace
 
 void run_list(std::span<const std::string> arguments) {
-  bool wants_json = false;
+  bool prints_json = false;
   Syntax syntax{.verb = "list",
                 .summary = "List the antialiasing methods, the built-in scenes and the file formats",
                 .operands = "[methods|scenes|formats]...",
                 .examples = "  zoneplate list methods\n  zoneplate list --json\n"};
-  syntax.options = {{"--json", "", "As JSON", "Options", true, [&](auto&) { wants_json = true; }}};
+  syntax.options = {{"--json", "", "As JSON", "Options", true, [&](auto&) { prints_json = true; }}};
   if (!parse(syntax, arguments)) return;
 
   std::vector<std::string_view> names;
@@ -157,7 +157,7 @@ void run_list(std::span<const std::string> arguments) {
     text += (text.empty() ? "" : "\n") + topics[i].text();
     json.emplace_back(topics[i].name, topics[i].json());
   }
-  print(wants_json ? Json(json).indented() + '\n' : text);
+  print(prints_json ? Json(json).indented() + '\n' : text);
 }
 
 }  // namespace zoneplate::cli

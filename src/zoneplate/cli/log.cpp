@@ -28,7 +28,7 @@ std::string_view environment(const char* name) {
   return value == nullptr ? std::string_view{} : std::string_view(value);
 }
 
-bool wants_color() {
+bool uses_color() {
   const std::string_view forced = environment("CLICOLOR_FORCE");
   if (!forced.empty() && forced != "0") return true;
   return stderr_is_terminal() && environment("NO_COLOR").empty();
@@ -40,7 +40,7 @@ void say(std::string_view kind, std::string_view color, std::string message) {
       message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
   std::string line = "zoneplate: ";
   if (!kind.empty()) {
-    if (wants_color())
+    if (uses_color())
       line.append(color).append(kind).append("\x1b[0m: ");
     else
       line.append(kind).append(": ");

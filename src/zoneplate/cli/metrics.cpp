@@ -1,4 +1,4 @@
-// zoneplate metrics: how far pictures are from a reference, by any of the catalogue's metrics.
+// zoneplate metrics: how far images are from a reference, by any of the catalogue's metrics.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ struct Bound {
 struct MetricsArgs {
   std::string metric_names, map_path, threshold;
   int threads = 0;
-  bool wants_json = false;
+  bool prints_json = false;
 };
 
 std::vector<Choice> choose(const std::string& names) {
@@ -146,7 +146,7 @@ Json json_of(const Comparison& comparison, const std::string& reference, const s
                       {"metrics", std::move(rows)}};
 }
 
-/// The verdict where the pictures differ or a metric misses its threshold; else empty.
+/// The verdict where the images differ or a metric misses its threshold; else empty.
 std::string shortfall(const Comparison& comparison, const std::vector<Bound>& bounds) {
   if (bounds.empty()) return comparison.are_same ? "" : "the images differ";
   std::string text;
@@ -209,7 +209,7 @@ Syntax make_syntax(MetricsArgs& args) {
                      "Write the error map of the first metric that has one, as PNG; of several images, the worst one's",
                      "Options", true, [&](auto& text) { args.map_path = text; }},
                     {"--json", "", "Print one line of JSON, including measured curves", "Options", true,
-                     [&](auto&) { args.wants_json = true; }},
+                     [&](auto&) { args.prints_json = true; }},
                     {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow",
                      "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
@@ -243,7 +243,7 @@ void run(std::span<const std::string> arguments) {
   if (comparison.results.empty()) throw Error(ErrorKind::Input, test + ": expected the size of " + reference);
   if (!args.map_path.empty()) save_map(args.map_path, comparison);
   const std::string missing = shortfall(comparison, bounds);
-  print(args.wants_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));
+  print(args.prints_json ? json_of(comparison, reference, test, missing.empty()).text() + '\n' : text_of(comparison));
   if (!missing.empty()) throw Difference(missing);
 }
 

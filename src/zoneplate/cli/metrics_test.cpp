@@ -59,7 +59,7 @@ TEST_F(MetricsVerb, SamePicturesAreZeroAndInfinite) {
   const Answer answer = run("grey.png grey.png --json");
   EXPECT_EQ(answer.code, 0);
   const auto json = parsed_json(answer.out);
-  EXPECT_EQ(json["same"], true);
+  EXPECT_EQ(json["identical"], true);
   EXPECT_EQ(json["metrics"]["mse"]["value"], 0);
   EXPECT_EQ(json["metrics"]["psnr"]["value"], "inf");
   EXPECT_EQ(json["metrics"]["ssim"]["value"], 1);
@@ -70,10 +70,10 @@ TEST_F(MetricsVerb, SamePicturesAreZeroAndInfinite) {
 TEST_F(MetricsVerb, DifferentPicturesAnswerOne) {
   const Answer answer = run("black.png grey.png");
   EXPECT_EQ(answer.code, 1);
-  EXPECT_TRUE(contains(answer.out, "1 picture, 16 × 16\n")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "1 image, 16 × 16\n")) << answer.out;
   EXPECT_TRUE(contains(answer.out, "mse")) << answer.out;
   EXPECT_TRUE(contains(answer.out, "0.04 ")) << answer.out;
-  EXPECT_TRUE(answer.out.ends_with("\nzoneplate: the pictures differ\n")) << answer.out;
+  EXPECT_TRUE(answer.out.ends_with("\nzoneplate: the images differ\n")) << answer.out;
   EXPECT_FALSE(contains(answer.out, "error")) << answer.out;
 }
 
@@ -123,7 +123,7 @@ TEST_F(MetricsVerb, SizesHaveToAgree) {
   save("small.png", 0, 8);
   const Answer answer = run("grey.png small.png");
   EXPECT_EQ(answer.code, 2);
-  EXPECT_TRUE(contains(answer.out, "picture 1 has 8 × 8 pixels, expected 16 × 16 as the reference")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "image 1 has 8 × 8 pixels, expected 16 × 16 as the reference")) << answer.out;
 }
 
 TEST_F(MetricsVerb, WritesTheMapInMagma) {
@@ -140,7 +140,7 @@ TEST_F(MetricsVerb, JudgesSequencesAndFolders) {
   const Answer answer = run("a b --metric flicker,mae --json");
   EXPECT_EQ(answer.code, 1);
   const auto json = parsed_json(answer.out.substr(0, answer.out.find('\n')));
-  EXPECT_EQ(json["pictures"], 3);
+  EXPECT_EQ(json["images"], 3);
   EXPECT_NEAR(json["metrics"]["flicker"]["value"].get<double>(), 0.2, 1e-6);
   EXPECT_EQ(json["metrics"]["mae"]["worst"], 1);
   EXPECT_NEAR(json["metrics"]["mae"]["value"].get<double>(), 0.2 / 3, 1e-6);

@@ -69,7 +69,7 @@ class HeldSignals {
   sigset_t held_{}, before_{};
 };
 
-/// A new folder beside `target`, which it becomes by `commit`; else it is removed with what was made in it.
+/// A new folder next to `target`, which is renamed to it by `commit`, or removed with the files made in it.
 class StagedFolder {
  public:
   explicit StagedFolder(const std::string& target) : target_(target) {
@@ -122,20 +122,20 @@ class StagedFolder {
 
 }  // namespace
 
-void check_output_folder(const std::string& asked) {
-  if (asked.empty()) throw Error(ErrorKind::Usage, "no output: give -o DIR");
-  const std::string path = without_slashes(asked);
+void check_output_folder(const std::string& output) {
+  if (output.empty()) throw Error(ErrorKind::Usage, "no output: give -o DIR");
+  const std::string path = without_slashes(output);
   struct stat status {};
   if (::lstat(path.c_str(), &status) == 0) refuse(path, is_there);
   if (errno != ENOENT && errno != ENOTDIR) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
   check_parent(path);
 }
 
-void save_folder(const std::string& asked, std::span<const OutputFile> files) {
+void save_folder(const std::string& output, std::span<const OutputFile> files) {
   const HeldSignals signals;
-  StagedFolder staged(without_slashes(asked));
+  StagedFolder staged(without_slashes(output));
   for (const OutputFile& file : files) {
-    if (signals.has_one()) refuse(asked, "is not made: a signal ended the run");
+    if (signals.has_one()) refuse(output, "is not made: a signal ended the run");
     staged.write(file);
   }
   staged.commit();

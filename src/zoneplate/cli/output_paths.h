@@ -21,7 +21,7 @@ struct OutputFile {
 
 /// Makes a folder with these files, whole or not at all. Nothing that was there before is replaced or removed.
 ///
-/// The files are written into a folder `.NAME.PID.tmp` beside `path`. This call creates that folder, under a name that
+/// The files are written into a folder `.NAME.PID.tmp` next to `path`. This call creates that folder, under a name that
 /// was free, and renames it when the last file is written. After an error it removes what it made itself, name by name.
 /// SIGINT, SIGTERM and SIGHUP are held back from the calling thread meanwhile: one that arrives ends the writing
 /// before the next file, and is delivered when the unfinished folder is removed.

@@ -103,7 +103,7 @@ TEST_F(OutputPaths, ASignalEndsTheWritingAndNothingStays) {
   ::sigemptyset(&set);
   ::sigaddset(&set, SIGTERM);
   ::pthread_sigmask(SIG_BLOCK, &set, &before);
-  ::raise(SIGTERM);  // arrives while the folder is written, as far as save_folder can tell
+  ::raise(SIGTERM);  // arrives while save_folder writes the folder
   EXPECT_EQ(refusal([&] { save_folder(at("out"), two_files); }), "out: is not made: a signal ended the run");
   int signal = 0;
   EXPECT_EQ(::sigwait(&set, &signal), 0);

@@ -11,7 +11,7 @@
 
 namespace zoneplate::cli {
 
-/// Values one after the other as bytes, for another process of this program.
+/// Serializes values as bytes, for another process of this program.
 class Packer {
  public:
   template <class T>
@@ -30,7 +30,7 @@ class Packer {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Takes the values out again, in their order.
+/// Reads the values again, in the same order.
 ///
 /// Errors    ErrorKind::Failed where the bytes end too early, whatever they are.
 class Unpacker {

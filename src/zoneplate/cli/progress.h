@@ -11,7 +11,7 @@ enum class ProgressKind {
   Json,  ///< one line a step: {"stage":"render","done":0.4}
 };
 
-/// Tells people or programs how far a command has come, on stderr.
+/// Reports the progress of a command on stderr, for people or programs.
 class Progress {
  public:
   explicit Progress(ProgressKind kind) : kind_(kind) {}
@@ -19,7 +19,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `stage` begins, when the share `done` of the whole work, in [0, 1], is behind.
+  /// Reports that `stage` begins, with the fraction `done` of all work, in [0, 1], completed.
   void begin(std::string_view stage, double done);
 
  private:

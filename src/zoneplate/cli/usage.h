@@ -8,16 +8,16 @@ namespace zoneplate::cli {
 /// The greatest resident memory of the process so far, in bytes.
 std::uint64_t peak_memory();
 
-/// Processor time of all threads so far, in milliseconds.
+/// CPU time of all threads so far, in milliseconds.
 double processor_ms();
 
-/// Measures by how much the process' resident memory rises at most from now on.
+/// Measures the peak increase of the process's resident memory from its construction on.
 ///
-/// What lies free in the heap is given back to the system first, so that work which follows other work counts in full.
+/// Free heap memory is returned to the system first, so that the memory of earlier work is not reused.
 class MemoryWatch {
  public:
   MemoryWatch();
-  /// In bytes; nothing where the system does not tell.
+  /// In bytes; nothing if the system does not provide it.
   std::optional<std::uint64_t> rise() const;
 
  private:

@@ -47,8 +47,8 @@ std::optional<std::vector<float>> numbers_in(std::string_view text) {
   return numbers;
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& wanted) {
-  throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, wanted));
+[[noreturn]] void refuse(const std::string& text, const std::string& expected) {
+  throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, expected));
 }
 
 // "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" after the '#'.

@@ -12,8 +12,8 @@
 
 namespace zoneplate::cli {
 
-// The text of an option made into a value. Every error is ErrorKind::Usage and says what was found and what is wanted;
-// text after the value, infinities and NaN are errors.
+// Conversion of the text of an option to a value. Every error is ErrorKind::Usage and states what was found and what
+// was expected; text after the value, infinities and NaN are errors.
 
 double parse_number(const std::string& text, double low, double high);
 int parse_whole(const std::string& text, int low, int high);
@@ -21,10 +21,10 @@ int parse_whole(const std::string& text, int low, int high);
 /// "x,y,z": three finite numbers.
 float3 parse_triple(const std::string& text);
 
-/// A picture's size, "800,600" or "800x600", each side in [1, max_side].
+/// An image's size, "800,600" or "800x600", each side in [1, max_side].
 int2 parse_size(const std::string& text, int max_side);
 
-/// A colour as sRGB code with straight alpha: "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a basic name of CSS, or "r,g,b"
+/// An sRGB-encoded colour with straight alpha: "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a basic name of CSS, or "r,g,b"
 /// or "r,g,b,a" in [0, 1].
 float4 parse_color(const std::string& text);
 

@@ -6,13 +6,13 @@
 
 namespace zoneplate::cli {
 
-/// Some of many items failed, each of which was told already: exit code 5.
+/// Some of several items failed, each with a message of its own: exit code 5.
 class PartialFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A comparison that ran without an error found a difference: exit code 1, and one line on stderr that is no error.
+/// A comparison found a difference without an error: exit code 1, and one line on stderr that is not an error message.
 class Difference : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,8 +7,8 @@
 
 namespace zoneplate {
 
-/// An animated PNG: a PNG file of the first frame, for programs that know nothing of animation, with the others after
-/// it. Of each frame the rectangle is stored in which it differs from the one before.
+/// An animated PNG: a PNG file of the first frame, which programs without APNG support display, followed by the other
+/// frames. Each frame is stored as the rectangle in which it differs from the one before.
 ///
 /// Exact     lossless; no time stamp, the same animation gives the same bytes.
 /// Source    PNG Specification, third edition (W3C 2023): chunks acTL, fcTL, fdAT.

@@ -22,7 +22,7 @@
 namespace zoneplate {
 namespace {
 
-/// Why a picture is not decoded.
+/// Why an image is not decoded.
 struct Refusal {
   std::string cause;
 };
@@ -96,7 +96,7 @@ struct ExrLibrary {
   decltype(&exr_decoding_destroy) end_decoding = nullptr;
 
   explicit ExrLibrary(const std::string& file) {
-    const SharedLibrary library(Library::OpenExr, file + ": an EXR picture");
+    const SharedLibrary library(Library::OpenExr, file + ": an EXR image");
     library.find(start_read, "exr_start_read");
     library.find(finish, "exr_finish");
     library.find(error_text, "exr_get_default_error_message");
@@ -131,7 +131,7 @@ std::int64_t size_of_bytes(exr_const_context_t, void* user) {
 }
 void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
 
-/// Numbers by rows, zero at first. They take memory where they are written, so that a picture of which nothing is there
+/// Numbers by rows, zero at first. They take memory where they are written, so that an image of which nothing is there
 /// takes none.
 class Channel {
  public:
@@ -233,7 +233,7 @@ class ExrReader {
   void read_chunk(const exr_chunk_info_t& chunk, std::int64_t x, std::int64_t y) {
     if (x < 0 || y < 0 || chunk.width < 1 || chunk.height < 1 || x + chunk.width > window_.width() ||
         y + chunk.height > window_.height())
-      throw Refusal{"is corrupt: a part lies outside the picture"};
+      throw Refusal{"is corrupt: a part lies outside the image"};
     check_deadline();
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     library_.check(library_.begin_decoding(context_, 0, &chunk, &pipeline));
@@ -342,7 +342,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
   };
   if (is_limited_child()) return decode(ExrLibrary(name), take_row);
 
-  // The picture, and as much again for what is being unpacked of it.
+  // The image, and as much again for what is being unpacked of it.
   constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
   const Stopwatch clock;
   LimitedChild::Limits limits;

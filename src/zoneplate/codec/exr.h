@@ -11,30 +11,30 @@
 
 namespace zoneplate {
 
-/// True for the first bytes of an OpenEXR picture.
+/// True for the first bytes of an OpenEXR image.
 bool is_exr(std::span<const std::uint8_t> bytes);
 
 /// Width and height of its display window.
 std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 
-/// Decodes the colour of an OpenEXR picture: the channels R, G, B and A, or Y as grey, of its first part; scanlines or
+/// Decodes the colour of an OpenEXR image: the channels R, G, B and A, or Y as grey, of its first part; scanlines or
 /// the finest tiles, any compression but DWA.
 ///
-/// The library is opened when this is called, and works in a child process with limits; in a LimitedChild, which has
-/// them already, at once.
+/// The library is loaded by the first call, and runs in a child process with limits; inside a LimitedChild, which has
+/// limits already, it runs in that process.
 /// Shape     the display window; black and transparent where the data window does not reach.
-/// Units     as stored, premultiplied; what is not a number becomes 0, infinity 65504. Without A, alpha is 1.
-/// Errors    ErrorKind::Input with `name` in front: not such a picture, deep, without these channels or with fewer
+/// Units     as stored, premultiplied; NaN becomes 0, infinity 65504. Without A, alpha is 1.
+/// Errors    ErrorKind::Input with `name` in front: not an OpenEXR image, deep, without these channels or with fewer
 ///           samples in one, truncated, corrupt, more than `max_pixels` pixels. ErrorKind::Failed where libOpenEXRCore
 ///           is not installed.
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
-/// The same, a row of the picture after the other from the top.
+/// The same, row by row from the top.
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                      const std::function<void(std::span<const Linear>)>& take_row);
 
-/// Bytes that decoding takes beside what becomes of the rows.
+/// Bytes that decoding takes in addition to the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);
 
 }  // namespace zoneplate

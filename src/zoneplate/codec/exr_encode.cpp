@@ -97,8 +97,8 @@ Bytes rows_of(std::span<const ExrChannel> channels, std::size_t width, std::size
   return out;
 }
 
-/// What ZIP compression does before it deflates: bytes of even place before those of odd place, each as its difference
-/// from the one before, plus 128.
+/// The predictor of ZIP compression: bytes at even positions before those at odd positions, each as its difference from
+/// the previous one, plus 128.
 Bytes prepared(const Bytes& raw) {
   Bytes out(raw.size());
   const std::size_t middle = (raw.size() + 1) / 2;
@@ -110,13 +110,13 @@ Bytes prepared(const Bytes& raw) {
 /// A block as it is stored: deflated, or as it was where that is not longer.
 Bytes packed(Bytes raw) {
   constexpr std::size_t most_part = std::size_t{1} << 24;
-  const Bytes wanted = prepared(raw);
+  const Bytes data = prepared(raw);
   Bytes out = {0x78, 0x01};
-  for (std::size_t at = 0; at < wanted.size(); at += most_part) {
-    const std::size_t n = std::min(most_part, wanted.size() - at);
-    deflate_part(std::span(wanted).subspan(at, n), at + n == wanted.size(), out);
+  for (std::size_t at = 0; at < data.size(); at += most_part) {
+    const std::size_t n = std::min(most_part, data.size() - at);
+    deflate_part(std::span(data).subspan(at, n), at + n == data.size(), out);
   }
-  const std::uint32_t sum = PngRowKernels::of().adler(wanted.data(), wanted.size());
+  const std::uint32_t sum = PngRowKernels::of().adler(data.data(), data.size());
   for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(sum >> shift));
   return out.size() < raw.size() ? out : raw;
 }

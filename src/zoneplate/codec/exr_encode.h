@@ -12,16 +12,16 @@
 
 namespace zoneplate {
 
-/// How a channel's values are stored. A number is an unsigned word of 32 bits.
+/// The type of a channel's stored values. Number: an unsigned integer of 32 bits.
 enum class ExrType { Number = 0, Half = 1, Float = 2 };
 
-/// One channel of a picture: a view of values that stand elsewhere, one a pixel, rows without padding.
+/// One channel of an image: a view of values, one per pixel, rows without padding.
 struct ExrChannel {
   std::string name;  ///< "R", or with its layer "N.X"; at most 31 bytes
   ExrType type = ExrType::Half;
-  const float* value = nullptr;           ///< the first pixel's, where type is Half or Float
+  const float* value = nullptr;           ///< the first pixel's value, if type is Half or Float
   const std::uint32_t* number = nullptr;  ///< the same for Number
-  std::size_t step = 1;                   ///< from a pixel's value to the next one's
+  std::size_t step = 1;                   ///< distance between the values of neighbouring pixels
 };
 
 /// The channels of a scene-linear image: R, G, B and A as half floats. They are views of the image.
@@ -29,11 +29,11 @@ std::vector<ExrChannel> rgba_channels(const LinearImage& image);
 
 using ExrAttributes = std::vector<std::pair<std::string, std::string>>;
 
-/// An OpenEXR picture of one part: scanlines, ZIP compression in blocks of 16, channels in the order of their names,
+/// An OpenEXR image of one part: scanlines, ZIP compression in blocks of 16, channels in the order of their names,
 /// and attributes that are text.
 ///
 /// Units     Half is rounded to the nearest, and stays finite.
-/// Exact     the same bytes for any number of threads and any version of any library; nothing tells the time.
+/// Exact     the same bytes for any number of threads and any version of any library; no time stamp.
 /// Requires  no two channels, and no two attributes, of one name.
 /// Source    OpenEXR File Layout, openexr.com.
 std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChannel> channels,

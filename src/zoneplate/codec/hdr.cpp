@@ -174,7 +174,7 @@ void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const st
   }
 }
 
-/// The picture, each pixel as `to_pixel(light)`.
+/// The image, each pixel as `to_pixel(light)`.
 template <class Image, class ToPixel>
 Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
              const ToPixel& to_pixel) {
@@ -188,8 +188,8 @@ Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::
     throw fail(std::to_string(scan.width) + " x " + std::to_string(scan.height) + " pixels, at most " +
                std::to_string(max_pixels) + " are allowed");
 
-  // What a small file claims is found out before memory is taken: a scanline takes four bytes at least, and where all
-  // together take less than runs do in pictures, a first look is cheap.
+  // The size in the header is verified before memory is allocated: a scanline has at least four bytes, and if the file
+  // is smaller than run-length coding of images usually achieves, a first pass over it is cheap.
   constexpr std::uint64_t usual_ratio = 64;
   const std::span<const std::uint8_t> packed = bytes.subspan(header->end);
   if (packed.size() < static_cast<std::uint64_t>(scan.lines()) * 4) throw fail("the file ends early");

@@ -10,17 +10,17 @@
 
 namespace zoneplate {
 
-/// True for the first bytes of a Radiance picture.
+/// True for the first bytes of a Radiance image.
 bool is_hdr(std::span<const std::uint8_t> bytes);
 
 /// Width and height as the header states them.
 std::optional<int2> find_hdr_size(std::span<const std::uint8_t> bytes);
 
-/// Decodes a Radiance picture (.hdr): pixels in RGBE, plain or with runs of either kind, scanned in any of the eight
+/// Decodes a Radiance image (.hdr): pixels in RGBE, plain or with runs of either kind, scanned in any of the eight
 /// orders.
 ///
 /// Units     a channel is mantissa × 2^(exponent - 136), as stored: EXPOSURE lines are not undone. Alpha is 1.
-/// Errors    ErrorKind::Input with `name` in front: not such a picture, in XYZE, truncated, corrupt, more than
+/// Errors    ErrorKind::Input with `name` in front: not a Radiance image, in XYZE, truncated, corrupt, more than
 ///           `max_pixels` pixels.
 /// Source    Ward, Real Pixels, Graphics Gems II, 1991; the Radiance file formats' reference.
 LinearImage decode_hdr(std::span<const std::uint8_t> bytes, const std::string& name,

@@ -34,14 +34,14 @@ struct Report {
   std::longjmp(report->place, 1);
 }
 
-/// libjpeg paints over damage and warns; only warnings of what leaves the picture whole are let through.
+/// libjpeg paints over damage and warns; only warnings of what leaves the image whole are let through.
 void refuse_warning(j_common_ptr jpeg, int level) {
   const int code = jpeg->err->msg_code;
   if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_BOGUS_ICC) jump_back(jpeg);
 }
 
-/// A small file can hold very many passes over a large picture: encoders write some ten of them, and few more tens are
-/// taken of a picture so large that 200 would be 2^31 pixels.
+/// A small file can hold very many passes over a large image: encoders write some ten of them, and few more tens are
+/// taken of an image so large that 200 would be 2^31 pixels.
 int most_scans(const jpeg_decompress_struct& jpeg) {
   constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31, least = 32, most = 200;
   const std::uint64_t pixels = std::max<std::uint64_t>(std::uint64_t{jpeg.image_width} * jpeg.image_height, 1);
@@ -50,7 +50,7 @@ int most_scans(const jpeg_decompress_struct& jpeg) {
 
 /// Called by libjpeg between rows of blocks, while scans are read and while pixels are made.
 ///
-/// An exception cannot pass through its frames: after the jump whoever decodes asks for the time again.
+/// An exception cannot pass through libjpeg's frames: the caller checks the deadline again after the jump.
 void check_progress(j_common_ptr jpeg) {
   const auto* const decoder = reinterpret_cast<j_decompress_ptr>(jpeg);
   const bool has_time = [] {

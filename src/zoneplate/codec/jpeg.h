@@ -20,7 +20,7 @@ struct JpegFrame {
   std::uint64_t pixels = 1;
 };
 
-/// The frame header as libjpeg reads it; nothing where the bytes up to the first scan are not a sound JPEG.
+/// The frame header, as read by libjpeg; nothing if the bytes up to the first scan are not a valid JPEG.
 std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes);
 
 /// Errors    ErrorKind::Input with `name` in front: not a JPEG, truncated, corrupt, more than `max_pixels` pixels.

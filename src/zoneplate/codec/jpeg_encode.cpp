@@ -15,7 +15,7 @@ namespace zoneplate {
 std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image) {
   if (image.width() < 1 || image.height() < 1 || image.width() > JPEG_MAX_DIMENSION ||
       image.height() > JPEG_MAX_DIMENSION)
-    throw Error(ErrorKind::Failed, "a picture of " + std::to_string(image.width()) + " x " +
+    throw Error(ErrorKind::Failed, "an image of " + std::to_string(image.width()) + " x " +
                                        std::to_string(image.height()) + " pixels cannot be encoded as JPEG");
   // Nothing can go wrong from here on but memory, where libjpeg ends the process as operator new would.
   jpeg_error_mgr errors{};

@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// A JPEG file of quality 92 whose colour has every pixel's resolution; alpha is left out.
+/// A JPEG file of quality 92 without chroma subsampling; alpha is omitted.
 ///
 /// Exact     the integer transform: the same bytes with the same version of libjpeg.
 /// Errors    ErrorKind::Failed: sides above 65500 pixels.

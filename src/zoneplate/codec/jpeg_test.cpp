@@ -28,7 +28,7 @@ struct Kind {
   bool is_subsampled = false;
 };
 
-/// A smooth picture, of which a good JPEG keeps every code within a few.
+/// A smooth image, of which a good JPEG keeps every code within a few.
 int smooth(int x, int y, int channel) {
   const double phase = 0.11 * x + 0.07 * y * (channel + 1) + channel;
   return static_cast<int>(std::lround(128 + 100 * std::sin(phase)));
@@ -70,15 +70,15 @@ Bytes jpeg_of(int width, int height, const Kind& kind) {
   return bytes;
 }
 
-/// The greatest difference of a code from the smooth picture, after `wanted` has mixed its channels.
+/// The greatest difference of a code from the smooth image, after `expected` has mixed its channels.
 template <class Wanted>
-int worst_difference(const Rgba8Image& image, Wanted wanted) {
+int worst_difference(const Rgba8Image& image, Wanted expected) {
   int worst = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       const Rgba8 found = image(x, y);
-      worst = std::max({worst, std::abs(found.r - wanted(x, y, 0)), std::abs(found.g - wanted(x, y, 1)),
-                        std::abs(found.b - wanted(x, y, 2)), 255 - found.a});
+      worst = std::max({worst, std::abs(found.r - expected(x, y, 0)), std::abs(found.g - expected(x, y, 1)),
+                        std::abs(found.b - expected(x, y, 2)), 255 - found.a});
     }
   }
   return worst;
@@ -91,9 +91,9 @@ TEST(Jpeg, DecodesColorAndGrey) {
       // Luma and chroma are rounded, each coefficient is, and chroma counts up to 1.8 fold.
       EXPECT_LE(worst_difference(decode_jpeg(color, "a"), smooth), 4);
       const Bytes grey = jpeg_of(width, height, {JCS_GRAYSCALE, JCS_GRAYSCALE, 1, is_progressive});
-      const auto wanted = [](int x, int y, int) { return smooth(x, y, 0); };
-      EXPECT_LE(worst_difference(decode_jpeg(grey, "a"), wanted), 2);
-      // Halved chroma blurs this picture; it still is the picture and not another.
+      const auto expected = [](int x, int y, int) { return smooth(x, y, 0); };
+      EXPECT_LE(worst_difference(decode_jpeg(grey, "a"), expected), 2);
+      // Halved chroma blurs this image; it still is the image and not another.
       const Bytes half = jpeg_of(width, height, {.is_progressive = is_progressive, .is_subsampled = true});
       EXPECT_LE(worst_difference(decode_jpeg(half, "a"), smooth), 20);
     }
@@ -102,9 +102,9 @@ TEST(Jpeg, DecodesColorAndGrey) {
 
 TEST(Jpeg, MixesInks) {
   // libjpeg writes Adobe's marker here: the codes are light, not ink.
-  const auto wanted = [](int x, int y, int c) { return (smooth(x, y, c) * smooth(x, y, 3) + 127) / 255; };
+  const auto expected = [](int x, int y, int c) { return (smooth(x, y, c) * smooth(x, y, 3) + 127) / 255; };
   for (const J_COLOR_SPACE stored : {JCS_CMYK, JCS_YCCK}) {
-    EXPECT_LE(worst_difference(decode_jpeg(jpeg_of(40, 30, {JCS_CMYK, stored, 4}), "a"), wanted), 5);
+    EXPECT_LE(worst_difference(decode_jpeg(jpeg_of(40, 30, {JCS_CMYK, stored, 4}), "a"), expected), 5);
   }
 }
 
@@ -164,7 +164,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedJpeg);
 INSTANTIATE_TEST_SUITE_P(Images, SharedJpeg, testing::ValuesIn(shared_files_ending("data/models", {".jpg"})));
 INSTANTIATE_TEST_SUITE_P(Invalid, SharedJpeg, testing::ValuesIn(shared_files_ending("data/invalid", {".jpg"})));
 
-/// A grey picture in as many scans as a coefficient and a bit at a time give: 1 + 63 * 3.
+/// A grey image in as many scans as a coefficient and a bit at a time give: 1 + 63 * 3.
 Bytes in_many_scans(int size) {
   std::vector<jpeg_scan_info> scans = {{1, {0}, 0, 0, 0, 0}};
   for (int bit = 2; bit >= 0; --bit)

@@ -9,7 +9,7 @@
 
 namespace zoneplate {
 
-/// A portable float map: RGB floats, little-endian, rows from the bottom up; alpha is left out.
+/// A portable float map: RGB floats, little-endian, rows from the bottom up; alpha is omitted.
 std::vector<std::uint8_t> encode_pfm(const LinearImage& image);
 /// The same with one float a pixel.
 std::vector<std::uint8_t> encode_pfm(const Plane<float>& image);
@@ -21,7 +21,7 @@ bool is_pfm(std::span<const std::uint8_t> bytes);
 ///
 /// Units     as stored: the scale of the header states the byte order by its sign, and its magnitude is not applied.
 ///           Values that are not finite stay so. Alpha is 1; grey is equal red, green and blue.
-/// Errors    ErrorKind::Input with `name` in front: not such a picture, a number of bytes other than the header states,
+/// Errors    ErrorKind::Input with `name` in front: not a portable float map, another number of bytes than the header states,
 ///           more than `max_pixels` pixels.
 /// Source    Debevec, PFM Portable FloatMap Image Format, 2001.
 LinearImage decode_pfm(std::span<const std::uint8_t> bytes, const std::string& name,

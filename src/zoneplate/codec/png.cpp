@@ -93,7 +93,7 @@ class Reader {
   }
 
   void read_header() {
-    // Only what makes up the picture is read: no text, no profiles, no time. Whatever is wrong is an error.
+    // Only what makes up the image is read: no text, no profiles, no time. Whatever is wrong is an error.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_set_benign_errors(png_, 0);
@@ -220,7 +220,7 @@ class Writer {
       write_rows(rows);
     });
     if (!is_well)
-      throw Error(ErrorKind::Failed, std::string("a picture cannot be encoded as PNG: ") + report_.message.data());
+      throw Error(ErrorKind::Failed, std::string("an image cannot be encoded as PNG: ") + report_.message.data());
     return std::move(output_.bytes);
   }
 
@@ -251,7 +251,7 @@ class Writer {
     if (options.is_srgb) png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!text.empty()) png_set_text(png_, info_, text.data(), static_cast<int>(text.size()));
 
-    // Rendered pictures: rows differ little from the row above, and runs of zeros are what then remains.
+    // Rendered images: rows differ little from the row above, and runs of zeros are what then remains.
     png_set_compression_level(png_, options.is_small ? Z_BEST_COMPRESSION : Z_BEST_SPEED);
     png_set_compression_strategy(png_, options.is_small ? Z_DEFAULT_STRATEGY : Z_RLE);
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, rows.filters);
@@ -273,7 +273,7 @@ class Writer {
   png_infop info_ = nullptr;
 };
 
-/// Where small files are wanted, filters pay for shaded pictures and cost for drawn ones: both are tried.
+/// For small files, filters help with shaded images and hurt with drawn ones: both are tried.
 std::vector<std::uint8_t> encode(Rows rows, const PngOptions& options) {
   if (!options.is_small) return Writer().encode(rows, options);
   rows.filters = PNG_FILTER_NONE;
@@ -294,7 +294,7 @@ std::vector<std::uint8_t> encode(const Plane<T>& image, const PngOptions& option
 
 std::uint32_t word_of(Rgba8 c) { return std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b; }
 
-/// The colours of a picture, rising, alpha left out; empty where there are more than 256.
+/// The colours of an image, rising, alpha left out; empty where there are more than 256.
 std::vector<std::uint32_t> colors_of(const Rgba8Image& image) {
   std::vector<std::uint32_t> colors;
   std::uint32_t last = ~std::uint32_t{0};

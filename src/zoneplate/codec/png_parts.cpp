@@ -14,10 +14,10 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// A code of its own pays for itself in so many bytes, and is near enough to what it codes.
+// The size of a part: large enough to amortize a Huffman code of its own, small enough for the code to fit the data.
 constexpr std::size_t part_size = std::size_t{1} << 17;
 
-/// Some rows of the picture on their way to an IDAT chunk.
+/// Some rows of the image on their way to an IDAT chunk.
 struct Part {
   Bytes data;
   std::uint32_t crc = 0;    ///< of the chunk's name and data

@@ -7,12 +7,12 @@
 
 namespace zoneplate {
 
-/// Writes a picture of 8 bits a channel as PNG, quickly: filter Up, runs of one byte, in parts that are made in
+/// Writes an image of 8 bits per channel as PNG, quickly: filter Up, runs of one byte, in parts that are encoded in
 /// parallel.
 ///
 /// Shape     one IDAT chunk for some 128 KiB of rows.
-/// Exact     the same bytes for any number of threads: a part's rows depend on the picture's width alone.
-/// Requires  options.text is empty; of the options only has_alpha and is_srgb say anything.
+/// Exact     the same bytes for any number of threads: a part's rows depend only on the image's width.
+/// Requires  options.text is empty; only the options has_alpha and is_srgb apply.
 std::vector<std::uint8_t> encode_png_parts(const Rgba8Image& image, const PngOptions& options);
 
 }  // namespace zoneplate

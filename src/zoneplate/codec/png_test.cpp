@@ -22,7 +22,7 @@ enum ColorType { Grey = 0, Rgb = 2, Indexed = 3, GreyAlpha = 4, RgbAlpha = 6 };
 
 int channels_of(ColorType type) { return type == Rgb ? 3 : type == GreyAlpha ? 2 : type == RgbAlpha ? 4 : 1; }
 
-/// A picture of noise to be written by hand, as independent of libpng as zlib allows.
+/// An image of noise to be written by hand, as independent of libpng as zlib allows.
 struct Noise {
   int width, height, bit_depth;
   ColorType type;
@@ -151,12 +151,12 @@ void expect_decodes(const Noise& noise) {
   ASSERT_EQ(image.pixels16.empty(), noise.bit_depth != 16);
   for (int y = 0; y < noise.height; ++y) {
     for (int x = 0; x < noise.width; ++x) {
-      const Rgba16 wanted = wanted_pixel(noise, x, y);
+      const Rgba16 expected = wanted_pixel(noise, x, y);
       const auto rounded = [](int code) { return static_cast<std::uint8_t>((2 * code + 257) / 514); };
-      const Rgba8 wanted8{rounded(wanted.r), rounded(wanted.g), rounded(wanted.b), rounded(wanted.a)};
+      const Rgba8 wanted8{rounded(expected.r), rounded(expected.g), rounded(expected.b), rounded(expected.a)};
       ASSERT_EQ(image.pixels(x, y), wanted8) << "type " << noise.type << ", " << noise.bit_depth << " bits";
       if (noise.bit_depth == 16) {
-        ASSERT_EQ(image.pixels16(x, y), wanted);
+        ASSERT_EQ(image.pixels16(x, y), expected);
       }
     }
   }
@@ -233,7 +233,7 @@ TEST(Png, EncodesAndDecodesTheSamePixels) {
   }
 }
 
-/// The names of the chunks in order, and the data of the last with the name asked for.
+/// The names of the chunks in order, and the data of the last with the given name.
 std::pair<std::string, std::string> chunks_of(const Bytes& png, std::string_view asked) {
   std::string names, data;
   for (std::size_t at = 8; at + 12 <= png.size();) {
@@ -306,7 +306,7 @@ TEST(Png, RefusesEveryFlippedBit) {
   for (std::size_t i = 0; i < good.size() * 8; ++i) {
     Bytes bad = good;
     bad[i / 8] = static_cast<std::uint8_t>(bad[i / 8] ^ (1 << (i % 8)));
-    // A chunk with another name may be an ancillary one, which is not read; it leaves no picture all the same.
+    // A chunk with another name may be an ancillary one, which is not read; it leaves no image all the same.
     EXPECT_NE(error_of(bad), "") << "bit " << i;
   }
 }

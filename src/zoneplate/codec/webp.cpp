@@ -24,7 +24,7 @@ struct Close {
 };
 using Encoder = std::unique_ptr<WebPAnimEncoder, Close>;
 
-/// A picture of libwebp, freed at the end.
+/// An image of libwebp, freed at the end.
 class Picture {
  public:
   Picture(const Rgba8Image& image, bool has_alpha) {

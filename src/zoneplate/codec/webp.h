@@ -12,7 +12,7 @@ namespace zoneplate {
 /// Units     WebP counts milliseconds: frame i begins at round(1000 i seconds / per), so that the error does not add
 /// up.
 ///
-/// Exact     lossless, also of colours that alpha hides; the same bytes with the same version of libwebp.
+/// Exact     lossless, including the colours of transparent pixels; the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed with libwebp's reason; sides above 16383 pixels are one.
 std::vector<std::uint8_t> encode_webp(const Animation& animation);
 

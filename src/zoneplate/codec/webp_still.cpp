@@ -33,7 +33,7 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   const auto pixels = static_cast<std::uint64_t>(features.width) * static_cast<std::uint64_t>(features.height);
   if (pixels > max_pixels)
     fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");
-  // Few bytes may well be a picture of one colour, but what is not one must not take its memory: libwebp's own is
+  // Few bytes may well be an image of one colour, but what is not one must not take its memory: libwebp's own is
   // taken as it is written.
   constexpr std::uint64_t most_per_byte = 256;
   check_deadline();
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
   WebPMemoryWriterClear(&writer);
   WebPPictureFree(&picture);
   if (!is_done)
-    throw Error(ErrorKind::Failed, "a picture of " + std::to_string(image.width()) + " x " +
+    throw Error(ErrorKind::Failed, "an image of " + std::to_string(image.width()) + " x " +
                                        std::to_string(image.height()) + " pixels cannot be encoded as WebP");
   return out;
 }

@@ -17,12 +17,12 @@ bool is_webp(std::span<const std::uint8_t> bytes);
 /// Width and height as a WebP's header states them.
 std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 
-/// Decodes a WebP picture.
+/// Decodes a WebP image.
 ///
 /// Errors    ErrorKind::Input with `name` in front: corrupt, animated, more than `max_pixels`.
 Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
-/// A lossless WebP file, also of colours that alpha hides; without alpha, the picture's alpha is not written.
+/// A lossless WebP file, including the colours of transparent pixels; without `has_alpha`, alpha is not written.
 ///
 /// Exact     the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed: sides above 16383 pixels.

@@ -47,7 +47,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The extension that says how the file is read.
+/// The extension that selects the reader.
 std::string extension_of(const std::string& name, const std::string& format) {
   if (format.empty()) return lower_case(std::filesystem::path(name).extension().string());
   return lower_case((format.starts_with('.') ? "" : ".") + format);
@@ -65,26 +65,26 @@ bool is_builtin_scene(std::string_view name) {
 
 namespace {
 
-/// Reads a file of a format that is known, or finds out why it is not.
+/// Reads a file of a supported format, or throws an error with the cause.
 Scene read_file(const std::string& name, const LoadOptions& options) {
-  std::string wanted;
-  for (const SceneFormat& format : formats) wanted.append(wanted.empty() ? "" : ", ").append(format.extension);
+  std::string readable;
+  for (const SceneFormat& format : formats) readable.append(readable.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
-    throw Error(ErrorKind::Usage, "standard input requires --format (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "standard input requires --format (" + readable + ")");
   const std::string extension = extension_of(name, options.format);
   for (std::size_t i = 0; i < std::size(formats); ++i)
     if (extension == formats[i].extension) return loaders[i](name, options);
   for (const SceneFormat& format : assimp_formats())
     if (extension == format.extension) return load_by_assimp(name, extension, limits_of(options));
 
-  wanted += " and others, see zoneplate list formats";
+  readable += " and others, see zoneplate list formats";
   if (!options.format.empty())
-    throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + wanted + ")");
+    throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + readable + ")");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(name, ignored);
   if (exists && (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp"))
     throw Error(ErrorKind::Input, name + ": is an image, expected a model; zoneplate filter antialiases images");
-  throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + wanted + ")"
+  throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + readable + ")"
                                        : name + ": no such file, and no built-in scene of that name");
 }
 
@@ -95,7 +95,7 @@ Scene read_watched(const std::string& name, const LoadOptions& options) {
   return scene;
 }
 
-/// The same in a child process, as the libraries are that open one for themselves.
+/// read_watched in a child process with limits on its resources.
 Scene read_in_child(const std::string& name, const LoadOptions& options) {
   ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
   LimitedChild child(

@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// A row of pixels as floats: those of a pixel follow one another, so that it has channels × width of them.
+/// A row of pixels as floats: channels × width values, the channels of a pixel contiguous.
 template <class Pixel>
 inline constexpr std::size_t channels = sizeof(Pixel) / sizeof(float);
 

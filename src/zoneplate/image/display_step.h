@@ -8,13 +8,13 @@
 
 namespace zoneplate {
 
-/// What make_display does to each pixel, with the background made ready.
+/// The display transform of a pixel, with the background converted.
 struct DisplayStep {
   ToneMapping mapping = ToneMapping::None;  ///< None where raw
   float exposure = 1;
   bool is_encoded = true;
   bool is_transparent = false;
-  float code[4] = {0, 0, 0, 1};   ///< the background as shown, straight; all 0 where its alpha is 0
+  float code[4] = {0, 0, 0, 1};   ///< the background, encoded, straight alpha; all 0 if its alpha is 0
   float light[4] = {0, 0, 0, 1};  ///< the background in linear light, premultiplied
 };
 

@@ -14,14 +14,14 @@ void show_light(std::span<const Linear> pixels, const DisplayOptions& options, f
 /// make_display of some pixels: straight and encoded, four floats a pixel.
 void show_encoded(std::span<const Linear> pixels, const DisplayOptions& options, float* encoded);
 
-/// quantize8 of make_display, a few pixels at a time: for those that are shown while they are in cache.
+/// quantize8 of make_display, a few pixels at a time, while they are in the cache.
 class DisplayTransform {
  public:
   explicit DisplayTransform(const DisplayOptions& options);
 
-  /// `out` has room for eight pixels a group.
+  /// `out` has eight pixels for each group.
   void present(std::span<const Linear8> groups, Rgba8* out) const;
-  /// What is shown where the picture is empty.
+  /// The display-referred colour of empty pixels.
   Rgba8 background() const { return background_; }
 
  private:

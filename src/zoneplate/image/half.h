@@ -7,7 +7,7 @@ namespace zoneplate {
 
 /// The bits of the 16-bit float (IEEE 754 binary16) nearest to `value`, ties to even.
 ///
-/// Edges     beyond 65504 it stays 65504, infinity too: no pixel becomes infinite; what is not a number becomes 0.
+/// Edges     values above 65504, including infinity, become 65504: no pixel becomes infinite; NaN becomes 0.
 /// Exact     integer arithmetic only.
 constexpr std::uint16_t half_bits(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value), sign = bits >> 16 & 0x8000;

@@ -130,7 +130,7 @@ TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
       kernels.decode(in.data(), found.data(), n);
       EXPECT_EQ(found, wanted) << name_of(isa);
 
-      // One more code than asked for shows a kernel that writes past the end.
+      // One more code than the kernel may write detects a write past the end.
       std::vector<std::uint8_t> wanted8(n + 1, 9), found8(n + 1, 9);
       TransferKernels::scalar.quantize8(in.data(), wanted8.data(), n);
       kernels.quantize8(in.data(), found8.data(), n);

@@ -14,7 +14,7 @@ namespace zoneplate {
 /// Errors are in units in the last place of the result (one ulp is 2^-23 of the power of two below it),
 /// measured against long double over the whole range (elementary_test.cpp holds them).
 ///
-/// Requires  no argument is infinite or not a number, unless said otherwise.
+/// Requires  arguments are finite, unless stated otherwise.
 
 namespace elementary {
 
@@ -108,7 +108,7 @@ constexpr float log2(float x) {
   return l.e + (l.s * two_log2_e_head + l.s * tail);
 }
 
-/// The logarithm to base 2 where four digits do. Requires: x normal, positive. Exact: within 1/3000; at powers of two.
+/// The logarithm to base 2 with four digits. Requires: x normal, positive. Exact: within 1/3000; at powers of two.
 constexpr float coarse_log2(float x) {
   using namespace elementary;
   const std::int32_t bits = std::bit_cast<std::int32_t>(x);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// |value - truth| in units in the last place of the float nearest to the truth.
+/// |value - truth| in units in the last place of the float nearest to the exact value.
 double ulps(float value, long double truth) {
   int exponent = 0;
   std::frexp(static_cast<double>(truth), &exponent);

@@ -1,4 +1,4 @@
-// The way along a row, included by *_simd.cpp files only.
+// Loops over a row by vectors, included by *_simd.cpp files only.
 #if defined(ZONEPLATE_MATH_FOR_LANES_SIMD_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ZONEPLATE_MATH_FOR_LANES_SIMD_H_
 #undef ZONEPLATE_MATH_FOR_LANES_SIMD_H_

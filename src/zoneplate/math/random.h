@@ -4,7 +4,7 @@
 
 namespace zoneplate {
 
-/// A counter-based random word: the same key gives the same word, and no generator is stored.
+/// A counter-based random word: equal keys give equal words, and no generator state is stored.
 ///
 /// Exact     integer arithmetic only; the same on every machine.
 /// Source    the 32-bit finaliser of Chris Wellons' hash prospector ("lowbias32", constants found by search).

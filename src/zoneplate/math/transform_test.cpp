@@ -10,8 +10,8 @@ namespace {
 
 constexpr float half_pi = 1.57079632679f;
 
-void expect_near(float3 found, float3 wanted, float tolerance = 1e-6f) {
-  EXPECT_LE(length(found - wanted), tolerance) << found.x << ' ' << found.y << ' ' << found.z;
+void expect_near(float3 found, float3 expected, float tolerance = 1e-6f) {
+  EXPECT_LE(length(found - expected), tolerance) << found.x << ' ' << found.y << ' ' << found.z;
 }
 
 float3 projected(const float4x4& m, float3 p) {

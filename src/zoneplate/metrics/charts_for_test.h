@@ -7,13 +7,13 @@
 
 namespace zoneplate::metrics {
 
-/// The four pairs of 256 × 128 pictures for which published implementations of FLIP, SSIM and PSNR were run.
+/// The four pairs of 256 × 128 images for which published implementations of FLIP, SSIM and PSNR were run.
 /// Their values are light for FLIP and codes for the others.
 struct ChartPair {
   LinearImage reference, test;
 };
 
-/// A picture made pixel by pixel of `color_at(x, y)`, a Linear.
+/// An image made pixel by pixel of `color_at(x, y)`, a Linear.
 template <class ColorAt>
 LinearImage make_chart(int width, int height, const ColorAt& color_at) {
   LinearImage image(width, height);

@@ -10,7 +10,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// One metric at work on a list of pictures.
+/// One metric at work on a list of images.
 struct Measurement {
   const Choice* choice = nullptr;
   bool is_left_out = false;
@@ -21,7 +21,7 @@ bool is_worse(const Metric& metric, double a, double b) { return metric.better =
 
 std::string size_of(const Picture& picture) { return fmt::format("{} × {}", picture.width(), picture.height()); }
 
-/// Why a metric cannot judge two pictures of these sizes; empty where it can.
+/// Why a metric cannot judge two images of these sizes; empty where it can.
 std::string objection(const Metric& metric, const Picture& reference, const Picture& test) {
   if (std::min(test.width(), test.height()) < metric.smallest) {
     return fmt::format("has {} pixels, expected {} × {} at least", size_of(test), metric.smallest, metric.smallest);
@@ -34,12 +34,12 @@ std::string objection(const Metric& metric, const Picture& reference, const Pict
   return {};
 }
 
-/// Refuses pictures of different sizes where no metric wants them so.
+/// Throws for images of different sizes if no metric allows them.
 void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test, std::size_t index) {
   const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
   const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
   if (is_equal || std::ranges::any_of(choices, takes_any)) return;
-  throw Error(ErrorKind::Input, fmt::format("picture {} has {} pixels, expected {} as the reference", index + 1,
+  throw Error(ErrorKind::Input, fmt::format("image {} has {} pixels, expected {} as the reference", index + 1,
                                             size_of(test), size_of(reference)));
 }
 
@@ -47,16 +47,16 @@ bool has_same_codes(const Picture& a, const Picture& b) { return a.display == b.
 
 void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string& why) {
   if (unfit == Unfit::Refuse) {
-    throw Error(ErrorKind::Input, fmt::format("metric {}: picture {} {}", m.choice->metric->name, index + 1, why));
+    throw Error(ErrorKind::Input, fmt::format("metric {}: image {} {}", m.choice->metric->name, index + 1, why));
   }
   m.is_left_out = true;
 }
 
-/// Judges the last frames of the window, of which the newest is picture `index`.
+/// Judges the last frames of the window, of which the newest is image `index`.
 void measure(Measurement& m, Frames reference, Frames test, std::size_t index, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
-  const auto wanted = static_cast<std::size_t>(metric.frames);
-  const std::size_t frames = metric.starts_short ? std::min(wanted, reference.size()) : wanted;
+  const auto required = static_cast<std::size_t>(metric.frames);
+  const std::size_t frames = metric.starts_short ? std::min(required, reference.size()) : required;
   if (m.is_left_out || reference.size() < frames) return;
   const std::string why = objection(metric, reference.back(), test.back());
   if (!why.empty()) return leave_out(m, unfit, index, why);

@@ -44,7 +44,7 @@ TEST(Compare, OnePairByTheUsualMetrics) {
   EXPECT_TRUE(find(c, "ssim"));
   EXPECT_FALSE(find(c, "ms_ssim"));   // too small
   EXPECT_FALSE(find(c, "flicker"));   // one frame
-  EXPECT_FALSE(find(c, "flip_hdr"));  // not asked for
+  EXPECT_FALSE(find(c, "flip_hdr"));  // not selected
 }
 
 TEST(Compare, SequencesArePooledAndKeepTheirWorst) {
@@ -88,14 +88,14 @@ std::string refusal(const Picture& a, const Picture& b, std::string_view name) {
 
 TEST(Compare, SaysWhyAMetricDoesNotFit) {
   EXPECT_EQ(refusal(flat(0, 8), flat(0, 8), "ssim"),
-            "metric ssim: picture 1 has 8 × 8 pixels, expected 11 × 11 at least");
-  EXPECT_EQ(refusal(flat(0, 8), flat(0, 9), "mse"), "picture 1 has 9 × 9 pixels, expected 8 × 8 as the reference");
+            "metric ssim: image 1 has 8 × 8 pixels, expected 11 × 11 at least");
+  EXPECT_EQ(refusal(flat(0, 8), flat(0, 9), "mse"), "image 1 has 9 × 9 pixels, expected 8 × 8 as the reference");
   EXPECT_EQ(refusal(flat(0, 40), flat(0, 16), "above_nyquist"),
-            "metric above_nyquist: picture 1 has 16 × 16 pixels, expected 40 × 40 as the reference");
+            "metric above_nyquist: image 1 has 16 × 16 pixels, expected 40 × 40 as the reference");
   EXPECT_EQ(refusal(flat(0), flat(0), "edge_response"),
-            "metric edge_response: picture 1 has nothing that it could measure");
+            "metric edge_response: image 1 has nothing that it could measure");
   EXPECT_EQ(refusal(flat(0), flat(0), "flicker"),
-            "metric flicker: picture 1 is not one of 2 or more frames of a sequence");
+            "metric flicker: image 1 is not one of 2 or more frames of a sequence");
 }
 
 TEST(Threshold, LooksTheRightWay) {

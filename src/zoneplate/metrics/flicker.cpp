@@ -1,7 +1,7 @@
 // Flicker: change from frame to frame that the reference does not have.
 //
 // A still scene whose edges shimmer scores what shimmers; a moving one scores only what moves otherwise than the
-// reference. Weak on blur, which lowers it: read it beside a measure of sharpness (edge_response).
+// reference. Weak on blur, which lowers it: use it together with a measure of sharpness (edge_response).
 #include <algorithm>
 #include <cmath>
 
@@ -29,14 +29,14 @@ Plane<double> change(Frames frames) {
 }
 
 Score measure(Frames reference, Frames test) {
-  const Plane<double> wanted = change(reference);
+  const Plane<double> expected = change(reference);
   Plane<double> found = change(test);
   Score score;
-  score.more = {{"change", root_mean_square(found), "code"}, {"reference_change", root_mean_square(wanted), "code"}};
+  score.more = {{"change", root_mean_square(found), "code"}, {"reference_change", root_mean_square(expected), "code"}};
   score.map = Plane<float>(found.width(), found.height());
   for (std::size_t i = 0; i < found.values().size(); ++i) {
     double& excess = found.values()[i];
-    excess -= wanted.values()[i];
+    excess -= expected.values()[i];
     score.map.values()[i] = static_cast<float>(std::min(1.0, std::abs(excess)));
   }
   score.value = root_mean_square(found);

@@ -71,7 +71,7 @@ TEST(PixelMetrics, SequencesPoolTheirErrorsNotTheirDecibels) {
   EXPECT_EQ(pool_psnr(exact), infinity);
 }
 
-// Every metric of pictures, of itself and of others.
+// Every metric of images, of itself and of others.
 DisplayImage noise(std::uint32_t seed, int width, int height) {
   DisplayImage image(width, height);
   for (int y = 0; y < height; ++y) {

@@ -83,14 +83,14 @@ bool is_picture_name(const fs::path& path) {
   return std::ranges::find(known, extension) != known.end();
 }
 
-/// The paths of a directory's files for which `is_wanted(name)`.
-template <class Wanted>
-std::vector<std::string> files_of(const fs::path& directory, const Wanted& is_wanted) {
+/// The paths of a directory's files for which `accepts(name)`.
+template <class Accepts>
+std::vector<std::string> files_of(const fs::path& directory, const Accepts& accepts) {
   std::vector<std::string> paths;
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code ignored;
-    if (entry->is_regular_file(ignored) && is_wanted(entry->path().filename())) paths.push_back(entry->path().string());
+    if (entry->is_regular_file(ignored) && accepts(entry->path().filename())) paths.push_back(entry->path().string());
   }
   if (error) throw Error(ErrorKind::Input, fmt::format("{}: {}", directory.string(), error.message()));
   std::ranges::sort(paths, comes_before);
@@ -186,15 +186,15 @@ PicturePairs pair_pictures(const std::string& reference, const std::string& test
   PicturePairs pairs{list_pictures(reference), list_pictures(test)};
   if (is_directory(reference) && is_directory(test)) {
     if (const std::string* alone = find_alone(pairs.reference, pairs.test)) {
-      throw Error(ErrorKind::Input, fmt::format("{}: no picture of that name in {}", *alone, test));
+      throw Error(ErrorKind::Input, fmt::format("{}: no image of that name in {}", *alone, test));
     }
     if (const std::string* alone = find_alone(pairs.test, pairs.reference)) {
-      throw Error(ErrorKind::Input, fmt::format("{}: no picture of that name in {}", *alone, reference));
+      throw Error(ErrorKind::Input, fmt::format("{}: no image of that name in {}", *alone, reference));
     }
   }
   if (pairs.reference.size() != pairs.test.size()) {
-    throw Error(ErrorKind::Input, fmt::format("{} has {} pictures, {} has {}", reference, pairs.reference.size(), test,
-                                              pairs.test.size()));
+    throw Error(ErrorKind::Input,
+                fmt::format("{} has {} images, {} has {}", reference, pairs.reference.size(), test, pairs.test.size()));
   }
   return pairs;
 }

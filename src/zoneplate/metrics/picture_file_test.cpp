@@ -125,12 +125,12 @@ TEST_F(PictureFile, DirectoriesPairByName) {
     pair_pictures(at("a"), at("b"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.what(), at("b/z.png") + ": no picture of that name in " + at("a"));
+    EXPECT_EQ(error.what(), at("b/z.png") + ": no image of that name in " + at("a"));
   }
   EXPECT_THROW(pair_pictures(at("a"), at("b/x.png")), Error);
 }
 
-// Pictures of other renderers, where they lie beside the sources: the decibels between two rasterisers' pictures of a
+// Images of other renderers, where they lie beside the sources: the decibels between two rasterisers' images of a
 // scene, best and worst of all pairs, as they were published with them.
 struct PublishedDistance {
   const char* scene;

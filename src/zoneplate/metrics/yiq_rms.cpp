@@ -1,8 +1,8 @@
-// The root mean square of squared YIQ colour distances, in decibels: how renderers are compared with the pictures
+// The root mean square of squared YIQ colour distances, in decibels: how renderers are compared with the images
 // in glTF's render fidelity collection, where two rasterisers of the same scene differ by -16 to -35 dB.
 //
 // It squares the distance twice, so a few wrong pixels outweigh a slight error everywhere.
-// Not symmetric: pixels that are empty in the test picture do not count.
+// Not symmetric: pixels that are empty in the test image do not count.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,7 +18,7 @@ namespace {
 // The greatest distance, between black and white, codes 0 to 255.
 constexpr double greatest_distance = 35215;
 
-/// A picture's codes in 0 to 255, on white.
+/// An image's codes in 0 to 255, on white.
 Codes codes_on_white(Display c) {
   const double alpha = c.a;
   const auto blend = [alpha](double code) { return 255 + (255 * code - 255) * alpha; };

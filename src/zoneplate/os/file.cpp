@@ -104,7 +104,7 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
   if (S_ISDIR(status.st_mode)) throw read_error(path, "it is a directory");
 
-  // A file that says how large it is, is mapped; what cannot be mapped is read.
+  // A file with a known size is mapped; other inputs are read.
   if (S_ISREG(status.st_mode) && status.st_size > 0 && !is_stdin) {
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit) throw too_large(path, limit);
@@ -180,10 +180,10 @@ void leave(Slot* slot) {
 
 }  // namespace
 
-/// A new file beside `target`, which it becomes by `commit`, or else disappears.
+/// A new file in the folder of `target`, which replaces it by `commit`, or is removed.
 class FileWriter::Temporary {
  public:
-  Temporary(const std::filesystem::path& target, const std::string& asked) : target_(target.string()) {
+  Temporary(const std::filesystem::path& target, const std::string& name) : target_(target.string()) {
     // Only part of a very long name is used, so that the temporary name is not too long either.
     const std::string stem = "." + target.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
     for (int attempt = 0; attempt < 100; ++attempt) {
@@ -194,10 +194,10 @@ class FileWriter::Temporary {
       if (fd_ >= 0) return;
       const int error = errno;
       leave(slot_);
-      if (error == ENOENT) throw write_error(asked, "no directory " + target.parent_path().string());
-      if (error != EEXIST) throw write_error(asked, cause_of(error));
+      if (error == ENOENT) throw write_error(name, "no directory " + target.parent_path().string());
+      if (error != EEXIST) throw write_error(name, cause_of(error));
     }
-    throw write_error(asked, "its temporary names are taken, as " + path_);
+    throw write_error(name, "its temporary names are taken, as " + path_);
   }
 
   ~Temporary() {
@@ -211,9 +211,9 @@ class FileWriter::Temporary {
 
   int fd() const { return fd_; }
 
-  void commit(const std::string& asked) {
-    if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) throw write_error(asked, cause_of(errno));
-    if (::rename(path_.c_str(), target_.c_str()) != 0) throw write_error(asked, cause_of(errno));
+  void commit(const std::string& name) {
+    if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) throw write_error(name, cause_of(errno));
+    if (::rename(path_.c_str(), target_.c_str()) != 0) throw write_error(name, cause_of(errno));
     is_committed_ = true;
   }
 
@@ -250,7 +250,7 @@ class PipeSignalBlocked {
   bool was_pending_ = false;
 };
 
-void write_all(int fd, std::span<const std::uint8_t> bytes, const std::string& asked) {
+void write_all(int fd, std::span<const std::uint8_t> bytes, const std::string& name) {
   const PipeSignalBlocked guard;
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{1} << 30));
@@ -260,7 +260,7 @@ void write_all(int fd, std::span<const std::uint8_t> bytes, const std::string& a
       pollfd wait{fd, POLLOUT, 0};
       ::poll(&wait, 1, -1);
     } else if (n == 0 || errno != EINTR) {
-      throw write_error(asked, n == 0 ? "nothing more is accepted" : cause_of(errno));
+      throw write_error(name, n == 0 ? "nothing more is accepted" : cause_of(errno));
     }
   }
 }
@@ -280,8 +280,8 @@ bool is_process_or_device(const std::filesystem::path& path) {
 }
 
 /// The name at the end of a chain of symbolic links, whether it exists or not.
-std::filesystem::path follow_links(const std::string& asked) {
-  std::filesystem::path path = asked;
+std::filesystem::path follow_links(const std::string& name) {
+  std::filesystem::path path = name;
   for (int links = 0; links < 40; ++links) {
     std::error_code none;
     if (is_process_or_device(path)) return path;
@@ -289,7 +289,7 @@ std::filesystem::path follow_links(const std::string& asked) {
     if (none) return path;
     path = path.parent_path() / next;
   }
-  throw write_error(asked, cause_of(ELOOP));
+  throw write_error(name, cause_of(ELOOP));
 }
 
 void check_name(const std::string& path) {

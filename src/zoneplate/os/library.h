@@ -7,8 +7,8 @@
 
 namespace zoneplate {
 
-/// Shared libraries that few files need. Each is opened by the first such file: opening one takes as long as rendering
-/// a small picture.
+/// Shared libraries that few files need. Each is loaded by the first such file: loading one takes as long as rendering
+/// a small image.
 enum class Library { Assimp, Meshoptimizer, OpenExr };
 
 /// Thrown in a sandboxed child, which has no right to load code, for a library that its parent had not opened. It is no

@@ -24,7 +24,7 @@ namespace {
 /// A fact of the process, as its number is: written once, before the child has a second thread.
 bool is_child = false;
 
-/// The first byte of an answer: this, or the kind of trouble that the rest, a text, tells of.
+/// The first byte of an answer: this, or the kind of the error whose message follows.
 constexpr std::uint8_t good = 255;
 
 void write_whole(int pipe, const void* data, std::size_t size) {
@@ -37,7 +37,7 @@ void write_whole(int pipe, const void* data, std::size_t size) {
   }
 }
 
-[[noreturn]] void tell(int pipe, ErrorKind trouble, const std::string& cause) {
+[[noreturn]] void send_error(int pipe, ErrorKind trouble, const std::string& cause) {
   const auto kind = static_cast<std::uint8_t>(trouble);
   write_whole(pipe, &kind, 1);
   write_whole(pipe, cause.data(), cause.size());
@@ -72,12 +72,12 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
       ::_exit(0);  // the kernel ends the other threads sooner than they could be joined
     });
   } catch (const Error& error) {
-    if (!answer.is_begun()) tell(pipe, error.trouble(), error.what());
+    if (!answer.is_begun()) send_error(pipe, error.trouble(), error.what());
   } catch (const LibraryNeeded& needed) {
-    if (!answer.is_begun()) tell(pipe, ErrorKind::Input, needed.what());
+    if (!answer.is_begun()) send_error(pipe, ErrorKind::Input, needed.what());
   } catch (const std::exception&) {
     if (!answer.is_begun())
-      tell(pipe, ErrorKind::Input, with_options(task.place + ": needs more memory than the limit", task.limits));
+      send_error(pipe, ErrorKind::Input, with_options(task.place + ": needs more memory than the limit", task.limits));
   }
   ::_exit(1);
 }

@@ -13,7 +13,7 @@ namespace zoneplate {
 class ChildAnswer {
  public:
   explicit ChildAnswer(int pipe) : pipe_(pipe) {}
-  /// Never returns where nobody reads any more.
+  /// Never returns if the reader is gone.
   void write(const void* data, std::size_t size);
   bool is_begun() const { return is_begun_; }
 
@@ -22,10 +22,10 @@ class ChildAnswer {
   bool is_begun_ = false;
 };
 
-/// True in the process of a LimitedChild: what would be put into one can be done here.
+/// True in the process of a LimitedChild, where work needs no further child.
 bool is_limited_child();
 
-/// Work on data that may be hostile, in a process of its own, a copy of this one, that may be lost.
+/// Work on untrusted data in a child process, a copy of this one.
 ///
 /// The child has limits on memory and time and the sandbox of sandbox.h; it ends with its parent, and is killed with
 /// this object. `work` makes its result first and writes it then: an Error that it throws before it writes is thrown

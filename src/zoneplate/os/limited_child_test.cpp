@@ -38,8 +38,8 @@ void answer_one(ChildAnswer& answer) {
 }
 
 TEST(LimitedChild, AnswersFromManyThreads) {
-  std::vector<std::uint32_t> wanted(1 << 20);
-  std::iota(wanted.begin(), wanted.end(), 7u);
+  std::vector<std::uint32_t> expected(1 << 20);
+  std::iota(expected.begin(), expected.end(), 7u);
   with_threads(3, [&] {
     LimitedChild child("model.xyz", {}, [](ChildAnswer& answer) {
       std::vector<std::uint32_t> values(1 << 20);
@@ -50,7 +50,7 @@ TEST(LimitedChild, AnswersFromManyThreads) {
     });
     std::vector<std::uint32_t> values(1 << 20);
     child.read(values.data(), values.size() * 4);
-    EXPECT_EQ(values, wanted);
+    EXPECT_EQ(values, expected);
   });
 }
 

@@ -25,7 +25,7 @@ constinit std::atomic<std::uint32_t> losses{0};
 
 struct sigaction before {};
 
-// What is lost reaches to the end, or else is of a disk of which nothing more is expected.
+// Replaces the pages from the lost one to the end of the mapping by zeros: the file was truncated, or its disk failed.
 void replace_lost(int, siginfo_t* info, void*) {
   constexpr std::uintptr_t page = 4096;
   const int error = errno;

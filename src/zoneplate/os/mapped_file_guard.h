@@ -12,7 +12,7 @@ namespace zoneplate {
 /// For programs: the signal is the whole process's. Of memory that is not a FileBytes's it does what it did before.
 void survive_truncated_mappings();
 
-/// Tells readers at their end whether what they read was there.
+/// Reports whether all bytes that were read since its construction existed.
 class MappedFileWatch {
  public:
   MappedFileWatch();

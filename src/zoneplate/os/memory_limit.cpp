@@ -34,8 +34,8 @@ void limit_memory(std::uint64_t bytes) {
   const std::uint64_t pages = pages_of_data();
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const rlim_t wanted = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
-  limit.rlim_cur = std::min(wanted, limit.rlim_max);
+  const rlim_t requested = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
+  limit.rlim_cur = std::min(requested, limit.rlim_max);
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 

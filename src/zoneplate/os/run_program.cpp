@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::string_view usual_folders = "/usr/local/bin:/usr/bin:/bin";
 
-/// The folders of PATH, then the usual ones. Those that are not absolute are passed over: a program must not depend on
+/// The folders of PATH, then the usual ones. Those that are not absolute are ignored: a program must not depend on
 /// the working directory.
 std::string search_path() {
   const char* const variable = std::getenv("PATH");

@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// What a program that ran to its end left behind.
+/// The results of a program that has ended.
 struct ProgramResult {
   int code = 0;                   ///< its exit code; 128 + n where signal n ended it
   std::vector<std::uint8_t> out;  ///< all of stdout

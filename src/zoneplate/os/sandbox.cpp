@@ -112,7 +112,7 @@ class Filter {
   bool is_complete_ = false;
 };
 
-/// The rights over files that the first version of Landlock knows.
+/// The rights over files that the first version of Landlock supports.
 constexpr std::uint64_t first_rights = (std::uint64_t{1} << 13) - 1;
 
 long landlock_version() { return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION); }

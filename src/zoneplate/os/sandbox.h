@@ -7,14 +7,14 @@
 
 namespace zoneplate {
 
-/// What the kernel offers to confine a process.
+/// The kernel's features to confine a process.
 struct SandboxSupport {
   bool filters_calls = false;  ///< seccomp, Linux 3.5
   bool limits_files = false;   ///< Landlock, Linux 5.13
 };
 SandboxSupport sandbox_support();
 
-/// Takes from this process, for ever, every right that reading and rendering a model does not need.
+/// Permanently removes every right of this process that reading and rendering a model does not need.
 ///
 /// From here on it may read the files and folders of `readable` and what is below them (nothing: every file that its
 /// user may read), allocate memory, start threads, and read and write what is open already. Any other system call (to

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int width = 160, height = 120;
 
-/// Triangles that face an orthographic camera whose picture has a unit a pixel; (0, 0) is the picture's top-left corner
+/// Triangles that face an orthographic camera whose image has a unit a pixel; (0, 0) is the image's top-left corner
 /// and y goes down.
 Scene flat_scene(std::vector<float3> corners, Material material = {}) {
   Scene scene;

@@ -144,14 +144,14 @@ void find_distances(const float4x4& clip_from_camera, Frame& frame) {
 void check(const RenderOptions& o, const Request& request) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::Usage, what); };
   if (o.width < 1 || o.height < 1 || o.width > 32768 || o.height > 32768)
-    reject("a picture has 1 to 32768 pixels a side, not " + std::to_string(o.width) + " × " + std::to_string(o.height));
+    reject("an image has 1 to 32768 pixels a side, not " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (const Crop c = o.crop.value_or(Crop{0, 0, o.width, o.height});
       c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > o.width - c.width || c.y > o.height - c.height)
-    reject("the crop must lie within the picture of " + std::to_string(o.width) + " × " + std::to_string(o.height));
+    reject("the crop must lie within the image of " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
   if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))
-    reject("a method that draws for itself gives a linear picture and has no samples");
+    reject("a method that draws for itself gives a linear image and has no samples");
   assert(request.content == Content::Colour || !(request.draw || request.writes_display8));
   assert(request.content != Content::Data || !(request.planes.samples || request.planes.sample_colors));
   assert(request.content != Content::EdgeDistances || request.samples.size() == 1);

@@ -187,7 +187,7 @@ TEST(Renderer, AnotherSizeBeginsASequence) {
   EXPECT_EQ(indices, (std::vector<int>{0, 0, 0, 1}));
 }
 
-/// Sixteen samples where the first round's four disagree, and a blur of the display-referred picture that reads two
+/// Sixteen samples where the first round's four disagree, and a blur of the display-referred image that reads two
 /// pixels beyond its own.
 class TwoRounds : public Resolver {
  public:

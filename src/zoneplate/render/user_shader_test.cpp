@@ -5,7 +5,7 @@
 namespace zoneplate {
 namespace {
 
-/// A triangle over the whole picture whose colour is the place on the screen.
+/// A triangle over the whole image whose colour is the place on the screen.
 struct Place {
   struct Varyings {
     float x, y;

@@ -13,9 +13,9 @@ float3 eye_of(const Camera& camera) { return xyz(camera.world_from_camera.column
 float3 forward_of(const Camera& camera) { return -xyz(camera.world_from_camera.column[2]); }
 float3 up_of(const Camera& camera) { return xyz(camera.world_from_camera.column[1]); }
 
-void expect_near(float3 found, float3 wanted, float tolerance = 1e-5f) {
-  EXPECT_LE(length(found - wanted), tolerance)
-      << found.x << ' ' << found.y << ' ' << found.z << " is not " << wanted.x << ' ' << wanted.y << ' ' << wanted.z;
+void expect_near(float3 found, float3 expected, float tolerance = 1e-5f) {
+  EXPECT_LE(length(found - expected), tolerance) << found.x << ' ' << found.y << ' ' << found.z << " is not "
+                                                 << expected.x << ' ' << expected.y << ' ' << expected.z;
 }
 
 // A cube of side 2 round (10, 0, 0), and a camera that looks at it from +Z.

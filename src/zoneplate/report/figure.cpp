@@ -8,9 +8,9 @@
 namespace zoneplate {
 namespace {
 
-constexpr int least_width_em = 20;   // of a figure, so that a title has room over a small picture
-constexpr int hairline_share = 110;  // of 255: how dark a picture's outline is
-constexpr double title_scale = 1.5;  // as the header says
+constexpr int least_width_em = 20;   // of a figure, so that a title has room over a small image
+constexpr int hairline_share = 110;  // of 255: how dark an image's outline is
+constexpr double title_scale = 1.5;  // documented in the header
 
 struct Faces {
   explicit Faces(const FigureStyle& style)
@@ -47,7 +47,7 @@ Placed placed(const Faces& faces, const Panel& panel) {
           block(faces.text, has_heading ? caption.substr(end + 1) : caption, width)};
 }
 
-/// What is drawn on, from the top down.
+/// The image drawn on, from the top down.
 class Sheet {
  public:
   Sheet(int width, int height, const FigureStyle& style) : image_(width, height, opaque(style.paper)), style_(style) {}
@@ -75,7 +75,7 @@ class Sheet {
  private:
   static Rgba8 opaque(Rgba8 c) { return {c.r, c.g, c.b, 255}; }
 
-  /// True for a picture whose rim is paper all around, as a plot's.
+  /// True for an image whose rim is paper all around, as a plot's.
   bool fades_into_paper(const Rgba8Image& picture) const {
     const auto is_paper = [&](Rgba8 c) { return c.a == 0 || c == opaque(style_.paper); };
     const int w = picture.width(), h = picture.height();
@@ -86,7 +86,7 @@ class Sheet {
     return true;
   }
 
-  /// One pixel outside of the picture, so that light pictures end somewhere.
+  /// One pixel outside of the image, so that light images end somewhere.
   void outline(const Rgba8Image& picture, int left, int top) {
     const Rgba8 line = laid_over(opaque(style_.paper), style_.ink, hairline_share);
     const auto set = [&](int x, int y) {

@@ -50,7 +50,7 @@ TEST(Figure, KeepsThePixelsOfItsPicturesWhereTheyBelong) {
   EXPECT_TRUE(holds(figure, a, 10, 10));
   EXPECT_TRUE(holds(figure, b, 220, 10));
   EXPECT_TRUE(holds(figure, c, 10, 90));
-  EXPECT_NE(figure(9, 9), paper);  // the outline of the first picture
+  EXPECT_NE(figure(9, 9), paper);  // the outline of the first image
   EXPECT_EQ(figure(8, 8), paper);
   EXPECT_EQ(figure(5, 85), paper);
 }

@@ -11,8 +11,8 @@ namespace zoneplate {
 
 /// A JSON value to be written. Members of an object stay in the order in which they were added.
 ///
-/// Requires  strings are UTF-8; what is not is replaced by U+FFFD when written.
-/// Edges     a number that is not finite is written as null.
+/// Requires  strings are UTF-8; invalid bytes are written as U+FFFD.
+/// Edges     NaN and infinities are written as null.
 class Json {
  public:
   using Array = std::vector<Json>;

@@ -19,7 +19,7 @@ constexpr int margin_px = 10, heading_px = 30, key_row_px = 22, sample_px = 46, 
 constexpr double letter_em = 0.58;  // of DejaVu Sans, in the mean
 constexpr double line_px = 2.4, dash_px = 1.6, point_size = 1.1;
 
-/// One of gnuplot's terminals, and what has to be said in its units to be as large as in the others.
+/// One of gnuplot's terminals, and the sizes in its units that give the same layout as in the others.
 struct Terminal {
   const char* name;
   const char* more;
@@ -126,7 +126,7 @@ std::string axis_of(char name, const Axis& axis) {
   return text;
 }
 
-// Data are sent with 10 digits, far finer than a picture shows and the same whatever computed the last bits.
+// Data have 10 digits, far finer than the resolution of an image, and independent of errors in the last bits.
 std::string data_of(const Curve& curve, const std::string& block) {
   std::string text = block + " << EOD\n";
   assert(curve.labels.empty() || curve.labels.size() == curve.points.size());
@@ -193,7 +193,7 @@ std::string body_of(const Plot& plot, std::size_t number, const Terminal& termin
   return text + "plot " + (drawings.empty() ? "NaN notitle" : drawings) + "\nunset label 1\n";
 }
 
-// What is the same for every plot: a light grid, two axes instead of a frame, the key above the curves.
+// The common style of all plots: a light grid, two axes instead of a frame, the key above the curves.
 std::string style_of(const Terminal& terminal, int width, int height) {
   return fmt::format(
       "set encoding utf8\n"
@@ -207,7 +207,7 @@ std::string style_of(const Terminal& terminal, int width, int height) {
       terminal.name, width, height, text_px * terminal.font, terminal.more);
 }
 
-// What gnuplot is told.
+// The input of gnuplot.
 std::string script_of(std::span<const Plot> plots, int columns, const PlotSize& size, const Terminal& terminal) {
   assert(!plots.empty() && columns >= 1);
   const int count = static_cast<int>(plots.size()), rows = (count + columns - 1) / columns;

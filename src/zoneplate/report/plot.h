@@ -16,7 +16,7 @@ namespace zoneplate {
 struct Curve {
   enum class Mark {
     Line,
-    Dashed,  ///< thinner and behind what the others say: a reference, a limit
+    Dashed,  ///< thinner, and behind the other curves: a reference, a limit
     Points,
     LineAndPoints,
     Stems,  ///< a line from 0 to each point
@@ -27,17 +27,19 @@ struct Curve {
   std::string name;  ///< in the key; empty: none
   std::vector<std::pair<double, double>> points;
   Mark mark = Mark::Line;
-  /// Which colour of the palette; -1: the place among the curves; `grey`: for what should step back.
+  /// Index into the palette; -1: the index of the curve; `grey`: for background information.
   int color = -1;
   double opacity = 0.25;                 ///< of an Area
-  std::vector<std::string> labels = {};  ///< beside the points, as many as those, or none; some may be empty
+  std::vector<std::string> labels = {};  ///< next to the points, one for each, or none; some may be empty
   enum class Beside { RightAbove, LeftBelow } labels_are = Beside::RightAbove;
   static constexpr int grey = -2;
 };
 
 struct Axis {
-  std::string label;         ///< with its unit: "frequency (cycles per pixel)"
-  double low = 0, high = 0;  ///< both 0: as the data want; a logarithm of less than three decades has ticks at 1, 2, 5
+  std::string label;  ///< with its unit: "frequency (cycles per pixel)"
+  double low = 0,
+         high =
+             0;  ///< both 0: the range of the data; a logarithmic axis of less than three decades has ticks at 1, 2, 5
   bool is_logarithmic = false;
 };
 
@@ -51,7 +53,7 @@ struct PlotSize {
   int width = 720, height = 440;  ///< pixels of the PNG; the SVG has the same shape
 };
 
-/// The plot as the text of an SVG file, or as a picture; legible at half size.
+/// The plot as the text of an SVG file, or as an image; legible at half size.
 ///
 /// Drawn by gnuplot, a program of its own, in a child process with a time limit. Texts are shown as they are,
 /// but for ' which becomes ’.
@@ -60,13 +62,13 @@ struct PlotSize {
 std::string plot_svg(const Plot& plot, const PlotSize& size = {});
 Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {});
 
-/// Several plots of this size each, `columns` beside one another, row by row.
+/// Several plots of this size each, `columns` side by side, row by row.
 ///
 /// Requires  plots are not empty, columns >= 1.
 std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size = {});
 Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size = {});
 
-/// Colours that the colour-blind can tell apart, in the order in which curves take them.
+/// A palette for colour-blind readers, in the order of the curves.
 ///
 /// Source    Okabe and Ito, Color Universal Design, 2008; without its yellow, which is lost on white.
 std::span<const Rgba8> plot_palette();

@@ -52,7 +52,7 @@ Rgba8Image table_picture(const Table& table, const FigureStyle& style, int least
     return static_cast<int>((is_head ? head : text).width(cell) + 1);
   });
 
-  // What is left of the width goes between the columns.
+  // The remaining width is divided between the columns.
   int sum = 0;
   for (const int w : widths) sum += w;
   const int gaps = std::max(1, static_cast<int>(widths.size()) - 1);

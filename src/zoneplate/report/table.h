@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// Rows of words and numbers under a head. The first column stands at the left, the others, numbers, at the right.
+/// Rows of words and numbers under a head. The first column is left-aligned, the others, numbers, right-aligned.
 ///
 /// Requires  every row is as long as the head.
 struct Table {

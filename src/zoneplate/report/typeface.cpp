@@ -58,7 +58,7 @@ FT_Pos set_line(FT_Face face, std::string_view line, Use use) {
   return pen;
 }
 
-/// How many bytes of a word fit, at least its first letter.
+/// The number of bytes of a word that fit, at least its first letter.
 std::size_t fitting(const Typeface& face, std::string_view word, int width) {
   std::string_view rest = word;
   take(rest);

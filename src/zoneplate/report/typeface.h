@@ -12,10 +12,10 @@ struct FT_FaceRec_;
 
 namespace zoneplate {
 
-/// DejaVu Sans at one size: lines of text in pictures.
+/// DejaVu Sans at one size: lines of text in images.
 ///
-/// Letters stand at 1/64 pixel along the line, kerned, and on whole pixels across it.
-/// Shape     text is UTF-8; what is not, and what the font lacks, is shown by its sign for that.
+/// Letters are positioned to 1/64 pixel along the line, kerned, and to whole pixels across it.
+/// Shape     text is UTF-8; invalid bytes and characters that the font lacks are drawn as the replacement character.
 /// Units     pixels.
 /// Exact     the same bits on every machine with the same versions of the font and of FreeType.
 class Typeface {
@@ -33,7 +33,7 @@ class Typeface {
   /// a joint (after a hyphen, before an ending or a capital), or anywhere.
   std::vector<std::string> wrapped(std::string_view text, int width) const;
 
-  /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the picture clips it.
+  /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the image clips it.
   void draw(Rgba8Image& picture, int left, int top, std::string_view line, Rgba8 ink) const;
 
  private:

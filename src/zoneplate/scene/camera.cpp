@@ -93,7 +93,7 @@ void place(Camera& camera, const Axes& axes, Point origin, Point eye) {
 }  // namespace
 
 float4x4 Camera::clip_from_camera(float picture_aspect) const {
-  // All that the file's own frame shows is in the picture: a wider picture adds at the sides, a narrower one above.
+  // All that the file's own frame shows is in the image: a wider image adds at the sides, a narrower one above.
   const bool narrower = aspect > 0 && picture_aspect < aspect;
   if (is_orthographic) {
     const float height = narrower ? half_height * aspect / picture_aspect : half_height;

@@ -48,7 +48,7 @@ struct Placed {
   float3 point(std::size_t v) const { return transform_point(world_from_object, mesh.position[v]); }
 };
 
-// How far the used vertices of a block reach in each direction.
+// The extent of the used vertices of a block in each direction.
 Reach reach_of(const Placed& placed, std::size_t begin, std::size_t end, const Directions& directions) {
   constexpr std::size_t lanes = 24;  // whole vectors of any width up to eight
   std::array<float, lanes> x{}, y{}, z{}, reach;

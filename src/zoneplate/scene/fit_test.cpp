@@ -56,7 +56,7 @@ TEST(FitScene, AnEmptySceneHasACamera) {
   EXPECT_GT(camera.far, camera.near);
 }
 
-// Placements of one mesh are passed over where they cannot matter; meshes of their own are not.
+// Placements of one mesh are ignored where they cannot matter; meshes of their own are not.
 TEST(FitScene, SharedMeshesChangeNoBit) {
   Scene shared = cloud();
   shared.instances.clear();

@@ -37,7 +37,7 @@ Rgba16 widened(Rgba8 p) {
   return {wide(p.r), wide(p.g), wide(p.b), wide(p.a)};
 }
 
-/// Codes never become light: what they mean is not known here.
+/// Integer values are not converted to linear light: their encoding is unknown here.
 TexelKind kind_of(const TexelImage* color, const TexelImage& map) {
   if (color == nullptr || color->kind() == TexelKind::Light) return color == nullptr ? map.kind() : color->kind();
   return map.kind() == TexelKind::Codes8 ? color->kind() : TexelKind::Codes16;

@@ -6,7 +6,7 @@
 
 namespace zoneplate {
 
-/// Makes vertices that are not finite zero and drops the primitives that use one; says how many were dropped.
+/// Sets vertices that are not finite to zero and drops the primitives that use one; returns the number of dropped ones.
 ///
 /// Exact     the same bits for any number of threads.
 std::uint64_t drop_not_finite(Mesh& mesh);

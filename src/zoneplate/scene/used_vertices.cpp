@@ -13,7 +13,7 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t instances_per_range = 4096;
-/// Vertices that are looked at as quickly as a box.
+/// The number of vertices that cost as much as a box.
 constexpr std::size_t few_vertices = 64;
 
 /// As much as dot(axis, transform_point(m, p)), computed in floats, is for any point p of the box, or a little more.
@@ -131,7 +131,7 @@ std::vector<std::size_t> UsedVertices::reaching(std::span<const float3> axes) {
   const std::vector<std::size_t> farthest = farthest_by_box(axes);
   for (std::size_t a = 0; a < axes.size(); ++a) least.push_back(reach(instances[farthest[a]], axes[a]));
 
-  const auto is_wanted = [&](std::size_t i) {
+  const auto is_extreme = [&](std::size_t i) {
     const Instance& instance = instances[i];
     const auto mesh = static_cast<std::size_t>(instance.mesh);
     if (local_[mesh]->empty()) return false;
@@ -145,7 +145,7 @@ std::vector<std::size_t> UsedVertices::reaching(std::span<const float3> axes) {
   };
   serial_ranges(instances.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (is_wanted(i)) out.push_back(i);
+      if (is_extreme(i)) out.push_back(i);
   });
   return out;
 }

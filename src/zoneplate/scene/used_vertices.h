@@ -9,9 +9,9 @@
 
 namespace zoneplate {
 
-/// Which vertices of a scene's meshes a primitive uses. A mesh is looked through when it is first asked about.
+/// The vertices of a scene's meshes that primitives use. A mesh is analysed at its first query.
 ///
-/// Requires  the scene outlives it, unchanged.
+/// Requires  the scene outlives this object, unchanged.
 class UsedVertices {
  public:
   explicit UsedVertices(const Scene& scene)

@@ -7,10 +7,10 @@
 
 namespace zoneplate {
 
-/// The first thing in which a scene breaks what scene.h and the headers of its parts promise; nothing if it is sound.
+/// The first violation of the requirements of scene.h and the headers of its parts; nothing for a valid scene.
 ///
-/// Loaders make sound scenes only. A scene that comes from another process is checked with this before it is used:
-/// then every index is in range, every number finite and within what the renderer takes.
+/// Loaders make valid scenes only. A scene from another process is validated before use: then every index is in range,
+/// and every number finite and within the renderer's limits.
 /// Cost      linear in vertices, indices and instances.
 std::optional<std::string> find_invalid(const Scene& scene);
 

@@ -119,7 +119,7 @@ TEST(FindFlaw, WhatIsOfTheWholeSceneIsLookedAtToo) {
               s.instances[0].world_from_object.column[0].x = 2;
             }),
             "instance 0: its bounds are not finite");
-  // A vertex that no primitive uses may lie where it wants.
+  // A vertex that no primitive uses may have any position.
   EXPECT_EQ(flaw_after([](Scene& s) {
               s.meshes[0].position.push_back({3e38f, 0, 0}), s.meshes[0].normal.push_back({});
               s.instances[0].world_from_object.column[0].x = 2;

@@ -8,13 +8,13 @@
 
 namespace zoneplate {
 
-/// What a filter finds outside the image, shown for a row abcd.
+/// The values that a filter reads outside the image, for a row abcd.
 enum class Border {
   Clamp,    ///< aaaa abcd dddd
   Reflect,  ///< dcba abcd dcba: mirrored at the outer edge of the last pixel
   Wrap,     ///< abcd abcd abcd
   Zero,     ///< 0000 abcd 0000
-  Cut,      ///< nothing: of a kernel that reaches beyond, the rest is divided by its sum; for resample() alone
+  Cut,      ///< nothing: the weights inside are divided by their sum; for resample() only
 };
 
 /// "clamp", "reflect", "wrap", "zero", "cut".
@@ -23,17 +23,17 @@ const char* name_of(Border border);
 /// Errors    ErrorKind::Usage for another name.
 Border parse_border(std::string_view name);
 
-/// Which of the n pixels stands at index i, which may be far outside; -1 for none (Zero, Cut).
+/// The index of the pixel, of n, that replaces index i, which may be far outside; -1 for none (Zero, Cut).
 ///
 /// Requires  n >= 1.
 int border_index(int i, int n, Border border);
 
-/// How many pixels are added on each side.
+/// The number of pixels to be added on each side.
 struct Margins {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// The plane with its border written out; a plane without pixels stays as it is.
+/// The plane, padded by its border; a plane without pixels is unchanged.
 template <class T>
 Plane<T> padded(const Plane<T>& plane, Margins margins, Border border);
 

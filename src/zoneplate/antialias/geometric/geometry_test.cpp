@@ -15,7 +15,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// A white half-plane below the line y = 60 + slope (x - 80) of a picture of 160 × 120.
+/// A white half-plane below the line y = 60 + slope (x - 80) of an image of 160 × 120.
 Scene half_plane(float slope) {
   Mesh mesh;
   const float run = 400, rise = slope * run;
@@ -26,7 +26,7 @@ Scene half_plane(float slope) {
   return scene;
 }
 
-/// FNV-1a over the bits of a linear picture.
+/// FNV-1a over the bits of a linear image.
 std::uint64_t hash_of(const LinearImage& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Linear& c : image.values())

@@ -50,7 +50,7 @@ class Reconstruction {
 
   /// The mean of the neighbouring pixels that show the sample's triangle, or without any the one of most similar depth.
   Linear sample(std::size_t s, int x, int y) const {
-    const std::uint32_t wanted = triangle(s, x, y);
+    const std::uint32_t sample_id = triangle(s, x, y);
     const float z = depth(s, x, y);
     Linear sum{0, 0, 0, 0}, nearest = color_(x, y);
     int count = 0;
@@ -59,7 +59,7 @@ class Reconstruction {
       const int i = x + o.x, j = y + o.y;
       if (!is_inside(i, j)) continue;
       const Linear& color = color_(i, j);
-      if (triangle(0, i, j) == wanted) sum = sum + color, ++count;
+      if (triangle(0, i, j) == sample_id) sum = sum + color, ++count;
       // Reversed depth is proportional to 1 / distance: relative differences equal those of distances.
       const float other = depth(0, i, j), greater = std::max(z, other);
       const float unlike = greater > 0 ? std::abs(z - other) / greater : 0;

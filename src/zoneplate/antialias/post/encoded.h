@@ -41,18 +41,18 @@ Rgba8 encode_pixel(Linear light);
 /// The pixel (1 - t) a + t b, computed in linear light.
 Rgba8 mix_linear(Rgba8 a, Rgba8 b, float t);
 
-/// Rows of one block of work: the picture is cut the same way for every number of threads.
+/// Rows of one block of work: the image is cut the same way for every number of threads.
 inline constexpr std::size_t rows_a_block = 16;
 
-/// Calls `body(y)` for every row of a picture, blocks of rows in parallel.
+/// Calls `body(y)` for every row of an image, blocks of rows in parallel.
 void for_rows(int height, const std::function<void(int)>& body);
 
-/// Copies row y of a picture into another one of its size. (std::ranges::copy takes one pixel at a time.)
+/// Copies row y of an image into another one of its size. (std::ranges::copy takes one pixel at a time.)
 inline void copy_row(const Rgba8Image& from, Rgba8Image& to, int y) {
   std::memcpy(to.row(y).data(), from.row(y).data(), from.row(y).size_bytes());
 }
 
-/// Allocates a picture of the size of `like`, or takes `memory` where it has that size already. The values are unset
+/// Allocates an image of the size of `like`, or takes `memory` where it has that size already. The values are unset
 /// leftovers in the second case and zero in the first.
 Rgba8Image sized_like(const Rgba8Image& like, Rgba8Image memory);
 

@@ -1,4 +1,4 @@
-// What every method that works on the shown picture must keep, whatever it does.
+// What every method that works on the shown image must keep, whatever it does.
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"
@@ -11,7 +11,7 @@ namespace {
 
 /// A method, and the share of an intricate chart's pixels that may differ when the chart is mirrored left to right,
 /// upside down or on its diagonal, in thousandths. Where that is not 0 the method's own definition prefers a side.
-/// `border` is how many pixels of a small picture may differ where the picture goes on as its border does, beside where
+/// `border` is how many pixels of a small image may differ where the image goes on as its border does, beside where
 /// an edge meets the border: a method may end an edge there.
 struct Case {
   const char* text;
@@ -33,7 +33,7 @@ const Case cases[] = {
     {"mlaa:kind=reshetov", 0, 0, 0, 4},
     {"cmaa2", 0, 0, 0},
     {"cmaa2:preset=ultra,sharp=1", 0, 0, 0, 5},
-    // The level blur is given in full, the upright one by half; of the long ones the level one has the last word.
+    // The horizontal blur has weight 1, the vertical one 1/2; of the long ones the horizontal one is applied last.
     {"dlaa", 0, 0, 65},
     // Of two equal gradients the upper or left one is taken, and of two equal directions the horizontal one.
     {"ddaa", 4, 2, 4},
@@ -72,7 +72,7 @@ TEST(PostProcess, ConstantPicturesKeepTheirBits) {
     }
 }
 
-// A picture of any size gives what it gives within a larger one that continues its border pixels.
+// An image of any size gives what it gives within a larger one that continues its border pixels.
 TEST(PostProcess, PicturesOfAnySizeAreThoseOfTheirContinuation) {
   for (const Case& c : cases)
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {7, 8}, {31, 17}, {65, 5}, {0, 0}}) {

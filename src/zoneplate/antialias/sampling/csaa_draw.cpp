@@ -106,7 +106,7 @@ class TileHistory {
     return true;
   }
 
-  /// The samples of the tile's pixel that are the triangle's in the picture.
+  /// The samples of the tile's pixel that are the triangle's in the image.
   std::uint32_t kept_samples(int x, int y, std::int32_t id) const {
     const int px = x_ + x - target_.x, py = y_ + y - target_.y;
     if (px < 0 || py < 0 || px >= target_.width || py >= target_.height) return 0;

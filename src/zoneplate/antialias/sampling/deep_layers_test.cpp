@@ -19,7 +19,7 @@ Material emitting(float strength, AlphaMode mode, float alpha) {
   return m;
 }
 
-/// What is behind, and black layers of alpha ½ over it, each of two triangles that are larger than the picture. Tilted
+/// What is behind, and black layers of alpha ½ over it, each of two triangles that are larger than the image. Tilted
 /// ones cut through each other, so that no block and no row has one order.
 Scene veiled(Material behind, int layers, bool is_tilted) {
   Mesh quad;
@@ -47,7 +47,7 @@ Scene veiled(Material behind, int layers, bool is_tilted) {
   return scene;
 }
 
-/// As near as half floats can tell.
+/// Equal within the precision of half floats.
 void expect_near(const LinearImage& image, const LinearImage& expected, const char* method) {
   for (std::size_t i = 0; i < image.values().size(); ++i) {
     const Linear p = image.values()[i], q = expected.values()[i];

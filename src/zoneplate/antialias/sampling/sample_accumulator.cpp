@@ -31,7 +31,7 @@ std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
 
 }  // namespace
 
-/// Samples of a row as they count and what they count, between zeros as far as a filter reaches beyond the picture.
+/// Samples of a row as they count and what they count, between zeros as far as a filter reaches beyond the image.
 class SampleRow {
  public:
   SampleRow(int width, int reach)

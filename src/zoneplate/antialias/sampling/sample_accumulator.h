@@ -41,16 +41,18 @@ inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
 inline constexpr Param resolve_param = {
     .name = "resolve",
-    .meaning = "box: linear light; karis, max3: less weight the brighter; display: after tone mapping",
+    .meaning = "mean of linear light, mean with smaller weights for brighter samples, or mean after tone mapping",
     .names = resolve_names};
 inline constexpr std::string_view mix_names[] = {"light", "codes"};
 inline constexpr Param mix_param = {.name = "mix",
                                     .meaning = "blend space: linear light, or sRGB-encoded values after tone mapping",
                                     .names = mix_names};
 inline constexpr Param filter_param = {
-    .name = "filter", .meaning = "over samples of pixels around too, or the pixel's own", .names = filter_names};
+    .name = "filter",
+    .meaning = "reconstruction filter over the samples of the neighbourhood; pixel: those of the pixel alone",
+    .names = filter_names};
 inline constexpr Param radius_param = {.name = "radius",
-                                       .meaning = "of the filter, in pixels; 0: its own",
+                                       .meaning = "radius of the filter in pixels; 0: the default of the filter",
                                        .value = 0,
                                        .low = 0,
                                        .high = 4,

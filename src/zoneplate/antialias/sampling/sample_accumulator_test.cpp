@@ -165,7 +165,7 @@ TEST(SampleAccumulator, KernelsGiveTheScalarTwinsBits) {
 }
 
 TEST(SampleAccumulator, IsTheSumOfAllProducts) {
-  // As the definition says, pixel by pixel, on a picture narrower than the filter and on one of several parts.
+  // As the definition says, pixel by pixel, on an image narrower than the filter and on one of several parts.
   for (const int side : {3, 70}) {
     Frame frame = frame_of({grey(0), grey(0)}, side);
     for (std::uint32_t s = 0; s < 2; ++s)

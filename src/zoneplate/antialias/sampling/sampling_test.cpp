@@ -28,7 +28,7 @@ double greatest_difference(const LinearImage& a, const LinearImage& b) {
   return most;
 }
 
-/// One quad over the whole picture, there as far as its alpha says.
+/// One quad over the whole image, there as far as its alpha says.
 Scene veil(float alpha) {
   Material material;
   material.alpha_mode = AlphaMode::Mask;
@@ -109,7 +109,7 @@ Scene slope_of(int parts) {
 }
 
 TEST(Msaa, APlaneLooksTheSameHoweverManyTrianglesItIsMadeOf) {
-  // Where a pixel is shared, places rounded to 1/256 pixel are all that differs: two pixels of the picture are 1e-3.
+  // Where a pixel is shared, places rounded to 1/256 pixel are all that differs: two pixels of the image are 1e-3.
   for (const char* n : {"4", "8"}) {
     const std::string mean = std::string("msaa:n=") + n, first = mean + ",centroid=first";
     EXPECT_LT(greatest_difference(shot(slope_of(4), mean), shot(slope_of(40), mean)), 5e-6) << n;
@@ -125,7 +125,7 @@ TEST(SharedSamples, SmoothEdgesAndKeepFlatColours) {
   for (const char* method : {"quincunx", "flipquad"}) {
     const LinearImage own = shot("cyclic", method);
     EXPECT_LT(mean_error(own, truth), 0.75 * mean_error(none, truth)) << method;
-    // Away from edges nothing changes: most of the picture.
+    // Away from edges nothing changes: most of the image.
     int same = 0;
     for (std::size_t i = 0; i < own.values().size(); ++i)
       same += std::abs(own.values()[i].g - none.values()[i].g) < 1e-6f;

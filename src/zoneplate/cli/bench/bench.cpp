@@ -24,7 +24,7 @@ struct BenchArgs {
   int threads = 0;
   Isa isa = current_isa();
   std::string peer = "zoneplate";
-  bool wants_json = false;
+  bool prints_json = false;
 };
 
 constexpr std::string_view bench_scenes[] = {"tri1m", "fill", "fillblend", "city", "city-trilinear", "micro"};
@@ -143,7 +143,7 @@ Syntax syntax_of(BenchArgs& args) {
        false, [&](const std::string& text) { args.work.budget_ms = parse_number(text, 1, 1e7); }},
       {"--peer", "NAME", "Name of this program in the result; default zoneplate", "Result", false,
        [&](const std::string& text) { args.peer = text; }},
-      {"--json", "", "Print one line of JSON per scene", "Result", true, [&](auto&) { args.wants_json = true; }}};
+      {"--json", "", "Print one line of JSON per scene", "Result", true, [&](auto&) { args.prints_json = true; }}};
   return syntax;
 }
 
@@ -157,16 +157,16 @@ void run_bench(std::span<const std::string> arguments) {
   args.scenes.insert(args.scenes.end(), syntax.found_operands.begin(), syntax.found_operands.end());
   if (args.scenes.empty()) args.scenes.assign(std::begin(bench_scenes), std::end(bench_scenes));
   const std::vector<int> counts = args.samples ? std::vector{args.samples} : std::vector{1, 4};
-  const bool wants_json = args.wants_json || names_one;
+  const bool prints_json = args.prints_json || names_one;
   const auto time_all = [&] {
     MachineLimits limits;
-    if (!wants_json) print(limits_text(limits = measure_limits()));
+    if (!prints_json) print(limits_text(limits = measure_limits()));
     for (const std::string& scene : args.scenes)
       for (const int samples : counts) {
         BenchWork work = args.work;
         work.scene = scene, work.samples = samples;
         const BenchTiming timing = time_frames(work);
-        print(wants_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
+        print(prints_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
       }
   };
   with_isa(args.isa, [&] { with_threads(args.threads, time_all); });

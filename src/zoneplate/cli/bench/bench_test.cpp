@@ -19,6 +19,7 @@ TEST(Bench, TellsOneLineOfJsonASceneAndNumberOfSamples) {
   std::vector<int> samples;
   while (std::getline(lines, line)) {
     const auto json = parsed_json(line);
+    EXPECT_EQ(json["format"], "zoneplate-bench");
     EXPECT_EQ(json["scene"], "tri10k");
     EXPECT_GT(json["median_ms"].get<double>(), 0);
     EXPECT_GE(json["median_ms"].get<double>(), json["min_ms"].get<double>());
@@ -61,8 +62,8 @@ TEST(Bench, TellsTheStagesBesideTheMachinesLimits) {
   testing::internal::CaptureStdout();
   run_bench(std::vector<std::string>{"tri10k", "--size", "96x54", "--frames", "1", "--samples", "1"});
   const std::string text = testing::internal::GetCapturedStdout();
-  for (const char* part : {"GB/s read", "gathered", "tri10k 1x: ", "vertices", "ns a vertex", "ns a triangle",
-                           "ns a pixel", "ns a point", "from memory", "(encode)"})
+  for (const char* part : {"GB/s read", "Gather of", "tri10k 1x: ", "vertices", "ns a vertex", "ns a triangle",
+                           "ns a pixel", "ns a fragment", "from memory", "(encode)"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   EXPECT_EQ(text.find("blending"), std::string::npos);
 }

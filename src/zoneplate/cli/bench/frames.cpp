@@ -29,7 +29,7 @@ double machine_busy_ms() {
   return (user + nice + system + irq + soft + steal) * 10;
 }
 
-// What other renderers of these scenes clear to.
+// The clear colour of other renderers of these scenes.
 float4 background_of(const std::string& scene) {
   return scene.starts_with("city") ? float4{0.45f, 0.60f, 0.80f, 1} : float4{0.10f, 0.12f, 0.15f, 1};
 }

@@ -209,7 +209,7 @@ std::vector<std::string> scenes_of(const std::vector<std::string>& operands) {
   return out;
 }
 
-/// Says what is wrong with the name of any scene before the first is drawn.
+/// Reports an invalid scene name before the first scene is drawn.
 void check_scenes(const CompareArgs& args) {
   std::error_code ignored;
   for (const std::string& name : args.scenes) {
@@ -219,7 +219,7 @@ void check_scenes(const CompareArgs& args) {
   }
 }
 
-/// What a run writes into its folder, and prints.
+/// The files and the text that a run writes.
 struct Comparison {
   std::vector<OutputFile> files;
   std::string text, json;
@@ -236,9 +236,9 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
     SceneTrials scene = compare_scene(
         args, name, options, [&](const std::string& method) { progress.begin(name + ", " + method, done++ / steps); });
     scene.name = folder_name(name, scenes);
-    progress.begin(name + ", pictures", done++ / steps);
+    progress.begin(name + ", images", done++ / steps);
     add_files(scene, files);
-    // What is written already need not be kept.
+    // Images that are written already are freed.
     for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
     scenes.push_back(std::move(scene));
   }
@@ -272,8 +272,8 @@ void run_compare(std::span<const std::string> arguments) {
   Comparison made;
   with_isa(args.render.isa, [&] { with_threads(args.render.threads, [&] { made = compare_all(args, options); }); });
   save_folder(args.render.output, made.files);  // without other threads, as it requires
-  if (args.render.verbosity != Verbosity::Quiet || args.render.wants_json)
-    print(args.render.wants_json ? made.json : made.text);
+  if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
+    print(args.render.prints_json ? made.json : made.text);
 }
 
 }  // namespace zoneplate::cli

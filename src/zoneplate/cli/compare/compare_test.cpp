@@ -65,26 +65,26 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   ASSERT_EQ(json["scenes"].size(), 2u);
   std::size_t files = 5;  // cost.svg, compare.txt, compare.md, compare.csv, compare.json
   for (const auto& scene : json["scenes"]) {
-    for (const auto& name : {scene["reference"]["picture"], scene["crops"], scene["plot"]}) {
+    for (const auto& name : {scene["reference"]["image"], scene["crops"], scene["plot"]}) {
       EXPECT_TRUE(fs::exists(place / "out" / std::string(name))) << name;
       ++files;
     }
     ASSERT_EQ(scene["methods"].size(), 3u);
     for (const auto& method : scene["methods"]) {
-      for (const char* file : {"picture", "error_map", "worst_picture"}) {
+      for (const char* file : {"image", "error_map", "worst_regions_image"}) {
         EXPECT_TRUE(fs::exists(place / "out" / std::string(method[file]))) << method[file];
         ++files;
       }
       EXPECT_GT(method["metrics"]["psnr"]["value"], 10);
-      EXPECT_GT(method["ms"], 0);
-      EXPECT_GT(method["shaded"], 100);
-      EXPECT_GE(method["worst"].size(), 1u);
+      EXPECT_GT(method["frame_ms"], 0);
+      EXPECT_GT(method["shaded_samples"], 100);
+      EXPECT_GE(method["worst_regions"].size(), 1u);
     }
     // More samples, less error; and each costs what it says.
     EXPECT_GT(scene["methods"][0]["metrics"]["flip"]["value"], scene["methods"][1]["metrics"]["flip"]["value"]);
     EXPECT_GT(scene["methods"][0]["metrics"]["edge_error"]["value"],
               scene["methods"][1]["metrics"]["edge_error"]["value"]);
-    const double four = scene["methods"][1]["shaded"], eight = scene["methods"][2]["shaded"];
+    const double four = scene["methods"][1]["shaded_samples"], eight = scene["methods"][2]["shaded_samples"];
     EXPECT_NEAR(eight / four, 2, 0.1);
   }
   std::size_t found = 0;
@@ -95,7 +95,7 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   EXPECT_TRUE(contains(csv, "triangles,,\"ssaa:pattern=halton,samples=8\","));
   // The nearest is the first, and on the front.
   const std::string table = text_of("out/compare.md");
-  EXPECT_TRUE(table.starts_with("| method | mean | triangles | cyclic | near axis % | shaded | MB | ms |\n|---|"));
+  EXPECT_TRUE(table.starts_with("| method | mean | triangles | cyclic | near axis % | samples/px | MB | ms |\n|---|"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
   EXPECT_TRUE(contains(table, "|---|---|\n| **`ssaa:")) << table;
   EXPECT_LT(table.find("`ssaa:pattern=halton,samples=8`"), table.find("`none`"));
@@ -110,7 +110,7 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
           .out);
   for (const char* name : {"psnr", "flip", "edge_error"})
     EXPECT_EQ(json["scenes"][0]["methods"][0]["metrics"][name]["value"], own["metrics"][name]["value"]) << name;
-  // A picture is a reference too; and against itself a method is without error.
+  // An image is a reference too; and against itself a method is without error.
   const Answer again = run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
   ASSERT_EQ(again.code, 0) << again.out;
   EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
@@ -124,16 +124,16 @@ TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
   const auto json = parsed_json(answer.out);
   const auto& scene = json["scenes"][0];
   EXPECT_EQ(scene["turns"], 4);
-  EXPECT_GT(scene["reference"]["processor_ms"], 0);
+  EXPECT_GT(scene["reference"]["cpu_ms"], 0);
   for (const auto& method : scene["methods"]) {
     double sum = 0;
-    for (const auto& stage : method["ms_by_stage"]) sum += stage.get<double>();
-    EXPECT_LE(sum, method["ms"].get<double>()) << method["method"];
+    for (const auto& stage : method["stage_ms"]) sum += stage.get<double>();
+    EXPECT_LE(sum, method["frame_ms"].get<double>()) << method["method"];
   }
   const auto stage = [&](std::size_t method, const char* name) {
-    return scene["methods"][method]["ms_by_stage"][name].get<double>();
+    return scene["methods"][method]["stage_ms"][name].get<double>();
   };
-  EXPECT_EQ(stage(0, "filter"), 0);  // the tiles make the picture
+  EXPECT_EQ(stage(0, "filter"), 0);  // the tiles make the image
   EXPECT_GT(stage(1, "filter"), 0.05);
   EXPECT_GT(stage(1, "display"), 0);
   EXPECT_GT(stage(2, "resolve"), 0);
@@ -147,10 +147,10 @@ TEST(Report, NamesMethodsThatGotFewerTurns) {
   SceneTrials scene{.scene = "s", .turns = 3};
   for (const char* method : {"quick", "slow", "slower"})
     scene.trials.push_back({.method = method, .pixels = 1, .frame_ms = {1, 2, 3}, .processor_ms = {1, 2, 3}});
-  EXPECT_FALSE(contains(report_text({scene}), "Fewer"));
+  EXPECT_FALSE(contains(report_text({scene}), "fewer than"));
   scene.trials[1].frame_ms.pop_back();
   scene.trials[2].frame_ms.resize(1);
-  EXPECT_TRUE(contains(report_text({scene}), "Fewer than 3 turns, as they take long: slow (2), slower (1)\n"));
+  EXPECT_TRUE(contains(report_text({scene}), "Slow methods with fewer than 3 turns: slow (2), slower (1)\n"));
 }
 
 TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
@@ -164,7 +164,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   expect("triangles --aa nome -o out", 2, "did you mean 'none'?");
   expect("triangles --aa msaa:n=3 -o out", 2, "2, 4, 8 or 16");
   expect("triangles --reference mssa -o out", 2, "did you mean 'msaa'?");
-  expect("triangles --reference truth.png -o out", 3, "truth.png: no such file");
+  expect("triangles --reference exact.png -o out", 3, "exact.png: no such file");
   expect("triangles --metric flop -o out", 2, "unknown metric 'flop'; did you mean 'flip'?");
   expect("triangles --aa none -o none/out", 4, "no directory");
   // Whatever the others are: these would take minutes to be drawn.
@@ -173,9 +173,8 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   expect(slow + "sphere:triangels=9", 2, "scene sphere: unknown parameter 'triangels'");
   expect(slow + "sphere:triangles=many", 2, "scene sphere: triangles is 'many'");
   save_bytes((place / "small.png").string(), encode_png(Rgba8Image(16, 16)));
-  expect("triangles --aa none -o out --size 64x48 --reference small.png", 3,
-         "has 16x16 pixels, the pictures have 64x48");
-  expect("triangles cyclic --aa none -o out --reference small.png", 2, "one image is the reference of one scene");
+  expect("triangles --aa none -o out --size 64x48 --reference small.png", 3, "has 16x16 pixels, the images have 64x48");
+  expect("triangles cyclic --aa none -o out --reference small.png", 2, "one image is a reference for one scene");
   fs::create_directory(place / "there");
   expect("triangles --aa none -o there", 4, "is there already");
   std::size_t names = 0;
@@ -273,7 +272,7 @@ TEST(CostPlot, NamesMethodsOfLikeErrorAndOtherCost) {
   add("fxaa", 4, 0.0100), add("none", 6, 0.0098), add("close", 6.1, 0.0097), add("msaa", 9, 0.0050);
   find_front(scene.trials);
   const Plot plot = cost_plot(scene);
-  EXPECT_EQ(plot.title, "s: error and cost");
+  EXPECT_EQ(plot.title, "s: error against cost");
   EXPECT_EQ(plot.curves[1].labels, (std::vector<std::string>{"fxaa", "none", "", "msaa"}));
 }
 

@@ -80,10 +80,10 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTr
   out.reference_picture = opaque(quantize8(metrics::load_picture(options.reference).display));
   const auto size = [](int w, int h) { return fmt::format("{}x{}", w, h); };
   const std::string found = size(out.reference_picture.width(), out.reference_picture.height());
-  const std::string wanted = size(stage.settings.options.width, stage.settings.options.height);
-  if (found != wanted)
+  const std::string expected = size(stage.settings.options.width, stage.settings.options.height);
+  if (found != expected)
     throw Error(ErrorKind::Input, fmt::format("{}: has {} pixels, the images have {}; give --size {}",
-                                              options.reference, found, wanted, found));
+                                              options.reference, found, expected, found));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Place {
 struct Trial {
   std::string method;
   Rgba8Image picture;
-  std::uint64_t pixels = 0;             ///< of the picture
+  std::uint64_t pixels = 0;             ///< of the image
   std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the 8-bit image
   std::vector<double> processor_ms;     ///< CPU time of all threads, which other programs disturb less
   RenderCounts counts;                  ///< of the turn of least time

@@ -83,7 +83,7 @@ Plane<float> brightened(Plane<float> plane) {
   return plane;
 }
 
-/// How well both results agree.
+/// The difference of both results.
 std::string agreement(double most) { return most == 0 ? "the same bits" : "the greatest difference is " + small(most); }
 
 Lesson make(const DemoSize& size) {

@@ -102,7 +102,7 @@ std::string paragraph(std::string_view words, std::string_view indent) {
   return text + '\n';
 }
 
-/// The files that a lesson is written into: a picture, or an animation in both formats.
+/// The files that a lesson is written into: an image, or an animation in both formats.
 std::vector<std::string> files_of(const Demo& demo, const std::string& path) {
   if (!demo.is_animated) return {path};
   return {path, std::filesystem::path(path).replace_extension(".webp").string()};

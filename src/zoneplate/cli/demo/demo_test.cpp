@@ -58,10 +58,10 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
       EXPECT_GT(decode_png(file.bytes(), name).pixels.width(), 190) << name;
     }
   }
-  // The text holds what the picture says: titles, captions, and tables.
-  for (const char* words : {"Jaggies: a pixel", "One place under every method", "The black edge: four",
-                            "have the light that is theirs", "--aa msaa:n=8: ", "Moiré: ", "Filter before you sample",
-                            "border", "Sampling copies", "blackman-harris", "+0.90", "shutter always open: "})
+  // The text holds what the image says: titles, captions, and tables.
+  for (const char* words : {"Jaggies: with one", "The same region by every", "The black edge: four",
+                            "have the correct brightness", "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling",
+                            "border", "Sampling repeats", "blackman-harris", "+0.90", "Shutter always open: "})
     EXPECT_NE(said.find(words), std::string::npos) << words;
 }
 
@@ -87,8 +87,7 @@ TEST(Demo, SaysWhatIsMissingOrUnknown) {
   EXPECT_EQ(message_of({"jagies", "-o", "x.png"}), "demo: no lesson jagies; did you mean jaggies?");
   EXPECT_EQ(message_of({"jaggies"}), "no output: give -o OUT.png");
   EXPECT_EQ(message_of({"all"}), "no output: give -o FOLDER");
-  EXPECT_EQ(message_of({"jaggies", "-o", "x.jpg"}),
-            "--output: x.jpg is not a format that a lesson is written in (.png)");
+  EXPECT_EQ(message_of({"jaggies", "-o", "x.jpg"}), "--output: x.jpg is not a format for lessons (.png)");
 }
 
 TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
@@ -110,10 +109,10 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
   EXPECT_EQ(refusal("jaggies", "none/x.png"), "none/x.png: cannot be written: no directory " + root + "none");
   EXPECT_EQ(refusal("jaggies", "lesson.png"), "lesson.png: cannot be written: it is a directory");
   EXPECT_EQ(refusal("wagon-wheel", "wheel.png"), "wheel.webp: cannot be written: it is a directory");
-  EXPECT_EQ(refusal("all", "file"), "file: the folder cannot be made: File exists");
+  EXPECT_EQ(refusal("all", "file"), "file: cannot create the folder: File exists");
   EXPECT_EQ(refusal("all", "lessons"), "lessons/wagon-wheel.webp: cannot be written: it is a directory");
   const std::string longest(256, 'n');
-  EXPECT_EQ(refusal("all", longest), longest + ": the folder cannot be made: File name too long");
+  EXPECT_EQ(refusal("all", longest), longest + ": cannot create the folder: File name too long");
   EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
 }
 

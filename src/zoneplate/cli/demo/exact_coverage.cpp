@@ -66,7 +66,7 @@ Lesson make(const DemoSize& size) {
   }
   const Rgba8Image exact_picture = shown(exact);
   figure.rows[0].push_back(
-      {crop_of(exact_picture, x, y, factor, side), "Exact area\n--aa analytic: coverage in continuous steps."});
+      {crop_of(exact_picture, x, y, factor, side), "Exact area\n--aa analytic: coverage without discrete steps."});
   figure.rows[1].push_back(
       {marked(exact_picture, x, y, factor, side), "Three intersecting squares; the frame marks the crops."});
   figure.text =

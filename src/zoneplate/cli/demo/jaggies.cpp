@@ -1,4 +1,4 @@
-// Jaggies: one sample a pixel says all or nothing of an edge; the mean of more says how much.
+// Jaggies: one sample a pixel gives a coverage of 0 or 1; the mean of several samples approximates the coverage.
 #include <fmt/format.h>
 
 #include <array>

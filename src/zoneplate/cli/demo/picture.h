@@ -10,7 +10,7 @@
 
 namespace zoneplate::cli {
 
-// What lessons make their pictures with.
+// Functions with which lessons make their images.
 
 /// Renders the scene with its own camera (or the whole-scene view), opaque, in linear light over the default dark grey.
 LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts = nullptr);

@@ -29,7 +29,7 @@ struct Pulse {
 };
 static_assert(bandwidth == 1, "the pulse is written for it");
 
-/// How the pulse is sampled.
+/// The sampling of the pulse.
 struct Way {
   double rate;
   bool is_filtered;

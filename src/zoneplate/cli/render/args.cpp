@@ -269,7 +269,7 @@ std::vector<Option> run_options(RenderArgs& a) {
        "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default: the best available", group,
        false, [&](auto& text) { a.isa = parse_isa(text); }},
       {"--json", "", "Print a report as one line of JSON (to stderr if OUT is -)", group, false,
-       [&](auto&) { a.wants_json = true; }},
+       [&](auto&) { a.prints_json = true; }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json or none; default auto", group,
        false, [&](auto& text) { a.progress = parse_progress(text); }},
       {"--quiet,-q", "", "Print errors only", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
@@ -304,7 +304,7 @@ void check_output(RenderArgs& args) {
   if (args.output == "-") {
     if (!args.aovs.empty() && args.stdout_format != "exr")
       throw Error(ErrorKind::Usage, "--aov writes files next to OUT, which cannot be -; an .exr contains the passes");
-    if (args.sequence.is_wanted()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
+    if (args.sequence.is_sequence()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
     return;
   }
   std::error_code ignored;
@@ -348,19 +348,19 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
-  if (args.sequence.shutter && !args.sequence.is_wanted())
+  if (args.sequence.shutter && !args.sequence.is_sequence())
     throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
     throw Error(ErrorKind::Usage, "--shutter goes with neither --aov nor --crop");
   for (const Aov* aov : args.aovs) {
-    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_wanted())
+    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_sequence())
       throw Error(ErrorKind::Usage,
                   fmt::format("--aov {} requires a sequence, or a frame of one: -s 5 -e 5", aov->name));
     if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
       throw Error(ErrorKind::Usage,
-                  fmt::format("--aov {} requires an .exr, or a picture of it beside a .png", aov->name));
+                  fmt::format("--aov {} requires an .exr, or an image format such as .png", aov->name));
   }
-  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_wanted())
+  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_sequence())
     args.load.choice.animation = SceneChoice::all_animations;
   if (const auto& crop = args.options.crop)
     if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)

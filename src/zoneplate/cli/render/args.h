@@ -20,7 +20,7 @@
 
 namespace zoneplate::cli {
 
-/// Which frames are made.
+/// The frames to be rendered.
 struct SequenceArgs {
   std::optional<int> turntable, count, first, last;
   int jump = 1;
@@ -29,10 +29,10 @@ struct SequenceArgs {
   std::optional<double> shutter;  ///< degrees of a frame's time that it is open
   int shutter_samples = 16;
 
-  bool is_wanted() const { return turntable || count || first || last || is_film; }
+  bool is_sequence() const { return turntable || count || first || last || is_film; }
 };
 
-/// Everything that `zoneplate render` can be told.
+/// The arguments of `zoneplate render`.
 struct RenderArgs {
   std::string input, output;
   std::vector<std::string> inputs;  ///< all of them; `input` is the first
@@ -59,33 +59,33 @@ struct RenderArgs {
   Isa isa = current_isa();   ///< of every kernel of the run
   double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
   bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
-  bool wants_json = false;
+  bool prints_json = false;
   Verbosity verbosity = Verbosity::Normal;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 
   bool is_batch() const { return inputs.size() > 1 || !manifest.empty(); }
-  /// The output's name with an ending that tells its format, for stdout too.
+  /// The output's name with an extension for its format, also for stdout.
   std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };
 
-/// The longest side of a picture, in pixels: the reach of the rasterizer's fixed-point coordinates.
+/// The longest side of an image, in pixels: the reach of the rasterizer's fixed-point coordinates.
 inline constexpr int max_side = 16384;
 
 /// The options of the verb, which set `args`. It keeps a reference to it.
 Syntax render_syntax(RenderArgs& args);
 
-/// Checks what options have made of one picture's or sequence's arguments, and completes them.
+/// Checks the arguments of one image or sequence after parsing, and completes them.
 ///
 /// Errors    ErrorKind::Usage.
 void check_args(RenderArgs& args);
 
-/// Errors    ErrorKind::Usage for a name whose ending is not that of a picture that can be written.
+/// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
 
 /// True where there is a file of that name.
 bool exists(const std::string& path);
 
-/// Parses and checks the whole command line of the verb; nothing where help was asked for.
+/// Parses and checks the whole command line of the verb; nothing after printing the help.
 ///
 /// Errors    ErrorKind::Usage.
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments);

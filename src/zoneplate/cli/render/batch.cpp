@@ -40,7 +40,7 @@ std::vector<Line> lines_of(const std::string& path) {
   return lines;
 }
 
-// The jobs of a manifest: each is what the command line says, with options of its own over that.
+// The jobs of a manifest: each has the options of the command line, overridden by its own.
 class Jobs {
  public:
   explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
@@ -204,7 +204,7 @@ void render_batch(const RenderArgs& common) {
     batch.add(input, [&] {
       RenderArgs args = common;
       args.input = input;
-      if (!args.sequence.is_wanted()) args.output = frame_name(args.output, 0, model_of(input));
+      if (!args.sequence.is_sequence()) args.output = frame_name(args.output, 0, model_of(input));
       check_outputs(args);
       return args;
     });

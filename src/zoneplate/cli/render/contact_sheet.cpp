@@ -62,13 +62,13 @@ Panel panel_of(const SheetArgs& args, const std::string& input, const std::strin
     ItemProcess process({.name = input,
                          .load = render.load.limits,
                          .seconds = render.max_seconds,
-                         .is_sandboxed = wants_sandbox(render.is_sandboxed),
+                         .is_sandboxed = uses_sandbox(render.is_sandboxed),
                          .readable = readable_paths(input, render.load)},
                         1, [&](std::size_t, ItemSender& sender) { return render_cell(render, sender); });
     const std::vector<std::uint8_t> codes = process.next({});
     Rgba8Image image = blank(args);
     if (codes.size() != image.values().size_bytes())
-      throw Error(ErrorKind::Failed, input + ": a picture of a wrong size");
+      throw Error(ErrorKind::Failed, input + ": an image of a wrong size");
     std::memcpy(image.values().data(), codes.data(), codes.size());
     return {std::move(image), name};
   } catch (const std::exception& error) {

@@ -32,7 +32,7 @@ class FfmpegFilm {
   /// Errors    ErrorKind::Failed where the folder for temporary files is full.
   void add(std::span<const std::uint8_t> pixels) { frames_.append(pixels); }
 
-  /// The bytes of the film.
+  /// The bytes of the animation.
   ///
   /// Errors    ErrorKind::Failed with ffmpeg's first line of complaint, or where it is not installed.
   std::vector<std::uint8_t> encode() const;

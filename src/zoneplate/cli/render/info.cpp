@@ -161,9 +161,9 @@ std::string info_text(const std::string& input, const Scene& scene) {
 }
 
 // The text to be printed, and the warnings.
-std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& scene, bool wants_json) {
+std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& scene, bool prints_json) {
   Packer out;
-  out.text(wants_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
+  out.text(prints_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));
   out.value(std::uint64_t{scene.warnings.size()});
   for (const std::string& warning : scene.warnings) out.text(warning);
   return std::move(out).bytes();
@@ -172,7 +172,7 @@ std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& sce
 }  // namespace
 
 void run_info(std::span<const std::string> arguments) {
-  bool wants_json = false;
+  bool prints_json = false;
   LoadOptions options;
   double max_seconds = std::numeric_limits<double>::infinity();
   bool is_sandboxed = true;
@@ -181,7 +181,7 @@ void run_info(std::span<const std::string> arguments) {
                 .operands = "IN",
                 .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
   syntax.options = {
-      {"--json", "", "Print one line of JSON", "Options", true, [&](auto&) { wants_json = true; }},
+      {"--json", "", "Print one line of JSON", "Options", true, [&](auto&) { prints_json = true; }},
       {"--max-memory", "BYTES", "Memory limit of reading, for example 512M; default 4G", "Options", false,
        [&](auto& text) { options.limits.memory = parse_bytes(text); }},
       {"--max-import-seconds", "S", "Time limit of reading; default 60", "Options", false,
@@ -204,19 +204,19 @@ void run_info(std::span<const std::string> arguments) {
   ItemProcess process({.name = input == "-" ? "standard input" : input,
                        .load = options.limits,
                        .seconds = max_seconds,
-                       .is_sandboxed = wants_sandbox(is_sandboxed),
+                       .is_sandboxed = uses_sandbox(is_sandboxed),
                        .readable = readable_paths(input, options)},
                       1, [&](std::size_t, ItemSender& sender) {
                         Scene scene;
                         within_import_time(input, options.limits, [&] { scene = load_scene(input, options); });
                         sender.has_read();
-                        return packed_info(input, scene, wants_json);
+                        return packed_info(input, scene, prints_json);
                       });
   const std::vector<std::uint8_t> answer = process.next({});
-  Unpacker told(answer);
-  print(told.text());
-  if (!wants_json)
-    for (auto n = told.value<std::uint64_t>(); n > 0; --n) say_warning(told.text());
+  Unpacker unpacker(answer);
+  print(unpacker.text());
+  if (!prints_json)
+    for (auto n = unpacker.value<std::uint64_t>(); n > 0; --n) say_warning(unpacker.text());
 }
 
 }  // namespace zoneplate::cli

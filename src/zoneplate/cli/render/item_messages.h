@@ -15,8 +15,8 @@
 
 namespace zoneplate::cli {
 
-// What an item's process (item_process.h) sends to the program's own process: a header of a fixed size, then as many
-// bytes as it states. The receiver trusts none of it.
+// Messages from an item's process (item_process.h) to the parent process: a header of a fixed size, then the number of
+// bytes that it states. The receiver validates all of it.
 
 /// The sending end. Any thread may send.
 class ItemSender {
@@ -30,7 +30,7 @@ class ItemSender {
   /// The limit on the time to read no longer applies.
   void has_read();
   /// A whole file. `frame`: its number in a sequence, or -1; `layer`: its place among the data passes, or -1 for the
-  /// picture. The receiver makes the file's name of them.
+  /// image. The receiver makes the file's name of them.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
   /// A frame of a film that the receiver encodes.
   void film_frame(const Rgba8Image& image);
@@ -55,8 +55,8 @@ class ItemSender {
   bool is_past_reading_ = false;
 };
 
-/// What the receiver does with messages. A member may be null: such messages are errors of the sender, but for
-/// progress, which is then dropped.
+/// The handlers of the receiver. A member may be null: such messages are errors of the sender, except progress, which
+/// is then ignored.
 struct ItemEvents {
   using Read = std::function<void(std::span<std::uint8_t>)>;  ///< fills the span with the message's next bytes
   std::function<void(std::string_view stage, double done)> progress;

@@ -75,10 +75,10 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     } catch (const LibraryNeeded& needed) {
       sender.needs_library(needed.library(), needed.what());
     } catch (const Error& error) {
-      // What fails after reading, or while rendering, does not know the model's name.
+      // Errors after reading, or while rendering, do not contain the model's name.
       const std::string message = error.what();
-      const bool wants_name = sender.is_past_reading() || error.trouble() == ErrorKind::Failed;
-      const bool is_named = !wants_name || message.find(limits_.name) != message.npos;
+      const bool needs_name = sender.is_past_reading() || error.trouble() == ErrorKind::Failed;
+      const bool is_named = !needs_name || message.find(limits_.name) != message.npos;
       sender.failure(error.trouble(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
@@ -90,7 +90,7 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
   }
 }
 
-/// What goes wrong while the model is read is a trouble of the input; later, of rendering.
+/// A failure while the model is read is an error of the input; later, of rendering.
 void ItemProcess::read(std::span<std::uint8_t> out) {
   try {
     child_->read(out.data(), out.size());
@@ -131,8 +131,8 @@ void within_import_time(const std::string& name, const LoadLimits& limits, const
   with_deadline(limits.seconds, ErrorKind::Input, late_reading(name, limits), read);
 }
 
-bool wants_sandbox(bool is_asked_for) {
-  if (!is_asked_for) return false;
+bool uses_sandbox(bool is_requested) {
+  if (!is_requested) return false;
   static const bool is_there = [] {
     const bool filters = sandbox_support().filters_calls;
     if (!filters) say_warning("this system has no seccomp filters: models are read with all rights of the user");

@@ -16,7 +16,7 @@
 
 namespace zoneplate::cli {
 
-/// What the process of an item may have.
+/// The limits of an item's process.
 struct ItemLimits {
   std::string name;                                          ///< of the item's model, which begins errors
   LoadLimits load;                                           ///< memory holds for all of the item's work
@@ -70,6 +70,6 @@ void within_import_time(const std::string& name, const LoadLimits& limits, const
 
 /// Warns, once a process, where files are read without a sandbox because the kernel has none, and returns whether items
 /// are to be sandboxed.
-bool wants_sandbox(bool is_asked_for);
+bool uses_sandbox(bool is_requested);
 
 }  // namespace zoneplate::cli

@@ -16,7 +16,7 @@ ItemLimits limits_of(const RenderArgs& args) {
   return {.name = args.input == "-" ? "standard input" : args.input,
           .load = args.load.limits,
           .seconds = args.max_seconds,
-          .is_sandboxed = wants_sandbox(args.is_sandboxed),
+          .is_sandboxed = uses_sandbox(args.is_sandboxed),
           .readable = readable_paths(args.input, args.load)};
 }
 

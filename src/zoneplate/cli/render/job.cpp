@@ -40,7 +40,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   Summary summary;
   summary.threads = thread_limit();
   out.progress("read", 0);
-  if (args.sequence.is_wanted()) {
+  if (args.sequence.is_sequence()) {
     render_sequence(args, std::move(method), out, summary);
     summary.times = {{"total", total_watch.ms()}};
     summary.peak_memory = peak_memory();

@@ -10,7 +10,7 @@
 
 namespace zoneplate::cli {
 
-/// Reads, renders and encodes what the arguments of one picture, or one sequence, describe, in the process of the
+/// Reads, renders and encodes what the arguments of one image, or one sequence, describe, in the process of the
 /// item; keeps the last model between jobs.
 class RenderJobs {
  public:
@@ -25,7 +25,7 @@ class RenderJobs {
   std::optional<PreparedScene> scene_;  ///< the model, with the lights of its file
 };
 
-/// What decides how a model is loaded: jobs of the same key share one.
+/// The options that determine the loaded model: jobs with the same key share one.
 std::string model_key(const RenderArgs& args);
 
 /// The result as JSON.

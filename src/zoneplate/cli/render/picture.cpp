@@ -43,7 +43,7 @@ std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& d
   return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
 }
 
-// Codes one after the other as they stand in memory, rows from the top.
+// The encoded values in the order of memory, rows from the top.
 template <class T>
 std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
   static_assert(std::endian::native == std::endian::little, "16 bits are written low byte first");
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
   return {first, first + image.values().size_bytes()};
 }
 
-// The data passes, in files of their own or in the picture's.
+// The data passes, in files of their own or in the image's.
 void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, const std::string& output,
                 Rendered& out) {
   DataChannels data;
@@ -80,9 +80,8 @@ void check_memory(const RenderArgs& args, const Request& request) {
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
   if (need > args.load.limits.memory)
-    throw Error(ErrorKind::Failed,
-                fmt::format("{}: a picture of {}x{} needs {} MB of memory, --max-memory allows {} MB", args.input,
-                            width, height, need >> 20, args.load.limits.memory >> 20));
+    throw Error(ErrorKind::Failed, fmt::format("{}: an image of {}x{} needs {} MB of memory, --max-memory allows {} MB",
+                                               args.input, width, height, need >> 20, args.load.limits.memory >> 20));
 }
 
 }  // namespace
@@ -100,18 +99,17 @@ std::string output_path(const RenderArgs& args, int frame, int layer) {
 
 void check_outputs(const RenderArgs& args) {
   if (args.output == "-" && ::isatty(STDOUT_FILENO) == 1)
-    throw Error(ErrorKind::Usage, "a picture will not be written to a terminal");
-  const int frame = args.sequence.is_wanted() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
+    throw Error(ErrorKind::Usage, "an image will not be written to a terminal");
+  const int frame = args.sequence.is_sequence() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
   for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
     check_savable(output_path(args, frame, layer));
 }
 
 void check_request(const RenderArgs& args, const Request& request) {
   if (request.is_display_referred && is_linear(args.named_output()))
-    throw Error(ErrorKind::Usage,
-                fmt::format("--anti-aliasing: {} works on the picture as shown, and {} holds the light "
-                            "before that: write a .png, or take a method such as msaa or ssaa",
-                            args.method, extension_of(args.named_output())));
+    throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing: {} works after tone mapping, and {} is scene-linear: "
+                                              "write a .png, or use a method such as msaa or ssaa",
+                                              args.method, extension_of(args.named_output())));
   check_memory(args, request);
 }
 

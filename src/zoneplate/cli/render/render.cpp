@@ -19,7 +19,7 @@ void tell(const RenderArgs& args, const Summary& summary) {
                          args.method, summary.counts.triangles, summary.threads, name_of(args.isa)));
     say_note(fmt::format("{}peak memory {} MB", times, summary.peak_memory >> 20));
   }
-  if (!args.wants_json) return;
+  if (!args.prints_json) return;
   const std::string line = Json(summary_json(args, summary)).text() + '\n';
   if (args.output == "-")
     std::fwrite(line.data(), 1, line.size(), stderr);

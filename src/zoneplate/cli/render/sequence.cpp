@@ -21,11 +21,11 @@ constexpr int most_frames = 100'000;
 class Plan {
  public:
   Plan(const RenderArgs& args, SceneSource& source) : args_(args), source_(source) {
-    // On a turntable the animation does not run, unless the options select one.
-    const bool is_asked = args.load.choice.animation || args.has_animation_time;
+    // A turntable does not animate the scene unless an animation is chosen.
+    const bool is_chosen = args.load.choice.animation || args.has_animation_time;
     choice_ = args.load.choice;
     Scene scene = load(&SceneSource::load, choice_.time);
-    if (!choice_.animation && !scene.animations.empty() && (is_asked || !args.sequence.turntable))
+    if (!choice_.animation && !scene.animations.empty() && (is_chosen || !args.sequence.turntable))
       choice_.animation = SceneChoice::all_animations;
     for (std::size_t i = 0; choice_.animation && i < scene.animations.size(); ++i)
       if (*choice_.animation == SceneChoice::all_animations || *choice_.animation == static_cast<int>(i))
@@ -141,7 +141,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   if (!has_number && !is_film(args.output) && !is_one_frame(args.sequence))
     throw Error(ErrorKind::Usage,
                 args.output +
-                    ": several frames want a place for their number, as chair.####.png, or a film: .apng, "
+                    ": several frames require a frame number in OUT, as chair.####.png, or a video: .apng, "
                     ".webp, .gif, .mp4, .webm");
   SceneSource source(args.input, args.load);
   Plan plan(args, source);

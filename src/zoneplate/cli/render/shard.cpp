@@ -38,7 +38,7 @@ Shard parse_shard(const std::string& text) {
     if (slash == text.npos) count = find_variable("SLURM_ARRAY_TASK_COUNT").value_or(0);
     if (!index || count == 0)
       throw Error(ErrorKind::Usage, fmt::format("'{}': neither SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT nor "
-                                                "JOB_COMPLETION_INDEX say which shard this is",
+                                                "JOB_COMPLETION_INDEX give the index of the shard",
                                                 text));
   }
   if (!index || *index >= count)

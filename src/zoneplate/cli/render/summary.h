@@ -10,7 +10,7 @@
 
 namespace zoneplate::cli {
 
-/// What is reported about a run. Times are in milliseconds, in the order of the work.
+/// The report of a run. Times are in milliseconds, in the order of the work.
 struct Summary {
   int width = 0, height = 0, threads = 0;
   RenderCounts counts;

@@ -30,20 +30,20 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
 
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
   return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
-          {"--json", "", "The numbers as one line of JSON", group, true, [&](auto&) { args.wants_json = true; }},
-          {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group,
-           false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+          {"--json", "", "Print the result as one line of JSON", group, true, [&](auto&) { args.prints_json = true; }},
+          {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota",
+           group, false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
 }
 
 Option codes_option(SignalArgs& args) {
-  return {"--codes", "",    "Work on sRGB codes as they are stored, as many programs do, instead of linear light",
+  return {"--codes", "",    "Compute on the stored sRGB codes, as many programs do, instead of in linear light",
           group,     false, [&](auto&) { args.uses_codes = true; }};
 }
 
 Option border_option(Border& border, const std::string& rules) {
   return {"--border",
           "RULE",
-          "What lies beyond the image: " + rules + "; the first is the default",
+          "Border rule, the values outside the image: " + rules + "; the first is the default",
           group,
           true,
           [&border, rules](auto& text) {
@@ -61,9 +61,9 @@ const std::string& only_operand(const Syntax& syntax, const std::string& what) {
 
 std::string image_notes() {
   std::string text =
-      "IMAGE is a PNG, JPEG, WebP, HDR, EXR or PFM file, - for stdin, or a pattern made in code, NAME or "
-      "NAME:PARAMETER=VALUE,...\n"
-      "(a file with such a name is given as ./NAME):\n";
+      "IMAGE is a PNG, JPEG, WebP, HDR, EXR or PFM file, - for stdin, or a generated pattern,\n"
+      "NAME or NAME:PARAMETER=VALUE,...\n"
+      "(for a file with such a name write ./NAME):\n";
   for (const PatternEntry& entry : patterns()) {
     std::string params;
     for (const Param& p : entry.params) params += fmt::format("{}{}={:g}", params.empty() ? "" : ",", p.name, p.value);
@@ -101,9 +101,9 @@ void save_plots(const std::string& path, const std::vector<Plot>& plots, int col
 }
 
 void tell(const SignalArgs& args, const std::string& text, const Json::Object& json) {
-  const std::string line = args.wants_json ? Json(json).text() + '\n' : text;
+  const std::string line = args.prints_json ? Json(json).text() + '\n' : text;
   if (args.output != "-") return print(line);
-  if (args.wants_json) std::fwrite(line.data(), 1, line.size(), stderr);
+  if (args.prints_json) std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 std::vector<int> parse_whole_list(const std::string& text, int low, int high) {

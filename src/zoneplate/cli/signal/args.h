@@ -13,18 +13,18 @@
 
 namespace zoneplate::cli {
 
-/// What the subcommands of `signal` have in common.
+/// The common options of the subcommands of `signal`.
 struct SignalArgs {
   std::string output;  ///< a file, "-" for stdout, or empty: numbers only
-  bool wants_json = false;
+  bool prints_json = false;
   bool uses_codes = false;  ///< work on display codes instead of linear light
   int threads = 0;
 };
 
-/// --output, --json and --threads; `output_meaning` says what is written.
+/// --output, --json and --threads; `output_meaning` is the help text of --output.
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
 
-/// --codes, for those who change pictures.
+/// --codes, for those who change images.
 Option codes_option(SignalArgs& args);
 
 /// --border with the rules that the subcommand allows, the default first: "clamp, reflect".
@@ -32,10 +32,10 @@ Option border_option(Border& border, const std::string& rules);
 
 /// The one operand of a subcommand.
 ///
-/// Errors    ErrorKind::Usage where there is none or more than one, saying that `what` is wanted.
+/// Errors    ErrorKind::Usage for none or more than one; the message names `what`.
 const std::string& only_operand(const Syntax& syntax, const std::string& what);
 
-/// What IMAGE may be and what the patterns are, for the end of the help.
+/// The section of the help about IMAGE and the patterns.
 std::string image_notes();
 
 /// Refuses an output that does not end in .png (or, for a plot, .svg; for a result, .pfm or .exr) and is not "-".
@@ -46,17 +46,17 @@ void check_plot_name(const std::string& path);
 void save_picture(const std::string& path, const Rgba8Image& picture);
 
 /// Writes a result: to .pfm and .exr its values as they are, in floats, premultiplied, neither clamped nor shifted; to
-/// any other name `picture()`, which shows them.
+/// any other name the display image `picture()`.
 void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture);
 
-/// What save_result writes, for the help.
+/// The outputs of save_result, for the help.
 inline constexpr const char* result_meaning =
-    "The picture to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
+    "The image to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 
-/// The plots as the output's name wants them.
+/// The plots in the format of the output's extension.
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
 
-/// The results on stdout, for people or as a line of JSON. Where the picture takes stdout JSON goes to stderr instead.
+/// The results on stdout, for people or as a line of JSON. Where the image takes stdout JSON goes to stderr instead.
 void tell(const SignalArgs& args, const std::string& text, const Json::Object& json);
 
 /// "1,3,5": whole numbers in [low, high], at least one.

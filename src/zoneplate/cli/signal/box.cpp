@@ -25,7 +25,7 @@ Kernel box_of(int width) { return make_kernel(fmt::format("box:width={}", width)
 Plot kernels_plot(const BoxArgs& args) {
   const double reach = 0.6 * *std::max_element(args.widths.begin(), args.widths.end());
   const int narrowest = *std::min_element(args.widths.begin(), args.widths.end());
-  Plot plot{.title = "Boxes, each of area 1",
+  Plot plot{.title = "Box filters, each of area 1",
             .x = {"position (pixels)", -reach, reach},
             .y = {"weight", 0, 1.15 / narrowest},
             .curves = {}};
@@ -55,15 +55,16 @@ Plot responses_plot(const BoxArgs& args) {
 Syntax make_syntax(BoxArgs& args) {
   Syntax syntax{
       .verb = "signal box",
-      .summary = "Show boxes beside their spectra: wider in space, narrower in frequency",
+      .summary = "Plot box filters and their spectra: wider in space, narrower in frequency",
       .operands = "--widths W,...",
       .examples =
           "  zoneplate signal box --widths 3,7,15 -o boxes.svg\n"
           "  zoneplate signal box --widths 2,4 --json\n",
       .notes =
-          "The mean over a box of w pixels is a low-pass filter of response sinc(w f) = sin(pi w f)/(pi w f).\n"
-          "It is 0 where whole waves fit into the box, first at f = 1/w: width times first zero is always 1.\n"
-          "Between its zeros it comes back, and where it is negative light and dark change places.\n"};
+          "The mean over a box of w pixels is a low-pass filter with response sinc(w f) = sin(pi w f)/(pi w f).\n"
+          "It is 0 where a whole number of periods fits into the box, first at f = 1/w: the product of width\n"
+          "and first zero is always 1. Between the zeros are side lobes; where the response is negative, light\n"
+          "and dark are exchanged.\n"};
   syntax.options = {{"--widths", "W,...", "Widths in pixels; default 3,7,15", "Options", true,
                      [&](auto& text) { args.widths = parse_whole_list(text, 1, greatest_width); }}};
   for (Option& option : signal_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))

@@ -18,7 +18,7 @@
 namespace zoneplate::cli {
 namespace {
 
-/// How far two ways to the same result are apart.
+/// The difference of two computations of the same result.
 struct Difference {
   double greatest = 0;
   int x = 0, y = 0;
@@ -94,9 +94,8 @@ std::string text_of(const std::string& input, const ConvolveArgs& args, const Li
       "  greatest difference {:.3g} ({:.3g} of the range) at pixel {},{}\n",
       results.space_ms, results.frequency_ms, results.apart->greatest, relative, results.apart->x, results.apart->y);
   if (results.bare)
-    text += fmt::format(
-        "  the bare product of the spectra, without the border written out, would be {:.3g} off at pixel {},{}\n",
-        results.bare->greatest, results.bare->x, results.bare->y);
+    text += fmt::format("  the product of the spectra without padding would be {:.3g} off at pixel {},{}\n",
+                        results.bare->greatest, results.bare->x, results.bare->y);
   return text;
 }
 
@@ -123,7 +122,7 @@ Json::Object json_of(const std::string& input, const ConvolveArgs& args, const L
 }
 
 Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
-  // Weights that sum to nothing take the mean away: what is left are differences.
+  // Weights of sum 0 remove the mean: the result is signed.
   return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
 }
 
@@ -164,22 +163,23 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
                      const KernelChoice& kernel, const LinearImage& result) {
   const Spectrum of_image = fourier(luminance(image)), of_result = fourier(luminance(result));
   const Spectrum of_kernel = spectrum_of(kernel.weights, image.width(), image.height());
-  // On this scale the third picture is the sum of the other two, in decibels below their palest.
+  // On this scale the third image is the sum of the other two, in decibels below their palest.
   const double image_peak = strongest_magnitude(of_image), kernel_peak = strongest_magnitude(of_kernel);
   return compose(
       {.title = fmt::format("{} with {}", title_of(input), kernel.name),
-       .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nAs it came."},
+       .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nThe input."},
                  {kernel_picture(kernel.weights, panel_size(image.width(), image.height())),
-                  fmt::format("Kernel\n{} × {} weights, enlarged, and the zeros around them.", kernel.weights.width(),
+                  fmt::format("Kernel\n{} × {} weights, enlarged, with a border of zeros.", kernel.weights.width(),
                               kernel.weights.height())},
-                 {fitted(picture_of(args, kernel, result)), "Convolution\nEvery pixel spread by the kernel."}},
+                 {fitted(picture_of(args, kernel, result)),
+                  "Convolution\nEach pixel is a weighted sum of its neighbourhood."}},
                 {{magnitude_panel(of_image, {.peak = image_peak}),
                   "Spectrum of the image\nFrequency 0 in the middle, ½ cycle per pixel at the edges; 80 dB from black "
-                  "to the palest."},
+                  "to the maximum."},
                  {magnitude_panel(of_kernel, {.peak = kernel_peak}),
-                  "Spectrum of the kernel\nOn the same scale of frequency."},
+                  "Spectrum of the kernel\nOn the same frequency scale."},
                  {magnitude_panel(of_result, {.peak = image_peak * kernel_peak}),
-                  "Spectrum of the convolution\nThe product of the two beside it."}}},
+                  "Spectrum of the convolution\nThe product of the other two."}}},
        .text = {}});
 }
 
@@ -197,7 +197,7 @@ void run_image(const ConvolveArgs& args, const std::string& input) {
 
 Plane<double> parse_values(const std::string& text) {
   Plane<double> values = parse_number_rows(text);
-  if (values.height() != 1) throw Error(ErrorKind::Usage, "one row of numbers is wanted");
+  if (values.height() != 1) throw Error(ErrorKind::Usage, "expected one row of numbers");
   return values;
 }
 
@@ -205,21 +205,21 @@ Syntax make_syntax(ConvolveArgs& args) {
   std::string notes =
       "Kernels: a name, as gaussian:sigma=2 (along rows and columns, its weights scaled to sum 1); numbers,\n"
       "as \"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row.\n"
-      "Numbers are taken as they are, not scaled. A kernel of sum 0 leaves differences, shown around\n"
-      "mid-grey: code 1/2 + value / 2.\n"
+      "Numbers are not normalized. The result of a kernel of sum 0 is signed: it is displayed around\n"
+      "mid-grey, code 1/2 + value / 2.\n"
       "Names: box:width= tent:radius= gaussian:sigma=,extent= mitchell b-spline catmull-rom lanczos2 lanczos3\n"
       "lanczos:lobes= blackman-harris:radius= kaiser:radius=,beta=\n\n"
-      "The convolution theorem: the spectrum of a convolution is the product of the spectra. It is about\n"
-      "signals that repeat without end, and so it holds as it stands for\n"
-      "  wrap    the image is one tile of an endless wall: the signal that a discrete transform describes\n"
-      "  zero    once the image has as many zeros around it as the kernel reaches; else its left border\n"
-      "          would bleed into the right one (the zeros are black: alpha goes on as at the border)\n"
-      "and does not hold as it stands for\n"
-      "  clamp, reflect   what lies beyond the border depends on where the border is; a convolution only\n"
-      "                   knows distances. They come out right if the border is written out around the\n"
-      "                   image first, as wide as the kernel reaches, and cut off after: as is done here\n"
-      "--via both takes both ways, prints their greatest difference, and how far off the bare product of\n"
-      "the spectra would be.\n\n";
+      "The convolution theorem: the spectrum of a convolution is the product of the spectra. For the\n"
+      "discrete transform the convolution is circular, so the theorem holds directly for\n"
+      "  wrap    periodic continuation, the signal that the discrete transform describes\n"
+      "  zero    after zero padding by the radius of the kernel; otherwise the left border would bleed\n"
+      "          into the right one (the zeros are black: alpha is continued from the border)\n"
+      "and not directly for\n"
+      "  clamp, reflect   the values outside the image depend on the position of the border, and a\n"
+      "                   convolution is shift-invariant. The command therefore pads the image by the\n"
+      "                   radius of the kernel before the transform and crops the result\n"
+      "--via both computes the result in both ways and prints their greatest difference, and the error of\n"
+      "the product of the spectra without padding.\n\n";
   Syntax syntax{.verb = "signal convolve",
                 .summary = "Convolve an image, or a row of numbers, with a kernel",
                 .operands = "IMAGE | --values NUMBERS",
@@ -231,7 +231,7 @@ Syntax make_syntax(ConvolveArgs& args) {
                 .notes = notes + image_notes()};
   const std::string group = "Options";
   syntax.options = {
-      {"--kernel", "KERNEL", "A name, numbers or a file of numbers; default gaussian:sigma=2", group, true,
+      {"--kernel", "KERNEL", "Kernel: a name, numbers or a file of numbers; default gaussian:sigma=2", group, true,
        [&](auto& text) { args.kernel = parse_kernel_choice(text); }},
       {"--values", "NUMBERS", "A row of numbers to convolve instead of an image; -o then writes a plot", group, true,
        [&](auto& text) { args.values = parse_values(text); }},
@@ -242,7 +242,7 @@ Syntax make_syntax(ConvolveArgs& args) {
          args.via = ways[parse_choice(text, {"space", "frequency", "both"})];
        }},
       border_option(args.border, "clamp, reflect, wrap, zero"),
-      {"--side-by-side", "", "The picture shows image, kernel and result above their spectra, with captions", group,
+      {"--side-by-side", "", "Write a figure of input, kernel and result above their spectra, with captions", group,
        true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
   for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
@@ -256,7 +256,7 @@ void run_signal_convolve(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (args.values && !syntax.found_operands.empty())
-    throw Error(ErrorKind::Usage, "either an IMAGE or --values is convolved, not both");
+    throw Error(ErrorKind::Usage, "expected either an IMAGE or --values, not both");
   if (args.values) {
     check_plot_name(args.output);
     return with_threads(args.threads, [&] { convolve_row(args); });

@@ -1,4 +1,4 @@
-// One row of numbers as the image, the kernel along it: what a course does by hand.
+// Convolution of one row of numbers, as in a textbook exercise.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,8 +26,7 @@ Row convolved_row(const ConvolveArgs& args) {
   const KernelChoice& kernel = args.kernel;
   Row row{{args.values->values().begin(), args.values->values().end()}, kernel.taps, {}, {}};
   if (!kernel.is_separable()) {
-    if (kernel.weights.height() != 1)
-      throw Error(ErrorKind::Usage, "--kernel: for --values one row of numbers is wanted");
+    if (kernel.weights.height() != 1) throw Error(ErrorKind::Usage, "--kernel: --values requires one row of numbers");
     row.taps.assign(kernel.weights.values().begin(), kernel.weights.values().end());
   }
   const Plane<float> in = plane_of(row.in), taps = plane_of(row.taps);

@@ -61,7 +61,7 @@ TEST_F(SignalConvolve, WritesThePicture) {
 }
 
 TEST_F(SignalConvolve, WritesValuesByTheEndingOfTheOutput) {
-  // Sobel's differences are -0.75 and 0.75: as a picture they are clamped around mid-grey, as values they are signed.
+  // Sobel's differences are -0.75 and 0.75: as an image they are clamped around mid-grey, as values they are signed.
   const Words words{"edge:size=32,angle=0", "--kernel", "-2 0 2", "-o"};
   for (const char* name : {"edges.pfm", "edges.exr"}) {
     Words all = words;

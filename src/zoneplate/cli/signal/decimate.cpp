@@ -1,4 +1,4 @@
-// zoneplate signal decimate: every n-th pixel beside filtering first.
+// zoneplate signal decimate: every n-th pixel, with and without filtering first.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct Pair {
   LinearImage image, naive, filtered;
 };
 
-/// What a kernel lets alias, measured in this image and as its response foretells for a flat spectrum.
+/// Aliasing of a kernel, measured in this image and predicted from its response for a flat spectrum.
 struct Figures {
   std::string kernel;
   AliasFigures measured, expected;
@@ -56,8 +56,8 @@ std::string shown_db(double db) { return db <= -399 || !std::isfinite(db) ? "non
 std::string text_of(const std::string& input, const Pair& pair, const std::vector<Figures>& rows) {
   std::string text = fmt::format(
       "{}, {} × {} to {} × {}\n"
-      "What aliases, in dB against taking pixels without a filter: all of it, and from 1.5 times the new Nyquist on;\n"
-      "error of what the new grid can hold, against the ideal result: all of it, and its coarser half.\n"
+      "Aliased energy in dB relative to no filter: all of it, and from 1.5 times the new Nyquist frequency on (far);\n"
+      "error in the passband relative to the ideal result: the whole passband, and its lower half (coarse).\n"
       "  {:<16}{:>9}{:>9}{:>9}{:>9}   {:>9}{:>9}{:>9}{:>9}\n",
       input, pair.image.width(), pair.image.height(), pair.naive.width(), pair.naive.height(), "measured (theory)",
       "all", "far", "error", "coarse", "(all", "far", "error", "coarse)");
@@ -102,23 +102,25 @@ Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const P
     return Panel{magnitude_panel(of, {range_db, amplitude * pixels(of)}), caption};
   };
   return compose(
-      {.title = fmt::format("{}, made smaller by {:g}", title_of(input), args.by),
+      {.title = fmt::format("{}, downsampled by {:g}", title_of(input), args.by),
        .rows =
            {{image(pair.image, fmt::format("Image\n{} × {} pixels.", pair.image.width(), pair.image.height())),
-             image(pair.naive,
-                   fmt::format(
-                       "Sampled\nOne pixel of every {0:g} × {0:g}, as it is. Waves too fine for the new grid come back "
-                       "as coarse ones: moire.",
-                       args.by)),
+             image(pair.naive, fmt::format("Sampled\nOne pixel of every {0:g} × {0:g}, without a filter. Frequencies "
+                                           "above the new Nyquist frequency "
+                                           "alias to low ones: moire.",
+                                           args.by)),
              image(pair.filtered,
-                   fmt::format("Filtered, then sampled\nBy {}. What the new grid cannot hold is taken away first.",
-                               args.kernel))},
-            {spectrum(whole,
-                      fmt::format(
-                          "Its spectrum\nThe new grid holds the middle, up to {:.3g} cycle per pixel. Black is {:g} dB "
-                          "below the palest, in all three.",
-                          0.5 / args.by, range_db)),
-             spectrum(fourier(luminance(pair.naive)), "Spectrum\nThe middle, and all that lay outside folded into it."),
+                   fmt::format(
+                       "Filtered, then sampled\nBy {}. Frequencies above the new Nyquist frequency are removed first.",
+                       args.kernel))},
+            {spectrum(
+                 whole,
+                 fmt::format(
+                     "Its spectrum\nThe new grid represents the middle, up to {:.3g} cycle per pixel. Black is {:g} dB "
+                     "below the maximum, in all three.",
+                     0.5 / args.by, range_db)),
+             spectrum(fourier(luminance(pair.naive)),
+                      "Spectrum\nThe middle, with all frequencies outside folded into it."),
              spectrum(fourier(luminance(pair.filtered)), "Spectrum\nThe middle alone.")}},
        .text = {}});
 }
@@ -135,32 +137,33 @@ Pair make_pair(const DecimateArgs& args, LinearImage image) {
 Syntax make_syntax(DecimateArgs& args) {
   Syntax syntax{
       .verb = "signal decimate",
-      .summary = "Make an image smaller twice: by dropping pixels, and by filtering first",
+      .summary = "Downsample an image twice: by dropping pixels, and by filtering first",
       .operands = "IMAGE",
       .examples =
           "  zoneplate signal decimate zone-plate --by 2 -o moire.png\n"
           "  zoneplate signal decimate photo.jpg --by 4 --kernel mitchell -o compare.png --filtered small.png\n"
           "  zoneplate signal decimate zone-plate:size=370 --by 3.7 --all-kernels\n",
       .notes =
-          "A grid of every n-th pixel holds frequencies up to 1/(2n) cycle per pixel. What the image has above\n"
-          "that does not vanish when pixels are dropped: it is folded to a coarser frequency, where nothing\n"
-          "was, and no filter can tell it from the image afterwards. It has to be taken away before. How well a\n"
-          "kernel does that is printed in decibels: -20 dB is a tenth of the amplitude. Theory stands for an\n"
-          "image with a flat spectrum.\n\n" +
+          "A grid of every n-th pixel represents frequencies up to 1/(2n) cycle per pixel. When pixels are\n"
+          "dropped, higher frequencies do not vanish: they alias to lower ones, where no later filter can\n"
+          "separate them from the signal. A low-pass filter has to remove them before. The attenuation of a\n"
+          "kernel is printed in decibels: -20 dB is a tenth of the amplitude. The theoretical figures are those\n"
+          "of an image with a flat spectrum.\n\n" +
           image_notes()};
   const std::string group = "Options";
   syntax.options = {
-      {"--by", "N", "How many times smaller, from 1 to 64, whole or not; default 2", group, true,
+      {"--by", "N", "Downsampling factor, from 1 to 64, integer or not; default 2", group, true,
        [&](auto& text) { args.by = parse_number(text, 1, 64); }},
       {"--kernel", "NAME", "Kernel of the filter; default lanczos3", group, true,
        [&](auto& text) { args.kernel = make_kernel(text).name; }},
       {"--all-kernels", "", "Print the figures of every kernel", group, true, [&](auto&) { args.compares_all = true; }},
-      {"--naive", "FILE", "Write the picture of dropped pixels alone: .png, or the values as .pfm or .exr", group,
-       false, [&](auto& text) { args.naive_path = text; }},
-      {"--filtered", "FILE", "Write the filtered picture alone: .png, or the values as .pfm or .exr", group, false,
+      {"--naive", "FILE", "Write the unfiltered image alone: .png, or the values as .pfm or .exr", group, false,
+       [&](auto& text) { args.naive_path = text; }},
+      {"--filtered", "FILE", "Write the filtered image alone: .png, or the values as .pfm or .exr", group, false,
        [&](auto& text) { args.filtered_path = text; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, "The picture of both, with their spectra and captions: a .png file, or -"))
+  for (Option& option :
+       signal_options(args, "Write a figure of both results with their spectra and captions: a .png file, or -"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }

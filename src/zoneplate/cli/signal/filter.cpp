@@ -28,7 +28,7 @@ struct FilterArgs : SignalArgs {
   Border border = Border::Reflect;
   bool is_side_by_side = false;
 
-  /// The mean is gone: the picture is of differences, and shown around mid-grey.
+  /// The mean is gone: the image is of differences, and shown around mid-grey.
   bool loses_mean() const { return response(filter, 0) < 0.5; }
 };
 
@@ -86,10 +86,10 @@ Plot response_plot(const FilterArgs& args) {
           .curves = {curve, {"Nyquist frequency", {{0.5, 0}, {0.5, 1.1}}, Curve::Mark::Dashed, Curve::grey}}};
 }
 
-// A little less than paper, so that a figure draws the picture's outline.
+// A little less than paper, so that a figure draws the image's outline.
 constexpr float white = 254.0f / 255;
 
-/// The response as the transform sees it: a factor for every bin, black 0 and white 1.
+/// The response as applied to the transform: a factor for every bin, black 0 and white 1.
 Rgba8Image response_picture(const FilterArgs& args, int width, int height) {
   LinearImage image(width, height);
   for (int y = 0; y < height; ++y)
@@ -110,18 +110,18 @@ Rgba8Image figure_of(const std::string& input, const FilterArgs& args, const Lin
   const Spectrum was = fourier(luminance(before)), is = fourier(luminance(after));
   const MagnitudeScale scale{.peak = strongest_magnitude(was)};  // one for both, so that they can be compared
   const Rgba8Image plot = plot_picture(response_plot(args), {panel_px, panel_px * 3 / 4});
-  const std::string around = args.loses_mean() ? " The mean is gone: mid-grey is 0." : "";
+  const std::string around = args.loses_mean() ? " The mean is removed: mid-grey is 0." : "";
   const std::string shape =
-      before.width() == before.height() ? "" : " In frequency it is round; the picture has the image's shape.";
+      before.width() == before.height() ? "" : " The filter is isotropic; the plot has the image's aspect ratio.";
   const Figure figure{
       .title = fmt::format("{}: {}", title_of(input), name_of(args)),
-      .rows = {{{fitted(shown(before, args.uses_codes)), "Image\nAs it came."},
+      .rows = {{{fitted(shown(before, args.uses_codes)), "Image\nThe input."},
                 {magnitude_panel(was, scale), fmt::format("Its spectrum\nFrequency 0 in the middle, ½ cycle per pixel "
-                                                          "at the edges; {:g} dB from black to the palest.",
+                                                          "at the edges; {:g} dB from black to the maximum.",
                                                           scale.range_db)},
                 {response_picture(args, before.width(), before.height()),
-                 "Response\nWhat every frequency is multiplied with: white 1, black 0." + shape}},
-               {{fitted(picture_of(args, after)), "Filtered image\nThe waves that are left, added up again." + around},
+                 "Response\nThe factor of each frequency: white 1, black 0." + shape}},
+               {{fitted(picture_of(args, after)), "Filtered image\nThe inverse transform of the product." + around},
                 {magnitude_panel(is, scale), "Its spectrum\nThe product of the two above, on the same scale."},
                 {plot, ""}}},
       .text = {}};
@@ -131,7 +131,7 @@ Rgba8Image figure_of(const std::string& input, const FilterArgs& args, const Lin
 Syntax make_syntax(FilterArgs& args) {
   Syntax syntax{
       .verb = "signal filter",
-      .summary = "Take frequencies out of an image",
+      .summary = "Filter an image in the frequency domain",
       .operands = "IMAGE",
       .examples =
           "  zoneplate signal filter photo.jpg --low-pass 0.1 -o soft.png\n"
@@ -139,32 +139,32 @@ Syntax make_syntax(FilterArgs& args) {
           "  zoneplate signal filter zone-plate --band-pass 0.1:0.2 -o ring.png\n"
           "  zoneplate signal filter scan.png --band-stop 0.24:0.26 --border wrap -o clean.png\n",
       .notes =
-          "Frequencies are in cycles per pixel, in every direction alike: 0.5 is the Nyquist frequency, 0.1 a\n"
-          "wave of 10 pixels. The filter multiplies each frequency with its response; how it falls is the shape:\n"
-          "  ideal                all or nothing. A knife in frequency rings in space: ripples at every edge\n"
-          "  gaussian             softest, without any ripple; one half at the cut\n"
-          "  butterworth:order=N  between the two: flat, then steeper the greater N; one half at the cut\n"
-          "An image whose mean is taken away (high-pass, band-pass) holds negative values: it is shown around\n"
-          "mid-grey, code 1/2 + value / 2. Each channel is filtered alone, alpha too, premultiplied and in\n"
+          "Frequencies are in cycles per pixel, and the filters are isotropic: 0.5 is the Nyquist frequency, 0.1\n"
+          "a wavelength of 10 pixels. Each frequency is multiplied by the response, whose shape is one of\n"
+          "  ideal                1 or 0; the discontinuity causes ringing, ripples at every edge\n"
+          "  gaussian             smoothest, without ringing; one half at the cutoff\n"
+          "  butterworth:order=N  between the two: flat, then steeper the greater N; one half at the cutoff\n"
+          "An image without its mean (high-pass, band-pass) has negative values: it is displayed around\n"
+          "mid-grey, code 1/2 + value / 2. Channels are filtered separately, alpha too, premultiplied and in\n"
           "linear light.\n\n"
-          "The border rule reflect mirrors the image before it is transformed, so that opposite edges do not\n"
-          "bleed into one another; wrap takes it as a tile, and is exact for one. The other rules cannot be\n"
-          "continued without end.\n\n" +
+          "The border rule reflect mirrors the image before the transform, so that opposite edges do not\n"
+          "bleed into one another; wrap continues it periodically, and is exact for a tile. The other rules\n"
+          "have no periodic continuation.\n\n" +
           image_notes()};
   const std::string group = "Filter";
   syntax.options = {
-      {"--low-pass", "F", "Keep what is coarser than F cycles per pixel: blur", group, true,
+      {"--low-pass", "F", "Keep frequencies below F cycles per pixel: blur", group, true,
        [&](auto& text) { set_single(args, Pass::Low, text); }},
-      {"--high-pass", "F", "Keep what is finer: edges and detail", group, true,
+      {"--high-pass", "F", "Keep frequencies above F: edges and detail", group, true,
        [&](auto& text) { set_single(args, Pass::High, text); }},
-      {"--band-pass", "LOW:HIGH", "Keep what is between the two", group, true,
+      {"--band-pass", "LOW:HIGH", "Keep the frequencies between the two", group, true,
        [&](auto& text) { set_band(args, Pass::Band, text); }},
-      {"--band-stop", "LOW:HIGH", "Take out what is between the two", group, true,
+      {"--band-stop", "LOW:HIGH", "Remove the frequencies between the two", group, true,
        [&](auto& text) { set_band(args, Pass::Stop, text); }},
       {"--shape", "NAME", "ideal, gaussian or butterworth:order=4; default ideal", group, true,
        [&](auto& text) { args.filter.shape = parse_filter_shape(text), args.shape = text; }},
       border_option(args.border, "reflect, wrap"),
-      {"--side-by-side", "", "The picture shows image, spectrum and response, before and after, with captions",
+      {"--side-by-side", "", "Write a figure of image, spectrum and response, before and after, with captions",
        "Options", true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
   for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
@@ -177,7 +177,7 @@ void tell_result(const std::string& input, const FilterArgs& args, const LinearI
   const double kept = was > 0 ? is / was : 1;
   const bool has_low = args.filter.pass != Pass::Low, has_high = args.filter.pass != Pass::High;
   tell(args,
-       fmt::format("{}, {} × {}: {}, border {}\n  {:.2f} % of the luminance's variance is left\n", input,
+       fmt::format("{}, {} × {}: {}, border {}\n  {:.2f} % of the variance of the luminance remains\n", input,
                    before.width(), before.height(), name_of(args), name_of(args.border), 100 * kept),
        {{"input", input},
         {"output", args.output},
@@ -200,7 +200,7 @@ void run_signal_filter(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.passes_given != 1)
-    throw Error(ErrorKind::Usage, "one of --low-pass, --high-pass, --band-pass and --band-stop is wanted");
+    throw Error(ErrorKind::Usage, "expected one of --low-pass, --high-pass, --band-pass and --band-stop");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage before = load_signal(input, args.uses_codes);

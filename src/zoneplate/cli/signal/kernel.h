@@ -25,7 +25,7 @@ KernelChoice parse_kernel_choice(const std::string& text);
 
 /// "1 3/4 -.5": numbers and fractions at spaces and commas; rows at semicolons and line ends, all of one length.
 ///
-/// Errors    ErrorKind::Usage naming what is no number.
+/// Errors    ErrorKind::Usage naming the text that is no number.
 Plane<double> parse_number_rows(const std::string& text);
 
 }  // namespace zoneplate::cli

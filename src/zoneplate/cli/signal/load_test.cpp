@@ -46,7 +46,7 @@ TEST_F(SignalLoad, PatternsAreLightOrItsCodes) {
 }
 
 TEST_F(SignalLoad, SaysWhatIsWrongWithAFile) {
-  save("text.png", "no picture");
+  save("text.png", "no image");
   save("cut.png", "\x89PNG\r\n\x1a\n");
   for (const char* name : {"text.png", "cut.png", "none.png"}) {
     try {

@@ -10,7 +10,7 @@ namespace zoneplate::cli {
 /// The image on another grid by a kernel's name, "nearest" or "ideal" (signal/filter/resample.h).
 LinearImage resampled(const LinearImage& image, int width, int height, const std::string& kernel, Border border);
 
-/// Errors    ErrorKind::Usage where `resampled` does not know the name.
+/// Errors    ErrorKind::Usage for an unknown name.
 void check_reduction(const std::string& kernel);
 
 }  // namespace zoneplate::cli

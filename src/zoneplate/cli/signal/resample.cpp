@@ -45,16 +45,16 @@ Rgba8Image figure_of(const std::string& input, const ResampleArgs& args, const L
   return compose(
       {.title = fmt::format("{}: {} × {} to {} × {}", title_of(input), image.width(), image.height(), result.width(),
                             result.height()),
-       .rows = {{panel(image, "Image\nAs it came."),
-                 panel(nearest, "nearest\nThe pixel in which each new centre falls, and nothing else."),
-                 panel(result, args.kernel + "\nEach new pixel a weighted mean of those around its centre.")}},
+       .rows = {{panel(image, "Image\nThe input."),
+                 panel(nearest, "nearest\nThe input pixel that contains each new centre."),
+                 panel(result, args.kernel + "\nEach new pixel is a weighted mean of the pixels around its centre.")}},
        .text = {}});
 }
 
 Syntax make_syntax(ResampleArgs& args) {
   Syntax syntax{
       .verb = "signal resample",
-      .summary = "Put an image on another grid, larger or smaller",
+      .summary = "Resample an image to another size",
       .operands = "IMAGE",
       .examples =
           "  zoneplate signal resample photo.jpg --size 640x480 -o small.png\n"
@@ -62,28 +62,28 @@ Syntax make_syntax(ResampleArgs& args) {
           "  zoneplate signal resample icon.png --size 8 --kernel catmull-rom -o large.png\n"
           "  zoneplate signal resample bricks --size 0.27 --side-by-side -o why.png\n",
       .notes =
-          "The kernel interpolates between pixels; where the image becomes smaller it is stretched by the\n"
-          "factor, so that it also takes away what the new grid cannot hold. Pixel centres stay where they are:\n"
-          "there is no shift by half a pixel, a constant stays that constant and a ramp a ramp. Colours are\n"
-          "mixed in linear light, premultiplied; --codes mixes sRGB codes, which darkens fine detail.\n\n"
-          "Besides the kernels of zoneplate signal convolve there are nearest (no filter at all) and ideal (all\n"
-          "frequencies that both grids hold, no other; the image is taken as a tile).\n"
-          "Negative lobes (lanczos, catmull-rom, mitchell, kaiser) overshoot at edges; what leaves 0 to 1 is\n"
+          "The kernel interpolates between pixels; for downsampling it is stretched by the scale factor, so that\n"
+          "it also removes frequencies above the new Nyquist frequency. Pixel centres are aligned: there is no\n"
+          "shift by half a pixel, and constants and linear ramps are reproduced. Colours are averaged in linear\n"
+          "light, premultiplied; --codes averages sRGB codes, which darkens fine detail.\n\n"
+          "Besides the kernels of zoneplate signal convolve there are nearest (no filter) and ideal (exactly the\n"
+          "frequencies that both grids represent; the image is continued periodically).\n"
+          "Negative lobes (lanczos, catmull-rom, mitchell, kaiser) overshoot at edges; values outside 0 to 1 are\n"
           "clamped in a .png, and kept in a .pfm or .exr.\n\n"
-          "Where the kernel reaches beyond the image, --border cut divides by the sum of the weights inside, as\n"
-          "Pillow does; clamp, the default, repeats the border's pixels. With zero black lies beyond, and alpha\n"
-          "goes on as at the border. Where a pixel lies at a kernel's jump (box: halfway between two new\n"
-          "centres) it counts by half for both sides, and for Pillow to one of them. nearest takes the pixel to\n"
-          "the right or below on a tie, as Pillow does.\n\n" +
+          "Where the kernel extends outside the image, --border cut divides by the sum of the weights inside, as\n"
+          "Pillow does; clamp, the default, repeats the border's pixels; zero uses black, with alpha continued\n"
+          "from the border. A pixel at a discontinuity of a kernel (box: halfway between two new centres)\n"
+          "has half its weight on both sides; Pillow assigns it to one. On a tie nearest uses the pixel to the\n"
+          "right or below, as Pillow does.\n\n" +
           image_notes()};
   const std::string group = "Options";
   syntax.options = {
-      {"--size", "SIZE", "WIDTHxHEIGHT, or a factor as 0.5, 2 or 50%", group, true,
+      {"--size", "SIZE", "WIDTHxHEIGHT, or a factor such as 0.5, 2 or 50%", group, true,
        [&](auto& text) { args.size = text; }},
       {"--kernel", "NAME", "lanczos3 (default), mitchell, box, tent, gaussian:sigma=0.5, ..., nearest, ideal", group,
        true, [&](auto& text) { check_reduction(text), args.kernel = text; }},
       border_option(args.border, "clamp, reflect, wrap, zero, cut"),
-      {"--side-by-side", "", "The picture shows the image, the nearest pixels and the result, with captions", group,
+      {"--side-by-side", "", "Write a figure of the input, the nearest pixels and the result, with captions", group,
        true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
   for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
@@ -97,8 +97,8 @@ void run_signal_resample(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
-  if (args.size.empty()) throw Error(ErrorKind::Usage, "--size is missing: the new size, as 640x480 or 50%");
-  if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: where to write the picture");
+  if (args.size.empty()) throw Error(ErrorKind::Usage, "--size is missing: the new size, such as 640x480 or 50%");
+  if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: the image file to write");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   with_threads(args.threads, [&] {
     const LinearImage image = load_signal(input, args.uses_codes);

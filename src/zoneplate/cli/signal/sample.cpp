@@ -28,8 +28,8 @@ struct SampleArgs : SignalArgs {
 // Two periods of the slower wave, but some samples and no thicket of the faster one.
 double duration_of(const SampleArgs& args) {
   const double slow = std::abs(args.apparent());
-  const double wanted = slow > 0 ? 2 / slow : 8 / args.rate;
-  return std::max(std::min(wanted, 14 / args.frequency), 6 / args.rate);
+  const double preferred = slow > 0 ? 2 / slow : 8 / args.rate;
+  return std::max(std::min(preferred, 14 / args.frequency), 6 / args.rate);
 }
 
 Curve wave_curve(const std::string& name, double frequency, double duration, int color) {
@@ -64,7 +64,7 @@ double spectrum_at(const SampleArgs& args, double f) { return std::max(0.0, 1 - 
 Plot copies_plot(const SampleArgs& args) {
   const double edge = 1.5 * args.rate;
   Curve base{fmt::format("spectrum up to {:g} Hz", args.frequency), {}, Curve::Mark::Area, 0};
-  Curve copies{"its copies", {}, Curve::Mark::Area, 5}, overlap{"where they overlap", {}, Curve::Mark::Area, 1, 0.6};
+  Curve copies{"its replicas", {}, Curve::Mark::Area, 5}, overlap{"where they overlap", {}, Curve::Mark::Area, 1, 0.6};
   const int reach = 2 + static_cast<int>(std::min(100.0, args.frequency / args.rate));
   double most = 0;
   for (int i = 0; i <= steps; ++i) {
@@ -76,8 +76,9 @@ Plot copies_plot(const SampleArgs& args) {
         overlap.points.emplace_back(f, std::min(own, others));
     most = std::max(most, std::min(own, others));
   }
-  Plot plot{.title = most > 0 ? "Samples repeat a spectrum at every multiple of the rate: here the copies overlap"
-                              : "Samples repeat a spectrum at every multiple of the rate: here there is room",
+  Plot plot{.title = most > 0
+                         ? "Sampling replicates a spectrum at every multiple of the rate: here the replicas overlap"
+                         : "Sampling replicates a spectrum at every multiple of the rate: here without overlap",
             .x = {"frequency (Hz)", -edge, edge},
             .y = {"magnitude", 0, 1.1},
             .curves = {copies, base}};
@@ -104,19 +105,19 @@ std::string text_of(const SampleArgs& args) {
   std::string text =
       fmt::format("{:g} Hz sampled at {:g} Hz: half the rate is {:g} Hz\n", args.frequency, args.rate, args.rate / 2);
   if (args.is_aliased())
-    text += fmt::format("  aliased: its samples are those of {:g} Hz{}\n", std::abs(seen),
+    text += fmt::format("  aliased: the samples equal those of {:g} Hz{}\n", std::abs(seen),
                         seen < 0 ? ", running backwards" : "");
   else if (args.frequency == args.rate / 2)
-    text += "  just half the rate: what the samples are depends on where they fall; they may all be 0\n";
+    text += "  exactly half the rate: the samples depend on the phase; they may all be 0\n";
   else
-    text += "  not aliased: below half the rate no other wave has these samples\n";
+    text += "  not aliased: below half the rate no other frequency has the same samples\n";
   text += fmt::format("  the same samples: {}, ... Hz\n", others);
   const Band band = overlap_of_copies(args.frequency, args.rate);
   return text + (band.low < band.high
-                     ? fmt::format("  copies of a spectrum that reaches to {:g} Hz overlap from {:g} to {:g} Hz\n",
+                     ? fmt::format("  replicas of a spectrum of bandwidth {:g} Hz overlap from {:g} to {:g} Hz\n",
                                    args.frequency, std::max(0.0, band.low), band.high)
-                     : fmt::format("  copies of a spectrum that reaches to {:g} Hz keep {:g} Hz apart\n",
-                                   args.frequency, band.low - band.high));
+                     : fmt::format("  replicas of a spectrum of bandwidth {:g} Hz are {:g} Hz apart\n", args.frequency,
+                                   band.low - band.high));
 }
 
 Json::Object json_of(const SampleArgs& args) {
@@ -135,20 +136,20 @@ Json::Object json_of(const SampleArgs& args) {
 Syntax make_syntax(SampleArgs& args) {
   Syntax syntax{
       .verb = "signal sample",
-      .summary = "Sample a wave, and show what else has the same samples",
+      .summary = "Sample a sine wave, and plot the other frequencies with the same samples",
       .operands = "--frequency F --rate R",
       .examples =
           "  zoneplate signal sample --frequency 7 --rate 10 -o alias.svg\n"
           "  zoneplate signal sample --frequency 3 --rate 10 -o enough.png\n"
           "  zoneplate signal sample --frequency 0.9 --rate 1     # a wheel of 0.9 spokes a frame\n",
       .notes =
-          "Samples at a rate r cannot tell f from f + r, f + 2r, ... nor from r - f, 2r - f, ... Of all these\n"
-          "the one below r/2 is seen. The same in frequency: sampling copies the spectrum to every multiple of\n"
-          "the rate. While the signal ends below r/2 the copies stay apart, and the signal can be had back\n"
-          "exactly; beyond that they overlap, and what overlaps is lost. That is why images are filtered\n"
-          "before they are sampled.\n"};
+          "At a sampling rate r the frequencies f, f + r, f + 2r, ... and r - f, 2r - f, ... have the same\n"
+          "samples: they are aliases, and reconstruction returns the one below r/2. In frequency, sampling\n"
+          "replicates the spectrum at every multiple of the rate. If the signal is band-limited below r/2 the\n"
+          "replicas do not overlap, and the signal can be reconstructed exactly; otherwise the overlapping\n"
+          "frequencies are lost. This is why images are low-pass filtered before they are sampled.\n"};
   const std::string group = "Options";
-  syntax.options = {{"--frequency", "F", "Of the wave, in Hz", group, true,
+  syntax.options = {{"--frequency", "F", "Frequency of the wave in Hz", group, true,
                      [&](auto& text) { args.frequency = parse_number(text, least, greatest); }},
                     {"--rate", "R", "Samples per second", group, true,
                      [&](auto& text) { args.rate = parse_number(text, least, greatest); }}};
@@ -165,7 +166,7 @@ void run_signal_sample(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   if (!syntax.found_operands.empty())
     throw Error(ErrorKind::Usage, "signal sample takes no operands: --frequency F --rate R");
-  if (args.frequency == 0 || args.rate == 0) throw Error(ErrorKind::Usage, "--frequency and --rate are wanted");
+  if (args.frequency == 0 || args.rate == 0) throw Error(ErrorKind::Usage, "--frequency and --rate are required");
   if (args.frequency > 1000 * args.rate) throw Error(ErrorKind::Usage, "--frequency is more than 1000 times the rate");
   check_plot_name(args.output);
   if (!args.output.empty())

@@ -21,11 +21,11 @@ struct SeriesArgs : SignalArgs {
   std::vector<int> terms = {1, 3, 5, 15};
 };
 
-/// How well the harmonics 1 to `highest` make the wave.
+/// The error of the partial sum of the harmonics 1 to `highest`.
 struct Sum {
   int highest = 0;
   double greatest = 0;  ///< of the sum; the waves reach 1
-  double rms = 0;       ///< of what is missing, by Parseval: the harmonics left out
+  double rms = 0;       ///< of the omitted harmonics, by Parseval
 };
 
 double jump_of(Wave wave) { return wave == Wave::Triangle ? 0 : 2; }
@@ -69,7 +69,7 @@ Plot sums_plot(Wave wave, const SeriesArgs& args) {
   return plot;
 }
 
-// Shown to a number of harmonics that can still be told apart.
+// Only as many harmonics as can be distinguished are drawn.
 Plot harmonics_plot(Wave wave, const SeriesArgs& args) {
   const int last = std::clamp(*std::max_element(args.terms.begin(), args.terms.end()), 5, 40);
   Curve bars{"amplitude of the harmonic", {}, Curve::Mark::Stems, 0}, fall{"", {}, Curve::Mark::Dashed, Curve::grey};
@@ -89,8 +89,8 @@ Plot harmonics_plot(Wave wave, const SeriesArgs& args) {
 }
 
 std::string text_of(Wave wave, const std::vector<Sum>& sums) {
-  std::string text = fmt::format(
-      "{} wave between -1 and 1\n  harmonics to   greatest   overshoot   rms of what is missing\n", name_of(wave));
+  std::string text =
+      fmt::format("{} wave between -1 and 1\n  harmonics to   greatest   overshoot   rms error\n", name_of(wave));
   for (const Sum& sum : sums) {
     const std::string overshoot =
         jump_of(wave) > 0 ? fmt::format("{:.3f} %", 100 * (sum.greatest - 1) / jump_of(wave)) : "none";
@@ -98,8 +98,8 @@ std::string text_of(Wave wave, const std::vector<Sum>& sums) {
   }
   if (jump_of(wave) > 0)
     text +=
-        "The overshoot, in per cent of the jump, tends to 8.949 % and stays: only its place moves to the jump "
-        "(Gibbs).\n";
+        "The overshoot, in per cent of the jump, tends to 8.949 % and not to 0: only its position moves to the jump "
+        "(Gibbs phenomenon).\n";
   return text;
 }
 
@@ -120,17 +120,17 @@ Json::Object json_of(Wave wave, const SeriesArgs& args, const std::vector<Sum>& 
 Syntax make_syntax(SeriesArgs& args) {
   Syntax syntax{
       .verb = "signal series",
-      .summary = "Build a wave from its harmonics (Fourier series)",
+      .summary = "Plot partial sums of the Fourier series of a wave",
       .operands = "square|triangle|sawtooth",
       .examples =
           "  zoneplate signal series square --terms 1,3,5,15 -o series.svg\n"
           "  zoneplate signal series triangle --terms 1,3,9 -o triangle.png\n"
           "  zoneplate signal series sawtooth --terms 100,1000 --json\n",
       .notes =
-          "Each of the waves is a sum of sines of 1, 2, 3, ... cycles per period; square and triangle have odd\n"
-          "ones only. A jump needs all of them: amplitudes fall as slowly as 1/n, and any sum that ends\n"
-          "overshoots the jump by 8.949 % of it, however long (Gibbs). The triangle only bends: it falls as\n"
-          "1/n², and does not. An edge in an image is such a jump: its frequencies are above those of any grid.\n"};
+          "Each wave is a sum of sines of 1, 2, 3, ... cycles per period; square and triangle have odd harmonics\n"
+          "only. At a discontinuity the amplitudes fall as slowly as 1/n, and every partial sum overshoots by\n"
+          "8.949 % of the jump in the limit (Gibbs phenomenon). The triangle is continuous: its amplitudes fall\n"
+          "as 1/n², without overshoot. An edge in an image is such a discontinuity: it is not band-limited.\n"};
   syntax.options = {{"--terms", "N,...", "Highest harmonic of each sum; default 1,3,5,15", "Options", true,
                      [&](auto& text) { args.terms = parse_whole_list(text, 1, greatest_term); }}};
   for (Option& option : signal_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))

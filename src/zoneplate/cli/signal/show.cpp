@@ -31,7 +31,7 @@ Plane<float> greatest_in(const Plane<float>& plane, int2 size) {
   return out;
 }
 
-// What of the spectrum's own range is kept before it is put on another scale: all that doubles hold of a picture.
+// The dynamic range that is kept before a spectrum is rescaled: all that doubles represent of an image.
 constexpr double whole_range_db = 400;
 
 double power_of(Complex z) { return z.real() * z.real() + z.imag() * z.imag(); }

@@ -8,12 +8,12 @@
 
 namespace zoneplate::cli {
 
-// How images and spectra are shown in the pictures of `zoneplate signal`.
+// Display of images and spectra in the figures of `zoneplate signal`.
 
-/// The greatest side of a panel's picture.
+/// The greatest side of a panel's image.
 constexpr int panel_px = 512;
 
-/// Linear light, or display codes, premultiplied, as a picture. What is below 0 or above 1 is clamped.
+/// Linear light, or display codes, premultiplied, as a image. What is below 0 or above 1 is clamped.
 Rgba8Image shown(const LinearImage& image, bool uses_codes);
 
 /// An image of differences: 0 is mid-grey, code ½ + value / 2, opaque.
@@ -22,7 +22,7 @@ Rgba8Image shown_around_grey(const LinearImage& image);
 /// Rec.709 luminance of the working numbers, on black.
 Plane<float> luminance(const LinearImage& image);
 
-/// How magnitudes are painted: the palest is `peak`, black what is `range_db` decibels below it.
+/// The scale of displayed magnitudes: white is `peak`, black `range_db` decibels below it.
 struct MagnitudeScale {
   double range_db = 80;
   double peak = 0;  ///< a magnitude |X|; 0: the strongest wave of the spectrum itself
@@ -39,16 +39,16 @@ Rgba8Image paint_phase(const Spectrum& spectrum);
 /// The same at the size of a panel: of a large spectrum the strongest of each block of bins, so that no line is lost.
 Rgba8Image magnitude_panel(const Spectrum& spectrum, const MagnitudeScale& scale = {});
 
-/// The size at which a picture of width × height pixels is shown: enlarged by a whole factor, or reduced to panel_px.
+/// The size at which an image of width × height pixels is shown: enlarged by a whole factor, or reduced to panel_px.
 int2 panel_size(int width, int height);
 
-/// The picture at the size of a panel: pixels repeated, or reduced by a filter.
+/// The image at the size of a panel: pixels repeated, or reduced by a filter.
 Rgba8Image fitted(const Rgba8Image& picture);
 
 /// The phase at the size of a panel; of a large spectrum the middle, because phases have no mean.
 Rgba8Image phase_panel(const Spectrum& spectrum);
 
-/// What a figure calls its input: a file's name without its folders.
+/// The name of the input in a figure: a file's name without its folders.
 std::string title_of(const std::string& input);
 
 }  // namespace zoneplate::cli

@@ -49,9 +49,9 @@ TEST(SignalShow, LevelsAreDecibelsBelowThePeak) {
   const Spectrum spectrum = fourier(plane);
   EXPECT_NEAR(strongest_magnitude(spectrum), 64 * 64 / 4, 1e-2);
   const auto expect_level = [&](const MagnitudeScale& scale, int x, float level) {
-    const Rgba8 found = paint_magnitude(spectrum, scale)(32 + x, 32), wanted = metrics::magma(level);
-    EXPECT_NEAR(found.r, wanted.r, 3) << level;
-    EXPECT_NEAR(found.g, wanted.g, 3) << level;
+    const Rgba8 found = paint_magnitude(spectrum, scale)(32 + x, 32), expected = metrics::magma(level);
+    EXPECT_NEAR(found.r, expected.r, 3) << level;
+    EXPECT_NEAR(found.g, expected.g, 3) << level;
   };
   expect_level({.range_db = 80}, 16, 1);
   expect_level({.range_db = 80}, 8, 0.5f);

@@ -1,4 +1,4 @@
-// zoneplate signal: the signal laboratory. A table of subcommands, each in a file of its own.
+// zoneplate signal: spectra, filters and sampling. A table of subcommands, each in a file of its own.
 #include "zoneplate/cli/signal/signal.h"
 
 #include <fmt/format.h>
@@ -17,21 +17,21 @@ struct Subcommand {
   void (*run)(std::span<const std::string> arguments);
 };
 constexpr Subcommand subcommands[] = {
-    {"spectrum", "which frequencies an image holds: magnitude, phase, radial profile", run_signal_spectrum},
-    {"filter", "an image without the low, the high or a band of its frequencies", run_signal_filter},
-    {"convolve", "an image or a list of numbers with a kernel, in space, by its spectrum, or both",
+    {"spectrum", "spectrum of an image: magnitude, phase, radial profile", run_signal_spectrum},
+    {"filter", "low-pass, high-pass, band-pass or band-stop filter of an image", run_signal_filter},
+    {"convolve", "convolution of an image or a list of numbers, in space, by the spectra, or both",
      run_signal_convolve},
-    {"resample", "an image on another grid, larger or smaller, with any kernel", run_signal_resample},
-    {"decimate", "every n-th pixel beside filtering first: where moire comes from", run_signal_decimate},
-    {"series", "a square, triangle or sawtooth wave built up from its harmonics", run_signal_series},
-    {"sample", "two waves with the same samples, and the copies of a sampled spectrum", run_signal_sample},
-    {"box", "boxes and their spectra: wider in space, narrower in frequency", run_signal_box}};
+    {"resample", "resampling of an image to another size, with any kernel", run_signal_resample},
+    {"decimate", "downsampling with and without a low-pass filter: the cause of moire", run_signal_decimate},
+    {"series", "Fourier series of a square, triangle or sawtooth wave", run_signal_series},
+    {"sample", "aliases of a sampled sine wave, and the replicas of a sampled spectrum", run_signal_sample},
+    {"box", "box filters and their spectra: wider in space, narrower in frequency", run_signal_box}};
 
 std::string overview() {
   std::string text =
       "Usage: zoneplate signal SUBCOMMAND ARGUMENTS\n"
       "\n"
-      "The signal laboratory: spectra, filters and sampling, on pictures of yours or on patterns made in code.\n"
+      "Spectra, filters and sampling, on image files or on generated test patterns.\n"
       "\n";
   for (const Subcommand& s : subcommands) text += fmt::format("  {:<10}{}\n", s.name, s.summary);
   return text +

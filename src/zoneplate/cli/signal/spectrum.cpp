@@ -36,7 +36,7 @@ struct Wave {
   double degrees() const { return angle_of(fy, fx) * 180 / std::numbers::pi; }
 };
 
-/// What the numbers say of an image.
+/// The statistics of an image.
 struct Summary {
   double mean = 0, deviation = 0;           ///< of the luminance that was transformed
   double coarse = 0, fine = 0, corner = 0;  ///< shares of the variance: below ¼, from ¼ to ½, beyond ½ cycle per pixel
@@ -44,7 +44,7 @@ struct Summary {
 };
 
 struct Analysis {
-  Plane<float> plane;  ///< what was transformed
+  Plane<float> plane;  ///< the input of the transform
   Spectrum spectrum;
   Summary summary;
 };
@@ -116,7 +116,7 @@ Plot radial_plot(const RadialProfile& profile, double range_db) {
     curve.points.emplace_back((static_cast<double>(ring) + 0.5) * profile.ring_width, decibels(profile.power[ring]));
     strongest = std::max(strongest, curve.points.back().second);
   }
-  // What is weaker than pictures show is rounding, and would flatten the rest.
+  // Values below the displayed range are rounding errors, and would compress the plot.
   const double high = curve.points.empty() ? 0 : 10 * std::ceil(strongest / 10 + 0.2), low = high - range_db - 40;
   std::erase_if(curve.points, [&](const auto& p) { return p.second < low; });
   return {.title = "Radial profile",
@@ -195,7 +195,7 @@ Rgba8Image figure_of(const std::string& input, const SpectrumArgs& args, const A
                                     "the strongest wave; black: {:g} dB weaker.",
                                     args.range_db)}},
            {{phase_panel(a.spectrum),
-             "Phase\nWhere each wave begins: white 0, orange a quarter turn, black half a turn, blue three quarters."},
+             "Phase\nPhase of each frequency: white 0, orange a quarter turn, black half a turn, blue three quarters."},
             {plot_picture(radial_plot(profile_of(a.spectrum), args.range_db), {panel_px, panel_px * 3 / 4}), ""}}},
       .text = {}};
   return compose(figure);
@@ -204,7 +204,7 @@ Rgba8Image figure_of(const std::string& input, const SpectrumArgs& args, const A
 Syntax make_syntax(SpectrumArgs& args) {
   Syntax syntax{
       .verb = "signal spectrum",
-      .summary = "Show which frequencies an image holds",
+      .summary = "Compute the spectrum of an image",
       .operands = "IMAGE",
       .examples =
           "  zoneplate signal spectrum photo.jpg -o spectrum.png\n"
@@ -212,31 +212,32 @@ Syntax make_syntax(SpectrumArgs& args) {
           "  zoneplate signal spectrum photo.jpg --periodic --radial -o profile.svg\n"
           "  zoneplate signal spectrum sine:frequency=0.2,angle=30 --window hann --json\n",
       .notes =
-          "The spectrum is that of Rec.709 luminance, in linear light (with --codes: of luma). In pictures\n"
+          "The spectrum is that of Rec.709 luminance, in linear light (with --codes: of luma). In images\n"
           "frequency 0 is in the middle and one pixel is one bin: fx grows to the right, fy downwards, and the\n"
-          "edges are half a cycle per pixel, the Nyquist frequency: the finest wave that pixels can hold.\n\n"
-          "The transform takes the image as one tile of an endless wall. Where left and right, or top and\n"
-          "bottom, do not meet, that wall has seams, and the spectrum a bright cross. Two remedies:\n"
-          "  --window hann   fades the image out towards its borders. Peaks become broad, detail there is lost\n"
-          "  --periodic      takes away a smooth part that holds the jumps (Moisan 2011). Nothing is faded\n\n"
+          "edges are half a cycle per pixel, the Nyquist frequency: the highest that the pixel grid represents.\n\n"
+          "The discrete transform continues the image periodically. Where opposite borders differ, the\n"
+          "continuation has discontinuities, which appear as a bright cross in the spectrum. Two remedies:\n"
+          "  --window hann   fades the image out towards its borders: peaks widen, detail there is lost\n"
+          "  --periodic      subtracts a smooth component that contains the discontinuities (Moisan 2011);\n"
+          "                  nothing is faded\n\n"
           "Windows: none, hann, hamming, blackman, kaiser:beta=8, tukey:alpha=0.5\n\n" +
           image_notes()};
   const std::string group = "Options";
   syntax.options = {
-      {"--phase", "", "The picture shows the phase instead of the magnitude", group, true,
+      {"--phase", "", "Write the phase instead of the magnitude", group, true,
        [&](auto&) { args.shown = Shown::Phase; }},
-      {"--radial", "", "The mean power over the distance from frequency 0: numbers, and a plot (.svg or .png)", group,
-       true, [&](auto&) { args.shown = Shown::Radial; }},
-      {"--side-by-side", "", "The picture shows image, magnitude, phase and radial profile, with captions", group, true,
+      {"--radial", "", "Print and plot (.svg or .png) the mean power over the distance from frequency 0", group, true,
+       [&](auto&) { args.shown = Shown::Radial; }},
+      {"--side-by-side", "", "Write a figure of image, magnitude, phase and radial profile, with captions", group, true,
        [&](auto&) { args.shown = Shown::Everything; }},
-      {"--window", "NAME", "Window that the image is multiplied with first; default none", group, true,
+      {"--window", "NAME", "Window by which the image is multiplied before the transform; default none", group, true,
        [&](auto& text) { args.window = make_window(text).name; }},
-      {"--periodic", "", "Take the periodic part of the image (periodic plus smooth)", group, true,
-       [&](auto&) { args.is_periodic = true; }},
-      {"--range-db", "DB", "Decibels from black to the strongest wave, which is palest; default 80", group, false,
+      {"--periodic", "", "Transform the periodic component of the image (periodic plus smooth decomposition)", group,
+       true, [&](auto&) { args.is_periodic = true; }},
+      {"--range-db", "DB", "Decibels from black to the greatest magnitude, which is white; default 80", group, false,
        [&](auto& text) { args.range_db = parse_number(text, 1, 400); }},
       codes_option(args)};
-  for (Option& option : signal_options(args, "The picture to write: a .png file, or - for stdout"))
+  for (Option& option : signal_options(args, "The image to write: a .png file, or - for stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -262,7 +263,7 @@ void run_signal_spectrum(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.is_periodic && args.window != "none")
-    throw Error(ErrorKind::Usage, "--window and --periodic are two remedies for one ill: take one of them");
+    throw Error(ErrorKind::Usage, "--window and --periodic cannot be combined: both remove the effect of the borders");
   args.shown == Shown::Radial ? check_plot_name(args.output) : check_picture_name(args.output);
   with_threads(args.threads, [&] {
     const Analysis analysis = analyse(args, load_signal(input, args.uses_codes));

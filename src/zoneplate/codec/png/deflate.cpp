@@ -181,7 +181,7 @@ class LengthTable {
     for (const Entry& e : entries_) ++counts[e.symbol];
     std::array<std::uint8_t, 19> lengths{};
     huffman_lengths(counts, 7, lengths);
-    // A decoder wants a whole code here too.
+    // Decoders require a complete code here too.
     if (std::count(lengths.begin(), lengths.end(), 0) == 18) lengths[lengths[0] == 0 ? 0 : 1] = 1;
     std::array<Code, 19> codes{};
     make_codes(lengths, codes);

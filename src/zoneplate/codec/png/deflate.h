@@ -8,9 +8,9 @@ namespace zoneplate {
 
 /// Appends one part of a DEFLATE stream: a block of `bytes` with a Huffman code of its own.
 ///
-/// The only repetitions that are looked for are runs of one byte, which is what the filtered rows of a rendered picture
-/// are made of; that makes it some ten times as fast as a search for others. The part ends on a byte's boundary, so
-/// that parts made apart, on any threads, may stand one after the other; the one that `is_last` ends the stream.
+/// The only repetitions that are searched are runs of one byte, of which the filtered rows of a rendered image mostly
+/// consist; that is some ten times as fast as a general search. The part ends at a byte boundary, so that parts from
+/// several threads can be concatenated; the part with `is_last` ends the stream.
 ///
 /// Requires  at most 2^24 bytes.
 /// Source    Deutsch, DEFLATE Compressed Data Format Specification, RFC 1951, 1996.

@@ -7,11 +7,11 @@
 
 namespace zoneplate {
 
-/// What is done to every byte of a picture before it is compressed.
+/// Operations on every byte of an image before compression.
 struct PngRowKernels : PerIsa<PngRowKernels> {
   /// PNG's filter Up: row - above for n bytes, modulo 256.
   void (*up)(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, std::uint8_t* out);
-  /// The same for n pixels of four bytes, of which the fourth is left out.
+  /// The same for n pixels of four bytes, omitting the fourth.
   void (*up_rgb)(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, std::uint8_t* out);
   /// Adler-32 of the n bytes: (sum of all prefix sums) << 16 | sum, both modulo 65521 and begun with 1.
   ///

@@ -9,18 +9,19 @@
 
 namespace zoneplate {
 
-/// The formats that are left to the library assimp.
+/// The formats that the library assimp reads.
 std::span<const SceneFormat> assimp_formats();
 
-/// Loads a model by the library assimp, which is opened when it is wanted, in a child process that may be lost.
+/// Loads a model by the library assimp, which is loaded at its first use, in a child process.
 ///
-/// Taken over are the nodes with their meshes, materials as far as MTL has their like, and textures, those in the file
-/// too; not animations, poses of bones, lights and cameras. Polygons are cut and missing normals made as for PLY.
+/// The result has the nodes with their meshes, materials as far as MTL can express them, and textures, including
+/// embedded ones; no animations, bones, lights and cameras. Polygons are triangulated and missing normals computed as
+/// for PLY.
 ///
-/// In a LimitedChild, which has its limits already, the library works in that process.
+/// Inside a LimitedChild, which has limits already, the library runs in that process.
 /// Requires  `extension` is one of assimp_formats().
-/// Errors    ErrorKind::Input with the library's own words where it refuses the file, where it crashes, and where it is
-///           not installed.
+/// Errors    ErrorKind::Input with the library's own message if it rejects the file; also if it crashes or is not
+///           installed.
 Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits);
 
 }  // namespace zoneplate

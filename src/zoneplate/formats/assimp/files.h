@@ -18,7 +18,7 @@ class AssimpFiles {
  public:
   AssimpFiles(const std::string& path, const std::string& folder, std::string_view extension, ImportBudget& budget);
 
-  /// What the model is called to assimp, which goes by the ending.
+  /// The name of the model for assimp, which selects the format by the extension.
   const std::string& model_name() const { return model_name_; }
   aiFileIO* io() { return &io_; }
 

@@ -61,7 +61,7 @@ std::string find_image(const aiMaterial& m, std::initializer_list<aiTextureType>
   return "";
 }
 
-/// What MTL says of a material is what is taken over from others, too.
+/// The parameters of MTL are those that are imported from other formats, too.
 MtlMaterial mtl_of(const aiMaterial& m) {
   MtlMaterial out;
   out.name = find_text(m, "?mat.name");
@@ -72,7 +72,7 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   out.emissive = find_color(m, "$clr.emissive");
   out.exponent = find_float(m, "$mat.shininess");
   out.opacity = find_float(m, "$mat.opacity");
-  if (out.opacity == 0.0f) out.opacity.reset();  // what would not be seen at all, its writer meant otherwise
+  if (out.opacity == 0.0f) out.opacity.reset();  // a fully transparent material is most likely an error of the exporter
   out.metallic = find_float(m, "$mat.metallicFactor");
   out.roughness = find_float(m, "$mat.roughnessFactor");
   if (out.exponent == 0.0f) out.specular.reset();  // as formats without highlights write it
@@ -114,11 +114,11 @@ class Conversion {
       scene_.warnings.push_back(
           fmt::format("{}: {} primitives or meshes that are not finite are dropped", budget_.file(), dropped_));
     if (from_.mNumAnimations > 0)
-      scene_.warnings.push_back(fmt::format("{}: animations of this format are passed over", budget_.file()));
+      scene_.warnings.push_back(fmt::format("{}: animations of this format are ignored", budget_.file()));
   }
 
  private:
-  /// An image in the model's file, known to materials by its number or its name.
+  /// An image in the model's file, which materials reference by its number or its name.
   void embed(const aiTexture& t, unsigned number) {
     std::string names[] = {"*" + std::to_string(number), text_of(t.mFilename)};
     if (t.mHeight == 0) {

@@ -59,15 +59,15 @@ void place_in_view(GltfFile& file, const JsonView& json, const std::string& what
   const std::span<const std::uint8_t> all = file.view(view);
   const std::uint64_t held = offset < all.size() ? all.size() - offset : 0;
   // count is below 2^53 and the stride below 2^9, so that the product stays within 64 bits.
-  const std::uint64_t wanted = layout.count == 0 ? 0 : (layout.count - 1) * layout.stride + size;
-  if (wanted > held)
-    json.fail(what + " holds " + std::to_string(held) + " bytes, expected " + std::to_string(wanted) + " (" +
+  const std::uint64_t expected = layout.count == 0 ? 0 : (layout.count - 1) * layout.stride + size;
+  if (expected > held)
+    json.fail(what + " holds " + std::to_string(held) + " bytes, expected " + std::to_string(expected) + " (" +
               std::to_string(layout.count) + " elements)");
   layout.bytes = all.subspan(static_cast<std::size_t>(std::min<std::uint64_t>(offset, all.size())),
-                             static_cast<std::size_t>(wanted));
+                             static_cast<std::size_t>(expected));
 }
 
-/// Of an accessor for whose elements there are no bytes: a small file must not ask for all memory.
+/// Checks an accessor whose elements have no bytes in the file: a small file must not exhaust memory.
 constexpr std::uint64_t most_zeros = std::uint64_t{1} << 22;
 
 /// An accessor, its place in messages "mesh 3 primitive 0 POSITION".
@@ -88,8 +88,7 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
   if (file.has_decoded(number)) {
     a.layout.bytes = file.decoded(number);
     a.layout.stride = a.layout.element_size();
-    if (a.layout.bytes.size() < a.layout.count * a.layout.stride)
-      a.json.fail("has another shape than what was decoded");
+    if (a.layout.bytes.size() < a.layout.count * a.layout.stride) a.json.fail("differs in shape from the decoded data");
   } else if (a.json.has("bufferView")) {
     place_in_view(file, a.json, "it", a.layout);
   } else if (a.layout.count > most_zeros) {

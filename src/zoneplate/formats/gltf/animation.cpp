@@ -180,7 +180,7 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
       span.begin = s == 0 ? begin : std::min(span.begin, begin);
       span.end = s == 0 ? end : std::max(span.end, end);
     }
-    span.end = std::max(span.end, span.begin);  // as accessors say it, which may be anything
+    span.end = std::max(span.end, span.begin);  // from min and max of the accessors, which may be invalid
     out.push_back(std::move(span));
   }
   return out;
@@ -196,7 +196,7 @@ void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& p
     const JsonView channel = json.element("channels", c, "channel"), target = channel.object("target");
     const auto node = target.find_index("node", file.count("nodes"));
     const std::optional<Path> path = find_path_kind(target.text("path"));
-    if (!path) file.warn(target.place() + ": path " + quoted(target.text("path")) + " is not supported, passed over");
+    if (!path) file.warn(target.place() + ": path " + quoted(target.text("path")) + " is not supported, ignored");
     if (!node || !path) continue;
     const std::size_t number = channel.index("sampler", json.count("samplers"));
     const JsonView sampler = json.element("samplers", number, "sampler");

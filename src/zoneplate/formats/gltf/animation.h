@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// What an animation says of one node at one moment; empty what it leaves alone.
+/// The pose of one node at one time; properties that the animation does not change are empty.
 struct GltfNodePose {
   std::optional<float3> translation, scale;
   std::optional<Quaternion> rotation;

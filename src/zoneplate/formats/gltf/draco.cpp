@@ -46,7 +46,7 @@ Bytes attribute_of(const draco::Mesh& mesh, const DracoWish& wish, const std::st
   if (attribute == nullptr) fail(place, "has no attribute " + std::to_string(wish.attribute));
   if (mesh.num_points() != wish.count)
     fail(place,
-         "has " + std::to_string(mesh.num_points()) + " vertices, its accessors say " + std::to_string(wish.count));
+         "has " + std::to_string(mesh.num_points()) + " vertices, its accessors have " + std::to_string(wish.count));
   switch (wish.component_type) {
     case 5120:
       return values_of<std::int8_t>(mesh, *attribute, wish, place);
@@ -71,7 +71,7 @@ DracoMesh decode(const Request& r) {
   if (!decoded.ok()) fail(r.place, std::string("cannot be decoded: ") + decoded.status().error_msg());
   const draco::Mesh& mesh = *decoded.value();
   if (std::uint64_t{mesh.num_faces()} * 3 != r.index_count)
-    fail(r.place, "has " + std::to_string(mesh.num_faces()) + " faces, its accessor says " +
+    fail(r.place, "has " + std::to_string(mesh.num_faces()) + " faces, its accessor has " +
                       std::to_string(r.index_count) + " indices");
   DracoMesh out;
   out.indices.resize(static_cast<std::size_t>(r.index_count) * sizeof(std::uint32_t));

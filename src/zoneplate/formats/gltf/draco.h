@@ -9,7 +9,7 @@
 
 namespace zoneplate {
 
-/// Values that are wanted of a Draco mesh, as glTF counts component types: 5120 to 5126.
+/// An attribute to be decoded from a Draco mesh, with glTF's component type: 5120 to 5126.
 struct DracoWish {
   std::uint32_t attribute = 0;  ///< its unique id
   int component_type = 5126;
@@ -19,13 +19,13 @@ struct DracoWish {
 
 struct DracoMesh {
   std::vector<std::uint8_t> indices;                  ///< 32-bit, three to a face
-  std::vector<std::vector<std::uint8_t>> attributes;  ///< one for each wish, tightly packed
+  std::vector<std::vector<std::uint8_t>> attributes;  ///< one for each requested attribute, tightly packed
 };
 
-/// Decodes a triangle mesh that Draco has packed.
+/// Decodes a Draco-compressed triangle mesh.
 ///
-/// The library works in a child process (import_child.h), so that a hostile file ends the child alone.
-/// Errors    ErrorKind::Input with `place` in front: corrupt data, other counts than wished, the limits.
+/// The library runs in a child process (import_child.h), so that a malicious file affects only the child.
+/// Errors    ErrorKind::Input with `place` in front: corrupt data, other counts than requested, the limits.
 DracoMesh decode_draco(std::span<const std::uint8_t> packed, std::uint64_t index_count,
                        std::span<const DracoWish> wishes, const std::string& place, ImportBudget& budget);
 

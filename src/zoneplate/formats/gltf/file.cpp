@@ -48,14 +48,14 @@ void GltfFile::read_chunks(std::span<const std::uint8_t> bytes) {
     fail("GLB version " + std::to_string(version) + ", expected 2");
   const std::uint32_t length = read_u32(bytes, 8);
   if (length > bytes.size())
-    fail("GLB says it has " + bytes_text(length) + ", the file has " + std::to_string(bytes.size()));
-  if (length < bytes.size()) warn(path_ + ": bytes after the end of the GLB are passed over");
+    fail("GLB header states " + bytes_text(length) + ", the file has " + std::to_string(bytes.size()));
+  if (length < bytes.size()) warn(path_ + ": bytes after the end of the GLB are ignored");
 
   bool has_json = false;
   for (std::size_t at = 12; at + 8 <= length;) {
     const std::uint32_t size = read_u32(bytes, at), kind = read_u32(bytes, at + 4);
     if (size > length - at - 8)
-      fail("GLB chunk at byte " + std::to_string(at) + " says " + bytes_text(size) + ", but " +
+      fail("GLB chunk at byte " + std::to_string(at) + " states " + bytes_text(size) + ", but " +
            std::to_string(length - at - 8) + " are left");
     const auto chunk = bytes.subspan(at + 8, size);
     if (!has_json && kind != json_chunk) fail("the first GLB chunk is not JSON");
@@ -84,7 +84,7 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
   if (const auto found = buffers_.find(i); found != buffers_.end()) return found->second.bytes;
   budget_.check_time();
   const JsonView json = root_->element("buffers", i, "buffer");
-  const std::uint64_t wanted = json.whole("byteLength");
+  const std::uint64_t expected = json.whole("byteLength");
   GltfBytes data;
   if (json.has("uri"))
     data = load_uri(json, json.text("uri"));
@@ -92,9 +92,9 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
     data.bytes = binary_;
   else
     json.fail("uri is missing" + std::string(i == 0 ? ", and so is the GLB's binary chunk" : ""));
-  if (data.bytes.size() < wanted)
-    json.fail("holds " + bytes_text(data.bytes.size()) + ", expected " + std::to_string(wanted));
-  data.bytes = data.bytes.first(static_cast<std::size_t>(wanted));
+  if (data.bytes.size() < expected)
+    json.fail("holds " + bytes_text(data.bytes.size()) + ", expected " + std::to_string(expected));
+  data.bytes = data.bytes.first(static_cast<std::size_t>(expected));
   return (buffers_[i] = std::move(data)).bytes;
 }
 
@@ -127,7 +127,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (uri.starts_with("data:")) {
     const auto [head, body] = split_data_uri(uri);
     if (body.data() == nullptr) owner.fail("its data: URI has no comma");
-    // Beside what is kept, a copy of it may be made on the way.
+    // Reading may need a temporary copy in addition to the result.
     budget_.take(2 * body.size());
     if (head.ends_with(";base64")) {
       auto decoded = decode_base64(body.find('%') == std::string_view::npos ? body : decode_percent(body));

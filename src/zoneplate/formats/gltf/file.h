@@ -21,9 +21,9 @@ struct GltfBytes {
   std::vector<std::uint8_t> decoded;
 };
 
-/// A glTF file that is open: its JSON, the binary part of a .glb, and its buffers as they are asked for.
+/// An open glTF file: its JSON, the binary part of a .glb, and its buffers, which are loaded at their first use.
 ///
-/// Every range of bytes that it hands out lies within what the file says and within what is really there.
+/// Every range of bytes that it returns lies within the buffer view and within the bytes that exist.
 class GltfFile {
  public:
   /// Errors    ErrorKind::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2.
@@ -52,13 +52,12 @@ class GltfFile {
 
   /// Counts elements that the scene gets of accessors for which there are no bytes.
   ///
-  /// Errors    ErrorKind::Input when they are more in all than any file means: a small file must not ask for all
-  /// memory.
+  /// Errors    ErrorKind::Input beyond a total limit, so that a small file cannot exhaust memory.
   void take_zeros(const JsonView& accessor, std::uint64_t count);
   /// Begins anew, for another scene of the file.
   void forget_zeros() { zeros_ = 0; }
 
-  /// Notes what was passed over, each text once, and of very many the first.
+  /// Adds a warning about ignored content, each text once; of very many only the first.
   void warn(const std::string& text);
   const std::vector<std::string>& warnings() const { return warnings_; }
 

@@ -90,7 +90,7 @@ TEST(GltfFile, ChunksAreChecked) {
   const auto error = [&](std::vector<std::uint8_t> bytes) { return error_of(folder.write("f.glb", bytes)); };
   EXPECT_EQ(error(good), "no error");
   EXPECT_TRUE(has(error(with_u32(good, 4, 1)), "GLB version 1, expected 2"));
-  EXPECT_TRUE(has(error(with_u32(good, 8, 0x7fffffff)), "GLB says it has 2147483647 bytes"));
+  EXPECT_TRUE(has(error(with_u32(good, 8, 0x7fffffff)), "GLB header states 2147483647 bytes"));
   EXPECT_TRUE(has(error(with_u32(good, 12, 0xfffffff0)), "GLB chunk at byte 12"));
   EXPECT_TRUE(has(error(with_u32(good, 16, 5)), "the first GLB chunk is not JSON"));
   EXPECT_TRUE(has(error(with_u32(good, 8, 12)), "without a JSON chunk"));

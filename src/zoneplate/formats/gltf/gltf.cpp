@@ -44,7 +44,7 @@ void check_extensions(GltfFile& file) {
       file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
   for (const std::string& name : file.root().texts("extensionsUsed"))
     if (!is_supported(name))
-      file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, passed over");
+      file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, ignored");
 }
 
 /// The rotation and translation of a transform; scale and mirroring are taken out, the axis -Z keeps its direction.
@@ -106,7 +106,7 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   light.inner_cone = spot.number("innerConeAngle", 0.0f);
   light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
   if (!(light.inner_cone >= 0 && light.outer_cone > 0 && light.outer_cone <= 1.5707964f))
-    spot.fail("wants 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+    spot.fail("expected 0 <= innerConeAngle < outerConeAngle <= pi / 2");
   light.inner_cone = std::min(light.inner_cone, 0.999f * light.outer_cone);  // common exporters write equal angles
   return light;
 }
@@ -116,7 +116,7 @@ bool is_finite(const float4x4& m) {
                      [](float4 c) { return zoneplate::is_finite(xyz(c)) && std::isfinite(c.w); });
 }
 
-/// What a text takes that is copied out of the file.
+/// The memory of a text that is copied out of the file.
 std::uint64_t bytes_of(const std::string& text) { return text.size() + 2 * sizeof(std::string); }
 
 std::vector<std::string> list_variants(GltfFile& file) {
@@ -164,7 +164,7 @@ class SceneReader {
   std::optional<std::size_t> variant_;
   Scene scene_;
 
-  /// Vertices as read, and those that a primitive uses, once they had to be told apart.
+  /// Vertices as read, and the used ones among them, if the difference was needed.
   struct Bounds {
     Box all;
     std::optional<Box> used = std::nullopt;
@@ -221,7 +221,7 @@ Box bounds_of(const std::vector<float3>& positions) {
   return all;
 }
 
-/// Whether all of a box is so near to the origin that squares of distances fit into a float.
+/// Whether a box is so near to the origin that squares of distances do not overflow a float.
 bool is_near(const Box& box, const float4x4& world_from_object) {
   constexpr float farthest = 1e18f;
   for (int i = 0; i < 8; ++i) {
@@ -250,7 +250,7 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
   return range;
 }
 
-/// What no primitive uses may lie where it wants: that is looked at only where it matters, and once a mesh.
+/// Unused vertices may have any position: they are determined only if it matters, once per mesh.
 bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
   Bounds& bounds = bounds_[mesh];
   if (zoneplate::is_near(bounds.all, world_from_object)) return true;
@@ -292,7 +292,7 @@ void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
   const std::size_t parts = range.second - range.first, first_object = scene_.objects.size();
   const std::uint64_t all = std::uint64_t{placements.size()} * parts;
   file_.budget().take(all * sizeof(Instance) + placements.size() * sizeof(std::uint32_t));
-  // Many copies need no room to grow; few share what the vector adds by itself.
+  // Many copies are reserved exactly; few use the vector's own growth.
   if (scene_.instances.size() + all > 2 * scene_.instances.capacity())
     scene_.instances.reserve(scene_.instances.size() + all);
   for (std::size_t i = 0; i < placements.size(); ++i) {
@@ -354,7 +354,7 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
 
 }  // namespace
 
-/// What is open, and what was left of the budget when it had been opened.
+/// The open file, and the remaining budget after it was opened.
 struct GltfModel::Open {
   Open(const std::string& path, const LoadLimits& limits) : file(path, limits) {
     check_extensions(file);

@@ -10,10 +10,9 @@ namespace zoneplate {
 
 /// Loads a glTF 2.0 file, .gltf (with its buffers and images) or .glb: one scene of it, in one variant, at one moment.
 ///
-/// Missing normals are flat, missing tangents (where a normal texture wants them) are MikkTSpace's, as the
-/// specification says; strips, fans and loops become lists; a vertex that is not finite drops its primitives, with a
-/// warning. Where no animation is chosen nodes and morph targets have the file's default pose; skins follow their
-/// joints.
+/// Missing normals are flat, missing tangents (if a normal texture needs them) are MikkTSpace's, as in the
+/// specification; strips, fans and loops become lists; primitives with vertices that are not finite are dropped, with a
+/// warning. Without an animation, nodes and morph targets have the file's default pose; skins follow their joints.
 ///
 /// Space     a camera's transform has no scale and no mirroring; lights likewise.
 /// Errors    ErrorKind::Input, one line naming the file, the place and the cause; a required extension that is not
@@ -27,7 +26,7 @@ class GltfModel {
   explicit GltfModel(const std::string& path, const LoadLimits& limits = {});
   ~GltfModel();
 
-  /// What load_gltf gives. `Images::Without` leaves the images out, for who only wants to know where things are.
+  /// The same as load_gltf. `Images::Without` omits the images, for callers that need only geometry.
   enum class Images { With, Without };
   Scene scene(const SceneChoice& choice, Images images = Images::With);
 

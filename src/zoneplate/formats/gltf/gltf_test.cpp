@@ -86,7 +86,7 @@ TEST(Gltf, OnlyTheDefaultScene) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(objects(R"("scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],)"), Names{"b"});
   EXPECT_EQ(objects(R"("scenes":[{"nodes":[0]},{"nodes":[1]}],)"), Names{"a"});
-  EXPECT_EQ(objects(""), (Names{"a", "b"}));  // all nodes that are nobody's child
+  EXPECT_EQ(objects(""), (Names{"a", "b"}));  // all nodes without a parent
   EXPECT_THROW(objects(R"("scene":2,"scenes":[{},{}],)"), Error);
   EXPECT_THROW(objects(R"("scene":0,)"), Error);
   EXPECT_TRUE(objects(R"("scenes":[{}],)").empty());
@@ -211,8 +211,8 @@ TEST(Gltf, ExtensionsAreNamed) {
   m.rest = R"(,"extensionsUsed":["KHR_x","KHR_materials_unlit","KHR_x","KHR_y"])";
   const Scene s = load(m);
   ASSERT_EQ(s.warnings.size(), 2u);
-  EXPECT_NE(s.warnings[0].find("extension 'KHR_x' is not supported, passed over"), std::string::npos);
-  EXPECT_NE(s.warnings[1].find("extension 'KHR_y' is not supported, passed over"), std::string::npos);
+  EXPECT_NE(s.warnings[0].find("extension 'KHR_x' is not supported, ignored"), std::string::npos);
+  EXPECT_NE(s.warnings[1].find("extension 'KHR_y' is not supported, ignored"), std::string::npos);
 }
 
 TEST(Gltf, Instancing) {

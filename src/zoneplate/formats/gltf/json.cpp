@@ -39,7 +39,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& e) override {
-    // The library says "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
+    // The library reports "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
     const std::string text = e.what();
     const std::size_t end = text.find("] ");
     throw Error(ErrorKind::Input, budget_.file() + ": not JSON: " + one_line(text.substr(end + 2)));
@@ -235,7 +235,7 @@ std::size_t JsonView::index(const char* key, std::size_t count) const {
   return *find_index(key, count);
 }
 
-std::vector<float> JsonView::numbers(const char* key, std::size_t wanted) const {
+std::vector<float> JsonView::numbers(const char* key, std::size_t count) const {
   if (!has(key)) return {};
   std::vector<float> out;
   for (const JsonValue& v : list(key)) {
@@ -244,8 +244,8 @@ std::vector<float> JsonView::numbers(const char* key, std::size_t wanted) const 
       fail(std::string(key) + " holds " + text_of(v.number) + ", expected numbers within a float's range");
     out.push_back(static_cast<float>(v.number));
   }
-  if (wanted != 0 && out.size() != wanted)
-    fail(std::string(key) + " holds " + std::to_string(out.size()) + " numbers, expected " + std::to_string(wanted));
+  if (count != 0 && out.size() != count)
+    fail(std::string(key) + " holds " + std::to_string(out.size()) + " numbers, expected " + std::to_string(count));
   return out;
 }
 

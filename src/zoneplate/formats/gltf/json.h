@@ -12,7 +12,8 @@
 
 namespace zoneplate {
 
-/// A JSON value. Our own small tree: the JSON library is seen by one source file, and every value is counted.
+/// A JSON value of a tree of our own: only one source file uses the JSON library, and every value counts towards the
+/// memory budget.
 struct JsonValue {
   enum class Kind : std::uint8_t { Null, Boolean, Number, Text, List, Object };
   Kind kind = Kind::Null;
@@ -26,18 +27,18 @@ struct JsonValue {
   static constexpr std::size_t most_unsorted_keys = 64;
 };
 
-/// Reads a JSON text; trailing white space and zero bytes are passed over.
+/// Reads a JSON text; trailing white space and zero bytes are ignored.
 ///
 /// Errors    ErrorKind::Input: not JSON or not UTF-8 (with line and column), nested deeper than 64 values, larger in
 ///           memory than the budget, or not read within its time.
 JsonValue parse_json(std::span<const std::uint8_t> bytes, ImportBudget& budget);
 
-/// A text of a file as it stands in a message: in quotes, on one line, not too long.
+/// A text of a file for messages: quoted, on one line, truncated.
 std::string quoted(const std::string& text);
 
-/// An object of the file, with the words that name it in messages: "chair.gltf: mesh 3 primitive 0".
+/// An object of the file, with its name for messages: "chair.gltf: mesh 3 primitive 0".
 ///
-/// A key that is missing gives the default, or where there is none an error; so does a value of the wrong kind.
+/// A missing key gives the default, or an error if there is no default; a value of the wrong kind is an error.
 class JsonView {
  public:
   /// Errors    ErrorKind::Input when `value` is not an object.
@@ -72,8 +73,8 @@ class JsonView {
   std::optional<std::size_t> find_index(const char* key, std::size_t count) const;
   /// The same where the key is required.
   std::size_t index(const char* key, std::size_t count) const;
-  /// A list of finite floats; empty where it is missing, else of `wanted` elements (0: any number).
-  std::vector<float> numbers(const char* key, std::size_t wanted) const;
+  /// A list of finite floats; empty if it is missing, otherwise of `count` elements (0: any number).
+  std::vector<float> numbers(const char* key, std::size_t count) const;
   /// A list of indices into a list of `count` entries; empty where it is missing.
   std::vector<std::size_t> indices(const char* key, std::size_t count) const;
   std::vector<std::string> texts(const char* key) const;

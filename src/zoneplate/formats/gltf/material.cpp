@@ -160,7 +160,7 @@ Material MaterialReader::read(std::size_t i) {
   return m;
 }
 
-/// An image's bytes and what it is called in messages.
+/// An image's bytes and its name for messages.
 struct EncodedImage {
   GltfBytes data;
   std::string place, name;
@@ -207,7 +207,8 @@ GltfMaterials load_materials(GltfFile& file) {
   for (const std::size_t i : reader.used_images()) encoded.push_back(read_image(file, i));
   out.images.resize(encoded.size());
   std::vector<std::string> trouble(encoded.size());
-  // So many at a time: what they take on the way is counted without regard to the number of threads.
+  // Images are decoded in waves of this size, so that the accounting of their memory does not depend on the number of
+  // threads.
   constexpr std::size_t wave = 16;
   for (std::size_t first = 0; first < encoded.size(); first += wave) {
     const std::size_t count = std::min(wave, encoded.size() - first);

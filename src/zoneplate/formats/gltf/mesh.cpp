@@ -34,10 +34,10 @@ template <class Read>
 auto read_attribute(const Primitive& p, const char* key, Read read) -> decltype(read(p.file, p.json, key, p.range)) {
   if (!p.attributes.has(key)) return {};
   const JsonView owner = p.attributes.renamed(p.json.place());
-  const std::uint64_t count = count_elements(p.file, owner, key), wanted = count_elements(p.file, owner, "POSITION");
-  if (count != wanted)
+  const std::uint64_t count = count_elements(p.file, owner, key), expected = count_elements(p.file, owner, "POSITION");
+  if (count != expected)
     owner.fail(std::string(key) + " has " + std::to_string(count) + " elements, POSITION has " +
-               std::to_string(wanted));
+               std::to_string(expected));
   return read(p.file, owner, key, p.range);
 }
 
@@ -203,7 +203,7 @@ std::uint64_t vertex_size(const Mesh& m) {
          (m.color.empty() ? 0 : sizeof(float4));
 }
 
-/// Makes what the specification asks to be made where the file does not have it.
+/// Generates the attributes that the specification requires where the file lacks them.
 void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   ImportBudget& budget = p.file.budget();
   if (m.topology != Topology::Triangles) m.tangent.clear();
@@ -230,7 +230,7 @@ void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   budget.give_back(working + most + before - m.position.size() * vertex_size(m));
 }
 
-/// The number of the primitive's material, in the variant that is asked for.
+/// The index of the primitive's material in the chosen variant.
 std::optional<std::size_t> find_material(const JsonView& json, const GltfPose& pose, std::size_t count) {
   const auto variants = json.extension("KHR_materials_variants");
   for (std::size_t i = 0; variants && pose.variant && i < variants->count("mappings"); ++i) {
@@ -266,7 +266,7 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   m.position = read_attribute(p, "POSITION", read_float3);
   m.normal = read_attribute(p, "NORMAL", read_float3);
   if (normal_texture) m.tangent = read_attribute(p, "TANGENT", read_float4);
-  if (m.normal.empty()) m.tangent.clear();  // as the specification says
+  if (m.normal.empty()) m.tangent.clear();  // as the specification requires
   m.uv0 = read_attribute(p, "TEXCOORD_0", read_float2);
   m.uv1 = read_attribute(p, "TEXCOORD_1", read_float2);
   m.color = read_attribute(p, "COLOR_0", read_color);

@@ -9,8 +9,8 @@
 namespace zoneplate {
 namespace {
 
-/// The library's functions. It is opened by the first file that wants it: to open it with the program would take as
-/// long as a small picture.
+/// The library's functions. It is loaded by the first file that needs it: loading it with the program would take as
+/// long as a small image.
 struct MeshoptLibrary {
   decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;
   decltype(&meshopt_decodeFilterOct) octahedral = nullptr;

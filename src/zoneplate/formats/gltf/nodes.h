@@ -19,8 +19,7 @@ struct GltfNode {
 
 /// The nodes of one of a file's scenes, each after its parent, in the order of a walk depth first.
 ///
-/// The scene is the one that is asked for, else the one that the file names, else its first, else all nodes that are
-/// nobody's child.
+/// The scene is the chosen one, otherwise the file's default scene, otherwise its first one, otherwise all root nodes.
 class GltfNodes {
  public:
   /// Errors    ErrorKind::Input: a node that is reached twice (cycles included), deeper than the limit, a bad index;

@@ -6,8 +6,8 @@
 
 namespace zoneplate {
 
-/// The first word of a key (a, b, c, d) whose `hash` is `wanted`: the hash is public and can be run backwards.
-constexpr std::uint32_t colliding_word(std::uint32_t wanted, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+/// The first word of a key (a, b, c, d) whose `hash` is `expected`: the hash is public and can be run backwards.
+constexpr std::uint32_t colliding_word(std::uint32_t expected, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   const auto mix = [](std::uint32_t x) {
     x = (x ^ (x >> 16)) * 0x7feb352du;
     x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -23,7 +23,7 @@ constexpr std::uint32_t colliding_word(std::uint32_t wanted, std::uint32_t b, st
     x = (x ^ (x >> 15) ^ (x >> 30)) * inverse(0x7feb352du);
     return x ^ (x >> 16);
   };
-  return unmix(wanted) - mix(b + mix(c + mix(d + 0x9e3779b9u)));
+  return unmix(expected) - mix(b + mix(c + mix(d + 0x9e3779b9u)));
 }
 static_assert(hash(colliding_word(12345, 1, 2, 3), 1, 2, 3) == 12345);
 

@@ -16,14 +16,14 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes);
 /// Bytes that the decoded image takes, by its header; 0 where its size is not known.
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes);
 
-/// Bytes that decoding takes beside the picture, at most.
+/// The maximum of bytes that decoding takes in addition to the image.
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes);
 
 /// Decodes the image of a texture, PNG, JPEG, WebP, HDR or EXR by its first bytes, whatever its name says.
 ///
-/// The texels are those of the file: codes of 8 bits, of 16 where a PNG has them, and the light of HDR and EXR. Light
-/// is divided by an EXR's alpha where that is above 0. An EXR may have a quarter of the pixels, for each takes four
-/// times the room on the way.
+/// The texels are those of the file: 8 bits, 16 bits of a 16-bit PNG, and linear light of HDR and EXR. Colours of an
+/// EXR are divided by alpha where alpha is above 0. An EXR may have a quarter of `max_pixels`, because decoding takes
+/// four times the memory per pixel.
 ///
 /// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
 TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);

@@ -11,7 +11,7 @@
 
 namespace zoneplate {
 
-/// What is left of the limits of one import, and the name of its file for messages. Bytes are taken before they are
+/// The remaining limits of one import, and the name of its file for messages. Bytes are charged before they are
 /// allocated.
 class ImportBudget {
  public:
@@ -33,7 +33,7 @@ class ImportBudget {
   /// Bytes that were taken and are free again.
   void give_back(std::uint64_t bytes) { left_ += bytes; }
 
-  /// Begins anew with so many bytes, for another import of what is open already.
+  /// Resets the budget to `bytes`, for another import from the same open file.
   void restart(std::uint64_t left) { left_ = left, is_spent_ = false, clock_ = Stopwatch(); }
 
   bool has_time() const { return clock_.ms() <= limits_.seconds * 1000; }

@@ -187,7 +187,7 @@ TEST(ImportBudget, EmptyLinesAndSolidsTakeLinearTime) {
   EXPECT_LE(parse_stl_text(text, budget).solids.size(), 1u);
 }
 
-/// Of what is said between two elements the last of each kind holds, and the others take no room.
+/// Of the state changes between two elements the last of each kind holds, and the others use no memory.
 TEST(ImportBudget, NamesOfNothingTakeNoRoom) {
   std::string text = single_triangle;
   for (int i = 0; i < 1000; ++i) text += "o a\ng b\nusemtl c\ns 1\n";

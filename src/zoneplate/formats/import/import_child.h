@@ -19,9 +19,9 @@ inline std::vector<std::string> model_paths(const std::string& name, const LoadL
   return paths;
 }
 
-/// What a child process may have that reads for an import. The budget outlives it.
+/// The limits of a child process that reads for an import. The budget outlives it.
 inline LimitedChild::Limits child_limits(const ImportBudget& budget) {
-  // Beyond what the budget has left: stacks of threads, and what the libraries set up for themselves.
+  // In addition to the rest of the budget: stacks of threads, and data structures of the libraries.
   constexpr std::uint64_t spare_bytes = std::uint64_t{16} << 20;
   return {.memory = budget.memory_left() + spare_bytes,
           .seconds = budget.limits().seconds,

@@ -81,7 +81,7 @@ int ModelFolder::add(Make make) {
     scene_.images.push_back(make());
     return static_cast<int>(scene_.images.size()) - 1;
   } catch (const Error& error) {
-    // What is over the budget, or late, stays an error.
+    // Exceeding the memory budget or the deadline remains an error.
     budget_.take(0);
     budget_.check_time();
     warn(fmt::format("{}: texture {}", budget_.file(), error.what()));

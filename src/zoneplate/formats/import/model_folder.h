@@ -38,7 +38,7 @@ class ModelFolder {
   void embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes);
   void embed(std::span<const std::string> names, Rgba8Image pixels);
 
-  /// Notes what was passed over; of very many such notes the first.
+  /// Adds a warning about ignored content; of very many only the first.
   void warn(std::string text);
 
   ImportBudget& budget() { return budget_; }
@@ -54,11 +54,11 @@ class ModelFolder {
   ImportBudget& budget_;
   Scene& scene_;
   std::map<std::string, int> images_;                         ///< by path, or by name where there is no file
-  std::map<std::pair<std::string, std::string>, int> known_;  ///< by `within` and name, as image() was asked
+  std::map<std::pair<std::string, std::string>, int> known_;  ///< by the arguments of image(): `within` and name
   std::size_t missing_ = 0, notes_ = 0;
 };
 
-/// The material of surfaces that name none: light grey, without highlights.
+/// The material of surfaces without one: light grey, without highlights.
 Material plain_material(const std::string& name);
 
 }  // namespace zoneplate

@@ -115,7 +115,7 @@ FileBytes open_found(const std::string& folder, const std::string& path, std::sp
                      std::uint64_t limit) {
   namespace fs = std::filesystem;
   const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, path + ": " + cause}; };
-  // What is held open has a name that stays its own; to be held is not yet to be read, and waits for nobody.
+  // An open descriptor identifies the file even if the path changes; opening with O_PATH neither reads nor blocks.
   struct Held {
     int number;
     ~Held() {

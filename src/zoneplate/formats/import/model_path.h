@@ -14,7 +14,7 @@ namespace zoneplate {
 /// The text with every %XX replaced by its byte; a % that is not followed by two hexadecimal digits stays.
 std::string decode_percent(std::string_view text);
 
-/// The bytes of a base64 text; white space is passed over, the padding may be missing. Nothing if it is not base64.
+/// The bytes of a base64 text; white space is ignored, the padding may be missing. Nothing if it is not base64.
 std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text);
 
 /// Whether the text begins with a scheme, as in http://host/file or data:,x.

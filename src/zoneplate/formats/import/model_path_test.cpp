@@ -75,7 +75,7 @@ TEST(GltfUri, StaysInTheFolder) {
 }
 
 TEST(GltfUri, AStreamIsNotAFile) {
-  // Who opens a pipe that nobody writes into waits for ever.
+  // Opening a pipe without a writer blocks for ever.
   const TestFolder folder;
   const std::string pipe = folder.path("pipe.bin");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

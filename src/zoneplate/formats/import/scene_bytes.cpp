@@ -82,7 +82,7 @@ class Reader {
   void choice(Enum& e, Enum last) {
     std::uint8_t v = 0;
     value(v);
-    if (v > static_cast<std::uint8_t>(last)) fail("a choice of what is not there");
+    if (v > static_cast<std::uint8_t>(last)) fail("an enumerator out of range");
     e = static_cast<Enum>(v);
   }
   template <class T>

@@ -8,18 +8,17 @@
 
 namespace zoneplate {
 
-/// Passes on, or fetches, so many bytes.
+/// Writes, or reads, this number of bytes.
 using ByteSink = std::function<void(const void*, std::size_t)>;
 using ByteSource = std::function<void(void*, std::size_t)>;
 
-/// A scene on its way from one process to another of the same program: no file format, it may change any day.
+/// Serializes a scene for another process of the same program. This is not a file format: it may change at any time.
 void write_scene(const Scene& scene, const ByteSink& sink);
 
-/// What `write_scene` wrote. Whoever wrote it is not trusted.
+/// Reads the bytes of `write_scene`, which are not trusted.
 ///
-/// Errors    ErrorKind::Input naming the budget's file: bytes that are no scene, a scene that is not sound
-/// (scene/validate.h), more
-///           than the budget.
+/// Errors    ErrorKind::Input naming the budget's file: bytes that are not a scene, an invalid scene
+///           (scene/validate.h), more than the budget.
 Scene read_scene(const ByteSource& source, ImportBudget& budget);
 
 }  // namespace zoneplate

@@ -52,8 +52,8 @@ constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// Reads decimal digits as far as they go: value becomes value × 10^n + theirs, without a look at overflow; `at` moves
-/// behind them. Eight at a time, as a loop over digits does not know where it will end.
+/// Reads decimal digits as far as they go: value becomes value × 10^n + theirs, without a check of overflow; `at` moves
+/// behind them. Eight at a time, as the length of a loop over digits is unpredictable.
 inline void scan_digits(const char*& at, const char* end, std::uint64_t& value) {
   static_assert(std::endian::native == std::endian::little, "the first character is the lowest byte");
   constexpr std::array<std::uint64_t, 9> scales = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
@@ -65,7 +65,7 @@ inline void scan_digits(const char*& at, const char* end, std::uint64_t& value) 
     const std::uint64_t others = ((eight + 0x7676767676767676) | eight) & 0x8080808080808080;
     const int n = std::countr_zero(others) / 8;
     if (n == 0) return;
-    // Pairs of digits, fours, eight; zeros in front stand for those that are missing.
+    // Pairs of digits, fours, eight; missing digits are replaced by leading zeros.
     eight <<= 64 - 8 * n;
     eight = eight * 10 + (eight >> 8);
     eight =

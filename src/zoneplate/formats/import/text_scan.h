@@ -46,7 +46,7 @@ class LineWords {
   const char* end_;
 };
 
-/// The number that a word is; nothing if it is none.
+/// The number that a word represents; nothing for other words.
 ///
 /// "nan", "inf" and Visual C++'s "1.#IND" are numbers that are not finite. Too large is infinite, too small is zero.
 /// Exact     the float nearest to the decimal number, ties to even.

@@ -15,17 +15,17 @@
 namespace zoneplate {
 namespace {
 
-/// Where more has to be known than the part itself says.
+/// For elements that refer to data outside of the part.
 struct NeedsMore {};
 
-/// What lies around a part.
+/// The counts before a part and of the whole file.
 struct LineContext {
   ObjCounts before, all;
 };
 
 class PartReader {
  public:
-  /// `known` is null where nothing is known yet.
+  /// `known` is null before the counts of other parts are available.
   PartReader(std::string_view text, char separator, const LineContext* known, ObjPart& part)
       : at_(text.data()),
         end_(text.data() + text.size()),
@@ -83,7 +83,7 @@ class PartReader {
     return true;
   }
 
-  /// So many numbers, one behind the other; null where something else stands there.
+  /// Scans n consecutive numbers; null if the text differs.
   const char* scan_numbers(const char* at, std::size_t n, std::array<float, 3>& out) const {
     for (std::size_t i = 0; i < n && at != nullptr; ++i) {
       while (*at == ' ') ++at;
@@ -92,7 +92,7 @@ class PartReader {
     return at;
   }
 
-  /// Whether nothing else stands on the line; if so, moves to the next one.
+  /// Whether the rest of the line is empty; if so, moves to the next one.
   bool ends_line(const char* at) {
     while (*at == ' ' || *at == '\r') ++at;
     if (*at != '\n') return false;
@@ -191,7 +191,7 @@ class PartReader {
     if (tally.count++ == 0) tally.line = line_, tally.word = word.substr(0, 40);
   }
 
-  /// Nothing is refused by a part that does not know its lines' numbers.
+  /// Parts without line numbers report no errors.
   [[noreturn]] void fail(std::string cause) const {
     if (!known_) throw NeedsMore{};
     throw ObjLineError{line_, std::move(cause)};

@@ -12,7 +12,7 @@
 
 namespace zoneplate {
 
-/// What is said between the elements and holds for those that follow.
+/// A statement between elements that applies to those that follow.
 enum class ObjStateKind { Object, Group, Material, Smoothing, Library };
 struct ObjState {
   ObjStateKind kind;
@@ -20,7 +20,7 @@ struct ObjState {
   std::string text;
 };
 
-/// Things passed over; counted, with the first place of each.
+/// Ignored content: its count, and the position of the first.
 enum class ObjNote { FewCorners, FreeForm, Unknown, UvNotFinite, NoSuchUv, NoSuchNormal };
 struct ObjTally {
   std::uint64_t count = 0, line = 0;
@@ -41,7 +41,7 @@ struct ObjChunk {
   }
 };
 
-/// What a part says of vertices.
+/// The vertices of a part.
 struct ObjVertices {
   std::vector<float3> positions;
   std::vector<std::pair<std::uint64_t, float4>> colors;  ///< of which of these positions
@@ -56,7 +56,7 @@ struct ObjVertices {
   }
 };
 
-/// How many of each there are: in a part, before it, or in the file.
+/// Numbers of elements of each kind: in a part, before it, or in the file.
 struct ObjCounts {
   std::uint64_t lines = 0, positions = 0, uvs = 0, normals = 0;
 };
@@ -66,7 +66,7 @@ struct ObjPart {
   ObjChunk chunk;
   ObjVertices vertices;
   ObjCounts counts;
-  ObjCounts named;  ///< so many of each are named by absolute indices
+  ObjCounts named;  ///< the greatest absolute indices
 };
 
 /// A cause of refusal with its line.
@@ -83,7 +83,7 @@ inline constexpr std::uint64_t most_obj_items = 1u << 30;  ///< of one kind, and
 /// `counts` alone are right.
 bool read_obj_part(std::string_view text, char separator, ObjPart& part);
 
-/// Reads a part anew that needs to know what comes before it and what there is in all.
+/// Reads a part again whose contents depend on the parts before it and on the totals.
 ///
 /// Errors    ObjLineError: a number that is none, too few numbers, a vertex that is not there.
 void read_obj_part(std::string_view text, char separator, const ObjCounts& before, const ObjCounts& all, ObjPart& part);

@@ -36,7 +36,7 @@ class CurrentName {
     if (is_new) list_.emplace_back(name_), bytes_ += of_a_name + 2 * name_.size();
     return number_ = found->second;
   }
-  /// What the names take: in the list, in the table, and as those of meshes or materials.
+  /// The memory of the names in the list, in the table, and as names of meshes or materials.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace zoneplate {
 
-/// What belongs together: the elements of a file by object, material and smoothing, in the order of the file.
+/// The elements of a file grouped by object, material and smoothing, in the order of the file.
 struct ObjLayout {
   std::vector<ObjRun> runs;
   std::vector<std::string> objects;    ///< names, in the order in which they get their first element

@@ -21,13 +21,13 @@ struct ObjElement {
   bool operator==(const ObjElement&) const = default;
 };
 
-/// A list of indices beside one of positions: as long as that, or nothing where all are -1 or all equal to it.
+/// A list of indices parallel to the list of positions: as long, or empty if all are -1 or all equal the position's.
 class ObjIndices {
  public:
   std::int32_t at(std::size_t i, std::int32_t position) const {
     return kind_ == Kind::Own ? own_[i] : kind_ == Kind::None ? -1 : position;
   }
-  /// Whether none is -1, for all that the list knows.
+  /// Whether no index is -1, conservatively.
   bool has_all() const { return kind_ == Kind::Same || (kind_ == Kind::Own && !has_none_); }
 
   /// Whether all equal their positions.
@@ -72,7 +72,7 @@ class ObjCorners {
     return {position, uvs_.at(i, position), normals_.at(i, position)};
   }
   std::size_t position(std::size_t i) const { return static_cast<std::size_t>(positions_[i]); }
-  /// Whether every corner names a normal, for all that the list knows.
+  /// Whether every corner has a normal, conservatively.
   bool have_normals() const { return normals_.has_all(); }
 
   void push_back(const ObjCorner& corner) {

@@ -22,18 +22,18 @@ ObjCorner some_corner(std::uint32_t seed, std::uint32_t i) {
 TEST(ObjCorners, AreWhatWasPutIn) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     ObjCorners corners;
-    std::vector<ObjCorner> wanted;
+    std::vector<ObjCorner> expected;
     bool have_normals = true;
     for (std::uint32_t i = 0; i < 60; ++i) {
-      const std::size_t keep = i % 13 == 12 ? wanted.size() - hash(seed, i) % wanted.size() : wanted.size();
-      corners.shorten(keep), wanted.resize(keep);
-      wanted.push_back(some_corner(seed, i));
-      corners.push_back(wanted.back());
-      ASSERT_EQ(corners.size(), wanted.size());
+      const std::size_t keep = i % 13 == 12 ? expected.size() - hash(seed, i) % expected.size() : expected.size();
+      corners.shorten(keep), expected.resize(keep);
+      expected.push_back(some_corner(seed, i));
+      corners.push_back(expected.back());
+      ASSERT_EQ(corners.size(), expected.size());
     }
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      ASSERT_EQ(corners[i], wanted[i]) << seed << " " << i;
-      have_normals = have_normals && wanted[i].normal >= 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(corners[i], expected[i]) << seed << " " << i;
+      have_normals = have_normals && expected[i].normal >= 0;
     }
     EXPECT_TRUE(!corners.have_normals() || have_normals) << seed;
   }
@@ -49,18 +49,18 @@ TEST(ObjCorners, OfOneNumberTakeAThirdOfTheRoom) {
 
 TEST(ObjElements, AreCountedWhileTheyAreTriangles) {
   ObjElements elements;
-  std::vector<ObjElement> wanted;
+  std::vector<ObjElement> expected;
   for (std::uint32_t i = 0; i < 10; ++i) {
-    wanted.push_back({3 * i, 3, ObjKind::Face});
-    elements.push_back(wanted.back());
+    expected.push_back({3 * i, 3, ObjKind::Face});
+    elements.push_back(expected.back());
   }
   EXPECT_TRUE(elements.are_triangles());
   EXPECT_EQ(elements.bytes(), 0u);
-  wanted.push_back({30, 3, ObjKind::Line});
-  elements.push_back(wanted.back());
+  expected.push_back({30, 3, ObjKind::Line});
+  elements.push_back(expected.back());
   EXPECT_FALSE(elements.are_triangles());
-  ASSERT_EQ(elements.size(), wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(elements[i], wanted[i]);
+  ASSERT_EQ(elements.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(elements[i], expected[i]);
 }
 
 }  // namespace

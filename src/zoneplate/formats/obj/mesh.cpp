@@ -47,7 +47,7 @@ std::vector<Plan> plan_meshes(const ObjFile& file, const ObjLayout& layout) {
   return plans;
 }
 
-/// An element of more corners than this may take long: the limits are looked at before it.
+/// An element of more corners than this may take long: the limits are checked before it.
 constexpr std::uint32_t many_corners = 64;
 
 float linear(float code) { return decode_srgb(std::clamp(code, 0.0f, 1.0f)); }
@@ -62,7 +62,7 @@ class Builder {
 
   std::uint64_t not_finite = 0, too_concave = 0;
 
-  /// Adds the elements; gives up between some of them when `may_go_on(bytes so far)` says no.
+  /// Adds the elements; stops between some of them when `may_go_on(bytes so far)` is false.
   template <class Check>
   void add_all(const Check& may_go_on) {
     for (const ObjRun& run : plan_.runs) {
@@ -114,7 +114,7 @@ class Builder {
   }
 
  private:
-  /// How many vertices may be expected, and how many indices there will be at most.
+  /// The expected number of vertices, and the maximum number of indices.
   struct Size {
     std::size_t vertices = 0, indices = 0;
   };

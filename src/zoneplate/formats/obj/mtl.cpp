@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-/// A finite number; "1.#IND" and the like are none here.
+/// A finite number; "1.#IND" and the like are rejected.
 std::optional<float> find_value(std::string_view word) {
   const std::optional<float> number = find_number(word);
   return number && std::isfinite(*number) ? number : std::nullopt;
@@ -31,7 +31,7 @@ std::vector<float> take_numbers(LineWords& words, std::size_t most) {
   while (numbers.size() < most) {
     LineWords ahead = words;
     const std::optional<float> number = find_value(ahead.next());
-    if (!number || ahead.is_over()) break;  // the last word is the file's name, even if it is a number
+    if (!number || ahead.is_over()) break;  // the last argument is the file's name, even if it is a number
     numbers.push_back(*number);
     words = ahead;
   }
@@ -68,8 +68,8 @@ MtlTexture read_texture(LineWords words) {
 class MtlReader {
  public:
   MtlReader(const std::string& file, std::vector<std::string>& warnings,
-            const std::function<bool(const std::string&)>& is_wanted)
-      : file_(file), warnings_(warnings), is_wanted_(is_wanted) {}
+            const std::function<bool(const std::string&)>& is_used)
+      : file_(file), warnings_(warnings), is_used_(is_used) {}
 
   std::vector<MtlMaterial> take() {
     close();
@@ -85,14 +85,14 @@ class MtlReader {
       open_.emplace().name = words.rest();
       return;
     }
-    if (!open_) return warn(fmt::format("{} before newmtl passed over", key));
+    if (!open_) return warn(fmt::format("{} before newmtl is ignored", key));
     if (!read_color(key, words) && !read_value(key, words)) read_map(key, words);
   }
 
  private:
-  /// Keeps the material that was read last, if it is wanted.
+  /// Keeps the material that was read last, if it is used.
   void close() {
-    if (open_ && is_wanted_(open_->name)) materials_.push_back(std::move(*open_));
+    if (open_ && is_used_(open_->name)) materials_.push_back(std::move(*open_));
     open_.reset();
   }
 
@@ -100,7 +100,7 @@ class MtlReader {
     constexpr int most = 20;
     if (++warned_ > most) return;
     warnings_.push_back(warned_ < most ? fmt::format("{}: line {}: {}", file_, line_, text)
-                                       : fmt::format("{}: line {}: and more that is passed over", file_, line_));
+                                       : fmt::format("{}: line {}: further warnings are omitted", file_, line_));
   }
 
   bool read_color(const std::string& key, LineWords words) {
@@ -168,12 +168,12 @@ class MtlReader {
     constexpr std::array known = {"ni",    "tf",     "sharpness", "km",      "ps",     "pc",      "pcr",
                                   "aniso", "anisor", "map_ka",    "map_aat", "xalpha", "spectral"};
     if (std::find(known.begin(), known.end(), key) == known.end())
-      warn(fmt::format("'{}' is not known and passed over", key.substr(0, 40)));
+      warn(fmt::format("'{}' is unknown and ignored", key.substr(0, 40)));
   }
 
   const std::string& file_;
   std::vector<std::string>& warnings_;
-  const std::function<bool(const std::string&)>& is_wanted_;
+  const std::function<bool(const std::string&)>& is_used_;
   std::optional<MtlMaterial> open_;  ///< the one that is being read
   std::vector<MtlMaterial> materials_;
   std::uint64_t line_ = 0;
@@ -183,10 +183,10 @@ class MtlReader {
 }  // namespace
 
 std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& file, std::vector<std::string>& warnings,
-                                   const std::function<bool(const std::string&)>& is_wanted) {
+                                   const std::function<bool(const std::string&)>& is_used) {
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
-  MtlReader reader(file, warnings, is_wanted);
+  MtlReader reader(file, warnings, is_used);
   // A backslash at a line's end may end a folder's name, but no file's: it continues the line, as in OBJ.
   TextLines lines(text, 1, separator);
   constexpr std::uint64_t lines_per_check = 1024;

@@ -18,7 +18,7 @@ struct MtlTexture {
   float strength = 1;                ///< -bm
 };
 
-/// What an MTL file says of a material; colours are as in the file.
+/// A material as stated in an MTL file; colours are as in the file.
 struct MtlMaterial {
   std::string name;
   std::optional<float3> diffuse, ambient, specular, emissive;     ///< Kd Ka Ks Ke
@@ -29,12 +29,12 @@ struct MtlMaterial {
   std::vector<std::string> unsupported;                           ///< keys of maps that are not drawn, each once
 };
 
-/// Reads those materials of an MTL file whose names `is_wanted` wants. What is wrong in it is passed over with a
-/// warning that names `file` and line.
+/// Reads the materials of an MTL file whose names `is_used` accepts. Errors in the file are ignored with a warning that
+/// names `file` and line.
 ///
-/// Errors    those of check_deadline, and what is_wanted throws.
+/// Errors    those of check_deadline, and those of is_used.
 std::vector<MtlMaterial> parse_mtl(
     std::string_view text, const std::string& file, std::vector<std::string>& warnings,
-    const std::function<bool(const std::string&)>& is_wanted = [](const std::string&) { return true; });
+    const std::function<bool(const std::string&)>& is_used = [](const std::string&) { return true; });
 
 }  // namespace zoneplate

@@ -68,10 +68,10 @@ TEST(ParseMtl, PassesOverWhatIsWrong) {
   const Parsed p = parse("Kd 1 1 1\nnewmtl a\nKd red\nKs\nNs nan\nwhatever 3\nmap_Kd\nKd spectral x.rfl\n");
   EXPECT_EQ(p.materials.size(), 1u);
   EXPECT_EQ(p.warnings, (std::vector<std::string>{
-                            "a.mtl: line 1: kd before newmtl passed over", "a.mtl: line 3: kd: 'red' is not a number",
+                            "a.mtl: line 1: kd before newmtl is ignored", "a.mtl: line 3: kd: 'red' is not a number",
                             "a.mtl: line 4: ks has no numbers", "a.mtl: line 5: ns: 'nan' is not a number",
-                            "a.mtl: line 6: 'whatever' is not known and passed over",
-                            "a.mtl: line 7: map_kd names no file", "a.mtl: line 8: kd: 'spectral' is not a number"}));
+                            "a.mtl: line 6: 'whatever' is unknown and ignored", "a.mtl: line 7: map_kd names no file",
+                            "a.mtl: line 8: kd: 'spectral' is not a number"}));
   std::string many = "newmtl a\n";
   for (int i = 0; i < 1000; ++i) many += "bad\n";
   EXPECT_EQ(parse(many).warnings.size(), 20u);
@@ -85,7 +85,7 @@ TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {
   EXPECT_EQ(found[0].name, "b");
   EXPECT_EQ(found[0].diffuse, (float3{0, 1, 0}));
   EXPECT_EQ(asked, (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_EQ(warnings.size(), 1u);  // what is wrong in the others is told all the same
+  EXPECT_EQ(warnings.size(), 1u);  // errors in the others are reported all the same
 }
 
 TEST(ParseMtl, NamesEachMapThatIsNotDrawnOnce) {

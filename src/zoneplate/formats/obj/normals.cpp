@@ -21,7 +21,7 @@ constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256;
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// A corner that needs a normal, as its neighbours at the same place see it.
+/// A corner that needs a normal, with the data that its neighbours at the same position use.
 struct Share {
   float3 normal;  ///< of its face
   float angle;
@@ -34,7 +34,7 @@ bool is_whole(const ObjFile& file, const ObjChunk& chunk, const ObjElement& e) {
   return true;
 }
 
-/// Whether it is clear without a look at its corners.
+/// Whether all corners have normals, decided without reading the corners; false may mean either.
 bool has_all_normals(const ObjFile& file, const ObjChunk& chunk) {
   return chunk.corners.have_normals() && !file.has_odd_normal;
 }
@@ -157,7 +157,7 @@ void fill_shares(const ObjFile& file, const ObjRun& run, Neighbours& n) {
   }
 }
 
-/// Sums of places where so many faces meet that comparing each with each would take too long.
+/// Sums for positions where too many faces meet to compare all pairs.
 using Crowds = std::map<std::pair<std::size_t, std::uint32_t>, float3>;
 
 Crowds sum_crowds(const Neighbours& n) {

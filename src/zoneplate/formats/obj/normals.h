@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// Elements of one chunk for which all that is said holds alike.
+/// A range of elements of one chunk with the same state.
 struct ObjRun {
   std::uint32_t chunk = 0, begin = 0, end = 0;  ///< elements
   int object = 0, material = 0;

@@ -25,15 +25,15 @@ std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-/// The materials that are wanted, by name; of several libraries the first that has one counts.
+/// The used materials, by name; of several libraries the first that defines a material counts.
 class Libraries {
  public:
-  Libraries(ModelFolder& folder, const std::vector<std::string>& wanted)
-      : folder_(folder), wanted_(wanted.begin(), wanted.end()) {
-    folder.budget().take(wanted.size() * (sizeof(std::string_view) + 48));
+  Libraries(ModelFolder& folder, const std::vector<std::string>& used)
+      : folder_(folder), used_(used.begin(), used.end()) {
+    folder.budget().take(used.size() * (sizeof(std::string_view) + 48));
   }
 
-  /// What an mtllib statement says: one name that may hold spaces, or several.
+  /// Adds the operand of an mtllib statement: one name that may contain spaces, or several.
   void add(const std::string& statement) {
     if (names_ >= most_names) return void(++names_);
     if (!statements_.insert(statement).second) return;
@@ -59,8 +59,8 @@ class Libraries {
             fmt::format("{}: {} more {}", folder_.budget().file(), count - most_named, text));
     };
     if (names_ > most_names)
-      folder_.scene().warnings.push_back(fmt::format(
-          "{}: names more than {} material libraries, the rest is passed over", folder_.budget().file(), most_names));
+      folder_.scene().warnings.push_back(fmt::format("{}: names more than {} material libraries, the rest is ignored",
+                                                     folder_.budget().file(), most_names));
     report(missing_, "material libraries are not found");
     report(undefined_, "materials are not defined");
   }
@@ -74,10 +74,10 @@ class Libraries {
     std::string within;
   };
 
-  /// Whether a material is one to keep; what it takes is counted.
-  bool is_wanted(const std::string& name) {
+  /// Whether a material is kept; its memory is added to the budget.
+  bool is_used(const std::string& name) {
     constexpr std::uint64_t of_the_table = 64;
-    if (!wanted_.contains(name) || materials_.contains(name)) return false;
+    if (!used_.contains(name) || materials_.contains(name)) return false;
     folder_.budget().check_time();
     folder_.budget().take(2 * sizeof(Found) + 2 * name.size() + of_the_table);
     return true;
@@ -98,7 +98,7 @@ class Libraries {
     const std::size_t slash = name.find_last_of("/\\");
     const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
     std::vector<MtlMaterial> found =
-        parse_mtl(text_of(file), name, scene.warnings, [&](const std::string& m) { return is_wanted(m); });
+        parse_mtl(text_of(file), name, scene.warnings, [&](const std::string& m) { return is_used(m); });
     for (MtlMaterial& m : found) {
       std::string key = m.name;
       materials_.try_emplace(std::move(key), Found{std::move(m), within});
@@ -107,16 +107,19 @@ class Libraries {
 
   // In order and not hashed, as a file may choose names that collide.
   ModelFolder& folder_;
-  std::set<std::string_view> wanted_;
+  std::set<std::string_view> used_;
   std::size_t names_ = 0, missing_ = 0, undefined_ = 0;
   std::map<std::string, Found> materials_;
   std::set<std::string> statements_, opened_;
 };
 
 void report_notes(const ObjFile& file, const std::string& name, std::vector<std::string>& warnings) {
-  constexpr const char* texts[] = {"has too few corners and is dropped", "is free-form geometry, which is not drawn",
-                                   "is not known and passed over",       "is not finite and taken as 0",
-                                   "index out of range, taken as none",  "index out of range, taken as none"};
+  constexpr const char* texts[] = {"has too few corners and is dropped",
+                                   "is free-form geometry, which is not drawn",
+                                   "is unknown and ignored",
+                                   "is not finite and set to 0",
+                                   "index out of range, treated as absent",
+                                   "index out of range, treated as absent"};
   for (std::size_t kind = 0; kind < std::size(texts); ++kind) {
     ObjTally sum;
     for (const ObjChunk& chunk : file.chunks) {

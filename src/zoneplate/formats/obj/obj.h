@@ -14,7 +14,7 @@ namespace zoneplate {
 /// a smoothing group and flat where smoothing is off; a file that never says `s` is smooth across edges that bend by
 /// less than 50°. Vertex colours after the coordinates are sRGB codes. Materials: formats/obj/mtl_material.h.
 ///
-/// Edges     a vertex that is not finite drops what uses it; what is passed over (unknown statements, free-form
+/// Edges     elements with a vertex that is not finite are dropped; ignored content (unknown statements, free-form
 ///           geometry, missing libraries, materials and images) gives a warning that names it.
 /// Exact     the same scene, to the bit, for any number of threads.
 /// Errors    ErrorKind::Input, one line naming file, line and cause.

@@ -102,7 +102,7 @@ TEST_F(ObjModel, SharesVerticesInTheOrderOfFirstUse) {
 }
 
 TEST_F(ObjModel, SharesVerticesWhereOnePositionHasManyTextureCoordinates) {
-  // Thousands of vertices at one position, each used three times: more than near places can tell apart.
+  // Thousands of vertices at one position, each used three times: more than the hash of nearby vertices can separate.
   std::string text = square;
   for (int i = 0; i < 3000; ++i) text += "vt " + std::to_string(i) + " 0\n";
   for (int round = 0; round < 3; ++round)
@@ -246,7 +246,7 @@ TEST_F(ObjModel, DropsWhatIsNotFinite) {
   EXPECT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].primitives(), 1u);
   EXPECT_EQ(warnings_of(scene),
-            "model.obj: line 8: vt is not finite and taken as 0\n"
+            "model.obj: line 8: vt is not finite and set to 0\n"
             "model.obj: 5 faces, lines or points have a vertex that is not finite and are dropped\n");
 }
 
@@ -262,8 +262,7 @@ TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(
       refusal(square + "f 1\nf 1 2\n"),
       "model.obj: line 5: face has too few corners and is dropped (and 1 more); nothing is left that can be drawn");
-  EXPECT_EQ(refusal("hello\n"),
-            "model.obj: line 1: hello is not known and passed over; nothing is left that can be drawn");
+  EXPECT_EQ(refusal("hello\n"), "model.obj: line 1: hello is unknown and ignored; nothing is left that can be drawn");
   EXPECT_EQ(refusal("f 99999999999999999999 1 1\n").substr(0, 35), "model.obj: line 1: face index 92233");
   try {
     load_obj((folder_ / "missing.obj").string());
@@ -278,9 +277,9 @@ TEST_F(ObjModel, WarnsOfWhatItPassesOver) {
   EXPECT_EQ(warnings_of(scene),
             "model.obj: line 6: face has too few corners and is dropped\n"
             "model.obj: line 9: curv is free-form geometry, which is not drawn\n"
-            "model.obj: line 10: foo is not known and passed over (and 1 more)\n"
-            "model.obj: line 8: texture coordinate index out of range, taken as none\n"
-            "model.obj: line 7: normal index out of range, taken as none (and 2 more)\n");
+            "model.obj: line 10: foo is unknown and ignored (and 1 more)\n"
+            "model.obj: line 8: texture coordinate index out of range, treated as absent\n"
+            "model.obj: line 7: normal index out of range, treated as absent (and 2 more)\n");
 }
 
 TEST_F(ObjModel, KeepsWithinItsLimits) {

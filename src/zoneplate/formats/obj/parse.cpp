@@ -37,7 +37,7 @@ std::vector<std::string_view> cut(std::string_view text, char separator) {
   return parts;
 }
 
-/// What comes before each part, and the sum of all behind them.
+/// The counts before each part, followed by the totals.
 std::vector<ObjCounts> accumulate(const std::vector<ObjPart>& parts) {
   std::vector<ObjCounts> before(1);
   for (const ObjPart& part : parts) {
@@ -48,7 +48,7 @@ std::vector<ObjCounts> accumulate(const std::vector<ObjPart>& parts) {
   return before;
 }
 
-/// Appends a kind of what the parts say to each other, and frees it there.
+/// Concatenates one kind of data of all parts, and frees it there.
 template <class V, class Member>
 void join(std::vector<ObjPart>& parts, Member member, std::uint64_t count, std::vector<V>& out) {
   if (parts.size() == 1) return std::swap(out, parts.front().vertices.*member);
@@ -73,7 +73,7 @@ void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>
 
 std::uint64_t size_of(const ObjPart& part) { return part.vertices.bytes() + part.chunk.bytes(); }
 
-/// Reads the parts by themselves, and then anew those that need to know the others; gives what comes before each.
+/// Reads the parts independently, then again those that depend on others; returns the totals before each part.
 std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, char separator, ImportBudget& budget,
                                   const std::function<void(std::string_view)>& done, std::vector<ObjPart>& parts) {
   std::vector<char> is_read(parts.size());
@@ -90,7 +90,7 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   if (std::max({all.positions, all.uvs, all.normals}) >= most_obj_items)
     throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
 
-  // Whichever thread meets an error, the first line that has one is reported.
+  // The error of the first line is reported, regardless of the thread that finds an error first.
   std::vector<std::optional<ObjLineError>> errors(parts.size());
   parallel_for(parts.size(), [&](std::size_t i) {
     const ObjCounts& named = parts[i].named;

@@ -9,7 +9,7 @@
 
 namespace zoneplate {
 
-/// What a model's text says, before it becomes meshes. Indices are zero-based and checked; -1 is none.
+/// The contents of an OBJ file before they become meshes. Indices are zero-based and validated; -1 is none.
 struct ObjFile {
   std::vector<float3> positions;  ///< not finite where the file says so
   std::vector<float4> colors;     ///< as long as positions, or empty; codes as in the file, white where it has none
@@ -20,7 +20,7 @@ struct ObjFile {
   std::vector<ObjChunk> chunks;
 };
 
-/// Reads the statements of an OBJ file, in parallel. `done` is told of each part of the text that is not needed for
+/// Reads the statements of an OBJ file, in parallel. `done` is called with each part of the text that is not needed for
 /// the moment.
 ///
 /// Edges     a corner that names a texture coordinate or normal that is not there has none, with a note.

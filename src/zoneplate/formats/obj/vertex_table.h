@@ -22,7 +22,7 @@ namespace zoneplate {
 /// longer still, as only corners do that were made to collide, all go into an ordered map. The numbers are the same.
 class ObjVertexTable {
  public:
-  /// Keeps room for so many; more may come.
+  /// Reserves capacity for `count` vertices; more may be added.
   explicit ObjVertexTable(std::size_t expected) : heads_(std::bit_ceil(std::max<std::size_t>(expected, 64)), none) {
     corners_.reserve(expected);
     next_.reserve(expected);

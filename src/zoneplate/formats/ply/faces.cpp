@@ -54,7 +54,7 @@ std::size_t blocks(std::size_t count) { return (count + PlyRows::block - 1) / Pl
 
 /// A face of more corners than this is dropped: no polygon is, and it would hold up the others of its block.
 constexpr std::uint32_t most_corners = 1 << 20;
-/// A face of more corners than this may take long: the time is looked at before it.
+/// A face of more corners than this may take long: the deadline is checked before it.
 constexpr std::uint32_t many_corners = 64;
 
 /// Reads the faces of one block, of any kind.

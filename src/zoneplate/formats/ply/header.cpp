@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-/// More than any file has; it bounds what a hostile one can make of us.
+/// More than any real file has; the limit bounds the work for a malicious file.
 constexpr std::size_t most_properties = 1024, most_line = 4096;
 
 std::optional<PlyType> find_type(std::string_view word) {

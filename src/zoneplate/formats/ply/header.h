@@ -12,13 +12,13 @@ enum class PlyOrder : std::uint8_t { Ascii, Little, Big };
 
 /// The size of a value in a binary file, in bytes.
 std::size_t size_of(PlyType type);
-/// What one is in an integer's code: its greatest value; 1 for floats.
+/// The value that represents 1 in a normalized integer: its maximum; 1 for floats.
 double one_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::Float;    ///< of the value, or of the items of a list, as they are stored
-  PlyType stated = PlyType::Float;  ///< the same as the header says it: what range it has
+  PlyType stated = PlyType::Float;  ///< the type in the header, which defines the range
   bool is_list = false;
   PlyType count_type = PlyType::Uint8;
 };
@@ -32,7 +32,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyOrder order = PlyOrder::Ascii;
   std::vector<PlyElement> elements;
-  std::string texture;   ///< what a comment "TextureFile" names, as MeshLab writes it
+  std::string texture;   ///< the file of a comment "TextureFile", as written by MeshLab
   std::size_t size = 0;  ///< in bytes, to the end of its last line
 };
 

@@ -30,7 +30,7 @@ Found find_elements(const PlyHeader& header, std::span<const std::uint8_t> body,
   Found found;
   std::optional<PlyRows>* const slots[] = {&found.vertices, &found.faces, &found.strips, &found.edges};
   constexpr const char* names[] = {"vertex", "face", "tristrips", "edge"};
-  // What comes after the last element that is read may even be missing.
+  // Data after the last element that is read may be missing.
   std::size_t last = 0;
   for (std::size_t e = 0; e < header.elements.size(); ++e)
     if (std::find(std::begin(names), std::end(names), header.elements[e].name) != std::end(names)) last = e + 1;
@@ -53,7 +53,7 @@ std::vector<V> spread(const std::vector<V>& values, const std::vector<std::uint3
   return out;
 }
 
-/// Gives each corner a vertex of its own, with what its face says of it.
+/// Gives each corner its own vertex, with the attributes of its face.
 void set_corners(Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   budget.take(mesh.index.size() * (2 * sizeof(float3) + sizeof(float2) + sizeof(float4)));
   mesh.position = spread(mesh.position, mesh.index);
@@ -87,7 +87,7 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
     if (mesh.normal[i] == float3{}) mesh.normal[i] = normalize(sum[i], {0, 1, 0});
 }
 
-/// The vertices, and beside them the triangles if they are plain: of either, finding the memory takes longest.
+/// The vertices, and in parallel the triangles if they are plain: for both, page faults take most of the time.
 void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   const bool are_plain = found.faces && are_plain_triangles(*found.faces);
   const std::uint64_t bytes = are_plain ? found.faces->count() * 3 * sizeof(std::uint32_t) : 0;
@@ -100,7 +100,7 @@ void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& 
   budget.check_time();
 }
 
-/// The primitives that the elements make, with what is per corner left in `faces`.
+/// The primitives of the elements; attributes per corner remain in `faces`.
 void choose_primitives(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   if (found.faces && faces.index.empty()) faces = read_ply_faces(*found.faces, mesh, budget);
   if (faces.index.empty() && found.strips) faces.index = read_ply_strips(*found.strips, mesh, budget);

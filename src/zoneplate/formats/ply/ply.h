@@ -14,8 +14,8 @@ namespace zoneplate {
 /// coordinates (of vertices, or MeshLab's of faces) and MeshLab's comment that names a texture. Missing normals are
 /// smooth across edges that bend by less than 50° (scene/geometry/smooth_normals.h). All surfaces are double-sided.
 ///
-/// Edges     what uses a vertex that is not finite is dropped, with a warning; other elements and properties are passed
-///           over.
+/// Edges     primitives with a vertex that is not finite are dropped, with a warning; other elements and properties are
+///           ignored.
 /// Exact     the same scene, to the bit, for any number of threads.
 /// Errors    ErrorKind::Input, one line naming file, place and cause.
 Scene load_ply(const std::string& path, const LoadLimits& limits = {});

@@ -75,10 +75,10 @@ const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::si
 void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, std::size_t property, float* out,
                      std::size_t stride);
 
-/// The body of an ASCII file as the numbers it says, each a double in this machine's order; the elements' types change
+/// The body of an ASCII file as numbers, each a double in this machine's order; the elements' types change
 /// accordingly.
 ///
-/// Errors    ErrorKind::Input naming the line of what is not a number.
+/// Errors    ErrorKind::Input naming the line of a word that is not a number.
 std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
                                          ImportBudget& budget);
 

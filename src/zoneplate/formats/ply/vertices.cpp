@@ -25,7 +25,7 @@ std::optional<std::size_t> find(const PlyElement& element, Names names) {
   return std::nullopt;
 }
 
-/// Properties that make one attribute; it is there if all of them are.
+/// Properties that make one attribute; present if all of them are.
 template <std::size_t n>
 std::optional<std::array<std::size_t, n>> find_all(const PlyElement& element, const std::array<Names, n>& names) {
   std::array<std::size_t, n> out{};
@@ -53,7 +53,7 @@ void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& propert
   });
 }
 
-/// Makes linear colours of what the file has for them.
+/// Converts the colour properties of the file to linear colours.
 void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& properties, bool has_alpha,
                    std::vector<float4>& colors) {
   std::array<float, 4> one{};

@@ -46,7 +46,7 @@ bool is_text(Bytes bytes) {
                    0) == bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 512));
 }
 
-/// Reads the colours of facets: 5 bits each, and one bit that says whether they count.
+/// Reads the colours of facets: 5 bits each, and one bit that marks them as valid.
 class FacetColor {
  public:
   explicit FacetColor(Bytes header) {
@@ -75,7 +75,7 @@ class FacetColor {
   std::array<float, 32> linear_{};
 };
 
-/// Arrays for so many separate triangles. They are made side by side, as finding their pages takes longest.
+/// Arrays for `count` separate triangles. They are allocated in parallel, as page faults take most of the time.
 Mesh make_triangles(std::uint64_t count) {
   Mesh mesh;
   const std::size_t corners = 3 * static_cast<std::size_t>(count);
@@ -87,7 +87,7 @@ Mesh make_triangles(std::uint64_t count) {
   return mesh;
 }
 
-/// The facets that the header says, with colours where any facet has one.
+/// The facets, in the number of the header, with colours if any facet has one.
 Mesh read_facets(Bytes bytes, std::uint64_t count, ImportBudget& budget) {
   const std::uint8_t* const facets = bytes.data() + header_bytes;
   budget.take(count * 3 * (2 * sizeof(float3) + sizeof(std::uint32_t)));
@@ -136,10 +136,11 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
                                               budget.file(), bytes.size(), header_bytes));
   const std::uint64_t said = read_u32(&bytes[80]), held = (bytes.size() - header_bytes) / facet_bytes;
   if (said > held)
-    throw Error(ErrorKind::Input, fmt::format("{}: not an STL file, or cut off: says it has {} triangles, holds {}",
-                                              budget.file(), said, held));
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: not an STL file, or cut off: its header states {} triangles, the file has {}",
+                            budget.file(), said, held));
   if (bytes.size() > header_bytes + said * facet_bytes)
-    scene.warnings.push_back(fmt::format("{}: {} bytes after the last triangle are passed over", budget.file(),
+    scene.warnings.push_back(fmt::format("{}: {} bytes after the last triangle are ignored", budget.file(),
                                          bytes.size() - header_bytes - said * facet_bytes));
   if (said > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   add_mesh(scene, read_facets(bytes, said, budget), name, budget);
@@ -157,7 +158,7 @@ Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, cons
     if ((loop.size() > many_corners || l % loops_per_check == 0) && !budget.has_time()) break;
     triangles.clear();
     if (loop.size() == 3 || !std::all_of(loop.begin(), loop.end(), is_finite))
-      triangles.push_back({0, 1, 2});  // what is not finite is dropped later
+      triangles.push_back({0, 1, 2});  // triangles that are not finite are dropped later
     else
       triangulate(loop, triangles);
     if (loop.size() < 3) triangles.clear(), ++too_short;

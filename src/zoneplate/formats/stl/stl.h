@@ -11,8 +11,8 @@ namespace zoneplate {
 ///
 /// Triangles are flat: their normals follow from their corners, the file's own are not used. Each solid of an ASCII
 /// file is an object; a loop of more than three vertices is cut into triangles. Colours of binary files are read in
-/// both conventions (sRGB codes of 5 bits): VisCAM and SolidView's, and Materialise Magics', which the header's
-/// "COLOR=" tells. All surfaces are double-sided.
+/// both conventions (sRGB-encoded, 5 bits): VisCAM and SolidView's, and Materialise Magics', which is recognised by
+/// "COLOR=" in the header. All surfaces are double-sided.
 ///
 /// Space     Scene::up is +Z, as programs that write STL have it.
 /// Edges     a triangle that is not finite is dropped, with a warning; so are bytes after the last triangle.

@@ -124,7 +124,8 @@ TEST(Stl, Refusals) {
   EXPECT_EQ(refusal("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0"), "line 4: 'zero' is not a number");
   EXPECT_EQ(refusal("solid x\nfacets"), "line 2: 'facets' is not a word of STL");
   EXPECT_EQ(refusal("hello"), "neither ASCII STL nor binary STL: 5 bytes, expected 84 at least");
-  EXPECT_EQ(refusal(std::string(84, 1)), "not an STL file, or cut off: says it has 16843009 triangles, holds 0");
+  EXPECT_EQ(refusal(std::string(84, 1)),
+            "not an STL file, or cut off: its header states 16843009 triangles, the file has 0");
 }
 
 TEST(Stl, SolidsCountAsMemory) {

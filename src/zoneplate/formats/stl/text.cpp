@@ -63,7 +63,7 @@ void add_solid(StlText& text, StlText::Solid solid) {
     text.solids.push_back(std::move(solid));
 }
 
-/// Reads one part of the text, as a text of its own.
+/// Reads one part of the text independently of the others.
 class PartReader {
  public:
   explicit PartReader(std::string_view part) : at_(part.data()), end_(part.data() + part.size()) {}

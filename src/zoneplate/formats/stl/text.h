@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// What an ASCII STL file says: loops of vertices, and where solids begin.
+/// The content of an ASCII STL file: loops of vertices, and the beginnings of solids.
 struct StlText {
   struct Solid {
     std::uint64_t before;  ///< the loop before which it stands

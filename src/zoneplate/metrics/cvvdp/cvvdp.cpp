@@ -1,7 +1,7 @@
-// ColorVideoVDP: the difference between two pictures as an eye would see it on a stated screen.
+// ColorVideoVDP: the difference between two images as an eye would see it on a stated screen.
 //
-// Each picture becomes what the screen emits, opponent colours, bands of contrast; differences are weighed by the eye's
-// sensitivity, hidden where both pictures are busy, and pooled to one number that was fitted to people's judgements.
+// Each image becomes what the screen emits, opponent colours, bands of contrast; differences are weighed by the eye's
+// sensitivity, hidden where both images are busy, and pooled to one number that was fitted to people's judgements.
 //
 // Weak on what it was not fitted to: differences just at the threshold of sight; and its eye does not follow motion.
 #include "zoneplate/metrics/cvvdp/cvvdp.h"
@@ -79,7 +79,7 @@ double pooled(int width, int height, const ValueAt& value_at) {
   return SoftPower(0.5)(sum / (static_cast<double>(width) * height));
 }
 
-/// One level of one picture's pyramid as contrasts, and the luminance that they stand on.
+/// One level of one image's pyramid as contrasts, and the luminance that they stand on.
 struct Band {
   OpponentPlanes contrast;
   Plane<double> luminance;
@@ -153,7 +153,7 @@ Plane<double> blurred(const Plane<double>& in) {
   return out;
 }
 
-/// What both pictures have at a place, spread about it and raised: what can hide a difference there.
+/// What both images have at a place, spread about it and raised: what can hide a difference there.
 OpponentPlanes make_masks(const Band& reference, const Band& test) {
   const double factor = ten_to(mask_decades);
   OpponentPlanes masks;
@@ -204,13 +204,13 @@ double mean_of_plane(const Plane<double>& plane) {
 /// What is left below the bands: contrast to the mean luminance, not masked.
 std::vector<double> difference_in_baseband(const OpponentPlanes& reference, const OpponentPlanes& test,
                                            double frequency) {
-  const double wanted = std::max(least_luminance, mean_of_plane(reference[0]));
+  const double expected = std::max(least_luminance, mean_of_plane(reference[0]));
   const double found = std::max(least_luminance, mean_of_plane(test[0]));
   std::vector<double> out;
   for (std::size_t c = 0; c < reference.size(); ++c) {
-    const double weight = Sensitivity(static_cast<int>(c), frequency).at(wanted) * ten_to(sensitivity_decibels / 20);
+    const double weight = Sensitivity(static_cast<int>(c), frequency).at(expected) * ten_to(sensitivity_decibels / 20);
     const double whole = pooled(reference[c].width(), reference[c].height(), [&](int x, int y) {
-      return std::abs(test[c](x, y) / found - reference[c](x, y) / wanted) * weight;
+      return std::abs(test[c](x, y) / found - reference[c](x, y) / expected) * weight;
     });
     out.push_back(whole * baseband_weight[c]);
   }
@@ -238,9 +238,9 @@ std::vector<double> visible_difference(const OpponentPlanes& reference, const Op
     } else {
       OpponentPlanes a_below = reduced(a), b_below = reduced(b);
       const double factor = i == 0 ? 1 : 2;
-      Band wanted = make_band(a, a_below, factor), found = make_band(b, b_below, factor);
-      weigh(wanted, found, frequencies[i]);
-      differences = difference_in_band(wanted, found);
+      Band expected = make_band(a, a_below, factor), found = make_band(b, b_below, factor);
+      weigh(expected, found, frequencies[i]);
+      differences = difference_in_band(expected, found);
       a = std::move(a_below), b = std::move(b_below);
     }
     for (std::size_t c = 0; c < bands.size(); ++c) bands[c].push_back(differences[c] * channel_weight[c]);

@@ -8,8 +8,7 @@
 
 namespace zoneplate::metrics {
 
-/// The screen that a picture is looked at on, and from where. The defaults are a 4K screen of 30 inches, 0.75 m away,
-/// in an office.
+/// The screen and the viewing conditions. The defaults are a 4K screen of 30 inches at 0.75 m, in an office.
 struct Viewing {
   double pixels_per_degree = 75.40245;
   double peak = 200;  ///< cd/m² of white
@@ -25,22 +24,22 @@ Viewing viewing_of(const Settings& settings);
 /// Least width and height.
 constexpr int least_visible_size = 16;
 
-/// A picture as luminance, red-green and violet-yellow (and, in a sequence, luminance that changes), in cd/m².
+/// An image as luminance, red-green and violet-yellow (and, in a sequence, luminance that changes), in cd/m².
 using OpponentPlanes = std::vector<Plane<double>>;
 
-/// The three opponent planes that a screen makes of a picture on black.
+/// The three opponent planes that a screen makes of an image on black.
 OpponentPlanes opponent_planes(const LinearImage& image, const Viewing& viewing);
 
-/// How much of a difference an eye sees, by channel, pooled over the picture and over all bands of frequency.
+/// The visible difference by channel, pooled over the image and over all frequency bands.
 ///
 /// Requires  3 or 4 planes of one size, at least 16 × 16.
-/// Edges     0 in each channel where the pictures agree. Not symmetric: the reference's luminance sets the eye.
+/// Edges     0 in each channel where the images agree. Not symmetric: the reference's luminance sets the eye.
 /// Source    Mantiuk, Hanji, Ashraf, Asano, Chapiro, ColorVideoVDP: A Visual Difference Predictor for Image, Video
 ///           and Display Distortions, SIGGRAPH 2024; parameters of version 0.5.6.
 std::vector<double> visible_difference(const OpponentPlanes& reference, const OpponentPlanes& test,
                                        const Viewing& viewing);
 
-/// The norm over channels of what `visible_difference` says.
+/// The norm over the channels of `visible_difference`.
 double pool_channels(std::span<const double> channels);
 
 /// The channels' parts by name, for reports: what is blur or noise and what is flicker.

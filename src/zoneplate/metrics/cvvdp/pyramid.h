@@ -11,12 +11,12 @@ namespace zoneplate::metrics {
 /// Requires  at least 2 × 2.
 Plane<double> reduce(const Plane<double>& in);
 
-/// Twice the size, less one where the size asked for is odd: the inverse step, with the same filter.
+/// The inverse step, with the same filter: twice the size, less one if `width` or `height` is odd.
 ///
 /// Requires  `in` is (width + 1) / 2 × (height + 1) / 2.
 Plane<double> expand(const Plane<double>& in, int width, int height);
 
-/// The frequencies at which the bands of a picture peak, in cycles per degree, finest first; the last is that of
+/// The frequencies at which the bands of an image peak, in cycles per degree, finest first; the last is that of
 /// what is left below, 0.1.
 std::vector<double> band_frequencies(int width, int height, double pixels_per_degree);
 

@@ -8,7 +8,7 @@
 
 namespace zoneplate::metrics {
 
-/// How far a picture is off at the straight edges of its reference, by the angle between edge and nearer axis.
+/// The error of an image at the straight edges of its reference, by the angle between edge and nearer axis.
 struct EdgeError {
   static constexpr int bins = 9;  ///< of 5° each, from level and upright edges to the diagonal
   struct Bin {

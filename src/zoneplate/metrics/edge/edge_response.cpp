@@ -1,7 +1,7 @@
 // The edge response: sharpness as a modulation transfer function, from a slanted edge.
 //
 // A straight edge, not along an axis, is sampled by its rows at all distances; sorted by distance they show how a step
-// is drawn, four places to the pixel, though the picture has one. Weak on curved or textured edges: crop to one edge.
+// is drawn, four places to the pixel, though the image has one. Weak on curved or textured edges: crop to one edge.
 #include "zoneplate/metrics/edge/edge_response.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Plane<double> transposed(const Plane<double>& in) {
   return out;
 }
 
-/// True where the picture changes more from row to row than along its rows.
+/// True where the image changes more from row to row than along its rows.
 bool is_nearly_horizontal(const Plane<double>& in) {
   double across = 0, down = 0;
   for (int y = 0; y + 1 < in.height(); ++y) {
@@ -221,21 +221,21 @@ std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
 
 Metric edge_response() {
   return {.name = "edge_response",
-          .summary = "MTF50 of the one straight, slanted edge of the picture, in linear light",
+          .summary = "MTF50 of the one straight, slanted edge of the image, in linear light",
           .source = "ISO 12233:2017, annex D",
           .unit = "cycles/pixel",
           .better = Better::Higher,
           .perfect = std::nullopt,
           .is_default = false,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            const auto wanted = measure_edge(reference[0].linear), found = measure_edge(test[0].linear);
-            if (!wanted || !found) return std::nullopt;
+            const auto expected = measure_edge(reference[0].linear), found = measure_edge(test[0].linear);
+            if (!expected || !found) return std::nullopt;
             Score score{.value = found->half_transfer, .more = {}};
-            score.more = {{"reference_mtf50", wanted->half_transfer, "cycles/pixel"},
+            score.more = {{"reference_mtf50", expected->half_transfer, "cycles/pixel"},
                           {"mtf_nyquist", found->nyquist_transfer, ""},
-                          {"reference_mtf_nyquist", wanted->nyquist_transfer, ""},
+                          {"reference_mtf_nyquist", expected->nyquist_transfer, ""},
                           {"rise", found->rise, "pixels"},
-                          {"reference_rise", wanted->rise, "pixels"},
+                          {"reference_rise", expected->rise, "pixels"},
                           {"overshoot", found->overshoot, "share of the step"},
                           {"angle", found->angle_deg, "degrees"}};
             score.curves = {

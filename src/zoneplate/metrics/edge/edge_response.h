@@ -7,11 +7,11 @@
 
 namespace zoneplate::metrics {
 
-/// How a picture draws one straight edge: what its sampling and its filter made of a step.
+/// The response of an image to one straight edge: the result of its sampling and filter for a step.
 ///
 /// Units     pixels along the edge's normal; frequencies in cycles per pixel, along it too.
 struct EdgeResponse {
-  double angle_deg = 0;           ///< between the edge and the nearer axis of the picture
+  double angle_deg = 0;           ///< between the edge and the nearer axis of the image
   std::vector<double> distance;   ///< where the spread was sampled: 4 places a pixel, 0 on the edge
   std::vector<double> spread;     ///< the edge spread function, from about 0 to about 1
   std::vector<double> frequency;  ///< 0 to 1
@@ -22,7 +22,7 @@ struct EdgeResponse {
   double overshoot = 0;           ///< the greater of what the spread goes past 1 and below 0
 };
 
-/// Measures the one straight edge of a picture from its luminance in linear light.
+/// Measures the one straight edge of an image from its luminance in linear light.
 ///
 /// Nothing where there is no such edge: no contrast, an edge so nearly along an axis that its rows all sample the same
 /// distances, or less than 4 pixels on either side of it.

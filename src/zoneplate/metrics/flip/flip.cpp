@@ -1,7 +1,7 @@
-// FLIP: differences as a viewer sees them who flips between two pictures, from a stated distance.
+// FLIP: differences as a viewer sees them who flips between two images, from a stated distance.
 //
-// Each picture is blurred as the eye blurs it at that distance, colours are compared in a uniform space, and edges
-// and points that one picture has and the other lacks raise the error.
+// Each image is blurred as the eye blurs it at that distance, colours are compared in a uniform space, and edges
+// and points that one image has and the other lacks raise the error.
 //
 // Weak below a pixel: at the usual 67 pixels per degree the eye's blur hides much of what antialiasing methods differ
 // in; judge those at 20 to 30 pixels per degree (flip:ppd=25) too.
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int tile_side = 64;
 
-/// A tile's pixels: [x0, x0 + width) × [y0, y0 + height) of the picture.
+/// A tile's pixels: [x0, x0 + width) × [y0, y0 + height) of the image.
 struct Tile {
   int x0 = 0, y0 = 0, width = 0, height = 0;
 };
@@ -38,7 +38,7 @@ Triple light_of(Linear c) {
   return {unit(c.r), unit(c.g), unit(c.b)};
 }
 
-/// A tile of one picture in YCxCz with a margin of `reach` pixels on all sides, the picture's border repeated.
+/// A tile of one image in YCxCz with a margin of `reach` pixels on all sides, the image's border repeated.
 struct Margin {
   Plane<double> y, cx, cz;
 };
@@ -111,7 +111,7 @@ double color_error(Triple a, Triple b, double greatest) {
   return d < bend ? d * knee_value / bend : knee_value + (d - bend) / (greatest - bend) * (1 - knee_value);
 }
 
-/// Whether the pictures agree in all that decides a tile's pixels.
+/// Whether the images agree in all that decides a tile's pixels.
 bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, int reach) {
   const int left = std::max(0, tile.x0 - reach), right = std::min(a.width(), tile.x0 + tile.width + reach);
   const int top = std::max(0, tile.y0 - reach), bottom = std::min(a.height(), tile.y0 + tile.height + reach);
@@ -187,7 +187,7 @@ Score score_of_flip(Plane<float> map) {
 Metric flip() {
   static constexpr Param params[] = {real_param("ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000)};
   return {.name = "flip",
-          .summary = "difference seen when the pictures alternate, from a stated distance: mean of the map",
+          .summary = "difference seen when the images alternate, from a stated distance: mean of the map",
           .source = "Andersson et al. 2020",
           .unit = "",
           .params = params,

@@ -98,7 +98,7 @@ TEST(Flip, IsTheSameWhateverTileAPixelIsIn) {
 }
 
 TEST(Flip, OnePixelsDifferenceIsSeenAsFarAsFiltersReachAndNoFarther) {
-  // Tiles around which the pictures agree are not looked at: what others make of them must be no more than 0 either.
+  // Tiles around which the images agree are not looked at: what others make of them must be no more than 0 either.
   const ChartPair pair = chart_pair(1);
   LinearImage changed = pair.reference;
   changed(64, 61) = {5, 0, 0, 1};

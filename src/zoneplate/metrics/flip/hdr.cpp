@@ -1,7 +1,7 @@
-// FLIP for unbounded light: the pictures are looked at through all the exposures that show something of the
-// reference, and the worst counts.
+// FLIP for high dynamic range: the images are compared at a range of exposures derived from the reference, and
+// each pixel has its greatest error.
 //
-// Weak where nothing bounds the light: one fireflied pixel in the reference adds exposures that nobody would choose.
+// Weak for unbounded radiance: one outlier (firefly) in the reference adds irrelevant exposures.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,7 +48,7 @@ std::vector<double> flip_exposures(const LinearImage& reference) {
   for (const Linear& c : reference.values())
     luminance.push_back(0.2126 * bounded(c.r) + 0.7152 * bounded(c.g) + 0.0722 * bounded(c.b));
 
-  // Black counts as the least light that a float tells from none beside 1, so that the exposures stay bounded.
+  // Black counts as the smallest luminance that a float resolves next to 1, so that the exposures stay bounded.
   constexpr double darkest = std::numeric_limits<float>::epsilon();
   const auto middle = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() / 2);
   const double greatest = std::max(darkest, std::ranges::max(luminance));

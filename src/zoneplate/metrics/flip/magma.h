@@ -10,7 +10,7 @@ namespace zoneplate::metrics {
 /// Source    van der Walt and Smith, A Better Default Colormap for Matplotlib, SciPy 2015; the table is CC0.
 Rgba8 magma(float value);
 
-/// An error map as a picture.
+/// An error map as a image.
 Rgba8Image paint_magma(const Plane<float>& map);
 
 }  // namespace zoneplate::metrics

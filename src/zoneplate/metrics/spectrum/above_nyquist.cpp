@@ -1,7 +1,7 @@
-// Energy above Nyquist: how much of what a picture's pixels cannot show came back as something else.
+// Energy above Nyquist: how much of what an image's pixels cannot show came back as something else.
 //
-// A sampled picture has no frequencies above ½, so its aliases are found with a reference n × n times as large, which
-// still has them apart. In each ring of frequencies the picture is taken as the reference times one real factor, its
+// A sampled image has no frequencies above ½, so its aliases are found with a reference n × n times as large, which
+// still has them apart. In each ring of frequencies the image is taken as the reference times one real factor, its
 // filter there; the rest is no filtered copy of what should be there: aliases (and noise).
 //
 // Weak where a filter is not round, for what differs between directions counts as aliases, and in the few bins of the
@@ -18,7 +18,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the picture and
+/// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the image and
 /// samples lie in the middle of their pixels.
 Complex half_pixel(double f) {
   const SineCosine turn = sin_cos_pi(f);
@@ -40,14 +40,14 @@ std::vector<Ring> compare_bins(const Spectrum& reference, const Spectrum& test, 
       if (std::abs(fx) >= 0.5 || std::abs(fy) >= 0.5) continue;
       const Complex found = test.half(kx, ky) * half_pixel(fx) * half_pixel(fy);
       // The scaled spectra differ by the factor n, for the reference has n² times the samples at the same variance.
-      const Complex wanted =
+      const Complex expected =
           reference.at(kx, 2 * ky <= height ? ky : ky - height) * half_pixel(fx / n) * half_pixel(fy / n) / double(n);
       Ring& ring = rings[static_cast<std::size_t>(std::sqrt(fx * fx + fy * fy) * shorter + 0.5)];
       const double weight = kx == 0 ? 1 : 2;
-      ring.reference += weight * std::norm(wanted);
+      ring.reference += weight * std::norm(expected);
       ring.test += weight * std::norm(found);
-      ring.common += weight * (wanted.real() * found.real() + wanted.imag() * found.imag());
-      ring.difference += weight * std::norm(found - wanted);
+      ring.common += weight * (expected.real() * found.real() + expected.imag() * found.imag());
+      ring.difference += weight * std::norm(found - expected);
     }
   }
   return rings;
@@ -61,12 +61,12 @@ double power_of(const Spectrum& reference, int n) {
 
 Score measure(const LinearImage& reference, const LinearImage& test) {
   const int n = reference.width() / test.width();
-  const Spectrum wanted = windowed_spectrum(luminance_plane(reference)),
+  const Spectrum expected = windowed_spectrum(luminance_plane(reference)),
                  found = windowed_spectrum(luminance_plane(test));
 
   Ring all;
   double aliases = 0, passed = 0;
-  for (const Ring& ring : compare_bins(wanted, found, n)) {
+  for (const Ring& ring : compare_bins(expected, found, n)) {
     const double factor = ring.reference > 0 ? ring.common / ring.reference : 0;
     aliases += std::max(0.0, ring.test - factor * ring.common);
     passed += factor * factor * ring.reference;
@@ -75,7 +75,7 @@ Score measure(const LinearImage& reference, const LinearImage& test) {
   }
 
   Score score;
-  const double whole = power_of(wanted, n);
+  const double whole = power_of(expected, n);
   const auto decibels = [&](double power) { return 10 * decimal_log(power / all.reference); };
   score.value = decibels(aliases);
   score.more = {{"difference", decibels(all.difference), "dB"},

@@ -1,7 +1,7 @@
-// The radial power spectrum of the error: at what size of detail a picture is wrong.
+// The radial power spectrum of the error: at what size of detail an image is wrong.
 //
 // Coarse errors are seen, fine ones much less; a method that moves its error upward is better at the same mean square.
-// Direction is lost: a picture that is wrong along one axis looks as one that is half as wrong along both.
+// Direction is lost: an image that is wrong along one axis looks as one that is half as wrong along both.
 #include "zoneplate/metrics/spectrum/radial_power.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ Curve curve_of(std::string name, const Spectrum& spectrum) {
 }
 
 Score measure(const DisplayImage& reference, const DisplayImage& test) {
-  const Plane<double> wanted = luma_plane(reference), found = luma_plane(test);
-  const Spectrum error = windowed_spectrum(difference(found, wanted));
+  const Plane<double> expected = luma_plane(reference), found = luma_plane(test);
+  const Spectrum error = windowed_spectrum(difference(found, expected));
   const auto rms = [&](double low, double high) { return std::sqrt(band_power(error, low, high)); };
   constexpr double corner = 1;  // past the greatest |f|, √½
   Score score;
@@ -40,7 +40,7 @@ Score measure(const DisplayImage& reference, const DisplayImage& test) {
                 {"1/8_to_1/4", rms(0.125, 0.25), "code"},
                 {"1/4_to_1/2", rms(0.25, 0.5), "code"},
                 {"above_1/2", rms(0.5, corner), "code"}};
-  score.curves = {curve_of("reference", windowed_spectrum(wanted)), curve_of("test", windowed_spectrum(found)),
+  score.curves = {curve_of("reference", windowed_spectrum(expected)), curve_of("test", windowed_spectrum(found)),
                   curve_of("error", error)};
   return score;
 }

@@ -10,7 +10,7 @@ namespace zoneplate::metrics {
 /// The spectrum of a plane less its mean, under a Hann window in x and y, scaled so that white noise has in every bin
 /// the expected power of its variance.
 ///
-/// Edges     the window takes out the cross that the picture's border would draw; the mean is taken under it too.
+/// Edges     the window takes out the cross that the image's border would draw; the mean is taken under it too.
 Spectrum windowed_spectrum(const Plane<double>& plane);
 
 /// Power over frequency, whatever the direction.

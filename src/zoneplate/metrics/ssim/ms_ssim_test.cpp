@@ -110,7 +110,7 @@ TEST(MsSsim, EqualsAnIndependentProgram) {
   }
 }
 
-// The pictures of the test above tell the exponents apart: with any two scales exchanged one of the values is another.
+// The images of the test above distinguish the exponents: with any two scales exchanged one of the values differs.
 TEST(MsSsim, ExponentsInAnyOtherOrderWouldBeNoticed) {
   std::array<std::array<double, 5>, 3> factors{};
   for (int kind = 0; kind < 3; ++kind) {

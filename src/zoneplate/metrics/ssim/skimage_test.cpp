@@ -1,4 +1,4 @@
-// The same metrics by scikit-image, where Debian's python3-skimage is installed: five pairs of pictures made here.
+// The same metrics by scikit-image, where Debian's python3-skimage is installed: five pairs of images made here.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

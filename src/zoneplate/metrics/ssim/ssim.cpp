@@ -1,6 +1,6 @@
-// Structural similarity of luma: do the two pictures rise and fall together, whatever their level?
+// Structural similarity of luma: do the two images rise and fall together, whatever their level?
 //
-// Weak on small contrasts and on tiny windows: it forgives blur where the picture is smooth, and a shift of one pixel
+// Weak on small contrasts and on tiny windows: it forgives blur where the image is smooth, and a shift of one pixel
 // in a fine texture costs as much as its loss.
 #include "zoneplate/metrics/ssim/ssim.h"
 
@@ -136,7 +136,7 @@ Similarity structural_similarity(const Plane<double>& reference, const Plane<dou
 
 namespace {
 
-/// SSIM of one grey picture, or the mean of those of red, green and blue, value and map.
+/// SSIM of one grey image, or the mean of those of red, green and blue, value and map.
 Score similarity_score(const Picture& reference, const Picture& test, const Settings& settings) {
   static constexpr LumaWeights channels[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const SimilarityWindow window{static_cast<int>(settings.number("window")), settings.number("unbiased") != 0};

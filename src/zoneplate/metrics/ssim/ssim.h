@@ -5,7 +5,7 @@
 
 namespace zoneplate::metrics {
 
-/// What structural similarity says of two grey pictures with values in [0, 1].
+/// The structural similarity of two grey images with values in [0, 1].
 struct Similarity {
   double ssim = 1;      ///< mean of luminance × contrast-structure
   double contrast = 1;  ///< mean of contrast-structure alone, what the coarser scales of MS-SSIM take
@@ -22,9 +22,9 @@ struct SimilarityWindow {
 /// (scikit-image, with unbiased moments) or 8 pixels a side (ffmpeg, at every fourth pixel) are in use as well.
 ///
 /// Requires  equal sizes, at least 11 × 11.
-/// Edges     the map mirrors the picture at its border (the edge pixel twice); the means are over the pixels whose
+/// Edges     the map mirrors the image at its border (the edge pixel twice); the means are over the pixels whose
 ///           window lies inside; a window of even side reaches a pixel farther to the right and below. Symmetric;
-///           exactly 1 where the pictures agree.
+///           exactly 1 where the images agree.
 /// Source    Wang, Bovik, Sheikh, Simoncelli, Image Quality Assessment: From Error Visibility to Structural
 ///           Similarity, IEEE TIP 13(4), 2004.
 Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test,

@@ -48,7 +48,7 @@ TEST(Ssim, OneWindowByHand) {
   EXPECT_NEAR(s.map(5, 5), luminance * contrast, 1e-7);
 }
 
-// By a program of the paper's formula alone: windows as lists of pixels, in Python. The pictures are whole numbers.
+// By a program of the paper's formula alone: windows as lists of pixels, in Python. The images are whole numbers.
 TEST(Ssim, UniformWindowsAsTheFormulaSays) {
   const auto code = [](int x, int y) { return ((7 * x * x + 13 * y * y + 5 * x * y) / 64 + 2 * x) % 256; };
   const auto noisy = [&](int x, int y) { return std::clamp(code(x, y) + (37 * x + 91 * y + x * y) % 41 - 20, 0, 255); };

@@ -309,7 +309,7 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
   }
 }
 
-// What is drawn before, half of the tile empty; then triangles that reach over it, in front, behind and through.
+// A first scene, with half of the tile empty; then triangles that reach over it, in front, behind and through.
 TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
   const SetupRules rules{.viewport = viewport};
   int whole = 0, left_out = 0;

@@ -47,7 +47,7 @@ constexpr SampleBits sample_bits = make_sample_bits();
 HWY_INLINE VI bit_of(int s) { return hn::Load(i32, sample_bits.bit[s]); }
 
 /// The pixels of a row that are drawn, from one on.
-HWY_INLINE MI wanted_lanes(const OwnerRow& row, int first) {
+HWY_INLINE MI drawn_lanes(const OwnerRow& row, int first) {
   alignas(64) static constexpr std::int32_t bits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
   const VI drawn = set(static_cast<std::int32_t>(row.drawn >> first));
   return hn::Ne(hn::And(drawn, hn::Load(i32, bits)), hn::Zero(i32));
@@ -81,7 +81,7 @@ class Pixels {
         x_(hn::Add(set(row.x + first * 256), hn::ShiftLeft<8>(hn::Iota(i32, 0)))),
         y_(set(row.y)),
         at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))),
-        listed_(hn::VecFromMask(i32, hn::Not(wanted_lanes(row, first)))) {}
+        listed_(hn::VecFromMask(i32, hn::Not(drawn_lanes(row, first)))) {}
 
   /// Lists the owners of sample s at pixels where s is the first sample that they own.
   HWY_INLINE void list(int s, FragmentList& out) {
@@ -129,7 +129,7 @@ class Pixels {
 /// Lists a vector of pixels with one sample each, at the pixels' centres.
 HWY_INLINE void list_centres(const OwnerRow& row, int first, FragmentList& out) {
   const VI pixel = hn::Iota(i32, first), owner = hn::LoadU(i32, row.id + first);
-  const MI mask = hn::And(hn::Ne(owner, set(no_primitive)), wanted_lanes(row, first));
+  const MI mask = hn::And(hn::Ne(owner, set(no_primitive)), drawn_lanes(row, first));
   if (hn::AllFalse(i32, mask)) return;
   const VI x = hn::Add(set(row.x + 128), hn::ShiftLeft<8>(pixel));
   const VI at = hn::Add(set(static_cast<std::int32_t>(row.pixel) + (1 << 12)), pixel);

@@ -11,7 +11,7 @@ namespace zoneplate {
 /// The perspective-correct barycentric weights of a triangle that crosses the eye's plane, as functions of the point on
 /// the screen: b_k = q_k / (q_0 + q_1 + q_2) with q_k = x[k] P.x + y[k] P.y + one[k].
 ///
-/// Units     P in 1/256 pixel from the picture's centre. The greatest of x and y has the size 1.
+/// Units     P in 1/256 pixel from the image's centre. The greatest of x and y has the size 1.
 /// Source    the 2D homogeneous form, which needs no division by w: Olano and Greer, Triangle Scan Conversion using 2D
 ///           Homogeneous Coordinates, 1997.
 struct BarycentricPlanes {

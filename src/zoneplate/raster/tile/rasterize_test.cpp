@@ -108,7 +108,7 @@ TEST(Rasterize, LayersOfFullSquaresBlendByHand) {
 }
 
 TEST(Rasterize, NoBlackEdgeWhereTwoSurfacesMeet) {
-  // Two triangles share an edge; with them the whole picture is covered, so alpha is 1 everywhere.
+  // Two triangles share an edge; with them the whole image is covered, so alpha is 1 everywhere.
   const std::array<float4, 4> corner = {
       {{-3, -2, 0.5f, 1}, {2.7f, -3, 0.4f, 1}, {3, 2.2f, 0.6f, 1}, {-2.4f, 3, 0.3f, 1}}};
   const std::array<std::uint32_t, 3> lower = {0, 1, 2}, upper = {0, 2, 3};
@@ -323,7 +323,7 @@ TEST(Rasterize, PainterFailsOnACircleOfTrianglesThatTheZBufferGetsRight) {
   const LinearImage right = picture(draws, shader, standard_pattern(1), {}, 240);
   const LinearImage painted = picture(draws, shader, standard_pattern(1), {.is_painter = true}, 240);
   EXPECT_NE(right, painted);
-  // Turning the picture by 120 degrees changes the colours' names only, so all three show the same area by Z-buffer.
+  // Turning the image by 120 degrees changes the colours' names only, so all three show the same area by Z-buffer.
   std::array<int, 3> by_z{}, by_painter{};
   for (std::size_t i = 0; i < right.values().size(); ++i) {
     const Linear &z = right.values()[i], &p = painted.values()[i];

@@ -1,4 +1,4 @@
-// Pictures do not depend on how much of a tile's layers, or of the screen vertices, is held at once.
+// Images do not depend on how much of a tile's layers, or of the screen vertices, is held at once.
 #include "zoneplate/raster/types/raster_capacity.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class Noisy : public FragmentShader {
   }
 };
 
-/// Scattered triangles, some of them across the eye, and sheets over the whole picture; a draw each, all of one mesh.
+/// Scattered triangles, some of them across the eye, and sheets over the whole image; a draw each, all of one mesh.
 struct Layered {
   std::vector<float3> position;
   std::vector<std::uint32_t> index;

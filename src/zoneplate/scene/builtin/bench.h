@@ -6,8 +6,8 @@
 
 namespace zoneplate {
 
-/// What the benchmark scenes share. They are made of integer hashes and of float operations in a fixed order, so that
-/// other renderers can be given the same vertices; their colours are meant to be drawn without sRGB decoding.
+/// Functions of the benchmark scenes. The scenes consist of integer hashes and float operations in a fixed order, so
+/// that other renderers can draw the same vertices; their colours are meant to be drawn without sRGB decoding.
 
 /// A 32-bit hash of one word.
 ///

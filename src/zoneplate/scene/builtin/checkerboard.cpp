@@ -1,4 +1,4 @@
-// A checkerboard that reaches the horizon: every frequency that a picture can and cannot show.
+// A checkerboard that reaches the horizon: every frequency that an image can and cannot show.
 #include <array>
 
 #include "zoneplate/scene/builtin/make.h"

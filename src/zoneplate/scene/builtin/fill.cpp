@@ -1,4 +1,4 @@
-// 32 textured quads, each larger than a 16:9 picture, from back to front: every pixel is drawn 32 times.
+// 32 textured quads, each larger than a 16:9 image, from back to front: every pixel is drawn 32 times.
 #include "zoneplate/math/angle.h"
 #include "zoneplate/scene/builtin/bench.h"
 
@@ -49,12 +49,12 @@ Scene fill_scene(const char* name, AlphaMode alpha) {
 }  // namespace
 
 BuiltinMaker builtin_fill() {
-  return {"fill", "benchmark: 32 opaque layers over the whole picture", {}, [](auto) {
+  return {"fill", "benchmark: 32 opaque layers over the whole image", {}, [](auto) {
             return fill_scene("fill", AlphaMode::Opaque);
           }};
 }
 BuiltinMaker builtin_fillblend() {
-  return {"fillblend", "benchmark: 32 transparent layers over the whole picture", {}, [](auto) {
+  return {"fillblend", "benchmark: 32 transparent layers over the whole image", {}, [](auto) {
             return fill_scene("fillblend", AlphaMode::Blend);
           }};
 }

@@ -13,7 +13,7 @@ constexpr int texels = 256;
 /// A leaf of the twig: an ellipse from its foot along a direction.
 struct Leaf {
   float x, y, dx, dy, length, width;
-  /// How far inside a place is, about 1 in the middle and 0 on the rim.
+  /// A measure of the distance from the rim: about 1 in the middle and 0 on the rim.
   float inside(float u, float v) const {
     const float along = ((u - x) * dx + (v - y) * dy) / length, across = ((v - y) * dx - (u - x) * dy) / width;
     const float a = 2 * along - 1;

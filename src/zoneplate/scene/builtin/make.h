@@ -15,8 +15,8 @@ struct BuiltinMaker {
   const char* summary;
   std::span<const Param> params;
   Scene (*make)(std::span<const std::int64_t> values);
-  const char* failure = "";    ///< the class of failure that the scene is there to show
-  const char* complaint = "";  ///< where users complained of it, and of what
+  const char* failure = "";    ///< the class of artifacts that the scene shows
+  const char* complaint = "";  ///< a description of the artifact, and the source of a user's report
 };
 
 /// The catalogue, in the order of makers.txt.

@@ -1,4 +1,4 @@
-// A wavy sheet of 4,000,000 triangles that covers a 16:9 picture: triangles smaller than pixels.
+// A wavy sheet of 4,000,000 triangles that covers a 16:9 image: triangles smaller than pixels.
 #include <cmath>
 #include <utility>
 

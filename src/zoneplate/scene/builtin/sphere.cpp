@@ -35,7 +35,7 @@ float3 normal_at(float3 direction, float3 position) {
   return unit(cross(along_t, along_b));
 }
 
-/// Where the lines of a side's grid stand, so that they are at equal angles seen from the centre.
+/// The positions of the lines of a side's grid, at equal angles seen from the centre.
 ///
 /// The second half mirrors the first: neighbouring sides then have the same bits on their common edge.
 std::vector<float> grid_lines(int n) {
@@ -74,7 +74,7 @@ Mesh sphere_mesh(int n) {
 
 Scene sphere_scene(const char* name, int n) {
   Scene scene = lit_scene(name, sphere_mesh(n), {});
-  // At this distance a unit sphere is 0.6 of the picture's height at 45°.
+  // At this distance a unit sphere is 0.6 of the image's height at 45°.
   const float3 eye = unit({0.35f, 0.30f, 1}) * 4.1456f;
   scene.cameras.push_back(camera_at(eye, {0, 0, 0}, 0.78539816f, 1, 10));
   return scene;

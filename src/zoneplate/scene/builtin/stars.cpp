@@ -5,7 +5,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr float pixel = 2.0f / 480;  // of a picture 480 pixels high, for which the stars are sized
+constexpr float pixel = 2.0f / 480;  // of an image 480 pixels high, for which the stars are sized
 
 float random(std::uint32_t star, std::uint32_t which) { return unit_float(hash(star, which, 77)); }
 

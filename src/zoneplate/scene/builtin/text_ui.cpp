@@ -1,7 +1,7 @@
-// A window full of text, drawn pixel for pixel: whatever a method changes here is a loss.
+// A window full of text, drawn pixel for pixel: every change by a method is an error.
 //
-// The panel has one texel a pixel in a picture of its own size, and is read without a filter: every sample of a pixel
-// shows the same texel, so that methods which sample more give it exactly, and filters of the picture pay their tax.
+// The panel has one texel a pixel in an image of its own size, and is read without a filter: every sample of a pixel
+// shows the same texel, so that methods which sample more give it exactly, and filters of the image pay their tax.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -165,7 +165,7 @@ Scene make(std::span<const std::int64_t> values) {
 }  // namespace
 
 BuiltinMaker builtin_text_ui() {
-  return {"text-ui",  "a window of text and controls, one texel a pixel in a picture of its size", params, make,
+  return {"text-ui",  "a window of text and controls, one texel a pixel in an image of its size", params, make,
           "blur tax", "Text and controls are blurred: Unity PostProcessing issues 288 and 841."};
 }
 

@@ -50,13 +50,13 @@ TEST(FlatNormals, TwinsGiveTheSameBitsAndTouchNothingElse) {
                                                                                                   : 1.0f);
         std::memcpy(&corners[i * stride], values, sizeof values);
       }
-      std::vector<float> wanted(9 * triangles + 1, 7.0f);
-      FlatNormalKernels::of(Isa::Scalar).make(corners.data(), stride, triangles, wanted.data());
-      EXPECT_EQ(wanted.back(), 7);
+      std::vector<float> expected(9 * triangles + 1, 7.0f);
+      FlatNormalKernels::of(Isa::Scalar).make(corners.data(), stride, triangles, expected.data());
+      EXPECT_EQ(expected.back(), 7);
       for (const Isa isa : supported_isas()) {
         std::vector<float> found(9 * triangles + 1, 7.0f);
         FlatNormalKernels::of(isa).make(corners.data(), stride, triangles, found.data());
-        EXPECT_EQ(found, wanted) << name_of(isa) << " " << triangles;
+        EXPECT_EQ(found, expected) << name_of(isa) << " " << triangles;
       }
     }
 }

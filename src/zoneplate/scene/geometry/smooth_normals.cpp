@@ -19,13 +19,13 @@ namespace {
 constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256, block = 4096;
 
-/// The sums of the triangles about each vertex, in their order, as units; marked are vertices that want a closer look.
+/// The normalised sums of the triangles about each vertex, in their order; vertices with possible creases are marked.
 void sum_all(Mesh& mesh, std::vector<char>& mark) {
   const SmoothSumKernels& kernels = SmoothSumKernels::of();
   const std::size_t vertices = mesh.position.size(), triangles = mesh.index.size() / 3;
   const auto* const position = reinterpret_cast<const float*>(mesh.position.data());
   auto* const normal = reinterpret_cast<float*>(mesh.normal.data());
-  // Every thread goes through all triangles for vertices of its own: a vertex meets its triangles in their order.
+  // Every thread reads all triangles for its own range of vertices: a vertex adds its triangles in their order.
   const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
   parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
     const VertexRange own{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
@@ -45,19 +45,19 @@ struct Corners {
   std::vector<std::uint32_t> first, list;  ///< of the i-th: list[first[i] .. first[i + 1])
 };
 
-Corners corners_of(const Mesh& mesh, const std::vector<char>& is_wanted) {
-  if (std::find(is_wanted.begin(), is_wanted.end(), 1) == is_wanted.end()) return {};
+Corners corners_of(const Mesh& mesh, const std::vector<char>& is_selected) {
+  if (std::find(is_selected.begin(), is_selected.end(), 1) == is_selected.end()) return {};
   constexpr std::size_t corners_per_range = 1 << 16;
   std::vector<std::vector<std::uint32_t>> found((mesh.index.size() + corners_per_range - 1) / corners_per_range);
   parallel_ranges(mesh.index.size(), corners_per_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      if (is_wanted[mesh.index[k]] != 0) found[begin / corners_per_range].push_back(static_cast<std::uint32_t>(k));
+      if (is_selected[mesh.index[k]] != 0) found[begin / corners_per_range].push_back(static_cast<std::uint32_t>(k));
   });
   Corners c;
   std::vector<std::uint32_t> place;  // of a vertex in c.vertex
-  for (std::uint32_t v = 0; v < is_wanted.size(); ++v) {
-    if (is_wanted[v] == 0) continue;
-    place.resize(is_wanted.size());
+  for (std::uint32_t v = 0; v < is_selected.size(); ++v) {
+    if (is_selected[v] == 0) continue;
+    place.resize(is_selected.size());
     place[v] = static_cast<std::uint32_t>(c.vertex.size());
     c.vertex.push_back(v);
   }
@@ -83,7 +83,7 @@ float3 direction(const Sum& s, float3 otherwise) {
   return {static_cast<float>(s.x / length), static_cast<float>(s.y / length), static_cast<float>(s.z / length)};
 }
 
-/// A triangle's unit normal, and what it weighs at each of its corners.
+/// A triangle's unit normal, and its weight at each of its corners.
 struct Face {
   float3 normal;
   std::array<double, 3> weight;
@@ -125,7 +125,7 @@ class Faces {
 
  private:
   using Lane = std::array<double, most>;
-  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; what is found
+  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; the results
   Lane square_{};
 };
 

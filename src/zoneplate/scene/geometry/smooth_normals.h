@@ -15,7 +15,7 @@ namespace zoneplate {
 /// Requires  triangles, all finite.
 /// Exact     the same bits for any number of threads and any instruction set; of vertices that are smooth all around,
 ///           sums in floats, of others in doubles.
-/// Cost      beside the normals a byte a vertex; more where not all is smooth.
+/// Cost      one byte per vertex in addition to the normals; more where edges are sharp.
 /// Source    Max, Weights for Computing Vertex Normals from Facet Normals, Journal of Graphics Tools 4(2), 1999.
 void make_smooth_normals(Mesh& mesh);
 

@@ -12,7 +12,7 @@ struct VertexRange {
   std::uint32_t begin = 0, size = 0;
 };
 
-/// What a smooth normal takes of very many triangles, in floats.
+/// Accumulation of smooth normals over many triangles, in floats.
 ///
 /// A triangle adds to the normal at a corner its own times the sine of the angle there over the product of the two
 /// edges' lengths: the cross product of any two edges over the squares of these two. What floats hold badly adds no
@@ -24,7 +24,7 @@ struct SmoothSumKernels : PerIsa<SmoothSumKernels> {
   /// Adds the triangles, one after the other, to those of their vertices that lie in the range.
   void (*add)(const float* position, std::size_t vertices, const std::uint32_t* index, std::size_t triangles,
               VertexRange own, float* sum);
-  /// Makes sums units, from the first on; where that cannot be told well: (0, 1, 0), and a mark.
+  /// Normalises sums, from the first on; a sum that is too inaccurate becomes (0, 1, 0) and is marked.
   void (*normalize)(float* sum, std::size_t count, char* mark);
   /// Marks vertices with a triangle that bends away from their normal by 25° or more, or that has no area. A mark may
   /// be set by several threads at once.

@@ -53,7 +53,7 @@ class Group {
     return load([&](std::size_t i) { return copies[i]; });
   }
 
-  /// How many of the corners of a whole group lie in the range: none, some or all.
+  /// Whether none, some or all corners of a whole group lie in the range.
   enum class Share { None, Some, All };
   HWY_INLINE Share share(VertexRange own) const {
     if (count_ < lanes || own.size == 0) return Share::Some;
@@ -71,9 +71,9 @@ class Group {
 
  private:
   HWY_INLINE bool has(std::uint32_t v) const {
-    const auto wanted = hn::Set(words, v);
+    const auto vertex = hn::Set(words, v);
     const auto is = [&](std::size_t part) {
-      return hn::VecFromMask(words, hn::Eq(hn::LoadU(words, index_ + part * lanes), wanted));
+      return hn::VecFromMask(words, hn::Eq(hn::LoadU(words, index_ + part * lanes), vertex));
     };
     return !hn::AllFalse(words, hn::MaskFromVec(hn::Or(hn::Or(is(0), is(1)), is(2))));
   }
@@ -99,7 +99,7 @@ class Group {
   bool has_copies_ = false;
 };
 
-/// What a group's triangles add at one corner: x and y by pairs, z.
+/// The summands of a group's triangles at one corner: x and y by pairs, z.
 struct Shares {
   alignas(32) float pair[2 * lanes], z[lanes];
 

@@ -47,10 +47,10 @@ Found found_by(const SmoothSumKernels& kernels, const Heap& heap) {
 TEST(SmoothSums, TwinsGiveTheSameBits) {
   for (const std::uint32_t triangles : {1u, 2u, 7u, 8u, 9u, 40u, 200u, 1001u}) {
     const Heap heap(triangles);
-    const Found wanted = found_by(SmoothSumKernels::of(Isa::Scalar), heap);
-    for (const float n : wanted.normal) ASSERT_LE(std::abs(n), 1.0001f);
+    const Found expected = found_by(SmoothSumKernels::of(Isa::Scalar), heap);
+    for (const float n : expected.normal) ASSERT_LE(std::abs(n), 1.0001f);
     for (const Isa isa : supported_isas())
-      EXPECT_EQ(found_by(SmoothSumKernels::of(isa), heap), wanted) << name_of(isa) << triangles;
+      EXPECT_EQ(found_by(SmoothSumKernels::of(isa), heap), expected) << name_of(isa) << triangles;
   }
 }
 

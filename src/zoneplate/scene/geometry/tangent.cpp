@@ -149,7 +149,7 @@ struct Group {
   float3 sum{0, 0, 0};
 };
 
-/// Adds a face to the group and says where its corner there is; nothing if it belongs to another.
+/// Adds a face to the group and returns the index of its corner there; nothing if it belongs to another.
 std::uint32_t join_group(Face& face, const Group& group, std::uint32_t number) {
   std::uint32_t c = 0;
   while (c < 3 && face.vertex[c] != group.vertex) ++c;
@@ -223,7 +223,7 @@ std::vector<float4> corner_tangents(const Mesh& mesh, std::span<const float2> uv
   std::vector<Group> groups = make_groups(faces);
   sum_tangents(faces, mesh, groups);
 
-  // What a triangle without area takes: the first group at each vertex, in the order of the triangles.
+  // A triangle without area joins the first group at each vertex, in the order of the triangles.
   std::vector<std::uint32_t> first_group(mesh.position.size(), none);
   for (const Face& face : faces)
     for (std::size_t c = 0; c < 3; ++c)

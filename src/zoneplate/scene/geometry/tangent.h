@@ -13,7 +13,7 @@ namespace zoneplate {
 ///
 /// Shape     vertices keep their places, copies are appended; the order of triangles and corners stays.
 /// Space     w is the sign for bitangent = w cross(normal, tangent), which points to the image's top as glTF's normal
-///           textures want: uv as in the file, v downwards, hence the standard's sign reversed.
+///           textures require: uv as in the file, v downwards, hence the standard's sign reversed.
 /// Edges     a triangle without area takes the tangent that its vertex has in another triangle. Triangles without area
 ///           in uv join the groups of their neighbours, without weight; where there is none, the tangent is any unit
 ///           vector across the normal.

@@ -300,10 +300,10 @@ std::vector<float4> brute_force(const Mesh& m) {
 
 TEST(Tangents, AgreeWithTheDefinition) {
   Mesh m = bumpy(8);
-  const std::vector<float4> wanted = brute_force(m);
+  const std::vector<float4> expected = brute_force(m);
   make_tangents(m, 0);
   ASSERT_GT(m.position.size(), 81u);  // the fold splits vertices
-  for (std::size_t k = 0; k < m.index.size(); ++k) expect_near(m.tangent[m.index[k]], wanted[k], 2e-5f);
+  for (std::size_t k = 0; k < m.index.size(); ++k) expect_near(m.tangent[m.index[k]], expected[k], 2e-5f);
 }
 
 /// Where the order of the triangles decides nothing, it must not decide the tangents beyond rounding.

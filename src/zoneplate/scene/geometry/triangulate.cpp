@@ -65,7 +65,7 @@ class Outline {
   }
 
   /// Whether the corner can be cut off: it turns left (or goes straight on, if that is enough), and no other corner
-  /// lies in its triangle. The corners that are looked at are added to `looked_at`.
+  /// lies in its triangle. The number of tested corners is added to `looked_at`.
   bool is_ear(std::uint32_t i, bool may_be_straight, std::uint64_t& looked_at) const {
     ++looked_at;
     const Point a = points_[before_[i]], b = points_[i], c = points_[after_[i]];

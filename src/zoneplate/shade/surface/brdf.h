@@ -38,7 +38,7 @@ template <class F>
 }
 
 /// max(n · h, 0)^exponent; not cut where the light is below the horizon.
-/// Source: Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977.
+/// Source: Blinn, Models of Light Reflection for Computer Synthesized Images, SIGGRAPH 1977.
 template <class F>
 [[gnu::always_inline]] inline F blinn_phong(F nh, Exponent exponent) {
   return power(max(nh, F(0.0f)), exponent);
@@ -51,7 +51,7 @@ template <class F>
 }
 
 /// max(r · v, 0)^exponent; not cut where the light is below the horizon.
-/// Source: Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975.
+/// Source: Phong, Illumination for Computer Generated Images, CACM 18(6), 1975.
 template <class F>
 [[gnu::always_inline]] inline F phong(Vector<F> n, Vector<F> l, Vector<F> v, Exponent exponent) {
   return power(max(phong_cosine(n, l, v), F(0.0f)), exponent);

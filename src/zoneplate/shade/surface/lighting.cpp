@@ -25,7 +25,7 @@ PreparedLight prepare(const Light& light) {
   copy(light.position, p.position);
   copy(light.attenuation, p.attenuation);
 
-  // Beyond 1e9 m the window's fourth power would underflow, and no picture could show it.
+  // Beyond 1e9 m the window's fourth power would underflow, and no image could show it.
   if (std::isfinite(light.range) && light.range < 1e9f) {
     const float range = std::max(light.range, 1e-6f);
     p.inverse_range4 = std::min(1 / (range * range * range * range), 1e24f);

@@ -72,7 +72,7 @@ struct Bench {
     make_lights();
   }
 
-  /// Gives the points of the group from `told` on, and of the one from `first` on, one derivative.
+  /// Gives the fragments of the group from `leader` on, and of the one from `first` on, one derivative.
   void repeat_derivatives(int leader, int first) {
     for (auto* derivatives : {&batch.dbdx, &batch.dbdy})
       for (float(&derivative)[FragmentBatch::padded_capacity] : *derivatives)

@@ -616,7 +616,7 @@ TEST(Surface, EveryInstructionSetGivesTheSameBits) {
 }
 
 TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
-  // A changed word here is a changed picture: say why in the change.
+  // A changed word here is a changed image: say why in the change.
   Scene scene = everything();
   std::uint32_t word = 0;
   for (const ShadingModel model : all_models) {
@@ -648,7 +648,7 @@ TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
         alone.batch.dbdx[c][0] = all.batch.dbdx[c][i], alone.batch.dbdy[c][0] = all.batch.dbdy[c][i];
       }
       alone.pad();
-      // As eight points of any triangles, and as eight of one that is told of once.
+      // As eight fragments of any triangles, and as eight of one triangle that is declared once.
       for (const bool is_shared : {false, true}) {
         alone.batch.is_flat_run[0] = is_shared, alone.batch.run_end[0] = 1;
         const auto outcome = shade(scene, view, alone);

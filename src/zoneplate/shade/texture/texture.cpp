@@ -329,7 +329,7 @@ void Texture::Levels::make_first_level(const TexelImage& image, TexelMeaning mea
   });
 }
 
-/// One of the four is set.
+/// Exactly one of the four is present.
 void Texture::Levels::make_other_levels() {
   make_levels(&TextureView::unorm8);
   make_levels(&TextureView::unorm15);

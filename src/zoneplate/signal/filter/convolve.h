@@ -10,8 +10,8 @@ namespace zoneplate {
 
 /// Convolution of images with kernels: out(x) = Σ_j kernel[j] in(x - (j - origin)), origin = size / 2 rounded down.
 ///
-/// A kernel of odd size is centred; none is scaled. Each channel of a `Linear` image, alpha too, is filtered alone,
-/// as premultiplied colour wants; nothing is clamped.
+/// A kernel of odd size is centred; kernels are not scaled. Each channel of a `Linear` image, including alpha, is
+/// filtered separately, as is correct for premultiplied colour; the result is not clamped.
 struct ConvolveOptions {
   Border border = Border::Clamp;  ///< not Cut
 };
@@ -40,9 +40,9 @@ LinearImage convolve(const LinearImage& image, const Plane<float>& kernel, const
 /// The same by the convolution theorem: the product of the spectra.
 ///
 /// The theorem is about periodic signals: it holds as it stands for `Wrap`, whose spectra have the image's own size,
-/// and for `Zero` once the image is surrounded by as many zeros as the kernel reaches. It does not hold for `Clamp`
-/// and `Reflect`, which make the result at the border depend on the place and not only on the distance: for them the
-/// border is written out around the image first, and cut off again, which gives their result too.
+/// and for `Zero` once the image is padded with zeros by the kernel's radius. It does not hold for `Clamp` and
+/// `Reflect`, with which the result at the border depends on the position and not only on the distance: for them the
+/// image is padded by its border first, and cropped afterwards, which gives their result too.
 /// Exact     transforms and products in double, rounded once: within about 1e-15 Σ|kernel| of the greatest value.
 /// Cost      O(n log n) for n pixels, whatever the kernel's size.
 Plane<float> convolve_by_fourier(const Plane<float>& plane, const Plane<float>& kernel, Border border = Border::Clamp);

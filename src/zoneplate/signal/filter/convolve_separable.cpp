@@ -214,13 +214,14 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
   }
 
   // How the plane is cut into tasks changes the time and no value: each value is the same sum in any of them. A band
-  // filters the rows that its first sums reach up to once more, so that there are no more bands than threads want.
+  // filters the rows that its first sums reach up to once more, so that there are no more bands than threads need.
   const std::size_t n = along_columns.size();
   const std::size_t strips = std::clamp(cached_rows / (n - 1 + step_rows), least_strips, most_strips);
   const std::size_t across = strips * strip_floats / channels<T>, blocks = (w + across - 1) / across;
   const auto threads = static_cast<std::size_t>(thread_limit());
-  const std::size_t wanted = threads == 1 ? 1 : (2 * threads + blocks - 1) / blocks;
-  const std::size_t bands = std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(1, h / std::max(least_band, n)));
+  const std::size_t preferred = threads == 1 ? 1 : (2 * threads + blocks - 1) / blocks;
+  const std::size_t bands =
+      std::clamp<std::size_t>(preferred, 1, std::max<std::size_t>(1, h / std::max(least_band, n)));
   const std::size_t band = (h + bands - 1) / bands;
   parallel_for(bands * blocks, [&](std::size_t task) {
     const std::size_t y = std::min(h, task / blocks * band), x = task % blocks * across;

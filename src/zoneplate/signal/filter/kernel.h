@@ -26,7 +26,7 @@ struct Kernel {
   std::function<double(double f)> response;  ///< ∫ k(x) cos(2πfx) dx: its Fourier transform, real because k is even
 };
 
-/// What the list says of one kernel.
+/// An entry of the list of kernels.
 struct KernelEntry {
   std::string_view name;
   std::string_view summary;

@@ -13,12 +13,12 @@ struct ResampleOptions {
   Border border = Border::Clamp;
   /// Input pixels from one output pixel to the next; 0: the input's size over the output's.
   double step_x = 0, step_y = 0;
-  /// How far the output looks to the right and below of where it would, in input pixels.
+  /// The offset of the output grid to the right and downwards, in input pixels.
   double shift_x = 0, shift_y = 0;
 };
 
 /// The image on another grid, by any factor: the kernel interpolates, and where the grid becomes coarser it is
-/// stretched by the factor, so that it also filters away what the new grid cannot hold.
+/// stretched by the factor, so that it also removes frequencies above the new Nyquist limit.
 ///
 /// The centre of output pixel i lies at (i + ½) step - ½ among the centres of the input's pixels: no shift by half a
 /// pixel. The weights of each output pixel are divided by their sum; with Border::Cut by the sum of those that meet

@@ -116,8 +116,8 @@ TEST_P(FourierOfPlane, AgreesWithTheDefinitionInLongDouble) {
   const Plane<Complex> full = fourier(whole);
 
   // Rows, then columns, is the double sum of the definition, in the order that takes seconds and not hours. The
-  // plane is real, so that the bins with kx <= w / 2 tell the others; every third kx meets every lane of the transform,
-  // and Parseval and the inverse below hold all the others to the same.
+  // plane is real, so that the bins with kx <= w / 2 determine the others; every third kx meets every lane of the
+  // transform, and Parseval and the inverse below hold all the others to the same.
   std::vector<LongComplex> direct;
   for (float v : plane.values()) direct.emplace_back(static_cast<long double>(v));
   const DirectTransform rows(w), columns(h);

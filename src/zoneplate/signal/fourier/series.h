@@ -30,13 +30,13 @@ double partial_sum(Wave wave, int highest, double x);
 /// A wheel of n spokes that turns `frequency` spokes a frame seems to turn by apparent_frequency(frequency, 1).
 double apparent_frequency(double frequency, double rate);
 
-/// The frequency in [0, rate/2] at which `frequency` is seen: |apparent_frequency|.
+/// The frequency in [0, rate/2] as which `frequency` appears: |apparent_frequency|.
 double folded_frequency(double frequency, double rate);
 
-/// The positive frequencies up to `highest` that cannot be told from `frequency` at this rate, rising.
+/// The positive frequencies up to `highest` that have the same samples as `frequency` at this rate, in ascending order.
 std::vector<double> aliases_of(double frequency, double rate, double highest);
 
-/// What is left of the contrast of a wave that moves `cycles` periods while the shutter is open: |sinc(cycles)|.
+/// The remaining contrast of a wave that moves by `cycles` periods while the shutter is open: |sinc(cycles)|.
 double shutter_contrast(double cycles);
 
 /// The band in which the copies of a spectrum of this bandwidth overlap when sampled at this rate; empty: low >= high.

@@ -34,7 +34,7 @@ double radius_of(const Spectrum& spectrum, int x, int y) {
   return std::sqrt(fx * fx + fy * fy);
 }
 
-// value(z) at every pixel of the centred picture; at the conjugate bins it is `mirror_sign` times that.
+// value(z) at every pixel of the centred image; at the conjugate bins it is `mirror_sign` times that.
 template <class Value>
 Plane<float> centred(const Spectrum& spectrum, float mirror_sign, const Value& value) {
   const int w = spectrum.width, h = spectrum.height();

@@ -8,8 +8,8 @@
 
 namespace zoneplate {
 
-/// What is seen of a spectrum. In the pictures frequency 0 is at pixel (width / 2, height / 2), rounded down; fx grows
-/// to the right and fy downwards, one bin a pixel.
+/// Images and statistics of a spectrum. In the images frequency 0 is at pixel (width / 2, height / 2), rounded down; fx
+/// grows to the right and fy downwards, one bin per pixel.
 ///
 /// Exact     the same bits on every machine and number of threads.
 

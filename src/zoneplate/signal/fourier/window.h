@@ -11,7 +11,7 @@
 
 namespace zoneplate {
 
-/// A window: what a signal is multiplied with before its spectrum is taken, so that its ends meet.
+/// A window: a function by which a signal is multiplied before its transform, so that its ends meet.
 struct Window {
   std::string name;                       ///< the text it was made from: "kaiser:beta=8"
   std::function<double(double t)> value;  ///< for t in [0, 1]; 1 at ½, symmetric

@@ -137,7 +137,7 @@ std::span<const PatternEntry> patterns() {
       {"impulse", "one white pixel in the middle", {size_param}, make_impulse},
       {"noise",
        "every pixel on its own, evenly from 0 to 1",
-       {size_param, real_param("seed", "which", 1, 0, 4294967295.0)},
+       {size_param, real_param("seed", "random seed", 1, 0, 4294967295.0)},
        make_noise},
   };
   return table;

@@ -8,7 +8,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Codes of pixels as words: red and blue of each in one vector, green in another beside zeros.
+/// Encoded values of pixels as words: red and blue of each in one vector, green in another, interleaved with zeros.
 template <class D>
 struct Codes {
   using Words = hn::RepartitionToNarrow<D>;

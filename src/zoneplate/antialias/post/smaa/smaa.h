@@ -28,13 +28,13 @@ struct SmaaOptions {
 
 // The three passes, by the names of the paper and its code:
 //
-//   picture, sRGB-encoded --+--> edge detection ------------------> edges: left, top of each pixel
+//   image, sRGB-encoded --+--> edge detection ------------------> edges: left, top of each pixel
 //   depth, ids (optional) --'                                         |
 //                                                                      v
 //   areas under lines (tables.h), search steps ---> blending weight calculation, row by row
 //                                                                      |
 //                                                                      v  weights of the four neighbours
-//   picture, sRGB-encoded ------------------------> neighborhood blending ---> picture, sRGB-encoded
+//   image, sRGB-encoded ------------------------> neighborhood blending ---> image, sRGB-encoded
 //                                                   (decodes the pixels that it blends, blends linear light, encodes)
 //
 // Luma and colour differences are computed on sRGB-encoded values: a threshold is then about equally visible in dark

@@ -19,7 +19,7 @@ namespace {
 
 using Edges = SmaaOptions::Edges;
 
-/// Hashes of what another implementation makes of the chart: edges and picture of red, green and blue, weights of all.
+/// Hashes of what another implementation makes of the chart: edges and image of red, green and blue, weights of all.
 struct Passes {
   std::uint64_t edges, weights, picture;
 };
@@ -153,7 +153,7 @@ TEST(Smaa, MixCodesBlendsEncodedValues) {
   EXPECT_NEAR(mean("smaa:mode=s2x"), encode_srgb(0.5f), 1e-6);
 }
 
-/// A picture with texture of small contrast, and a predication buffer of steps, slopes and infinities.
+/// An image with texture of small contrast, and a predication buffer of steps, slopes and infinities.
 struct Predicated {
   Rgba8Image image = random_shapes(203, 77, 3);
   Plane<float> buffer{203, 77};
@@ -365,7 +365,7 @@ TEST(Smaa, LevelEdgesComeNearTheirArea) {
   }
 }
 
-/// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's picture to the other's place.
+/// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's image to the other's place.
 double error_of_s2x(const Band& band, bool exchanged) {
   const std::unique_ptr<Resolver> resolver = make_resolver(methods(), "smaa:mode=s2x");
   const Request request = resolver->request({});

@@ -52,7 +52,7 @@ TEST(SmaaTables, ALongStepsAreasAreThoseOfTheLineThroughIt) {
 
 TEST(SmaaTables, StepsSeenFromBesideTheCentreAreHalfwayToTheirHalves) {
   // A sample a quarter of a pixel above or below the centre sees the line that far off. The original takes the mean of
-  // that line and of two that meet on the border: an eighth of a pixel from the truth in the middle of a long step.
+  // that line and of two that meet on the border: an error of an eighth of a pixel in the middle of a long step.
   for (const double offset : {-0.25, 0.25})
     for (const int length : {2, 7, 40}) {
       double farthest = 0;

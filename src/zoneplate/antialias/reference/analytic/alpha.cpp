@@ -23,10 +23,10 @@ AlphaEdges::AlphaEdges(const ProjectedDraws& projected, const FragmentShader& sh
                        float part_footprint, float footprint)
     : grid_(grid), coarse_(projected, shader, target, part_footprint), fine_(projected, shader, target, footprint) {}
 
-std::uint32_t AlphaEdges::ask(int x, int y, std::int32_t id, std::uint32_t part) {
+std::uint32_t AlphaEdges::add_query(int x, int y, std::int32_t id, std::uint32_t part) {
   const auto grid = static_cast<std::uint32_t>(grid_);
-  asked_.push_back({x * 256, y * 256, id, static_cast<int>(part % grid), static_cast<int>(part / grid)});
-  return static_cast<std::uint32_t>(asked_.size() - 1);
+  queries_.push_back({x * 256, y * 256, id, static_cast<int>(part % grid), static_cast<int>(part / grid)});
+  return static_cast<std::uint32_t>(queries_.size() - 1);
 }
 
 /// The lattice's place nearest to the border of a square of the pixel, of which there are grid × cells along its side.
@@ -35,7 +35,7 @@ std::int32_t AlphaEdges::place(int cell) const {
   return (2 * 256 * cell + count) / (2 * count);
 }
 
-Fragment AlphaEdges::corner_point(const Asked& a, int column, int row) const {
+Fragment AlphaEdges::corner_point(const Query& a, int column, int row) const {
   return {a.x + place(a.column * cells + column), a.y + place(a.row * cells + row), a.id, 0, 0};
 }
 
@@ -49,22 +49,22 @@ void AlphaEdges::solve() {
 /// Which parts have an edge in them.
 void AlphaEdges::find_mixed() {
   points_.clear(), centres_.clear();
-  for (const Asked& a : asked_) {
+  for (const Query& a : queries_) {
     for (const int row : {0, cells})
       for (const int column : {0, cells}) points_.push_back(corner_point(a, column, row));
     centres_.push_back(corner_point(a, cells / 2, cells / 2));
   }
   const auto corner = fine_.margins(points_);
   const auto centre = coarse_.margins(centres_);
-  for (std::size_t i = 0; i < asked_.size(); ++i) {
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
     const auto m = corner.subspan(4 * i, 4);
     const bool there = is_there(centre[i]);
     const float mean = ((m[0] + m[1]) + (m[2] + m[3])) / 4;
     const bool is_same = std::ranges::all_of(m, [&](float margin) { return is_there(margin) == there; }) &&
                          !(std::abs(centre[i] - mean) > suspicious * std::abs(mean));
-    asked_[i].is_there = there;
-    asked_[i].edge = is_same ? -1 : static_cast<std::int32_t>(edges_.size());
-    if (!is_same) edges_.push_back({.asked = static_cast<std::uint32_t>(i), .margin = {}, .crossing = {}});
+    queries_[i].is_there = there;
+    queries_[i].edge = is_same ? -1 : static_cast<std::int32_t>(edges_.size());
+    if (!is_same) edges_.push_back({.query = static_cast<std::uint32_t>(i), .margin = {}, .crossing = {}});
   }
 }
 
@@ -72,7 +72,7 @@ void AlphaEdges::find_grid_points() {
   points_.clear();
   for (const Edge& e : edges_)
     for (int row = 0; row <= cells; ++row)
-      for (int column = 0; column <= cells; ++column) points_.push_back(corner_point(asked_[e.asked], column, row));
+      for (int column = 0; column <= cells; ++column) points_.push_back(corner_point(queries_[e.query], column, row));
   const auto margin = fine_.margins(points_);
   for (std::size_t i = 0; i < edges_.size(); ++i) std::copy_n(&margin[i * corners], corners, edges_[i].margin.data());
 }
@@ -94,7 +94,7 @@ void AlphaEdges::add_crossing(std::uint32_t edge, std::uint32_t side, int column
   const auto first = static_cast<std::size_t>(row * (cells + 1) + column);
   const float low = e.margin[first], high = e.margin[first + (is_upright ? cells + 1 : 1)];
   if (is_there(low) == is_there(high)) return;
-  const Asked& a = asked_[e.asked];
+  const Query& a = queries_[e.query];
   const Fragment p = corner_point(a, column, row);
   const Fragment q = is_upright ? corner_point(a, column, row + 1) : corner_point(a, column + 1, row);
   const std::int32_t begin = is_upright ? p.y : p.x, end = is_upright ? q.y : q.x;
@@ -135,7 +135,7 @@ void AlphaEdges::bisect() {
   }
 }
 
-Place AlphaEdges::crossing_place(const Asked& a, const Edge& e, int column, int row, bool is_upright) const {
+Place AlphaEdges::crossing_place(const Query& a, const Edge& e, int column, int row, bool is_upright) const {
   const double side = 1.0 / (grid_ * cells);
   const int number = is_upright ? static_cast<int>(sides / 2) + row * (cells + 1) + column : row * cells + column;
   const double t = static_cast<double>(e.crossing[static_cast<std::size_t>(number)]);
@@ -143,7 +143,7 @@ Place AlphaEdges::crossing_place(const Asked& a, const Edge& e, int column, int 
   return {x * side, y * side};
 }
 
-AlphaEdges::Cuts AlphaEdges::cuts_of(const Asked& a, const Edge& e, int column, int row) const {
+AlphaEdges::Cuts AlphaEdges::cuts_of(const Query& a, const Edge& e, int column, int row) const {
   const auto margin = [&](int dx, int dy) {
     return e.margin[static_cast<std::size_t>((row + dy) * (cells + 1) + column + dx)];
   };

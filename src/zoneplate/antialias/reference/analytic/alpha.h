@@ -25,7 +25,7 @@ class AlphaTester {
     shader_.find_alpha_margins(points, margins_);
     return margins_;
   }
-  std::uint64_t asked() const { return shader_.shaded(); }
+  std::uint64_t tested() const { return shader_.shaded(); }
 
  private:
   Target target_;
@@ -53,12 +53,12 @@ class AlphaEdges {
   AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
              float part_footprint, float footprint);
 
-  void clear() { asked_.clear(); }
-  std::size_t size() const { return asked_.size(); }
+  void clear() { queries_.clear(); }
+  std::size_t size() const { return queries_.size(); }
   /// Drops all queries after the first `count`.
-  void shrink(std::size_t count) { asked_.resize(count); }
+  void shrink(std::size_t count) { queries_.resize(count); }
   /// Adds a query for a triangle in a part of the pixel (x, y); returns the index of its result.
-  std::uint32_t ask(int x, int y, std::int32_t id, std::uint32_t part);
+  std::uint32_t add_query(int x, int y, std::int32_t id, std::uint32_t part);
   /// Evaluates all queries.
   void solve();
 
@@ -68,13 +68,13 @@ class AlphaEdges {
   template <class There, class Away>
   void split(std::uint32_t number, const ConvexPolygon& polygon, There there, Away away) const;
 
-  std::uint64_t shaded() const { return coarse_.asked() + fine_.asked(); }
+  std::uint64_t shaded() const { return coarse_.tested() + fine_.tested(); }
 
  private:
   static constexpr std::size_t corners = (cells + 1) * (cells + 1);
   static constexpr std::size_t sides = 2 * cells * (cells + 1);  ///< horizontal sides row by row, then vertical ones
 
-  struct Asked {
+  struct Query {
     std::int32_t x, y;  ///< the pixel, in 1/256 pixel
     std::int32_t id;
     int column, row;  ///< of the part
@@ -82,7 +82,7 @@ class AlphaEdges {
     std::int32_t edge = -1;  ///< index into edges_ if the contour crosses the part
   };
   struct Edge {
-    std::uint32_t asked;
+    std::uint32_t query;
     std::array<float, corners> margin;  ///< row by row
     std::array<float, sides> crossing;  ///< position of the crossing on a side, from its left or upper end: in [0, 1]
   };
@@ -95,24 +95,24 @@ class AlphaEdges {
   };
 
   std::int32_t place(int cell) const;
-  Fragment corner_point(const Asked& a, int column, int row) const;
+  Fragment corner_point(const Query& a, int column, int row) const;
   void find_mixed();
   void find_grid_points();
   void find_crossings();
   void add_crossing(std::uint32_t edge, std::uint32_t side, int column, int row, bool is_upright);
   void bisect();
-  Place crossing_place(const Asked& a, const Edge& e, int column, int row, bool is_upright) const;
+  Place crossing_place(const Query& a, const Edge& e, int column, int row, bool is_upright) const;
   /// Lines that cut off the region of a square where the triangle is present (`keeps`), or absent.
   struct Cuts {
     bool keeps;
     int count = 0;
     std::array<Line, 2> line;
   };
-  Cuts cuts_of(const Asked& a, const Edge& e, int column, int row) const;
+  Cuts cuts_of(const Query& a, const Edge& e, int column, int row) const;
 
   const int grid_;
   AlphaTester coarse_, fine_;
-  std::vector<Asked> asked_;
+  std::vector<Query> queries_;
   std::vector<Edge> edges_;
   std::vector<Crossing> crossings_;
   std::vector<Fragment> points_, centres_;
@@ -120,7 +120,7 @@ class AlphaEdges {
 
 template <class There, class Away>
 void AlphaEdges::split(std::uint32_t number, const ConvexPolygon& polygon, There there, Away away) const {
-  const Asked& a = asked_[number];
+  const Query& a = queries_[number];
   if (a.edge < 0) return a.is_there ? there(polygon) : away(polygon);
   const Edge& e = edges_[static_cast<std::size_t>(a.edge)];
   const double part = 1.0 / grid_;

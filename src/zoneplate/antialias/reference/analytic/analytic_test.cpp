@@ -33,7 +33,7 @@ double half_plane(double nx, double ny, double distance) {
 
 double snapped(double v) { return std::floor(v * 256 + 0.5) / 256; }
 
-/// A half-plane over a picture, its edge through snapped places.
+/// A half-plane over an image, its edge through snapped places.
 struct HalfPlane {
   double nx, ny, offset;  ///< nx x + ny y < offset, in pixels
   FlatTriangles scene;
@@ -170,7 +170,7 @@ TEST(Analytic, WhatIsSeenOfAPixelSumsToAllOfIt) {
 }
 
 TEST(Analytic, NeighboursLeaveNoSeamHoweverSmall) {
-  // A fan of four hundred slivers over the whole picture, in one colour.
+  // A fan of four hundred slivers over the whole image, in one colour.
   FlatTriangles scene(32, 32);
   const FlatCorner centre{snapped(15.3), snapped(17.7)};
   const auto rim = [](int i) {
@@ -351,7 +351,7 @@ TEST(Analytic, CrowdsLeaveNoTraceOfThreadsInstructionsOrdersOrCrops) {
 }
 
 TEST(Analytic, TheWorkOfACrowdIsThatOfItsSamples) {
-  // Ten times the triangles: what is asked and shaded is bounded by the samples, and they by 4,096 a pixel.
+  // Ten times the triangles: queries and shaded samples are bounded by the samples, and they by 4,096 a pixel.
   std::uint64_t shaded[2] = {};
   for (const int k : {0, 1}) {
     const FlatTriangles scene = masked_crowd(k == 0 ? 300 : 3000, 4);
@@ -409,7 +409,8 @@ TEST(Analytic, LightBehindManyLayersKeepsItsValue) {
 }
 
 TEST(Analytic, BothTruthsOfBrightEdges) {
-  // Half of a pixel at 10 times white: the mean is 5.5, shown as white; half of what is shown is a mean of shown light.
+  // Half of a pixel at 10 times white: the mean is 5.5, displayed as white; half of that is a mean of display-referred
+  // values.
   FlatTriangles scene(8, 8);
   scene.add_quad({0, 0}, {8, 0}, {8, 8}, {0, 8}, {0.2f, 0.2f, 0.2f, 1});
   scene.add_quad({0, 0, 0.6f}, {3.5, 0, 0.6f}, {3.5, 8, 0.6f}, {0, 8, 0.6f}, {10, 10, 10, 1});

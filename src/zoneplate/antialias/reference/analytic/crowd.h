@@ -46,7 +46,7 @@ class CrowdSampler {
   /// The fraction of the pixel that opaque surfaces cover.
   double covered() const { return covered_; }
 
-  std::uint64_t shaded() const { return colors_.shaded() + alpha_.asked(); }
+  std::uint64_t shaded() const { return colors_.shaded() + alpha_.tested(); }
   std::uint64_t samples() const { return samples_taken_; }
 
  private:

@@ -70,7 +70,7 @@ struct PixelSum {
   double variance = 0;  ///< of what was sampled
 };
 
-/// Samples cost little beside their alphas: what they see is shaded in parts of half the side.
+/// Samples cost little compared with their alpha tests: fragments are shaded in parts of half the side.
 int crowd_grid(const Whole& whole) { return std::min(2 * fine_grid(whole), 64); }
 
 Footprints crowd_footprints(const Whole& whole) {

@@ -33,7 +33,7 @@ class PolynomialFilter {
   /// Adds ∫∫ f(x - x_k) f(y - y_k) over a part of the pixel to `weights`, for each neighbouring pixel k.
   void add_weights(const ConvexPolygon& polygon, std::span<double> weights) const;
 
-  /// Σ of a pixel's weights along an axis over the pixels in [0, size) of a picture: 1 where the picture's end is out
+  /// Σ of a pixel's weights along an axis over the pixels in [0, size) of an image: 1 where the image's end is out
   /// of reach.
   double share_inside(int pixel, int size) const;
 

@@ -10,13 +10,13 @@
 
 namespace zoneplate::antialias {
 
-/// A corner of a flat triangle: pixels from the picture's top-left corner, and reversed depth.
+/// A corner of a flat triangle: pixels from the image's top-left corner, and reversed depth.
 struct FlatCorner {
   double x, y;
   float z = 0.5f;
 };
 
-/// Triangles of one colour each, which pictures of a power of two of pixels a side show exactly where they were put.
+/// Triangles of one colour each, which images of a power of two of pixels a side show exactly where they were put.
 class FlatTriangles : public FragmentShader {
  public:
   FlatTriangles(int width, int height) : width_(width), height_(height) {}
@@ -64,7 +64,7 @@ class FlatTriangles : public FragmentShader {
     });
   }
   RenderOptions render_options;
-  mutable RasterCounts counts;  ///< of the last picture that `analytic` or `converged` drew
+  mutable RasterCounts counts;  ///< of the last image that `analytic` or `converged` drew
 
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.padded(); ++i) {

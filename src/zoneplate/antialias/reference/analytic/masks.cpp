@@ -62,7 +62,7 @@ void MaskedPolygons::store(const ConvexPolygon& polygon, std::uint32_t part, std
 std::uint32_t MaskedPolygons::answer_of(std::int32_t id, std::uint32_t part) {
   const auto number = static_cast<std::size_t>(std::ranges::find(masked_, id) - masked_.begin());
   std::uint32_t& known = known_answer_[number * static_cast<std::size_t>(grid_ * grid_) + part];
-  if (known == 0) known = edges_.ask(x_, y_, id, part) + 1;
+  if (known == 0) known = edges_.add_query(x_, y_, id, part) + 1;
   return known - 1;
 }
 
@@ -76,7 +76,7 @@ void MaskedPolygons::resolve(AreaFragmentList& out) {
   }
 }
 
-/// What is seen of a piece behind seen_, from a layer on; `answer` is that of the next masked layer.
+/// The visible parts of a piece behind seen_, from a layer on; `answer` is that of the next masked layer.
 void MaskedPolygons::walk(const Stored& stored, const ConvexPolygon& polygon, std::uint32_t layer, std::uint32_t answer,
                           AreaFragmentList& out) {
   if (polygon.count > many_corners) {

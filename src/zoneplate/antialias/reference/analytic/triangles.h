@@ -32,7 +32,7 @@ class TileTriangles {
   /// A tile's list holds what comes within `reach` pixels of the tile.
   TileTriangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, int reach);
 
-  int first_column() const { return first_column_; }  ///< tiles of 64 × 64 on the picture's own grid
+  int first_column() const { return first_column_; }  ///< tiles of 64 × 64 on the image's own grid
   int first_row() const { return first_row_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }

@@ -99,7 +99,7 @@ class Strips {
     write_strip();
   }
 
-  /// The strip's own pixels, and around them those of the picture that the filter reaches.
+  /// The strip's own pixels, and around them those of the image that the filter reaches.
   void begin_strip(int top, int height) {
     const Target& whole = drawing_.target;
     top_ = top, height_ = height;
@@ -141,7 +141,7 @@ class Strips {
     });
   }
 
-  /// Adds the samples of line y of the picture, kx pixels to the right of each sum's own.
+  /// Adds the samples of line y of the image, kx pixels to the right of each sum's own.
   void add_row(std::span<Sum> sums, int y, int kx, std::span<const double> weight) const {
     if (y < 0 || y >= strip_.viewport.height) return;
     const int left = drawing_.target.x + kx;
