@@ -14,6 +14,7 @@ foreach(isa IN LISTS isas)
   target_compile_options(zoneplate_fuzzed_${isa} PRIVATE ${flags_${isa}})
   target_compile_definitions(zoneplate_fuzzed_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
   target_link_libraries(zoneplate_fuzzed_${isa} PRIVATE zoneplate_flags)
+  target_precompile_headers(zoneplate_fuzzed_${isa} PRIVATE <hwy/highway.h>)
   target_sources(zoneplate_fuzzed PRIVATE $<TARGET_OBJECTS:zoneplate_fuzzed_${isa}>)
 endforeach()
 target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library}
