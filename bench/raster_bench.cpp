@@ -44,9 +44,9 @@ void geometry(benchmark::State& state, const char* name) {
     Bins bins;
     for (auto _ : state) {
       const double start = processor_ms();
-      projected = project_draws(s.draws.draws, s.target.viewport, s.options.isa, std::move(projected));
+      projected = project_draws(s.draws.draws, s.target.viewport, std::move(projected));
       const double transformed = processor_ms();
-      bins = bin_triangles(projected, s.target, {.viewport = s.target.viewport}, s.options.isa, std::move(bins));
+      bins = bin_triangles(projected, s.target, {.viewport = s.target.viewport}, std::move(bins));
       const double binned = processor_ms();
       vertices_ms = std::min(vertices_ms, transformed - start);
       triangles_ms = std::min(triangles_ms, binned - transformed);

@@ -6,7 +6,7 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/raster/fragment/interpolate.h"
-#include "zoneplate/shade/surface/surface_kernels.h"
+#include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/filtering.h"
 #include "zoneplate/shade/texture/texture.h"

@@ -29,10 +29,10 @@ foreach(list library_sources simd_sources test_sources)
 endforeach()
 list(APPEND test_sources tests/pictures_test.cpp)
 
-add_library(zoneplate STATIC ${library_sources})
+add_kernels("${simd_sources}")
+add_library(zoneplate STATIC ${library_sources} ${kernel_objects})
 target_link_libraries(zoneplate PUBLIC zoneplate_flags)
 target_precompile_headers(zoneplate PRIVATE ${common_headers})
-add_kernels(zoneplate "${simd_sources}")
 
 # Of the tests, those that hold instruction sets or pictures to each other bit by bit; but not those that read files.
 list(FILTER test_sources EXCLUDE REGEX "/(fxaa|smaa)(_[a-z]+)*_test\\.cpp$")

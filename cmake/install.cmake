@@ -1,16 +1,22 @@
-# find_package(Zoneplate) and the target Zoneplate::zoneplate, for programs outside this tree.
+# find_package(Zoneplate) with the target Zoneplate::zoneplate, and zoneplate.pc, for programs outside this tree.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS zoneplate EXPORT ZoneplateTargets)
+set(installed_libraries zoneplate)
+if(TARGET zoneplate_shared)
+  list(APPEND installed_libraries zoneplate_shared)
+endif()
+install(TARGETS ${installed_libraries} EXPORT ZoneplateTargets)
 install(TARGETS zoneplate_program)
-install(DIRECTORY src/zoneplate ${generated}/zoneplate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "commit.h" EXCLUDE PATTERN "sonames.h" EXCLUDE)
-
+install(DIRECTORY include/zoneplate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${generated}/zoneplate/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/zoneplate)
 install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Zoneplate)
 install(EXPORT ZoneplateTargets NAMESPACE Zoneplate:: DESTINATION ${package_directory})
 configure_package_config_file(cmake/ZoneplateConfig.cmake.in ZoneplateConfig.cmake INSTALL_DESTINATION ${package_directory})
-write_basic_package_version_file(ZoneplateConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+write_basic_package_version_file(ZoneplateConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ZoneplateConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ZoneplateConfigVersion.cmake
         DESTINATION ${package_directory})
+
+configure_file(cmake/zoneplate.pc.in zoneplate.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/zoneplate.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -16,7 +16,7 @@ run_quietly() {
   return "$status"
 }
 
-# The packages of packages.txt for the given purposes (build, check, all), one a line.
+# The packages of packages.txt for the given purposes (build, check, all, ...), one a line.
 wanted_packages() {
   awk -v purposes=" $* " '
     /^#/ || NF == 0 { next }
@@ -75,7 +75,7 @@ has_new_packages() {
 is_stale() {
   local stamp=$root/build/$1/.zoneplate-built
   [ -e "$stamp" ] || return 0
-  local inputs=(src cmake CMakeLists.txt CMakePresets.json packages.txt)
+  local inputs=(include src cmake CMakeLists.txt CMakePresets.json packages.txt)
   [ "$1" = release ] || inputs+=(tests fuzz)
   [ -z "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ] || return 0
   has_new_packages "$1"

@@ -1,13 +1,20 @@
 # The sources and how they are built, on every processor.
 
+# Every object may become part of a shared library, which exports what the public headers declare (base/api.h) and
+# nothing else; calls within the library stay direct.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
 # One scene, one image, on every compiler: no contraction of a * b + c, no fast-math (docs/architecture.md).
 add_library(zoneplate_flags INTERFACE)
-target_compile_options(zoneplate_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion
+target_compile_options(zoneplate_flags INTERFACE -ffp-contract=off -fno-semantic-interposition -Wall -Wextra -Wshadow -Wconversion
                        -Wno-missing-field-initializers # designated initialisers leave out what keeps its default
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                        $<$<CXX_COMPILER_ID:Clang>:-Wno-undefined-var-template>) # tables of PerIsa (base/isa.h) have sources of their own
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
-target_include_directories(zoneplate_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src ${generated})
+target_include_directories(zoneplate_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/include ${CMAKE_CURRENT_SOURCE_DIR}/src
+                           ${generated})
 configure_file(cmake/version.h.in ${generated}/zoneplate/version.h)
 
 # Sources are found by their place and name: foo.cpp, foo_simd.cpp (once per instruction set), foo_test.cpp.
@@ -42,7 +49,7 @@ endfunction()
 make_table(library_sources scene/builtin makers scene/builtin/make.h BuiltinMaker zoneplate builtin_makers builtin_)
 make_table(library_sources antialias methods antialias/methods.h Method zoneplate::antialias methods "")
 
-# Adds to a library the kernels, built once for each instruction set of the processor's architecture (base/isa.h).
+# Builds the kernels once for each instruction set of the processor's architecture (base/isa.h), into ${kernel_objects}.
 set(flags_sse4 -msse4.2)
 set(flags_avx2 -mavx2 -mbmi -mbmi2 -mfma -mf16c -mlzcnt)
 set(flags_neon -march=armv8-a+crypto) # what Highway asks for around each function, so that lambdas are like them
@@ -54,14 +61,16 @@ elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
 else()
   set(isas sse4 avx2 avx512)
 endif()
-function(add_kernels library sources)
+function(add_kernels sources)
+  set(objects "")
   foreach(isa IN LISTS isas)
     add_library(zoneplate_${isa} OBJECT ${sources})
     target_compile_options(zoneplate_${isa} PRIVATE ${flags_${isa}} -O3)
     target_compile_definitions(zoneplate_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
     target_link_libraries(zoneplate_${isa} PRIVATE zoneplate_flags)
-    target_sources(${library} PRIVATE $<TARGET_OBJECTS:zoneplate_${isa}>)
+    list(APPEND objects $<TARGET_OBJECTS:zoneplate_${isa}>)
   endforeach()
+  set(kernel_objects ${objects} PARENT_SCOPE)
 endfunction()
 
 # Checks that stop what a damaged file may still do: of the stack where a function has arrays, of sizes that the C

@@ -13,7 +13,7 @@ find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests un
 target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate_cli GTest::gtest_main webpdemux)
 # A fifth less to build than with -O1; what takes time is in the libraries, or in the tests named here.
 target_compile_options(zoneplate_tests PRIVATE -O0)
-set(laborious shade/surface/surface_kernels shade/surface/brdf raster/coverage/coverage raster/tile/rasterize
+set(laborious shade/surface/shading shade/surface/brdf raster/coverage/coverage raster/tile/rasterize
     raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)
@@ -42,6 +42,19 @@ endforeach()
 # The 20-line program of README.md, built against an installed package as a user would.
 add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
          -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
+
+if(TARGET zoneplate_shared AND NOT ZONEPLATE_SANITIZED)
+  add_test(NAME shared_library COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/shared_library.sh $<TARGET_FILE:zoneplate_shared>)
+endif()
+
+# Which commit messages ./check refuses.
+add_test(NAME commit_messages
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/commit_messages_test.sh ${CMAKE_CURRENT_SOURCE_DIR})
+
+# The installed library of the release preset contains what it uses of {fmt}.
+add_test(NAME static_library COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR}/static_library
+         -D source=${CMAKE_CURRENT_SOURCE_DIR} -D compiler=${CMAKE_CXX_COMPILER} -D ninja=${CMAKE_MAKE_PROGRAM}
+         -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/static_library.cmake)
 
 # When the wrapper scripts build again.
 add_test(NAME setup COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/setup_test.sh ${CMAKE_CURRENT_SOURCE_DIR})

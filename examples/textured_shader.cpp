@@ -3,7 +3,7 @@
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/transform.h"
-#include "zoneplate/render/draw.h"
+#include "zoneplate/render/user_shader.h"
 #include "zoneplate/scene/camera.h"
 #include "zoneplate/shade/texture/sample.h"
 using namespace zoneplate;

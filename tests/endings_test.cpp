@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -218,6 +219,22 @@ TEST_F(Endings, KilledShardsThatBeginAgainMakeTheFilesOfOneRun) {
   }
   EXPECT_EQ(files("parts"), files("whole"));
   EXPECT_EQ(files("whole").size(), 60u);
+}
+
+TEST_F(Endings, AnimationsKeepAFrameAtMostTwice) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer keeps what is freed";
+#endif
+  const auto peak = [&](const char* output, const char* frames) {
+    EXPECT_EQ(run({"teapot", "-o", output, "--turntable", frames, "--size", "256x256", "--aa", "none", "--json"}), 0)
+        << complaint();
+    return zoneplate::parsed_json(text_of(place / ".out"))["peak_memory_bytes"].get<std::uint64_t>();
+  };
+  constexpr std::uint64_t frame = 256 * 256 * 4, more = 24;
+  for (const char* output : {"a.apng", "a.webp"}) EXPECT_LT(peak(output, "32"), peak(output, "8") + more * frame * 2);
+  if (std::system("command -v ffmpeg >/dev/null 2>&1") == 0) {
+    EXPECT_LT(peak("a.mp4", "32"), peak("a.mp4", "8") + more * frame / 4);
+  }
 }
 
 TEST_F(Endings, ManyItemsNeedNoMoreMemoryThanAFew) {

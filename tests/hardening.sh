@@ -12,4 +12,5 @@ expect "bound at the start (BIND_NOW)" 'BIND_NOW|FLAGS_1.* NOW' "$(readelf -dW "
 symbols=$(readelf -W --dyn-syms "$program")
 expect "guarded against overflows of the stack" ' __stack_chk_fail' "$symbols"
 expect "built with _FORTIFY_SOURCE" ' __[a-z]+_chk\b' "$(grep -v stack_chk <<<"$symbols")"
+expect "checks of the standard library in readers (_GLIBCXX_ASSERTIONS)" ' _ZSt21__glibcxx_assert_fail' "$symbols"
 exit $failed

@@ -1,5 +1,6 @@
 // The structure of the source tree: which room may include which, how many files a folder holds, and one meaning for
-// each type name. src/zoneplate/layers.txt lists the rooms from the bottom up.
+// each type name. src/zoneplate/layers.txt lists the rooms from the bottom up. A room's public headers are in
+// include/zoneplate, everything else of it in src/zoneplate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 const fs::path source = fs::path(ZONEPLATE_SOURCE_DIR) / "src/zoneplate";
+const fs::path public_headers = fs::path(ZONEPLATE_SOURCE_DIR) / "include/zoneplate";
 constexpr std::size_t max_files_per_folder = 40;
 
 std::vector<std::string> lines_of(const fs::path& path) {
@@ -32,13 +34,26 @@ std::vector<std::string> rooms() {
   return out;
 }
 
-/// All headers and sources, as paths relative to `source`, in the order of their names.
-std::vector<fs::path> source_files() {
+/// The headers and sources below a folder, as paths relative to it.
+std::vector<fs::path> files_of(const fs::path& folder) {
   std::vector<fs::path> out;
-  for (const auto& entry : fs::recursive_directory_iterator(source)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string extension = entry.path().extension();
-    if (extension == ".h" || extension == ".cpp") out.push_back(fs::relative(entry.path(), source));
+    if (extension == ".h" || extension == ".cpp") out.push_back(fs::relative(entry.path(), folder));
   }
+  return out;
+}
+
+bool is_public(const fs::path& file) { return fs::exists(public_headers / file); }
+
+/// The full path of a file that is given by its room and name.
+fs::path path_of(const fs::path& file) { return (is_public(file) ? public_headers : source) / file; }
+
+/// All headers and sources by their rooms and names, sorted.
+std::vector<fs::path> source_files() {
+  std::vector<fs::path> out = files_of(source);
+  const std::vector<fs::path> headers = files_of(public_headers);
+  out.insert(out.end(), headers.begin(), headers.end());
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -49,11 +64,11 @@ bool is_test(const fs::path& file) {
 
 std::string layer_of(const std::string& room) { return room.substr(0, room.find('/')); }
 
-/// The header paths that a file includes from this project, relative to `source`.
+/// The headers that a file includes from this project, by their rooms and names.
 std::vector<std::string> includes_of(const fs::path& file) {
   const std::string include = "#include \"zoneplate/";
   std::vector<std::string> out;
-  for (const std::string& line : lines_of(source / file))
+  for (const std::string& line : lines_of(path_of(file)))
     if (line.starts_with(include)) out.push_back(line.substr(include.size(), line.rfind('"') - include.size()));
   return out;
 }
@@ -79,6 +94,16 @@ TEST(Layers, NoIncludePointsUp) {
   EXPECT_GT(includes, 2000);
 }
 
+TEST(Layers, PublicHeadersIncludePublicHeadersAlone) {
+  const std::vector<fs::path> headers = files_of(public_headers);
+  EXPECT_LE(headers.size(), 53u);
+  for (const fs::path& file : headers) {
+    EXPECT_FALSE(fs::exists(source / file)) << file << " exists twice";
+    for (const std::string& header : includes_of(file))
+      EXPECT_TRUE(is_public(header)) << file << " includes " << header;
+  }
+}
+
 TEST(Layers, NoFolderIsCrowded) {
   std::map<fs::path, std::size_t> files;
   for (const auto& entry : fs::recursive_directory_iterator(source))
@@ -90,7 +115,7 @@ TEST(Layers, NoFolderIsCrowded) {
 
 /// Removes comments, the contents of literals, and preprocessor lines.
 std::string code_of(const fs::path& file) {
-  std::ifstream stream(source / file);
+  std::ifstream stream(path_of(file));
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   static const std::regex noise(
       R"re(//[^\n]*|/\*[^]*?\*/|R"(\w*)\([^]*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+'|(?:^|\n)[ \t]*#(?:\\\n|[^\n])*)re");
@@ -102,7 +127,7 @@ std::string code_of(const fs::path& file) {
 std::vector<std::string> types_of(const fs::path& file) {
   const std::string code = code_of(file);
   static const std::regex token(
-      R"(\bnamespace\s*([\w:]*)\s*\{|\b(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{|\{|\})");
+      R"(\bnamespace\s*(?:ZONEPLATE_API\s+)?([\w:]*)\s*\{|\b(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{|\{|\})");
   std::vector<std::string> scopes, out;  // a scope that defines nothing is "(body)"
   for (std::sregex_iterator i(code.begin(), code.end(), token), end; i != end; ++i) {
     const std::string found = i->str();
@@ -135,6 +160,35 @@ TEST(Layers, EachTypeNameIsDefinedOnce) {
     for (const fs::path& file : where) list += " " + file.string();
     EXPECT_EQ(where.size(), 1u) << type << " is defined in" << list;
   }
+}
+
+// A table of kernels is `foo.h`; `foo.cpp` defines its scalar member and `foo_simd.cpp` those of the instruction sets.
+// A kernel written once for both is a template in a `*_lanes.h`, which knows no vectors but its lane type.
+TEST(Layers, KernelsHaveOneLayout) {
+  const auto read = [](const fs::path& file) {
+    std::ifstream stream(source / file);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  static const std::regex table(R"(struct (\w+) : PerIsa<\1>)");
+  int tables = 0;
+  for (const fs::path& file : source_files()) {
+    const std::string stem = file.stem(), text = read(file);
+    EXPECT_FALSE(stem.ends_with("_kernels") || stem.ends_with("_stages")) << file << ": name what the kernels do";
+    EXPECT_TRUE(!stem.ends_with("_lanes") || text.find("hwy") == std::string::npos) << file;
+    std::smatch found;
+    if (is_test(file) || !std::regex_search(text, found, table)) continue;
+    ++tables;
+    EXPECT_EQ(file.extension(), ".h") << file;
+    const auto defines = [&](const char* suffix, const std::string& member) {
+      const std::regex definition("PerIsa<(\\w+::)?" + found[1].str() + ">::" + member + " =");
+      const fs::path other = file.parent_path() / (stem + suffix);
+      EXPECT_TRUE(std::regex_search(read(other), definition))
+          << other << " does not define " << member << " of " << file;
+    };
+    defines(".cpp", "scalar");
+    defines("_simd.cpp", "HWY_NAMESPACE");
+  }
+  EXPECT_GT(tables, 20);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/renderer.h"
@@ -144,15 +145,15 @@ constexpr ShownGolden shown_goldens[] = {
 TEST(Pictures, ShownPicturesHaveTheirBitsForAnyThreadsAndInstructionSet) {
   for (const ShownGolden& g : shown_goldens) {
     Shot shot(g.scene, g.width, g.height);
+    shot.options.display = display_of(g.look);
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 2, 7}) {
-        shot.options.isa = isa;
         Rgba8Image picture;
-        with_threads(threads, [&] {
+        const auto render = [&] {
           Renderer renderer(shot.scene, make_resolver(antialias::methods(), g.method));
-          shot.options.display = display_of(g.look);
           picture = renderer.render(shot.camera, {.options = shot.options}).display;
-        });
+        };
+        with_isa(isa, [&] { with_threads(threads, render); });
         ASSERT_EQ(picture.width(), g.width);
         EXPECT_EQ(hash_of(picture), g.hash) << g.scene << ", " << g.method << ", " << name_of(isa) << ", " << threads
                                             << " threads: 0x" << std::hex << hash_of(picture) << "u";
@@ -162,14 +163,13 @@ TEST(Pictures, ShownPicturesHaveTheirBitsForAnyThreadsAndInstructionSet) {
 
 TEST(Pictures, ThreadsAndInstructionSetsLeaveNoTrace) {
   for (const char* name : {"teapot:divisions=6", "checkerboard", "fillblend"}) {
-    Shot shot(name, 160, 130);
+    const Shot shot(name, 160, 130);
     const std::uint64_t expected = hash_of(shot.frame("msaa:n=4").color);
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 2, 3, 7}) {
-        shot.options.isa = isa;
-        with_threads(threads, [&] {
-          EXPECT_EQ(hash_of(shot.frame("msaa:n=4").color), expected) << name << ", " << name_of(isa) << ", " << threads;
-        });
+        std::uint64_t hash = 0;
+        with_isa(isa, [&] { with_threads(threads, [&] { hash = hash_of(shot.frame("msaa:n=4").color); }); });
+        EXPECT_EQ(hash, expected) << name << ", " << name_of(isa) << ", " << threads;
       }
   }
 }

@@ -57,7 +57,7 @@ std::string prose_of(const std::string& line, bool is_source) {
 TEST(Words, RetiredIdentifiersDoNotComeBack) {
   const std::regex word(std::string("\\b(") + retired + ")\\b");
   int files = 0;
-  for (const char* folder : {"src", "tests", "bench", "fuzz", "docs"}) {
+  for (const char* folder : {"include", "src", "tests", "bench", "fuzz", "docs"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension();
       if ((extension != ".h" && extension != ".cpp" && extension != ".md") || entry.path().stem() == "words_test")

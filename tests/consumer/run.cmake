@@ -1,5 +1,6 @@
-# Installs the package, takes the library program out of README.md, builds it and the programs of examples/ against the
-# package, and runs them.
+# Installs the package, takes the library program out of README.md, builds it against the static library and the programs
+# of examples/ against the shared one, and runs them. Each public header is compiled alone, and one program is built by
+# pkg-config.
 #
 # Given: build (the project's build folder), source, compiler, flags.
 set(place ${build}/consumer)
@@ -16,10 +17,10 @@ file(WRITE ${place}/build/triangle.cpp "${CMAKE_MATCH_1}")
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${place} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
-# Configures and builds a project against the installed package.
+# Configures and builds a project against the installed package, with further options of CMake.
 function(build_project folder binary)
   run(${CMAKE_COMMAND} -G Ninja -S ${folder} -B ${binary} -DCMAKE_PREFIX_PATH=${place}/installed
-      -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_BUILD_TYPE=Release)
+      -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_BUILD_TYPE=Release ${ARGN})
   run(${CMAKE_COMMAND} --build ${binary})
 endfunction()
 # Fails if a picture is missing or empty.
@@ -35,7 +36,15 @@ build_project(${source}/tests/consumer ${place}/build)
 run(${place}/build/triangle)
 expect_picture(triangle.png)
 
-build_project(${source}/examples ${place}/examples)
+# Every installed header compiles alone.
+file(GLOB_RECURSE headers RELATIVE ${place}/installed/include ${place}/installed/include/zoneplate/*.h)
+foreach(header IN LISTS headers)
+  string(MAKE_C_IDENTIFIER ${header} name)
+  file(WRITE ${place}/headers/${name}.cpp "#include \"${header}\"\n")
+endforeach()
+build_project(${source}/tests/consumer/headers ${place}/headers_build -DHEADERS=${place}/headers)
+
+build_project(${source}/examples ${place}/examples -DBUILD_SHARED_LIBS=ON)
 run(${place}/examples/load_and_save ${source}/examples/triangle.gltf model.png)
 expect_picture(model.png)
 run(${place}/examples/arrays_to_pixels)
@@ -43,3 +52,19 @@ run(${place}/examples/textured_shader)
 expect_picture(floor.png)
 run(${place}/examples/own_method)
 expect_picture(own_method.png)
+
+# The shared library by pkg-config.
+file(GLOB package_files ${place}/installed/lib*/pkgconfig/zoneplate.pc ${place}/installed/lib/*/pkgconfig/zoneplate.pc)
+cmake_path(GET package_files PARENT_PATH package_folder)
+set(ENV{PKG_CONFIG_PATH} ${package_folder})
+execute_process(COMMAND pkg-config --cflags --libs zoneplate OUTPUT_VARIABLE options OUTPUT_STRIP_TRAILING_WHITESPACE
+                COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(options UNIX_COMMAND "${options} ${flags}")
+execute_process(COMMAND pkg-config --variable=libdir zoneplate OUTPUT_VARIABLE libraries OUTPUT_STRIP_TRAILING_WHITESPACE)
+run(${compiler} -O1 ${source}/examples/load_and_save.cpp ${options} -Wl,-rpath,${libraries} -o ${place}/by_pkg_config)
+run(${place}/by_pkg_config ${source}/examples/triangle.gltf packaged.png)
+file(SHA256 ${place}/model.png expected)
+file(SHA256 ${place}/packaged.png found)
+if(NOT expected STREQUAL found)
+  message(FATAL_ERROR "the program that pkg-config built renders another picture")
+endif()

@@ -41,6 +41,14 @@ TEST(Method, ReferencesDrawForThemselves) {
   EXPECT_FALSE(request("ssaa").draw);
 }
 
+TEST(Method, MixCodesIsDisplayReferred) {
+  for (const char* text : {"msaa:mix=codes", "ssaa:n=4,mix=codes", "msaa:mix=codes,resolve=display,filter=tent"})
+    EXPECT_TRUE(make_resolver(antialias::methods(), text)->request({}).is_display_referred) << text;
+  EXPECT_FALSE(make_resolver(antialias::methods(), "msaa:mix=light")->request({}).is_display_referred);
+  EXPECT_EQ(refusal("msaa:resolve=karis,mix=codes"),
+            "msaa: resolve=karis weighs scene-linear values, mix=codes averages sRGB-encoded ones: give one of them");
+}
+
 TEST(Method, WrongTextsAreNamed) {
   EXPECT_NE(refusal("mssa").find("did you mean 'msaa'"), std::string::npos);
   EXPECT_NE(refusal("raytracing").find("none, ssaa, msaa"), std::string::npos);

@@ -31,6 +31,7 @@ constexpr Verb verbs[] = {
     {"list", "list antialiasing methods, built-in scenes and file formats", run_list},
     {"info", "print the contents of a model", run_info},
     {"metrics", "measure the difference between images and a reference", run_metrics},
+    {"filter", "antialias existing images by a post-process filter", run_filter},
     {"compare", "compare antialiasing methods on scenes against a reference", run_compare},
     {"bench", "measure frame times, stage by stage", run_bench},
     {"demo", "make captioned images that explain aliasing and antialiasing", run_demo},

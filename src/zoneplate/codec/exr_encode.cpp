@@ -6,7 +6,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png/deflate.h"
 #include "zoneplate/codec/png/png_rows.h"
@@ -149,6 +148,14 @@ std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChann
     out.insert(out.end(), blocks[i].begin(), blocks[i].end());
   }
   return out;
+}
+
+std::vector<ExrChannel> rgba_channels(const LinearImage& image) {
+  const Linear* const first = image.values().data();
+  return {{"R", ExrType::Half, &first->r, nullptr, 4},
+          {"G", ExrType::Half, &first->g, nullptr, 4},
+          {"B", ExrType::Half, &first->b, nullptr, 4},
+          {"A", ExrType::Half, &first->a, nullptr, 4}};
 }
 
 }  // namespace zoneplate

@@ -13,6 +13,7 @@
 #include "zoneplate/formats/ply/ply.h"
 #include "zoneplate/formats/stl/stl.h"
 #include "zoneplate/os/library.h"
+#include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate {
@@ -81,6 +82,8 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
     throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + readable + ")");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(name, ignored);
+  if (exists && (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp"))
+    throw Error(ErrorKind::Input, name + ": is an image, expected a model; zoneplate filter antialiases images");
   throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + readable + ")"
                                        : name + ": no such file, and no built-in scene of that name");
 }
@@ -130,26 +133,33 @@ std::vector<std::string> readable_paths(const std::string& name, const LoadOptio
   return model_paths(name, options.limits);
 }
 
+struct SceneSource::OpenFile {
+  MappedFileWatch watch;
+  std::unique_ptr<GltfModel> gltf;  ///< null: the file is read anew for each scene
+};
+
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
+  auto file = std::make_unique<OpenFile>();
   const std::string extension = extension_of(name_, options_.format);
   const bool is_gltf = extension == ".gltf" || extension == ".glb";
   if (is_gltf && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
-    gltf_ = std::make_unique<GltfModel>(name_, options_.limits);
-  watch_.check(name_);
+    file->gltf = std::make_unique<GltfModel>(name_, options_.limits);
+  file->watch.check(name_);
+  file_ = std::move(file);
 }
 SceneSource::~SceneSource() = default;
 
 Scene SceneSource::load(const SceneChoice& choice) {
   options_.choice = choice;
-  Scene scene = gltf_ ? gltf_->scene(choice) : load_scene(name_, options_);
-  watch_.check(name_);
+  Scene scene = file_->gltf ? file_->gltf->scene(choice) : load_scene(name_, options_);
+  file_->watch.check(name_);
   return scene;
 }
 
 Scene SceneSource::load_shape(const SceneChoice& choice) {
-  if (!gltf_) return load(choice);
-  Scene scene = gltf_->scene(choice, GltfModel::Images::Without);
-  watch_.check(name_);
+  if (!file_->gltf) return load(choice);
+  Scene scene = file_->gltf->scene(choice, GltfModel::Images::Without);
+  file_->watch.check(name_);
   return scene;
 }
 

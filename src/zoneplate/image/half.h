@@ -26,6 +26,12 @@ constexpr std::uint16_t half_bits(float value) {
   return static_cast<std::uint16_t>(sign | (kept + rounds_up));
 }
 
+/// A 16-bit float in memory.
+struct Half {
+  std::uint16_t bits;
+  bool operator==(const Half&) const = default;
+};
+
 /// The value of 16-bit float bits.
 constexpr float half_value(std::uint16_t bits) {
   const std::uint32_t sign = (bits & 0x8000u) << 16, exponent = bits >> 10 & 31, rest = bits & 0x3ffu;

@@ -9,7 +9,7 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/tonemap_kernels.h"
+#include "zoneplate/image/display_transform.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 

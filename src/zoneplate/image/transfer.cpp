@@ -5,20 +5,13 @@
 #include <bit>
 #include <cstddef>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/transfer_constants.h"
-#include "zoneplate/image/transfer_kernels.h"
-#include "zoneplate/math/elementary.h"
+#include "zoneplate/image/transfer_lanes.h"
+#include "zoneplate/image/transfer_rows.h"
+#include "zoneplate/math/lanes.h"
 
 namespace zoneplate {
 namespace {
-
-/// x clamped to [0, 1]; 0 where it is not a number.
-constexpr float clamp_unit(float x) {
-  x = x > 0 ? x : 0.0f;
-  return x < 1 ? x : 1.0f;
-}
 
 /// The definition of the decoding curve, to the precision of double: x^2.4 = x^2 (x^2)^(1/5), the root by Newton.
 constexpr double decode_precisely(double code) {
@@ -68,15 +61,9 @@ constexpr Thresholds thresholds;
 
 }  // namespace
 
-float encode_srgb(float linear) {
-  const float x = clamp_unit(linear);
-  return x <= srgb::linear_cutoff ? srgb::slope * x : srgb::scale * pow(x, srgb::inverse_power) - srgb::offset;
-}
+float encode_srgb(float linear) { return encode_srgb(scalar::Float(linear)).v; }
 
-float decode_srgb(float code) {
-  const float x = clamp_unit(code);
-  return x <= srgb::code_cutoff ? x / srgb::slope : pow((x + srgb::offset) / srgb::scale, srgb::power);
-}
+float decode_srgb(float code) { return decode_srgb(scalar::Float(code)).v; }
 
 float decode_srgb8(std::uint8_t code) { return decoded[code]; }
 
@@ -88,36 +75,11 @@ std::vector<float> decoded_srgb16() {
 }
 
 std::uint8_t encode_srgb8(float linear) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(clamp_unit(linear));
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(clamp_unit(scalar::Float(linear)).v);
   if (bits < Thresholds::first_bits) return 0;
   const std::uint8_t code = thresholds.begin[(bits - Thresholds::first_bits) >> Thresholds::run_shift];
   return static_cast<std::uint8_t>(code + (std::bit_cast<float>(bits) >= thresholds.least[code + 1u] ? 1 : 0));
 }
-
-namespace scalar {
-namespace {
-
-void encode(const float* linear, float* code, std::size_t n) { std::transform(linear, linear + n, code, encode_srgb); }
-
-void decode(const float* code, float* linear, std::size_t n) { std::transform(code, code + n, linear, decode_srgb); }
-
-void quantize8(const float* values, std::uint8_t* codes, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) codes[i] = static_cast<std::uint8_t>(clamp_unit(values[i]) * 255 + 0.5f);
-}
-
-void quantize16(const float* values, std::uint16_t* codes, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) codes[i] = static_cast<std::uint16_t>(clamp_unit(values[i]) * 65535 + 0.5f);
-}
-
-}  // namespace
-
-}  // namespace scalar
-
-template <>
-const TransferKernels PerIsa<TransferKernels>::scalar = {.encode = scalar::encode,
-                                                         .decode = scalar::decode,
-                                                         .quantize8 = scalar::quantize8,
-                                                         .quantize16 = scalar::quantize16};
 
 namespace {
 

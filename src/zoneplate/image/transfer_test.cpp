@@ -9,7 +9,7 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/transfer_kernels.h"
+#include "zoneplate/image/transfer_rows.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {

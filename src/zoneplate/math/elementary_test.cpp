@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "zoneplate/base/isa.h"
-#include "zoneplate/math/elementary_kernels.h"
+#include "zoneplate/math/elementary_rows.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {

@@ -22,13 +22,13 @@ Display shown(Linear c) {
 Picture make_picture(DisplayImage display) {
   LinearImage linear(display.width(), display.height());
   for_rows(display.height(), [&](int y) { std::ranges::transform(display.row(y), linear.row(y).begin(), light_of); });
-  return {std::move(display), std::move(linear)};
+  return {std::move(display), std::move(linear), false};
 }
 
 Picture make_picture(LinearImage linear) {
   DisplayImage display(linear.width(), linear.height());
   for_rows(linear.height(), [&](int y) { std::ranges::transform(linear.row(y), display.row(y).begin(), shown); });
-  return {std::move(display), std::move(linear)};
+  return {std::move(display), std::move(linear), true};
 }
 
 Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
@@ -38,11 +39,8 @@ Scene flat_scene(std::vector<float3> corners, Material material = {}) {
   return scene;
 }
 
-Frame frame_of(const Scene& scene, const Camera& camera, const Request& request, RenderCounts* counts = nullptr,
-               Isa isa = best_isa()) {
-  RenderOptions options{.width = width, .height = height};
-  options.isa = isa;
-  return render(PreparedScene(scene), camera, request, options, counts);
+Frame frame_of(const Scene& scene, const Camera& camera, const Request& request, RenderCounts* counts = nullptr) {
+  return render(PreparedScene(scene), camera, request, {.width = width, .height = height}, counts);
 }
 
 Camera camera_of(const Scene& scene) {
@@ -203,20 +201,23 @@ TEST(Content, ThreadsAndInstructionSetsLeaveNoTrace) {
     many.push_back({});
     Frame geometry, few, edges;
     with_threads(1, [&] {
-      geometry = frame_of(scene, camera, request_for(Content::Geometry, many), nullptr, Isa::Scalar);
       few = frame_of(scene, camera, request_for(Content::Geometry, {many.begin(), many.begin() + 5}));
-      edges = frame_of(scene, camera, request_for(Content::EdgeDistances), nullptr, Isa::Scalar);
+      with_isa(Isa::Scalar, [&] {
+        geometry = frame_of(scene, camera, request_for(Content::Geometry, many));
+        edges = frame_of(scene, camera, request_for(Content::EdgeDistances));
+      });
     });
     for (std::size_t s = 0; s < few.sample_geometry.size(); ++s)
       EXPECT_EQ(few.sample_geometry[s], geometry.sample_geometry[s]) << name << " " << s;
     for (const Isa isa : supported_isas())
-      with_threads(3, [&] {
-        EXPECT_EQ(frame_of(scene, camera, request_for(Content::Geometry, many), nullptr, isa).sample_geometry,
-                  geometry.sample_geometry)
-            << name << " " << name_of(isa);
-        EXPECT_EQ(frame_of(scene, camera, request_for(Content::EdgeDistances), nullptr, isa).edge_distance,
-                  edges.edge_distance)
-            << name << " " << name_of(isa);
+      with_isa(isa, [&] {
+        with_threads(3, [&] {
+          EXPECT_EQ(frame_of(scene, camera, request_for(Content::Geometry, many)).sample_geometry,
+                    geometry.sample_geometry)
+              << name << " " << name_of(isa);
+          EXPECT_EQ(frame_of(scene, camera, request_for(Content::EdgeDistances)).edge_distance, edges.edge_distance)
+              << name << " " << name_of(isa);
+        });
       });
   }
 }

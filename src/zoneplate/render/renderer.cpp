@@ -7,7 +7,6 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/raster/tile/rasterize.h"
 
 namespace zoneplate {
 namespace {
@@ -35,10 +34,7 @@ Frame data_of(Frame& frame) {
   Frame data;
   data.x = frame.x, data.y = frame.y;
   data.sample_triangle.resize(frame.sample_triangle.size());
-  std::vector<void*> from;
-  frame.for_data_planes([&](auto& plane) { from.push_back(&plane); });
-  std::size_t i = 0;
-  data.for_data_planes([&]<class T>(Plane<T>& plane) { plane = std::move(*static_cast<Plane<T>*>(from[i++])); });
+  Frame::for_data_planes(frame, data, [](auto& from, auto& to) { to = std::move(from); });
   return data;
 }
 
@@ -65,17 +61,17 @@ std::optional<Crop> padded_crop(const RenderOptions& options, int halo) {
               top + c.height + std::min(halo, options.height - c.y - c.height)};
 }
 
-Renderer::Renderer(PreparedScene scene, std::unique_ptr<Resolver> method)
+Renderer::Renderer(PreparedScene scene, std::unique_ptr<Resolver> method, std::unique_ptr<Backend> backend)
     : scene_(std::move(scene)),
       method_(std::move(method)),
-      memory_(std::make_unique<RasterMemory>()),
+      backend_(std::move(backend)),
       jitter_(named_pattern("halton", jitter_period)) {}
 
 Renderer::~Renderer() = default;
 
 void Renderer::set_scene(PreparedScene scene) { scene_ = std::move(scene); }
 
-void Renderer::recycle(Rgba8Image image) { memory_->display8 = std::move(image); }
+void Renderer::recycle(Rgba8Image image) { backend_->recycle(std::move(image)); }
 
 void Renderer::begin_frame(const RenderSettings& settings) {
   const RenderOptions& o = settings.options;
@@ -103,7 +99,7 @@ Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& re
                                          RenderCounts& counts) {
   const auto round = [&](const Request& round_request) {
     RenderCounts own;
-    Frame frame = zoneplate::render(scene_, camera, round_request, options, &own, memory_.get());
+    Frame frame = backend_->render(scene_, camera, round_request, options, &own);
     frame.display = options.display;
     add(counts, own);
     return frame;

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "zoneplate/antialias/geometric/bilateral.h"
 #include "zoneplate/antialias/geometric/gbaa.h"
-#include "zoneplate/antialias/geometric/sraa_kernels.h"
 #include "zoneplate/antialias/shots_for_test.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -322,10 +323,8 @@ TEST(GeometryMethods, CropsThreadsAndInstructionSetsLeaveNoTrace) {
       for (int y = 1; y < 22; ++y)
         for (int x = 1; x < 31; ++x) ASSERT_EQ(part(x, y), whole(50 + x, 39 + y)) << method;
       options.crop.reset();
-      for (const Isa isa : supported_isas()) {
-        options.isa = isa;
-        EXPECT_EQ(shot(scene, method, options), whole) << method << " " << name_of(isa);
-      }
+      for (const Isa isa : supported_isas())
+        with_isa(isa, [&] { EXPECT_EQ(shot(scene, method, options), whole) << method << " " << name_of(isa); });
     }
   }
 }

@@ -9,7 +9,7 @@
 // exp(-scale max(1 - N·N', depth scale |z - z'|)) of their published kernel. It leaves both scales to the scene. Here
 // depths are compared relative to the nearer one, so that one scale serves scenes of any size; the scales' defaults
 // and the radius are ours. Blended surfaces are not in the geometry: their outlines stay as they were shaded.
-#include "zoneplate/antialias/geometric/sraa_kernels.h"
+#include "zoneplate/antialias/geometric/bilateral.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,34 +21,6 @@
 #include "zoneplate/math/elementary.h"
 
 namespace zoneplate {
-namespace scalar {
-namespace {
-
-/// The weight of a shaded pixel for a sample.
-float likeness(const float* a, const float* b, const BilateralScales& scales) {
-  const float3 normal{a[0], a[1], a[2]}, other{b[0], b[1], b[2]};
-  const bool is_empty = normal == float3{}, is_other_empty = other == float3{};
-  if (is_empty || is_other_empty) return is_empty == is_other_empty ? 1.0f : 0.0f;
-  const float far = std::abs(a[3] - b[3]) / std::min(a[3], b[3]), turned = 1 - dot(normal, other);
-  return exp(-scales.scale * std::max(turned, scales.depth * far));
-}
-
-void add(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
-         float* weight, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float w = likeness(sample + 4 * i, centre + 4 * i, scales);
-    for (std::size_t c = 4 * i; c < 4 * i + 4; ++c) sum[c] += color[c] * w;
-    weight[i] += w;
-  }
-}
-
-}  // namespace
-
-}  // namespace scalar
-
-template <>
-const SraaKernels PerIsa<SraaKernels>::scalar = {.add = scalar::add};
-
 namespace antialias {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/antialias/post/row_kernels.h"
+#include "zoneplate/antialias/post/rows.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::antialias {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/base/isa.h"
 
 namespace zoneplate::antialias {
 namespace {

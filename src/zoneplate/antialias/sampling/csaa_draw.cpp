@@ -25,12 +25,12 @@ struct Sampled {
 /// The pixels of one tile, through the order of drawing.
 class TileHistory {
  public:
-  TileHistory(const Bins& bins, const Target& target, const Sampled& sampled, std::size_t slots, Isa isa)
+  TileHistory(const Bins& bins, const Target& target, const Sampled& sampled, std::size_t slots)
       : bins_(bins),
         target_(target),
         sampled_(sampled),
         slots_(slots),
-        coverage_(CoverageKernels::of(isa)),
+        coverage_(CoverageKernels::of()),
         count_(static_cast<int>(target.samples.size())),
         all_((1u << target.samples.size()) - 1),
         visibility_(count_),
@@ -131,14 +131,13 @@ class TileHistory {
   std::vector<CoverageSlots> pixels_;
 };
 
-/// The samples of every pixel that are known, a bit each.
-Plane<std::uint16_t> known_samples(const Bins& bins, const Target& target, const Sampled& sampled, std::size_t slots,
-                                   Isa isa) {
+/// The known samples of every pixel, a bit each.
+Plane<std::uint16_t> known_samples(const Bins& bins, const Target& target, const Sampled& sampled, std::size_t slots) {
   Plane<std::uint16_t> known(target.width, target.height,
                              static_cast<std::uint16_t>((1u << target.samples.size()) - 1));
   PerThread<TileHistory> histories;
   parallel_for(bins.tiles(),
-               [&](std::size_t tile) { histories.local(bins, target, sampled, slots, isa).find(tile, known); });
+               [&](std::size_t tile) { histories.local(bins, target, sampled, slots).find(tile, known); });
   return known;
 }
 
@@ -215,7 +214,7 @@ void draw_with_slots(const CustomDraw& drawing, const SamplePattern& samples, st
   every.sample_color = &sampled.color;
   every.sample_triangle = &sampled.triangle;
   drawing.counts = rasterize(drawing.draws, drawing.shader, drawing.rules, every, &drawing.memory);
-  const Plane<std::uint16_t> known = known_samples(drawing.memory.bins, every, sampled, slots, drawing.rules.isa);
+  const Plane<std::uint16_t> known = known_samples(drawing.memory.bins, every, sampled, slots);
   parallel_ranges(static_cast<std::size_t>(target.height), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t y = first; y < last; ++y) {
       const int row = static_cast<int>(y);

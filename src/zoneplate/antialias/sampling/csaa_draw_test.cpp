@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "zoneplate/antialias/shots_for_test.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/default_lights.h"
@@ -89,10 +90,10 @@ TEST(Csaa, CropsThreadsAndInstructionSetsLeaveNoTrace) {
   LinearImage whole;
   with_threads(1, [&] { whole = shot(scene, "csaa:n=8,slots=2"); });
   RenderOptions options{.width = 160, .height = 120};
-  for (const Isa isa : supported_isas()) {
-    options.isa = isa;
-    with_threads(3, [&] { EXPECT_EQ(shot(scene, "csaa:n=8,slots=2", options), whole) << name_of(isa); });
-  }
+  for (const Isa isa : supported_isas())
+    with_isa(isa, [&] {
+      with_threads(3, [&] { EXPECT_EQ(shot(scene, "csaa:n=8,slots=2", options), whole) << name_of(isa); });
+    });
   options.crop = Crop{50, 39, 70, 43};
   const LinearImage part = shot(scene, "csaa:n=8,slots=2", options);
   for (int y = 0; y < 43; ++y)

@@ -30,7 +30,7 @@ class Msaa : public Resolver {
     request.resolves_per_pixel = filter_.is_plain();
     request.planes.sample_colors = !filter_.is_plain();
     request.halo = filter_.reach();
-    request.is_display_referred = filter_.weight == SampleWeight::Display;
+    request.is_display_referred = filter_.is_display_referred();
     return request;
   }
   LinearImage resolve(Frame& frame) override {
@@ -58,6 +58,7 @@ constexpr Param params[] = {
     {.name = "n", .meaning = "samples of the standard pattern", .value = 4, .choices = counts},
     {.name = "grid", .meaning = "a regular grid of grid × grid samples, instead of n", .value = 4, .low = 1, .high = 8},
     resolve_param,
+    mix_param,
     filter_param,
     radius_param,
     {.name = "alpha",

@@ -1,14 +1,16 @@
 #include "zoneplate/antialias/sampling/sample_accumulator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include "zoneplate/antialias/sampling/accumulate_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/display_transform.h"
 
 namespace zoneplate::antialias {
 namespace {
@@ -42,8 +44,11 @@ class SampleRow {
 
   void take(std::span<const Linear> samples, SampleWeight weight, const DisplayOptions& display) {
     float* const color = color_.data() + 4 * before_;
-    if (weight == SampleWeight::Display) {
-      show_light(samples, display, color);
+    if (weight == SampleWeight::Display || weight == SampleWeight::Encoded) {
+      if (weight == SampleWeight::Display)
+        show_light(samples, display, color);
+      else
+        show_encoded(samples, display, color);
       return AccumulateKernels::of().premultiply(color, width_);
     }
     std::copy_n(&samples.data()->r, 4 * width_, color);
@@ -65,6 +70,13 @@ int ResolveFilter::reach() const { return kernel ? static_cast<int>(std::ceil(ke
 
 ResolveFilter resolve_filter_of(std::string_view method, const Settings& settings) {
   ResolveFilter out{.weight = static_cast<SampleWeight>(settings.integer("resolve")), .kernel = {}};
+  if (settings.chosen("mix") == "codes") {
+    if (out.weight == SampleWeight::Karis || out.weight == SampleWeight::Max3)
+      throw Error(ErrorKind::Usage, fmt::format("{}: resolve={} weighs scene-linear values, mix=codes averages "
+                                                "sRGB-encoded ones: give one of them",
+                                                method, settings.chosen("resolve")));
+    out.weight = SampleWeight::Encoded;
+  }
   const double radius = settings.number("radius");
   if (settings.integer("filter") == 0) {
     if (settings.is_given("radius"))
@@ -130,8 +142,9 @@ LinearImage SampleAccumulator::light() const {
 }
 
 DisplayImage SampleAccumulator::display_referred(DisplayImage image, const DisplayOptions& display) const {
-  if (filter_.weight != SampleWeight::Display) return image;
-  return make_display(light(), {.is_transparent = true, .raw = display.raw});
+  if (!filter_.is_display_referred()) return image;
+  // Encoded values are not encoded again.
+  return make_display(light(), {.is_transparent = true, .raw = display.raw || filter_.weight == SampleWeight::Encoded});
 }
 
 }  // namespace zoneplate::antialias

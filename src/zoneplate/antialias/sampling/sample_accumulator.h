@@ -13,7 +13,8 @@ enum class SampleWeight {
   Even,     ///< linear light, all weights equal
   Karis,    ///< weighted by 1 / (1 + luma × exposure)
   Max3,     ///< mapped by c / (1 + max(c)), the mean mapped back
-  Display,  ///< display-referred: tone-mapped over the background
+  Display,  ///< display-referred: tone-mapped over the background, linear
+  Encoded,  ///< the same, sRGB-encoded: what the resolve of an 8-bit framebuffer without sRGB conversion averages
 };
 
 /// The filter by which a method averages samples.
@@ -25,12 +26,16 @@ struct ResolveFilter {
   bool is_plain() const { return weight == SampleWeight::Even && !kernel; }
   /// The filter's radius in whole pixels.
   int reach() const;
+  /// True where the mean is of values after tone mapping.
+  bool is_display_referred() const { return weight == SampleWeight::Display || weight == SampleWeight::Encoded; }
 };
 
-/// The parameters `resolve`, `filter` and `radius` of methods that accumulate samples, and the filter that they select.
+/// The parameters `resolve`, `mix`, `filter` and `radius` of methods that accumulate samples, and the filter that they
+/// select.
 ///
 /// `radius` is the filter's, in pixels; 0: the kernel's own radius.
-/// Errors    ErrorKind::Usage for a radius without a filter.
+/// Errors    ErrorKind::Usage for a radius without a filter, or for sRGB-encoded averaging with a weight of scene-linear
+///           values.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
@@ -38,6 +43,10 @@ inline constexpr Param resolve_param = {
     .name = "resolve",
     .meaning = "mean of linear light, mean with smaller weights for brighter samples, or mean after tone mapping",
     .names = resolve_names};
+inline constexpr std::string_view mix_names[] = {"light", "codes"};
+inline constexpr Param mix_param = {.name = "mix",
+                                    .meaning = "blend space: linear light, or sRGB-encoded values after tone mapping",
+                                    .names = mix_names};
 inline constexpr Param filter_param = {
     .name = "filter",
     .meaning = "reconstruction filter over the samples of the neighbourhood; pixel: those of the pixel alone",
@@ -68,9 +77,9 @@ class SampleAccumulator {
   void add(const Frame& frame, std::span<const SamplePosition> positions);
   bool is_empty() const { return sum_.empty(); }
 
-  /// The mean in linear light; undefined for SampleWeight::Display.
+  /// The mean in linear light; the premultiplied mean of display-referred values for a display-referred filter.
   LinearImage light() const;
-  /// For SampleWeight::Display the mean of the display-referred colours, otherwise `image`.
+  /// The mean of the display-referred colours, in place of `image`, for a display-referred filter; else `image`.
   DisplayImage display_referred(DisplayImage image, const DisplayOptions& display) const;
 
  private:

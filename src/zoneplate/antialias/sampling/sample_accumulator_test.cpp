@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "zoneplate/antialias/sampling/accumulate_kernels.h"
+#include "zoneplate/antialias/sampling/accumulate.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
@@ -60,6 +60,21 @@ TEST(SampleAccumulator, WhatIsShownIsAveragedAsItIsShown) {
                            .display_referred(DisplayImage(7, 7), frame.display)(3, 3);
   EXPECT_NEAR(half.g, 1, 1e-6);
   EXPECT_NEAR(half.a, 0.5, 1e-6);
+}
+
+TEST(SampleAccumulator, EncodedValuesAreAveragedAfterToneMapping) {
+  const auto mean = [](const Frame& frame) {
+    return accumulated({.weight = SampleWeight::Encoded}, frame, two)
+        .display_referred(DisplayImage(7, 7), frame.display)(3, 3);
+  };
+  for (const float sun : {1.0f, 100.0f})
+    EXPECT_EQ(mean(frame_of({grey(0), grey(sun)})), (Display{0.5f, 0.5f, 0.5f, 1}));
+  // Of a background with its value; of a transparent image premultiplied.
+  Frame frame = frame_of({grey(1), Linear{0, 0, 0, 0}});
+  frame.display.background = {0.2f, 0.4f, 0, 1};
+  EXPECT_EQ(mean(frame), (Display{0.6f, 0.7f, 0.5f, 1}));
+  frame.display.is_transparent = true;
+  EXPECT_EQ(mean(frame), (Display{1, 1, 1, 0.5f}));
 }
 
 TEST(SampleAccumulator, AConstantStaysOne) {

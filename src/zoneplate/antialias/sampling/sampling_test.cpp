@@ -3,6 +3,7 @@
 
 #include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
@@ -173,13 +174,13 @@ TEST(Sampling, ThreadsAndInstructionSetsLeaveNoTrace) {
   const Scene scene = *make_builtin_scene("foliage");
   for (const char* method : {"adaptive", "csaa", "quincunx", "flipquad", "msaa:n=4,resolve=max3,alpha=sharp",
                              "ssaa:n=2,filter=mitchell,resolve=karis"}) {
-    RenderOptions options{.width = 96, .height = 72};
+    const RenderOptions options{.width = 96, .height = 72};
     LinearImage one;
     with_threads(1, [&] { one = shot(scene, method, options); });
-    for (const Isa isa : supported_isas()) {
-      options.isa = isa;
-      with_threads(3, [&] { EXPECT_EQ(shot(scene, method, options), one) << method << " " << name_of(isa); });
-    }
+    for (const Isa isa : supported_isas())
+      with_isa(isa, [&] {
+        with_threads(3, [&] { EXPECT_EQ(shot(scene, method, options), one) << method << " " << name_of(isa); });
+      });
   }
 }
 

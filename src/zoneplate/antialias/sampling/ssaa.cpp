@@ -59,7 +59,7 @@ class Ssaa : public Resolver {
     request.planes.sample_colors = true;
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
     request.halo = filter_.reach();
-    request.is_display_referred = filter_.weight == SampleWeight::Display;
+    request.is_display_referred = filter_.is_display_referred();
     return request;
   }
   void take(const Frame& frame) {
@@ -80,6 +80,7 @@ constexpr Param params[] = {
     {.name = "pattern", .meaning = "sample pattern", .value = 0, .names = patterns},
     {.name = "samples", .meaning = "shaded samples per pixel, instead of n", .value = 4, .low = 1, .high = 1024},
     resolve_param,
+    mix_param,
     filter_param,
     radius_param,
 };

@@ -22,6 +22,7 @@ struct BenchArgs {
   BenchWork work;   // but for the scene and the samples
   int samples = 0;  // 0: 1 and 4
   int threads = 0;
+  Isa isa = current_isa();
   std::string peer = "zoneplate";
   bool prints_json = false;
 };
@@ -40,7 +41,7 @@ Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming
                       {"version", report_version},
                       {"peer", args.peer},
                       {"api", "zoneplate"},
-                      {"renderer", name_of(work.isa)},
+                      {"renderer", name_of(current_isa())},
                       {"program", version},
                       {"scene", work.scene},
                       {"w", work.size.x},
@@ -95,12 +96,12 @@ std::string timing_text(const BenchWork& work, const BenchTiming& t, const Machi
   return text + stage_text("(encode)", t.encode_ms, pixels, "pixel", 0, limits);
 }
 
-std::string limits_text(const MachineLimits& l, Isa isa) {
+std::string limits_text(const MachineLimits& l) {
   return fmt::format(
       "{} threads, {}. Memory bandwidth: {:.1f} GB/s read, {:.1f} GB/s write. Clearing 1920x1080 of colour and depth:\n"
       "{:.2f} ms, in new memory {:.1f} ms. Gather of eight words: {:.1f} ns from 8 KiB, {:.1f} from 256 KiB, {:.1f} "
       "from 4 MiB.\n",
-      thread_limit(), name_of(isa), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
+      thread_limit(), name_of(current_isa()), l.read_gb_s, l.write_gb_s, l.clear_ms, l.first_touch_ms, l.gather_l1_ns,
       l.gather_l2_ns, l.gather_l3_ns);
 }
 
@@ -134,7 +135,7 @@ Syntax syntax_of(BenchArgs& args) {
       {"--threads", "N", "Number of threads; default: all that affinity and CPU quota allow", "Work", true,
        whole(args.threads, 1, 1024)},
       {"--isa", "SET", "Instruction set: scalar, sse4, avx2 or avx512; default: the best available", "Work", false,
-       [&](const std::string& text) { args.work.isa = parse_isa(text); }},
+       [&](const std::string& text) { args.isa = parse_isa(text); }},
       {"--frames", "N", "Maximum number of frames; default 30", "Work", true, whole(args.work.frames, 1, 1000000)},
       {"--warmup", "N", "Warm-up frames, which are not measured; default 2", "Work", false,
        whole(args.work.warm_up, 1, 1000)},
@@ -157,17 +158,18 @@ void run_bench(std::span<const std::string> arguments) {
   if (args.scenes.empty()) args.scenes.assign(std::begin(bench_scenes), std::end(bench_scenes));
   const std::vector<int> counts = args.samples ? std::vector{args.samples} : std::vector{1, 4};
   const bool prints_json = args.prints_json || names_one;
-  with_threads(args.threads, [&] {
+  const auto time_all = [&] {
     MachineLimits limits;
-    if (!prints_json) print(limits_text(limits = measure_limits(), args.work.isa));
+    if (!prints_json) print(limits_text(limits = measure_limits()));
     for (const std::string& scene : args.scenes)
       for (const int samples : counts) {
         BenchWork work = args.work;
         work.scene = scene, work.samples = samples;
-        const BenchTiming timing = with_isa(work.isa, [&] { return time_frames(work); });
+        const BenchTiming timing = time_frames(work);
         print(prints_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
       }
-  });
+  };
+  with_isa(args.isa, [&] { with_threads(args.threads, time_all); });
 }
 
 }  // namespace zoneplate::cli

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/cli/bench/limits.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/math/random.h"

@@ -49,7 +49,6 @@ BenchTiming time_frames(const BenchWork& work) {
   const Camera camera = found->cameras.front();
   const RenderSettings settings{.options = {.width = work.size.x,
                                             .height = work.size.y,
-                                            .isa = work.isa,
                                             .display = {.background = background_of(work.scene), .raw = true}}};
   constexpr bool raw_colors = true;
   Renderer renderer(

@@ -13,7 +13,6 @@ struct BenchWork {
   int samples = 1;
   int2 size{1920, 1080};
   int anisotropy = 0;  ///< of the base colours' texture filters; 0: the scene's own
-  Isa isa = current_isa();
   int frames = 30, warm_up = 2;
   double budget_ms = 4000;  ///< no frame starts after this time, except the first three
 };
@@ -31,7 +30,7 @@ struct BenchTiming {
 };
 
 /// Measures frames from the prepared scene to the 8-bit image in memory, on the threads of the innermost
-/// `with_threads`.
+/// `with_threads`, with the kernels of the innermost `with_isa`.
 ///
 /// Errors    ErrorKind::Input for an unknown built-in scene.
 BenchTiming time_frames(const BenchWork& work);

@@ -243,7 +243,7 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
     scenes.push_back(std::move(scene));
   }
   std::string text = report_text(scenes);
-  std::string json = report_json(scenes, args.command, thread_limit(), args.render.options.isa).indented() + '\n';
+  std::string json = report_json(scenes, args.command).indented() + '\n';
   const Plot cost = scenes.size() == 1 ? cost_plot(scenes[0]) : cost_plot(means_of(scenes));
   files.push_back({"cost.svg", bytes_of(plot_svg(cost, {.width = 960, .height = 600}))});
   files.push_back({"compare.txt", bytes_of(text)});
@@ -270,8 +270,7 @@ void run_compare(std::span<const std::string> arguments) {
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   Comparison made;
-  with_isa(args.render.options.isa,
-           [&] { with_threads(args.render.threads, [&] { made = compare_all(args, options); }); });
+  with_isa(args.render.isa, [&] { with_threads(args.render.threads, [&] { made = compare_all(args, options); }); });
   save_folder(args.render.output, made.files);  // without other threads, as it requires
   if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
     print(args.render.prints_json ? made.json : made.text);

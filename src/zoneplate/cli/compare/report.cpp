@@ -1,5 +1,7 @@
 // The results of a comparison as text, CSV, Markdown and JSON.
 #include "zoneplate/cli/compare/report.h"
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
 
 #include <fmt/format.h>
 
@@ -290,8 +292,7 @@ std::string report_markdown(const std::vector<SceneTrials>& scenes) {
   return text;
 }
 
-Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command, int threads,
-                 Isa isa) {
+Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command) {
   Json::Array rows, means;
   for (const SceneTrials& s : scenes) rows.push_back(scene_json(s));
   for (const MethodMeans& m : means_of(scenes)) {
@@ -307,8 +308,8 @@ Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::
                       {"version", report_version},
                       {"program", version},
                       {"command", Json::Array(command.begin(), command.end())},
-                      {"threads", threads},
-                      {"isa", name_of(isa)},
+                      {"threads", thread_limit()},
+                      {"isa", name_of(current_isa())},
                       {"plot", "cost.svg"},
                       {"scenes", std::move(rows)},
                       {"means", std::move(means)}};

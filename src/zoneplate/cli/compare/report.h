@@ -20,8 +20,9 @@ std::string report_csv(const std::vector<SceneTrials>& scenes);
 /// means are bold.
 std::string report_markdown(const std::vector<SceneTrials>& scenes);
 
-/// The results as JSON, with the names of the comparison's files.
-Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command, int threads, Isa isa);
+/// The results as JSON, with the names of the comparison's files, and the threads and the instruction set of the
+/// innermost `with_threads` and `with_isa`.
+Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command);
 
 /// The means of a method over all scenes that it has rendered.
 struct MethodMeans {

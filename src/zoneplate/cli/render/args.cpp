@@ -267,7 +267,7 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
        "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default: the best available", group,
-       false, [&](auto& text) { a.options.isa = parse_isa(text); }},
+       false, [&](auto& text) { a.isa = parse_isa(text); }},
       {"--json", "", "Print a report as one line of JSON (to stderr if OUT is -)", group, false,
        [&](auto&) { a.prints_json = true; }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json or none; default auto", group,
@@ -325,12 +325,6 @@ Syntax render_syntax(RenderArgs& args) {
                            scene_options, teaching_options, run_options})
     for (Option& option : table(args)) syntax.options.push_back(std::move(option));
   return syntax;
-}
-
-std::string extension_of(const std::string& name) {
-  std::string out = std::filesystem::path(name).extension().string();
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return out;
 }
 
 void check_picture_ending(const std::string& output) {

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/render/shard.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/render/lighting.h"
@@ -54,6 +56,7 @@ struct RenderArgs {
   LoadOptions load;
   std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
   int threads = 0;           ///< 0: usable_processors(), base/processors.h
+  Isa isa = current_isa();   ///< of every kernel of the run
   double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
   bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
   bool prints_json = false;
@@ -78,9 +81,6 @@ void check_args(RenderArgs& args);
 
 /// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
-
-/// The ending of a name in lower case, with its dot.
-std::string extension_of(const std::string& name);
 
 /// True where there is a file of that name.
 bool exists(const std::string& path);

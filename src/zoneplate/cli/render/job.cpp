@@ -4,6 +4,7 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/sequence.h"
 #include "zoneplate/cli/report_version.h"
@@ -104,7 +105,7 @@ Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
                       {"triangles_set_up", summary.counts.triangles_set_up},
                       {"shaded_samples", summary.counts.shaded},
                       {"threads", summary.threads},
-                      {"isa", name_of(args.options.isa)},
+                      {"isa", name_of(args.isa)},
                       {"stage_ms", std::move(times)},
                       {"peak_memory_bytes", summary.peak_memory},
                       {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};

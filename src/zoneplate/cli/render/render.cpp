@@ -16,8 +16,8 @@ void tell(const RenderArgs& args, const Summary& summary) {
     std::string times;
     for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
     say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", args.output, summary.width, summary.height,
-                         args.method, summary.counts.triangles, summary.threads, name_of(args.options.isa)));
-    say_note(fmt::format("{}{} MB at most", times, summary.peak_memory >> 20));
+                         args.method, summary.counts.triangles, summary.threads, name_of(args.isa)));
+    say_note(fmt::format("{}peak memory {} MB", times, summary.peak_memory >> 20));
   }
   if (!args.prints_json) return;
   const std::string line = Json(summary_json(args, summary)).text() + '\n';
@@ -35,14 +35,14 @@ void run_render(std::span<const std::string> arguments) {
   RenderArgs& args = *parsed;
   if (args.verbosity == Verbosity::Quiet && !args.progress) args.progress = ProgressKind::None;
   if (args.is_batch()) {
-    with_isa(args.options.isa, [&] { with_threads(args.threads, [&] { render_batch(args); }); });
+    with_isa(args.isa, [&] { with_threads(args.threads, [&] { render_batch(args); }); });
     return;
   }
   static_cast<void>(make_resolver(antialias::methods(), args.method));
   check_outputs(args);
   if (args.skip_existing && exists(args.output)) return;
   Summary summary;
-  with_isa(args.options.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
+  with_isa(args.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
   if (args.verbosity != Verbosity::Quiet)
     for (const std::string& warning : summary.warnings) say_warning(warning);
   tell(args, summary);

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {

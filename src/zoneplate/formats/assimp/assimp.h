@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "zoneplate/formats/import/scene_format.h"
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {

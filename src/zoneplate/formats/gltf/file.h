@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {

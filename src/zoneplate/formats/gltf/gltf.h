@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {

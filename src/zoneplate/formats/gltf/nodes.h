@@ -5,6 +5,7 @@
 
 #include "zoneplate/formats/gltf/animation.h"
 #include "zoneplate/formats/gltf/file.h"
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/math/transform.h"
 
 namespace zoneplate {

@@ -6,6 +6,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {

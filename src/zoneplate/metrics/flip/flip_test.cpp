@@ -10,8 +10,8 @@
 #include "zoneplate/metrics/charts_for_test.h"
 #include "zoneplate/metrics/flip/color.h"
 #include "zoneplate/metrics/flip/filters.h"
-#include "zoneplate/metrics/flip/flip_kernels.h"
 #include "zoneplate/metrics/flip/magma.h"
+#include "zoneplate/metrics/flip/weighted_sums.h"
 
 namespace zoneplate::metrics {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/base/aligned_array.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {

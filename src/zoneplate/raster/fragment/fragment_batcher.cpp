@@ -6,11 +6,10 @@
 
 namespace zoneplate {
 
-FragmentBatcher::FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa,
-                                 const Target& target)
+FragmentBatcher::FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target)
     : projected_(projected),
       shader_(shader),
-      interpolate_(InterpolateKernels::of(isa)),
+      interpolate_(InterpolateKernels::of()),
       target_(target),
       has_segments_(std::any_of(projected.draws.begin(), projected.draws.end(),
                                 [](const Draw& d) { return d.quads != nullptr; })),

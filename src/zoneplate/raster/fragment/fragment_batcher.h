@@ -39,7 +39,7 @@ struct FragmentData {
 /// Shades lists of fragments in batches of one material.
 class FragmentBatcher {
  public:
-  FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target);
+  FragmentBatcher(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target);
   FragmentBatcher(const FragmentBatcher&) = delete;  // has pointers to its own members
 
   /// The colours of the fragments, in their order. `data`, if not null, receives

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/raster/coverage/coverage.h"
 #include "zoneplate/signal/samples.h"

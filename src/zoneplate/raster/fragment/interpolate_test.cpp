@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {

@@ -200,7 +200,7 @@ Bins make_bins(const Target& target, Bins reused) {
 }
 
 void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
-                 const SetupRules& rules, Isa isa, Bins& bins) {
+                 const SetupRules& rules, Bins& bins) {
   struct Part {
     std::size_t draw;
     std::int32_t begin, end;
@@ -213,7 +213,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
       parts.push_back({d, t, t + std::min(part_size, end - t)});
   }
   const SampleArrays samples(target.samples);
-  const SmallTriangleKernels& kernels = SmallTriangleKernels::of(isa);
+  const SmallTriangleKernels& kernels = SmallTriangleKernels::of();
   parallel_for(parts.size(), [&](std::size_t i) {
     Binner binner(projected, target, rules, bins);
     growing("triangle bins", [&] { binner.add(parts[i].draw, parts[i].begin, parts[i].end, samples, kernels); });
@@ -222,10 +222,9 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
   for (const Bins::Worker& w : bins.workers) bins.set_up += w.triangles.size() + w.drawn;
 }
 
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Isa isa,
-                   Bins reused) {
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Bins reused) {
   Bins bins = make_bins(target, std::move(reused));
-  add_to_bins(projected, 0, projected.draws.size(), target, rules, isa, bins);
+  add_to_bins(projected, 0, projected.draws.size(), target, rules, bins);
   return bins;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/raster/geometry/setup.h"
 

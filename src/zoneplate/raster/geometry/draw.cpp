@@ -95,7 +95,7 @@ ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std:
   return out;
 }
 
-std::size_t project_kept(ProjectedDraws& p, Isa isa) {
+std::size_t project_kept(ProjectedDraws& p) {
   ScreenVertex* place = screen_memory(p.memory, p.kept);
   std::size_t left = p.kept, last = 0;
   for (; last < p.draws.size() && p.draws[last].vertices() <= left; ++last) {
@@ -103,12 +103,12 @@ std::size_t project_kept(ProjectedDraws& p, Isa isa) {
     p.screen[last] = {place, count};
     place += count, left -= count;
   }
-  project_batch(p, 0, last, ProjectKernels::of(isa));
+  project_batch(p, 0, last, ProjectKernels::of());
   return last;
 }
 
-void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::size_t, std::size_t)>& use) {
-  std::size_t last = project_kept(p, isa);
+void project_batches(ProjectedDraws& p, const std::function<void(std::size_t, std::size_t)>& use) {
+  std::size_t last = project_kept(p);
   use(0, last);
 
   // The other draws: as many as fit into a batch, but at least one.
@@ -121,15 +121,15 @@ void project_batches(ProjectedDraws& p, Isa isa, const std::function<void(std::s
     ScreenVertex* place = screen_memory(p.batch_memory, count);
     for (std::size_t d = first; d < last; place += p.draws[d++].vertices())
       p.screen[d] = {place, p.draws[d].vertices()};
-    project_batch(p, first, last, ProjectKernels::of(isa));
+    project_batch(p, first, last, ProjectKernels::of());
     use(first, last);
     for (std::size_t d = first; d < last; ++d) p.screen[d] = {};
   }
 }
 
-ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused) {
+ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, ProjectedDraws reused) {
   ProjectedDraws out = number_draws(draws, viewport, std::numeric_limits<std::size_t>::max(), std::move(reused));
-  project_kept(out, isa);
+  project_kept(out);
   return out;
 }
 

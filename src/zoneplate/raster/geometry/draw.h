@@ -72,13 +72,13 @@ ProjectedDraws number_draws(std::span<const Draw> draws, Viewport viewport, std:
                             ProjectedDraws reused = {});
 
 /// Transforms the vertices of the draws that are kept, in parallel; returns the number of these draws.
-std::size_t project_kept(ProjectedDraws& projected, Isa isa);
+std::size_t project_kept(ProjectedDraws& projected);
 
 /// Transforms the vertices, in parallel, in batches of draws: `use(first, last)` is called for each batch while the
 /// screen vertices of the draws [first, last) are stored. Draws that are kept fit into one batch.
-void project_batches(ProjectedDraws& projected, Isa isa, const std::function<void(std::size_t, std::size_t)>& use);
+void project_batches(ProjectedDraws& projected, const std::function<void(std::size_t, std::size_t)>& use);
 
 /// number_draws and project_kept, with all screen vertices kept.
-ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, Isa isa, ProjectedDraws reused = {});
+ProjectedDraws project_draws(std::span<const Draw> draws, Viewport viewport, ProjectedDraws reused = {});
 
 }  // namespace zoneplate

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/raster/coverage/coverage.h"
 #include "zoneplate/raster/geometry/clip.h"
@@ -325,7 +326,7 @@ TEST(Front, PicturesOfSoupsAreThoseOfTheDefinition) {
     rasterize(std::span(&draw, 1), Blank(), {}, target);
 
     // By the definition: every triangle at every sample, the nearest wins, of equals the first.
-    const ProjectedDraws projected = project_draws(std::span(&draw, 1), square, Isa::Scalar);
+    const ProjectedDraws projected = project_draws(std::span(&draw, 1), square);
     const auto draw_piece = [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t t) {
       const Triangle triangle = make_triangle(p, q, r, t, {.viewport = square});
       for (int tile_y = 0; tile_y < size; tile_y += tile_size)

@@ -33,7 +33,7 @@ void copy_samples(const TileVisibility& from, VisibilityBuffer& to) {
 
 AlphaTester::AlphaTester(const TileSetup& setup)
     : digits_(setup.shader, setup.samples(), setup.target.alpha == AlphaTest::Sharp),
-      digit_batcher_(setup.projected, digits_, setup.isa, setup.target) {}
+      digit_batcher_(setup.projected, digits_, setup.target) {}
 
 void AlphaTester::rasterize(const TileJob& job, FragmentBatcher& batcher, TileVisibility& visibility) {
   const std::size_t triangles = job.triangles_of(AlphaMode::Mask).size();

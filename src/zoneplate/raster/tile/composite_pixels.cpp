@@ -40,8 +40,8 @@ void PixelCompositor::composite_collected(const TileJob& job, std::size_t first,
   }
 }
 
-// Depth peeling of one sample of a deep pixel: its layers are found from near to far, RasterCapacity::layer_samples at
-// a time, until the transmittance is spent.
+// Depth peeling of one sample of a deep pixel: its layers are found from near to far, RasterCapacity::layer_samples
+// at a time, until the transmittance is spent.
 //
 // Source: Everitt, Interactive Order-Independent Transparency, 2001; several layers a pass: Bavoil and Myers, Order
 // Independent Transparency with Dual Depth Peeling, 2008.

@@ -25,8 +25,8 @@ class PixelCompositor {
  public:
   /// Collects and shades the layers over `rect` and calls composite(PixelLayers) for every drawn pixel of it, also for
   /// those without layers. `spans`, if not null, has a flag for each span of the tile: pixels of other spans have no
-  /// layers. A rectangle with more layers than RasterCapacity::layer_samples is halved, down to a pixel, which is deep
-  /// if it still has more.
+  /// layers. A rectangle with more layers than RasterCapacity::layer_samples is halved, down to a pixel, which is
+  /// deep if it still has more.
   ///
   /// Requires  materialized blocks.
   template <class Composite>

@@ -30,7 +30,6 @@ struct TileSetup {
   const Bins& bins;
   const FragmentShader& shader;
   const Target& target;
-  const Isa isa;
   const CoverageKernels& coverage;
   const ResolveKernels& resolve;
   const FragmentListKernels& fragment_lists;

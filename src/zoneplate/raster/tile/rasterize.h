@@ -16,7 +16,6 @@ namespace zoneplate {
 struct RasterRules {
   bool is_top_left = true;
   bool is_painter = false;
-  Isa isa = current_isa();
   RasterCapacity capacity;
 
   SetupRules setup(Viewport viewport) const {
@@ -42,7 +41,7 @@ struct RasterCounts {
 /// triangles, shades once per surface and pixel (or per sample), composites blended surfaces in exact order, and
 /// resolves the samples.
 ///
-/// Exact     the result does not depend on the number of threads, the Isa, or the order of the draws where no two
+/// Exact     the result does not depend on the number of threads, the instruction set, or the order of the draws where no two
 ///           triangles have equal depth at a sample.
 /// Source    visibility buffer: Burns and Hunt, The Visibility Buffer, JCGT 2(2), 2013; exact order per sample:
 ///           Carpenter, The A-buffer, SIGGRAPH 1984.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
@@ -167,13 +168,16 @@ TEST(Rasterize, ThreadsAndInstructionSetsLeaveNoTrace) {
   for (const bool is_per_sample : {false, true})
     for (const SamplePattern& pattern : {standard_pattern(1), named_pattern("halton", 24)}) {
       LinearImage expected;
-      with_threads(1,
-                   [&] { expected = picture(crowd.draws, shader, pattern, {.isa = Isa::Scalar}, 130, is_per_sample); });
+      with_isa(Isa::Scalar, [&] {
+        with_threads(1, [&] { expected = picture(crowd.draws, shader, pattern, {}, 130, is_per_sample); });
+      });
       for (const Isa isa : supported_isas())
         for (const int threads : {1, 2, 3, 7})
-          with_threads(threads, [&] {
-            EXPECT_EQ(picture(crowd.draws, shader, pattern, {.isa = isa}, 130, is_per_sample), expected)
-                << name_of(isa) << ", " << threads << " threads";
+          with_isa(isa, [&] {
+            with_threads(threads, [&] {
+              EXPECT_EQ(picture(crowd.draws, shader, pattern, {}, 130, is_per_sample), expected)
+                  << name_of(isa) << ", " << threads << " threads";
+            });
           });
     }
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {

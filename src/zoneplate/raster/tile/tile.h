@@ -17,7 +17,7 @@ struct TileBuffers {
   explicit TileBuffers(const TileSetup& setup)
       : job(setup),
         visibility(setup.max_pass_samples()),
-        batcher(setup.projected, setup.shader, setup.isa, setup.target),
+        batcher(setup.projected, setup.shader, setup.target),
         alpha_tester(setup) {}
 
   TileJob job;

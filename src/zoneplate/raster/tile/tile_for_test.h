@@ -75,8 +75,8 @@ class TileScene {
       draw.instance = static_cast<std::uint32_t>(draws_.size());
       draws_.push_back(draw);
     }
-    projected = project_draws(draws_, target.viewport, rules.isa);
-    bins = bin_triangles(projected, target, rules.setup(target.viewport), rules.isa);
+    projected = project_draws(draws_, target.viewport);
+    bins = bin_triangles(projected, target, rules.setup(target.viewport));
     setup.emplace(projected, bins, shader, rules, target);
   }
   TileScene(const TileScene&) = delete;

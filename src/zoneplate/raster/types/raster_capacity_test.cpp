@@ -163,12 +163,12 @@ std::vector<Case> cases() {
           {Route::Samples, standard_pattern(4), true}};
 }
 
-Planes drawn(const Layered& scene, const Case& of, const RasterCapacity& room) {
+Planes drawn(const Layered& scene, const Case& of, const RasterCapacity& capacity) {
   Planes planes;
   Target target = target_of(planes, of.route, of.samples);
   target.is_per_sample = of.is_per_sample;
   target.alpha = of.alpha;
-  rasterize(scene.draws, Noisy(), {.capacity = room}, target);
+  rasterize(scene.draws, Noisy(), {.capacity = capacity}, target);
   return planes;
 }
 
@@ -205,7 +205,7 @@ TEST(RasterCapacity, ScreenVerticesOfManyInstancesTakeTheRoomOfSome) {
   const std::vector<Draw> draws(1000, draw);
   ProjectedDraws projected = number_draws(draws, {32, 32});
   std::size_t batches = 0, next = 0;
-  project_batches(projected, best_isa(), [&](std::size_t first, std::size_t last) {
+  project_batches(projected, [&](std::size_t first, std::size_t last) {
     EXPECT_EQ(first, next);
     next = last;
     ++batches;

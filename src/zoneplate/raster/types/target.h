@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "zoneplate/image/display_transform.h"
 #include "zoneplate/image/rgb.h"
-#include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/raster/types/viewport.h"

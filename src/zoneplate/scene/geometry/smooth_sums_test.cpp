@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/vec.h"
 

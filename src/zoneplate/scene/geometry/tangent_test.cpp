@@ -101,6 +101,78 @@ TEST(Tangents, TheMeanIsWeightedByTheAngle) {
   expect_near(m.tangent[0], {static_cast<float>(x / n), static_cast<float>(y / n), 0, 1}, 1e-5f);
 }
 
+/// A bent sheet of 3 × 3 vertices and 8 triangles, with an irregular mapping; mirrored: u turns back at the middle
+/// column, and the last triangle has no area in uv.
+Mesh bent_sheet(bool is_mirrored) {
+  Mesh m;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) {
+      const auto quarters = [](int i) { return 0.25f * static_cast<float>(i % 4); };
+      const auto sixteenths = [](int i) { return 0.0625f * static_cast<float>(i % 3); };
+      m.position.push_back({static_cast<float>(x), static_cast<float>(y), quarters(7 * x + 5 * y)});
+      m.normal.push_back(normalize(float3{quarters(3 * x + y) - 0.5f, quarters(x + 2 * y) - 0.25f, 1}));
+      const float u = is_mirrored ? static_cast<float>(x == 1) : 0.5f * static_cast<float>(x);
+      m.uv0.push_back({u + sixteenths(2 * x + y), 0.5f * static_cast<float>(y) + sixteenths(x + 2 * y)});
+    }
+  m.index = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7};
+  if (is_mirrored) m.uv0[8] = m.uv0[7];
+  return m;
+}
+
+/// Output of mikktspace.c (github.com/mmikk/MikkTSpace, revision 3e895b4) for the corners of both sheets, at its
+/// default angular threshold. Its sign is that of v upwards, the opposite of ours.
+constexpr float4 plain_sheet_tangents[24] = {
+    {0.893744946f, 0.00661737658f, 0.44852671f, 1},  {0.955684185f, -0.172001272f, -0.238921165f, 1},
+    {0.911598861f, 0.135118946f, 0.38823998f, 1},    {0.893744946f, 0.00661737658f, 0.44852671f, 1},
+    {0.911598861f, 0.135118946f, 0.38823998f, 1},    {0.955907345f, 0.231099769f, 0.18120192f, 1},
+    {0.955684185f, -0.172001272f, -0.238921165f, 1}, {0.997607589f, -0.0670660585f, 0.0167665258f, 1},
+    {0.971599758f, 0.0780540332f, -0.223386616f, 1}, {0.955684185f, -0.172001272f, -0.238921165f, 1},
+    {0.971599758f, 0.0780540332f, -0.223386616f, 1}, {0.911598861f, 0.135118946f, 0.38823998f, 1},
+    {0.955907345f, 0.231099769f, 0.18120192f, 1},    {0.911598861f, 0.135118946f, 0.38823998f, 1},
+    {0.96317029f, 0.119673729f, 0.240792632f, 1},    {0.955907345f, 0.231099769f, 0.18120192f, 1},
+    {0.96317029f, 0.119673729f, 0.240792632f, 1},    {0.979067445f, -0.197458997f, -0.0493647344f, 1},
+    {0.911598861f, 0.135118946f, 0.38823998f, 1},    {0.971599758f, 0.0780540332f, -0.223386616f, 1},
+    {0.898863614f, 0.063051112f, 0.433668941f, 1},   {0.911598861f, 0.135118946f, 0.38823998f, 1},
+    {0.898863614f, 0.063051112f, 0.433668941f, 1},   {0.96317029f, 0.119673729f, 0.240792632f, 1}};
+constexpr float4 mirrored_sheet_tangents[24] = {{0.893744946f, 0.00661737658f, 0.44852671f, 1},
+                                                {0.953540921f, -0.184206784f, -0.238385364f, 1},
+                                                {0.907016575f, 0.28253758f, 0.312239438f, 1},
+                                                {0.893744946f, 0.00661737658f, 0.44852671f, 1},
+                                                {0.907016575f, 0.28253758f, 0.312239438f, 1},
+                                                {0.955907345f, 0.231099769f, 0.18120192f, 1},
+                                                {-0.958173692f, 0.156595603f, 0.239543468f, -1},
+                                                {-0.997607589f, 0.0670660585f, -0.0167665258f, -1},
+                                                {-0.97102809f, -0.0964079127f, 0.218655184f, -1},
+                                                {-0.958173692f, 0.156595603f, 0.239543468f, -1},
+                                                {-0.97102809f, -0.0964079127f, 0.218655184f, -1},
+                                                {-0.8440395f, 0.171916947f, -0.507978261f, -1},
+                                                {0.955907345f, 0.231099769f, 0.18120192f, 1},
+                                                {0.907016575f, 0.28253758f, 0.312239438f, 1},
+                                                {0.970003605f, 0.0169203617f, 0.242500931f, 1},
+                                                {0.955907345f, 0.231099769f, 0.18120192f, 1},
+                                                {0.970003605f, 0.0169203617f, 0.242500931f, 1},
+                                                {0.979067445f, -0.197458997f, -0.0493647344f, 1},
+                                                {-0.8440395f, 0.171916947f, -0.507978261f, -1},
+                                                {-0.97102809f, -0.0964079127f, 0.218655184f, -1},
+                                                {-0.872920573f, 0.132386029f, -0.469556779f, -1},
+                                                {0.907016575f, 0.28253758f, 0.312239438f, 1},
+                                                {1, 0, 0, -1},
+                                                {0.970003605f, 0.0169203617f, 0.242500931f, 1}};
+
+TEST(Tangents, AreThoseOfTheReferenceImplementation) {
+  for (const bool is_mirrored : {false, true}) {
+    Mesh m = bent_sheet(is_mirrored);
+    make_tangents(m, 0);
+    for (std::size_t k = 0; k < m.index.size(); ++k) {
+      // The reference has no tangent for this corner of the triangle without area: it is (1, 0, 0) by default.
+      if (is_mirrored && k == 22) continue;
+      const float4 reference = is_mirrored ? mirrored_sheet_tangents[k] : plain_sheet_tangents[k];
+      SCOPED_TRACE(k);
+      expect_near(m.tangent[m.index[k]], {reference.x, reference.y, reference.z, -reference.w}, 0x1p-22f);
+    }
+  }
+}
+
 TEST(Tangents, EqualVerticesCountAsOne) {
   Mesh shared =
       flat_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1}, {1, 1}, {1, 0.5f}, {0.25f, 0}}, {0, 1, 2, 0, 2, 3});

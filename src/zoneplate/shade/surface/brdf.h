@@ -1,9 +1,9 @@
 #pragma once
 
-#include "zoneplate/shade/lanes/vector.h"
+#include "zoneplate/math/lanes_vector.h"
 #include "zoneplate/shade/surface/exponent.h"
 
-/// Reflection models, as templates over the lane types of shade/lanes/lanes.h.
+/// Reflection models, as templates over the lane types of math/lanes.h.
 ///
 /// n is the normal, l points to the light, v to the viewer, h halfway between; all unit length or zero.
 namespace zoneplate {

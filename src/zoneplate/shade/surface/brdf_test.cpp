@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/shade/lanes/lanes.h"
 
 namespace zoneplate {
 namespace {

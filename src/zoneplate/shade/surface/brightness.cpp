@@ -7,6 +7,7 @@
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/texture/texture.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -30,8 +31,12 @@ float highlight(const MaterialPlan& plan) {
   return inverse_pi / (2 * alpha * alpha * alpha);
 }
 
-/// True for a float texture, whose texels may have any value; texels of unorm textures are at most 1.
-bool is_unbounded(const TextureSlot& slot) { return slot.texture != nullptr && slot.texture->view().values != nullptr; }
+/// True for a float or half-float texture, whose texels may exceed 1; texels of unorm textures are at most 1.
+bool is_unbounded(const TextureSlot& slot) {
+  if (slot.texture == nullptr) return false;
+  const TextureView& view = slot.texture->view();
+  return view.values != nullptr || view.halves != nullptr;
+}
 
 /// Diffuse weights, cosines and their powers are at most 1.
 float brightest(const MaterialPlan& plan, float light, float environment) {

@@ -5,6 +5,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {

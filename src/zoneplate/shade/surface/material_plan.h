@@ -8,8 +8,8 @@
 
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/surface.h"
-#include "zoneplate/shade/surface/surface_kernels.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/filtering.h"
 #include "zoneplate/shade/texture/texture.h"

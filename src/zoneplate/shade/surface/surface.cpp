@@ -7,7 +7,7 @@
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
-#include "zoneplate/shade/surface/surface_kernels.h"
+#include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/filtering.h"
 
@@ -63,8 +63,8 @@ struct SurfaceShader::Data {
         transforms(make_instance_transforms(scene_in.instances)),
         lights(prepare_all(view_in.lights)),
         viewpoint(make_viewpoint(view_in)),
-        kernels(SurfaceKernels::of(view_in.isa)),
-        filtering(FilteringKernels::of(view_in.isa)) {
+        kernels(SurfaceKernels::of()),
+        filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
       shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view.environment));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));

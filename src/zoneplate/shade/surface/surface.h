@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/scene/scene.h"
 
@@ -30,8 +29,7 @@ struct ViewUniforms {
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
-  int anisotropy = 1;       ///< maximum number of probes along a footprint, for all samplers that blend mip levels
-  Isa isa = current_isa();  ///< every instruction set gives the same bits
+  int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.

@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/shade/surface/material_plan.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -597,15 +599,16 @@ constexpr ShadingModel all_models[] = {ShadingModel::MetallicRoughness, ShadingM
 
 TEST(Surface, EveryInstructionSetGivesTheSameBits) {
   Scene scene = everything();
-  ViewUniforms view{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}, .ambient_light = {0.2f, 0.2f, 0.2f}};
+  const ViewUniforms view{.eye = {1, 2, 5}, .environment = {0.3f, 0.4f, 0.5f}, .ambient_light = {0.2f, 0.2f, 0.2f}};
   for (const ShadingModel model : all_models) {
     scene.materials[0].model = model;
     for (const int count : {1, 7, 8, 33, 128}) {
-      view.isa = Isa::Scalar;
-      const auto expected = shade(scene, view, random_points(count));
+      const auto shaded_with = [&](Isa isa) {
+        return with_isa(isa, [&] { return shade(scene, view, random_points(count)); });
+      };
+      const auto expected = shaded_with(Isa::Scalar);
       for (const Isa isa : supported_isas()) {
-        view.isa = isa;
-        const auto actual = shade(scene, view, random_points(count));
+        const auto actual = shaded_with(isa);
         ASSERT_EQ(std::memcmp(actual.get(), expected.get(), sizeof(Outcome)), 0) << name_of(isa) << " " << count;
       }
     }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/material.h"
-#include "zoneplate/shade/lanes/lanes.h"
-#include "zoneplate/shade/texture/filtering_stages.h"
+#include "zoneplate/shade/texture/filtering_lanes.h"
 #include "zoneplate/shade/texture/texture.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 
@@ -53,15 +54,22 @@ void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float
 
 float mix(float a, float b, float weight) { return a + (b - a) * weight; }
 
-float mix_level(const float* values, const Taps& taps, int level, int point, int channel) {
-  const float* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point] + channel;
-  const float* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point] + channel;
+float value_of(float value) { return value; }
+float value_of(Half half) { return half_value(half.bits); }
+
+/// `Value` is float or Half.
+template <class Value>
+float mix_level(const Value* values, const Taps& taps, int level, int point, int channel) {
+  const Value* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point] + channel;
+  const Value* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point] + channel;
   const float right = static_cast<float>(taps.right(level, point)) * 0x1p-15f;
   const float down = static_cast<float>(taps.down(level, point)) * 0x1p-15f;
-  return mix(mix(upper[0], lower[0], down), mix(upper[4], lower[4], down), right);
+  return mix(mix(value_of(upper[0]), value_of(lower[0]), down), mix(value_of(upper[4]), value_of(lower[4]), down),
+             right);
 }
 
-void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
+template <class Value>
+void mix_values(const Value* values, const Taps& taps, float* const out[4], int count) {
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < 4; ++c) {
       const float value = mix_level(values, taps, 0, i, c);
@@ -74,6 +82,7 @@ void mix_values(const float* values, const Taps& taps, float* const out[4], int 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
   if (t.unorm8 != nullptr) return mix_codes(t.unorm8, 7, 1.0f / 32640.0f, taps, out, count);
   if (t.unorm15 != nullptr) return mix_codes(t.unorm15, 0, 1.0f / 32767.0f, taps, out, count);
+  if (t.halves != nullptr) return mix_values(t.halves, taps, out, count);
   mix_values(t.values, taps, out, count);
 }
 

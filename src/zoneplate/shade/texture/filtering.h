@@ -72,7 +72,7 @@ struct Taps {
 ///           give that value; 0 and 1 are exact. Mixing is in fixed point: unorm8 texels with 7 more fraction bits,
 ///           unorm15 texels without, weights of 15 bits, each mix rounded to the nearest. The error of a value is at
 ///           most 2 units of 1/32640 or 1/32767, where graphics interfaces require weights of 8 bits. Float textures
-///           are mixed in floats, with the same weights.
+///           are mixed in floats, with the same weights; half floats likewise, after their exact conversion to floats.
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
 struct FilteringKernels : PerIsa<FilteringKernels> {

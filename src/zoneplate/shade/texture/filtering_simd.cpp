@@ -1,7 +1,7 @@
 #include "zoneplate/math/halves_simd.h"
-#include "zoneplate/shade/lanes/lanes_simd.h"
+#include "zoneplate/math/lanes_simd.h"
 #include "zoneplate/shade/texture/filtering.h"
-#include "zoneplate/shade/texture/filtering_stages.h"
+#include "zoneplate/shade/texture/filtering_lanes.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -270,17 +270,26 @@ HWY_INLINE Texel mix_texels(Texel a, Texel b, int weight) {
   return hn::Add(a, hn::Mul(hn::Sub(b, a), hn::Set(d, static_cast<float>(weight) * 0x1p-15f)));
 }
 
-HWY_INLINE Texel mix_level(const float* values, const Taps& taps, int level, int point) {
-  const Channels4 d;
-  const float* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point];
-  const float* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point];
-  const int down = taps.down(level, point);
-  return mix_texels(mix_texels(hn::LoadU(d, upper), hn::LoadU(d, lower), down),
-                    mix_texels(hn::LoadU(d, upper + 4), hn::LoadU(d, lower + 4), down), taps.right(level, point));
+HWY_INLINE Texel load_texel(const float* values) { return hn::LoadU(Channels4(), values); }
+HWY_INLINE Texel load_texel(const Half* values) {
+  static_assert(sizeof(Half) == sizeof(std::uint16_t));
+  const auto bits = hn::LoadU(hn::FixedTag<std::uint16_t, 4>(), reinterpret_cast<const std::uint16_t*>(values));
+  return hn::PromoteTo(Channels4(), hn::BitCast(hn::FixedTag<hwy::float16_t, 4>(), bits));
 }
 
-/// Mixes float texels, fragment by fragment.
-void mix_values(const float* values, const Taps& taps, float* const out[4], int count) {
+/// `Value` is float or Half.
+template <class Value>
+HWY_INLINE Texel mix_level(const Value* values, const Taps& taps, int level, int point) {
+  const Value* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point];
+  const Value* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point];
+  const int down = taps.down(level, point);
+  return mix_texels(mix_texels(load_texel(upper), load_texel(lower), down),
+                    mix_texels(load_texel(upper + 4), load_texel(lower + 4), down), taps.right(level, point));
+}
+
+/// Floats and half floats, fragment by fragment.
+template <class Value>
+void mix_values(const Value* values, const Taps& taps, float* const out[4], int count) {
   for (int i = 0; i < count; ++i) {
     Texel mixed = mix_level(values, taps, 0, i);
     const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
@@ -294,6 +303,7 @@ void mix_values(const float* values, const Taps& taps, float* const out[4], int 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
   if (t.unorm8 != nullptr) return mix_codes(Codes8{t.unorm8}, taps, out, count);
   if (t.unorm15 != nullptr) return mix_codes(Codes15{t.unorm15}, taps, out, count);
+  if (t.halves != nullptr) return mix_values(t.halves, taps, out, count);
   mix_values(t.values, taps, out, count);
 }
 

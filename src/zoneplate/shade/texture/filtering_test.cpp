@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/image/half.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/material.h"
 #include "zoneplate/shade/texture/texture.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -171,6 +173,14 @@ Plane<float4> bright_noise(int width, int height) {
   return image;
 }
 
+/// The same noise in half floats.
+Plane<float4> half_noise(int width, int height) {
+  Plane<float4> image = bright_noise(width, height);
+  for (float4& p : image.values())
+    for (float* const v : {&p.x, &p.y, &p.z, &p.w}) *v = half_value(half_bits(*v));
+  return image;
+}
+
 /// A level of a texture of floats by the definition of bilinear filtering, in double.
 double bilinear(const TextureView& view, int level, int channel, double u, double v, Wrap wrap_u, Wrap wrap_v) {
   const int w = view.width[level], h = view.height[level];
@@ -236,6 +246,48 @@ TEST(SamplerState, SixteenBitsGiveMoreThan256Levels) {
     for (int i = 0; i < 128; ++i) points.add((static_cast<float>(first + i) + 0.5f) / 1024, 0.5f);
     const Values values = look_up(texture, {}, points);
     for (int i = 0; i < 128; ++i) ASSERT_EQ(values.channel[0][i], static_cast<float>((20000 + first + i) / 65535.0));
+  }
+}
+
+/// Bilinear filtering of half an image's size, which is even, by definition in double: level 1 without its rounding.
+double bilinear_of_means(const Plane<float4>& image, int channel, double u, double v, Wrap wrap_u, Wrap wrap_v) {
+  const auto component = [&](int x, int y) -> double {
+    const float4& p = image(x, y);
+    return channel == 0 ? p.x : channel == 1 ? p.y : channel == 2 ? p.z : p.w;
+  };
+  const int w = image.width() / 2, h = image.height() / 2;
+  const double x = u * w - 0.5, y = v * h - 0.5, x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
+  const auto texel = [&](double i, double j) {
+    const int s = 2 * wrapped(static_cast<int>(i), w, wrap_u), t = 2 * wrapped(static_cast<int>(j), h, wrap_v);
+    return (component(s, t) + component(s + 1, t) + component(s, t + 1) + component(s + 1, t + 1)) / 4;
+  };
+  return (texel(x0, y0) * (1 - fx) + texel(x0 + 1, y0) * fx) * (1 - fy) +
+         (texel(x0, y0 + 1) * (1 - fx) + texel(x0 + 1, y0 + 1) * fx) * fy;
+}
+
+TEST(SamplerState, HalfFloatsKeepTheRangeWithinTheirRounding) {
+  const Plane<float4> image = half_noise(32, 16);
+  const Texture texture(image, TexelMeaning::Color);
+  ASSERT_NE(texture.view().halves, nullptr);
+  for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
+    const SamplerState filtering = make_filtering({.wrap_u = wrap, .wrap_v = wrap});
+    Points points;
+    for (std::uint32_t i = 0; i < 128; ++i) {
+      const std::uint32_t word = hash(i, 11);
+      points.add(static_cast<float>(static_cast<int>(word % 448) - 192) / 64,
+                 static_cast<float>(static_cast<int>(word / 448 % 448) - 192) / 64, 2.0f / 32);  // level 1
+    }
+    const Values values = look_up(texture, filtering, points);
+    float most = 0;
+    for (int i = 0; i < points.count; ++i)
+      for (int c = 0; c < 4; ++c) {
+        const double expected = bilinear_of_means(image, c, points.u[i], points.v[i], wrap, wrap);
+        // A texel of level 1 is rounded to 11 bits; the mean of nonnegative texels has no greater relative error. Nine
+        // roundings to float may each be off by half a unit of the greatest texel.
+        ASSERT_NEAR(values.channel[c][i], expected, expected * 0x1p-11 + 9 * 0x1p-24 * (c == 3 ? 1 : 65536)) << i;
+        most = std::max(most, values.channel[c][i]);
+      }
+    EXPECT_GT(most, 10000);
   }
 }
 
@@ -441,7 +493,8 @@ TEST(SamplerState, OneColourIsOneColourEverywhere) {
   for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
     const Texture textures[] = {Texture(Rgba8Image(37, 16, Rgba8{51, 200, 3, 99}), meaning),
                                 Texture(Rgba16Image(37, 16, Rgba16{51, 20000, 3, 99}), meaning),
-                                Texture(Plane<float4>(37, 16, float4{1e4f, 0.1f, 1e-40f, 0.3f}), meaning)};
+                                Texture(Plane<float4>(37, 16, float4{1e4f, 0.1f, 1e-40f, 0.3f}), meaning),
+                                Texture(Plane<float4>(37, 16, float4{1e4f, 0.125f, 0x1p-24f, 0.75f}), meaning)};
     Points centre;
     centre.add(0.5f, 0.5f);
     for (const Texture& texture : textures)
@@ -453,9 +506,43 @@ TEST(SamplerState, OneColourIsOneColourEverywhere) {
   }
 }
 
+/// All nonnegative finite half floats, the subnormal ones too.
+Plane<float4> all_halves() {
+  Plane<float4> image(248, 32);
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    const auto value = [&](std::size_t channel) { return half_value(static_cast<std::uint16_t>(4 * i + channel)); };
+    image.values()[i] = {value(0), value(1), value(2), std::min(value(3), 1.0f)};
+  }
+  return image;
+}
+
+TEST(SamplerState, EveryHalfFloatIsConvertedExactly) {
+  const Plane<float4> image = all_halves();
+  const Texture texture(image, TexelMeaning::Color);
+  ASSERT_NE(texture.view().halves, nullptr);
+  const SamplerState nearest =
+      make_filtering({.magnify = TexelFilter::Nearest, .minify = TexelFilter::Nearest, .level = LevelFilter::None});
+  for (int y = 0; y < image.height(); ++y)
+    for (const Isa isa : supported_isas()) {
+      Points points;
+      for (int x = 0; x < image.width(); ++x)
+        points.add((static_cast<float>(x) + 0.5f) / 248, (static_cast<float>(y) + 0.5f) / 32);
+      const Values values = look_up(texture, nearest, points, isa);
+      for (int x = 0; x < image.width(); ++x) {
+        const float4& p = image(x, y);
+        ASSERT_EQ(values.channel[0][x], p.x) << name_of(isa);
+        ASSERT_EQ(values.channel[1][x], p.y);
+        ASSERT_EQ(values.channel[2][x], p.z);
+        ASSERT_EQ(values.channel[3][x], p.w);
+      }
+    }
+}
+
 TEST(SamplerState, EveryInstructionSetGivesTheSameBits) {
   const Texture textures[] = {Texture(noise(64, 32), TexelMeaning::Color), Texture(noise(19, 44), TexelMeaning::Values),
-                              Texture(bright_noise(19, 44), TexelMeaning::Color)};
+                              Texture(bright_noise(19, 44), TexelMeaning::Color),
+                              Texture(half_noise(19, 44), TexelMeaning::Color),
+                              Texture(all_halves(), TexelMeaning::Color)};
   const auto filterings = all_filterings();
   for (int count = 0; count <= 128; ++count) {
     const Points points = wild_points(count, false);

@@ -9,12 +9,16 @@ namespace zoneplate {
 /// needed. Memory that is reserved but not committed counts towards no memory limit.
 class GrowingMemory {
  public:
+  /// Reserves nothing.
   GrowingMemory() = default;
   /// Reserves `size` bytes, aligned to a cache line; large sizes use large pages where the system has them.
   /// Errors    bad_alloc where the address space is too small.
   explicit GrowingMemory(std::size_t size);
+  ///@{
+  /// Takes over the memory; it stays at its address.
   GrowingMemory(GrowingMemory&& other) noexcept { *this = std::move(other); }
   GrowingMemory& operator=(GrowingMemory&& other) noexcept;
+  ///@}
   ~GrowingMemory();
 
   /// Commits the first `size` bytes; new bytes are zero.
@@ -22,6 +26,7 @@ class GrowingMemory {
   /// Errors    bad_alloc; the bytes committed before stay.
   void grow(std::size_t size);
 
+  /// The first byte, which never moves; null if nothing was reserved.
   std::byte* data() const { return data_; }
 
  private:

@@ -1,4 +1,5 @@
 #include "zoneplate/shade/texture/sample.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,21 @@ TEST(TextureSample, AnisotropicProbesKeepTheShortAxis) {
   const Texture texture = black_and_white();
   const Sampler sampler{.anisotropy = 16};
   EXPECT_GT(sample(texture, sampler, {0.75f, 0.5f}, {0.01f, 0}, {0, 4}).x, 0.9f);
+}
+
+TEST(TextureSample, AnEnvironmentMapKeepsItsSun) {
+  // Equirectangular radiance: it repeats along u and ends at the poles.
+  Plane<float4> radiance(8, 4, float4{0.25f, 0.5f, 1, 1});
+  radiance(0, 0) = {60000, 50016, 40000, 1};
+  const Texture texture(radiance, TexelMeaning::Color);
+  EXPECT_NE(texture.view().halves, nullptr);
+  const Sampler sampler{.wrap_u = Wrap::Repeat, .wrap_v = Wrap::Clamp};
+  EXPECT_EQ(sample(texture, sampler, {0.0625f, 0}, {}, {}), (float4{60000, 50016, 40000, 1}));
+  for (const float seam : {0.0f, 1.0f, -3.0f})
+    EXPECT_EQ(sample(texture, sampler, {seam, 0.1f}, {}, {}), (float4{30000.125f, 25008.25f, 20000.5f, 1}));
+  // The coarsest mip level is the mean of all directions.
+  const float mean = (60000 + 31 * 0.25f) / 32;
+  EXPECT_NEAR(sample(texture, sampler, {0.3f, 0.7f}, {2, 0}, {0, 2}).x, mean, mean * 0x1p-10f);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <type_traits>
 #include <utility>
@@ -9,8 +10,11 @@
 
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/half.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/material.h"
+#include "zoneplate/shade/texture/growing_memory.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -26,14 +30,30 @@ struct Size {
 
 /// A sum of weighted texels, and its mean: exact for unorm texels, rounded to the nearest.
 template <class Code>
-using Sum = std::conditional_t<std::is_floating_point_v<Code>, double, std::uint64_t>;
+using Sum = std::conditional_t<std::is_integral_v<Code>, std::uint64_t, double>;
+
+/// The texel as a term of a sum.
+template <class Code>
+Code term(Code code) {
+  return code;
+}
+float term(Half half) { return half_value(half.bits); }
+
+/// A mean as a texel of floats or half floats.
+template <class Code>
+Code rounded(double mean) {
+  if constexpr (std::is_same_v<Code, Half>)
+    return {half_bits(static_cast<float>(mean))};
+  else
+    return static_cast<Code>(mean);
+}
 
 template <class Code>
 Code mean_of(Sum<Code> sum, std::uint64_t total) {
-  if constexpr (std::is_floating_point_v<Code>)
-    return static_cast<Code>(sum / static_cast<double>(total));
-  else
+  if constexpr (std::is_integral_v<Code>)
     return static_cast<Code>((sum + total / 2) / total);
+  else
+    return rounded<Code>(sum / static_cast<double>(total));
 }
 
 /// The texels of one axis that a texel of a smaller image covers: `count` of them from `first`, by integer weights.
@@ -82,15 +102,15 @@ Code* row_of(Code* codes, const TextureView& view, int l, std::int32_t y) {
 /// Both sizes even: the mean of four.
 template <class Code>
 void halve_row(const Code* upper, const Code* lower, std::int32_t out_width, Code* out) {
-  using Four = std::conditional_t<std::is_floating_point_v<Code>, double, std::uint32_t>;
+  using Four = std::conditional_t<std::is_integral_v<Code>, std::uint32_t, double>;
   for (std::int32_t x = 0; x < out_width; ++x)
     for (int c = 0; c < 4; ++c) {
       const std::ptrdiff_t at = std::ptrdiff_t{8} * x + c;
-      const Four sum = Four{upper[at]} + upper[at + 4] + lower[at] + lower[at + 4];
-      if constexpr (std::is_floating_point_v<Code>)
-        out[std::ptrdiff_t{4} * x + c] = static_cast<Code>(sum * 0.25);
-      else
+      const Four sum = Four{term(upper[at])} + term(upper[at + 4]) + term(lower[at]) + term(lower[at + 4]);
+      if constexpr (std::is_integral_v<Code>)
         out[std::ptrdiff_t{4} * x + c] = static_cast<Code>((sum + 2) >> 2);
+      else
+        out[std::ptrdiff_t{4} * x + c] = rounded<Code>(sum * 0.25);
     }
 }
 
@@ -105,7 +125,7 @@ void shrink_row(const std::array<const Code*, 3>& source, const Cover& rows, Siz
       for (std::size_t j = 0; j < static_cast<std::size_t>(rows.count); ++j)
         for (std::int32_t i = 0; i < columns.count; ++i)
           sum += static_cast<Sum<Code>>(rows.weight[j] * columns.weight[i]) *
-                 source[j][std::ptrdiff_t{4} * (columns.first + i) + c];
+                 term(source[j][std::ptrdiff_t{4} * (columns.first + i) + c]);
       out[std::ptrdiff_t{4} * x + c] = mean_of<Code>(sum, total);
     }
   }
@@ -173,10 +193,44 @@ float clamped(float value, float most) { return value > 0 ? std::min(value, most
 
 float value_of(std::uint16_t code) { return static_cast<float>(code) / 65535.0f; }
 
+/// The texel of scene-linear colours and alpha, each within the range of a texture.
+float4 clamped(const float4& p, float most) {
+  return {clamped(p.x, most), clamped(p.y, most), clamped(p.z, most), clamped(p.w, 1)};
+}
+
+bool is_half(float value) { return half_value(half_bits(value)) == value; }
+
+/// True if half floats represent every clamped texel exactly.
+bool are_halves(const Plane<float4>& image, float most) {
+  std::atomic<bool> all = true;
+  parallel_ranges(static_cast<std::size_t>(image.height()), rows_per_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end && all.load(std::memory_order_relaxed); ++y)
+      if (!std::ranges::all_of(image.row(static_cast<int>(y)), [&](const float4& p) {
+            const float4 v = clamped(p, most);
+            return is_half(v.x) && is_half(v.y) && is_half(v.z) && is_half(v.w);
+          }))
+        all.store(false, std::memory_order_relaxed);
+  });
+  return all;
+}
+
 }  // namespace
 
+struct Texture::Levels {
+  void make_first_level(const TexelImage& image, TexelMeaning meaning);
+  void make_other_levels();
+  template <class Code, class Pixel, class Decode>
+  void fill(const Plane<Pixel>& image, const Code* TextureView::*texels, const Decode& decode);
+  template <class Code>
+  void make_levels(const Code* TextureView::*texels);
+
+  GrowingMemory memory;
+  std::size_t count = 0;  ///< of the texels of all levels, with what may be read after them
+  TextureView view;
+};
+
 template <class Code, class Pixel, class Decode>
-void Texture::fill(const Plane<Pixel>& image, const Code* TextureView::*texels, const Decode& decode) {
+void Texture::Levels::fill(const Plane<Pixel>& image, const Code* TextureView::*texels, const Decode& decode) {
   const auto decode_row = [&](std::int32_t y, Code* out) {
     for (const Pixel& p : image.row(y)) decode(p, out), out += 4;
   };
@@ -197,15 +251,14 @@ void Texture::fill(const Plane<Pixel>& image, const Code* TextureView::*texels, 
     smaller = std::move(half), size = fitted(size);
   }
 
-  count_ = lay_out(size, view_);
-  memory_ = GrowingMemory(count_ * 4 * sizeof(Code));
-  memory_.grow(view_.levels > 1 ? static_cast<std::size_t>(view_.offset[1]) * 4 * sizeof(Code)
-                                : count_ * 4 * sizeof(Code));
-  auto* const target = reinterpret_cast<Code*>(memory_.data());
-  view_.*texels = target;
+  count = lay_out(size, view);
+  memory = GrowingMemory(count * 4 * sizeof(Code));
+  memory.grow(view.levels > 1 ? static_cast<std::size_t>(view.offset[1]) * 4 * sizeof(Code) : count * 4 * sizeof(Code));
+  auto* const target = reinterpret_cast<Code*>(memory.data());
+  view.*texels = target;
   parallel_ranges(static_cast<std::size_t>(size.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
     for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
-      Code* const row = row_of(target, view_, 0, y);
+      Code* const row = row_of(target, view, 0, y);
       if (smaller.empty())
         decode_row(y, row);
       else
@@ -213,24 +266,24 @@ void Texture::fill(const Plane<Pixel>& image, const Code* TextureView::*texels, 
       close_row(row, size.width);
     }
   });
-  close_level(target, view_, 0);
+  close_level(target, view, 0);
 }
 
 /// Makes all levels from level 0, each from the level before it.
 template <class Code>
-void Texture::make_levels(const Code* TextureView::*texels) {
-  if (view_.*texels == nullptr) return;
-  memory_.grow(count_ * 4 * sizeof(Code));
-  auto* const codes = reinterpret_cast<Code*>(memory_.data());
-  for (std::int32_t l = 1; l < view_.levels; ++l) {
-    const Size from{view_.width[l - 1], view_.height[l - 1]}, to{view_.width[l], view_.height[l]};
+void Texture::Levels::make_levels(const Code* TextureView::*texels) {
+  if (view.*texels == nullptr) return;
+  memory.grow(count * 4 * sizeof(Code));
+  auto* const codes = reinterpret_cast<Code*>(memory.data());
+  for (std::int32_t l = 1; l < view.levels; ++l) {
+    const Size from{view.width[l - 1], view.height[l - 1]}, to{view.width[l], view.height[l]};
     const bool is_even = from.width % 2 == 0 && from.height % 2 == 0;
     parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
       for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
-        Code* const out = row_of(codes, view_, l, y);
+        Code* const out = row_of(codes, view, l, y);
         const Cover rows = cover(from.height, to.height, y);
         const auto source =
-            covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t) { return row_of(codes, view_, l - 1, at); });
+            covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t) { return row_of(codes, view, l - 1, at); });
         if (is_even)
           halve_row(source[0], source[1], to.width, out);
         else
@@ -238,11 +291,11 @@ void Texture::make_levels(const Code* TextureView::*texels) {
         close_row(out, to.width);
       }
     });
-    close_level(codes, view_, l);
+    close_level(codes, view, l);
   }
 }
 
-void Texture::make_first_level(const TexelImage& image, TexelMeaning meaning) {
+void Texture::Levels::make_first_level(const TexelImage& image, TexelMeaning meaning) {
   const bool is_color = meaning == TexelMeaning::Color;
   if (image.kind() == TexelKind::Codes16 && !image.empty()) {
     const std::vector<float> table = is_color ? decoded_srgb16() : std::vector<float>();
@@ -253,8 +306,15 @@ void Texture::make_first_level(const TexelImage& image, TexelMeaning meaning) {
   }
   if (image.kind() == TexelKind::Light && !image.empty()) {
     const float most = is_color ? 1e9f : 1.0f;
-    return fill(image.as<float4>(), &TextureView::values, [&](const float4& p, float* out) {
-      out[0] = clamped(p.x, most), out[1] = clamped(p.y, most), out[2] = clamped(p.z, most), out[3] = clamped(p.w, 1);
+    const Plane<float4>& light = image.as<float4>();
+    if (are_halves(light, most))
+      return fill(light, &TextureView::halves, [&](const float4& p, Half* out) {
+        const float4 v = clamped(p, most);
+        out[0] = {half_bits(v.x)}, out[1] = {half_bits(v.y)}, out[2] = {half_bits(v.z)}, out[3] = {half_bits(v.w)};
+      });
+    return fill(light, &TextureView::values, [&](const float4& p, float* out) {
+      const float4 v = clamped(p, most);
+      out[0] = v.x, out[1] = v.y, out[2] = v.z, out[3] = v.w;
     });
   }
   const Rgba8Image white(1, 1, Rgba8{255, 255, 255, 255});
@@ -269,26 +329,33 @@ void Texture::make_first_level(const TexelImage& image, TexelMeaning meaning) {
   });
 }
 
-/// Exactly one of the three is present.
-void Texture::make_other_levels() {
+/// Exactly one of the four is present.
+void Texture::Levels::make_other_levels() {
   make_levels(&TextureView::unorm8);
   make_levels(&TextureView::unorm15);
+  make_levels(&TextureView::halves);
   make_levels(&TextureView::values);
 }
 
-Texture::Texture(const TexelImage& image, TexelMeaning meaning) {
+Texture::Texture(const TexelImage& image, TexelMeaning meaning) : levels_(std::make_unique<Levels>()) {
   growing("texture levels", [&] {
-    make_first_level(image, meaning);
-    make_other_levels();
+    levels_->make_first_level(image, meaning);
+    levels_->make_other_levels();
   });
 }
 
-Texture::Texture(TexelImage&& image, TexelMeaning meaning) {
+Texture::Texture(TexelImage&& image, TexelMeaning meaning) : levels_(std::make_unique<Levels>()) {
   growing("texture levels", [&] {
-    make_first_level(image, meaning);
+    levels_->make_first_level(image, meaning);
     image = TexelImage();
-    make_other_levels();
+    levels_->make_other_levels();
   });
 }
+
+Texture::~Texture() = default;
+Texture::Texture(Texture&& other) noexcept = default;
+Texture& Texture::operator=(Texture&& other) noexcept = default;
+
+const TextureView& Texture::view() const { return levels_->view; }
 
 }  // namespace zoneplate

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/half.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -155,13 +157,14 @@ TEST(Texture, ColoursAreDecodedAndAlphaIsNot) {
   }
 }
 
-/// A level's values, without its border.
+/// A level's floats or half floats, without its border.
 std::vector<float> values_of(const TextureView& view, int level) {
   std::vector<float> values;
-  for (int y = 0; y < view.height[level]; ++y) {
-    const float* const row = view.values + std::ptrdiff_t{4} * view.texel(level, 0, y);
-    values.insert(values.end(), row, row + std::ptrdiff_t{4} * view.width[level]);
-  }
+  for (int y = 0; y < view.height[level]; ++y)
+    for (int i = 0; i < 4 * view.width[level]; ++i) {
+      const std::ptrdiff_t at = std::ptrdiff_t{4} * view.texel(level, 0, y) + i;
+      values.push_back(view.halves != nullptr ? half_value(view.halves[at].bits) : view.values[at]);
+    }
   return values;
 }
 
@@ -196,11 +199,68 @@ Plane<float4> bright_noise(int width, int height) {
   return image;
 }
 
+/// The image with every channel rounded to half floats.
+Plane<float4> rounded_to_halves(Plane<float4> image) {
+  for (float4& p : image.values())
+    for (float* const v : {&p.x, &p.y, &p.z, &p.w}) *v = half_value(half_bits(*v));
+  return image;
+}
+
+TEST(Texture, HalfFloatsStoreWhatTheyRepresentExactly) {
+  const auto stores_halves = [](float4 texel, TexelMeaning meaning = TexelMeaning::Color) {
+    Plane<float4> image(40, 40, float4{1, 2, 3, 1});
+    image(17, 33) = texel;
+    const Texture texture(image, meaning);
+    const TextureView& view = texture.view();
+    EXPECT_NE(view.halves != nullptr, view.values != nullptr);
+    const float4 expected = meaning == TexelMeaning::Color ? texel : float4{1, 1, 1, 1};
+    const std::size_t at = 4 * (33 * 40 + 17);
+    EXPECT_EQ(values_of(view, 0)[at], expected.x);
+    EXPECT_EQ(values_of(view, 0)[at + 3], expected.w);
+    return view.halves != nullptr;
+  };
+  EXPECT_TRUE(stores_halves({65504, 0x1p-24f, 0, 0.5f}));
+  EXPECT_TRUE(stores_halves({0x1p-14f, 2049 - 1, 1e4f, 1}));
+  EXPECT_FALSE(stores_halves({65536, 1, 1, 1}));
+  EXPECT_FALSE(stores_halves({0x1p-25f, 1, 1, 1}));
+  EXPECT_FALSE(stores_halves({2049, 1, 1, 1}));
+  EXPECT_FALSE(stores_halves({1, 1, 1, 0.1f}));
+  // Data are at most 1, which is a half float.
+  EXPECT_TRUE(stores_halves({65536, 1, 1, 1}, TexelMeaning::Values));
+}
+
+TEST(Texture, LevelsOfHalfFloatsAreRoundedMeansByArea) {
+  const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {6, 1}, {31, 33}};
+  for (const auto& size : sizes) {
+    const Plane<float4> image = rounded_to_halves(bright_noise(size[0], size[1]));
+    const Texture texture(image, TexelMeaning::Color);
+    const TextureView& view = texture.view();
+    ASSERT_NE(view.halves, nullptr);
+    for (int l = 1; l < view.levels; ++l) {
+      const auto source = values_of(view, l - 1), values = values_of(view, l);
+      const int w = view.width[l - 1], h = view.height[l - 1];
+      for (int t = 0; t < view.width[l] * view.height[l]; ++t)
+        for (int c = 0; c < 4; ++c) {
+          double sum = 0, total = 0;
+          for (int s = 0; s < w * h; ++s) {
+            const auto area = static_cast<double>(overlap(s % w, w, t % view.width[l], view.width[l]) *
+                                                  overlap(s / w, h, t / view.width[l], view.height[l]));
+            sum += area * source[static_cast<std::size_t>(4 * s + c)], total += area;
+          }
+          const float expected = half_value(half_bits(static_cast<float>(sum / total)));
+          ASSERT_EQ(values[static_cast<std::size_t>(4 * t + c)], expected)
+              << size[0] << "x" << size[1] << " level " << l;
+        }
+    }
+  }
+}
+
 TEST(Texture, LevelsOfFloatsAreMeansByArea) {
   const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {6, 1}, {31, 33}};
   for (const auto& size : sizes) {
     const Texture texture(bright_noise(size[0], size[1]), TexelMeaning::Color);
     const TextureView& view = texture.view();
+    ASSERT_NE(view.values, nullptr);
     for (int l = 1; l < view.levels; ++l) {
       const auto source = values_of(view, l - 1), values = values_of(view, l);
       const int w = view.width[l - 1], h = view.height[l - 1];

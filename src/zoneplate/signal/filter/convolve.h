@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "zoneplate/base/isa.h"
 #include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/signal/border.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/signal/filter/kernel.h"

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
 

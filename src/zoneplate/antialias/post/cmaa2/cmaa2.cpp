@@ -13,49 +13,13 @@
 #include <cstring>
 
 #include "zoneplate/antialias/post/bordered.h"
-#include "zoneplate/antialias/post/cmaa2/cmaa2_kernels.h"
+#include "zoneplate/antialias/post/cmaa2/edge_detection.h"
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/row_window.h"
 #include "zoneplate/image/transfer.h"
 
 namespace zoneplate {
-namespace scalar {
-namespace {
-
-void edge_row(const float* const (&rows)[4], float threshold, float contrast, std::uint8_t* edges, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float *above = rows[0] + i, *here = rows[1] + i, *below = rows[2] + i;
-    const auto between = [](float a, float b) { return std::abs(a - b); };
-    const float right = between(here[0], here[1]), down = between(here[0], below[0]);
-    const float ends_right =
-        std::max({between(above[0], here[0]), down, between(above[1], here[1]), between(here[1], below[1])});
-    const float ends_below =
-        std::max({between(here[-1], here[0]), right, between(below[-1], below[0]), between(below[0], below[1])});
-    const bool is_right = right - contrast * ends_right > threshold,
-               is_below = down - contrast * ends_below > threshold;
-    edges[i] = static_cast<std::uint8_t>(is_right | is_below << 1);
-  }
-}
-
-void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_t* shapes, std::uint8_t* bits,
-               std::size_t n) {
-  std::fill_n(bits, (n + 7) / 8, std::uint8_t{0});
-  for (std::size_t i = 0; i < n; ++i) {
-    const int shape = edges[i] | (*(edges + i - 1) & 1) << 2 | (above[i] & 2) << 2;
-    const bool has_corner = (shape & 5) != 0 && (shape & 10) != 0;
-    shapes[i] = static_cast<std::uint8_t>(shape);
-    bits[i / 8] = static_cast<std::uint8_t>(bits[i / 8] | has_corner << i % 8);
-  }
-}
-
-}  // namespace
-
-}  // namespace scalar
-
-template <>
-const Cmaa2Kernels PerIsa<Cmaa2Kernels>::scalar = {.edge_row = scalar::edge_row, .shape_row = scalar::shape_row};
-
 namespace antialias {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"
-#include "zoneplate/antialias/post/cmaa2/cmaa2_kernels.h"
+#include "zoneplate/antialias/post/cmaa2/edge_detection.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 

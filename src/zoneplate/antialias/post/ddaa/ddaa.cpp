@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "zoneplate/antialias/post/ddaa/ddaa_kernels.h"
+#include "zoneplate/antialias/post/ddaa/pixels.h"
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"

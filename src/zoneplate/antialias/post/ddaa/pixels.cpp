@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/post/ddaa/ddaa_kernels.h"
+#include "zoneplate/antialias/post/ddaa/pixels.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate::scalar {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/post/fxaa/console_kernels.h"
+#include "zoneplate/antialias/post/fxaa/console.h"
 
 namespace zoneplate::scalar {
 namespace {

@@ -1,6 +1,6 @@
 #include <hwy/highway.h>
 
-#include "zoneplate/antialias/post/fxaa/console_kernels.h"
+#include "zoneplate/antialias/post/fxaa/console.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {

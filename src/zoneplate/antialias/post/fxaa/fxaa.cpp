@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "zoneplate/antialias/post/encoded.h"
-#include "zoneplate/antialias/post/fxaa/console_kernels.h"
-#include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/antialias/post/fxaa/console.h"
+#include "zoneplate/antialias/post/fxaa/search.h"
 #include "zoneplate/antialias/post/post_process.h"
 #include "zoneplate/antialias/post/result_row.h"
 #include "zoneplate/antialias/post/rolling_rows.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"
-#include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/antialias/post/fxaa/search.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "zoneplate/antialias/post/fxaa/fxaa_kernels.h"
+#include "zoneplate/antialias/post/fxaa/search.h"
 
 namespace zoneplate {
 namespace scalar {

@@ -12,9 +12,9 @@
 #include <cstring>
 
 #include "zoneplate/antialias/post/encoded.h"
-#include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
+#include "zoneplate/antialias/post/mlaa/edge_detection.h"
 #include "zoneplate/antialias/post/post_process.h"
-#include "zoneplate/antialias/post/row_kernels.h"
+#include "zoneplate/antialias/post/rows.h"
 #include "zoneplate/antialias/post/smaa/tables.h"
 
 namespace zoneplate::antialias {

@@ -13,41 +13,10 @@
 #include <cstring>
 
 #include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/mlaa/edge_detection.h"
 #include "zoneplate/antialias/post/mlaa/mlaa.h"
-#include "zoneplate/antialias/post/mlaa/mlaa_kernels.h"
 
 namespace zoneplate {
-namespace scalar {
-namespace {
-
-bool differ(const std::uint8_t* a, const std::uint8_t* b, int least) {
-  return std::abs(a[0] - b[0]) >= least || std::abs(a[1] - b[1]) >= least || std::abs(a[2] - b[2]) >= least;
-}
-
-void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float *above = rows.row[1] + i, *here = rows.row[2] + i, *below = rows.row[3] + i;
-    const float left = std::abs(*here - *(here - 1)), top = std::abs(*here - *above);
-    const float greatest = std::max({left, top, std::abs(*here - here[1]), std::abs(*here - *below)});
-    const bool is_left = left >= threshold && 2 * left >= greatest, is_top = top >= threshold && 2 * top >= greatest;
-    edges[i] = static_cast<std::uint8_t>(is_left | is_top << 1);
-  }
-}
-
-void edges_row(const std::uint8_t* above, const std::uint8_t* here, int least, std::uint8_t* edges, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool is_left = i > 0 && differ(here + 4 * i, here + 4 * i - 4, least);
-    edges[i] = static_cast<std::uint8_t>(is_left | differ(here + 4 * i, above + 4 * i, least) << 1);
-  }
-}
-
-}  // namespace
-
-}  // namespace scalar
-
-template <>
-const MlaaKernels PerIsa<MlaaKernels>::scalar = {.luma_edges = scalar::luma_edges, .edges_row = scalar::edges_row};
-
 namespace antialias {
 
 float split_height(int near, int across, int beyond, int beyond_near) {

@@ -8,9 +8,10 @@
 
 #include "zoneplate/antialias/post/edge_rows.h"
 #include "zoneplate/antialias/post/encoded.h"
-#include "zoneplate/antialias/post/row_kernels.h"
-#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
+#include "zoneplate/antialias/post/rows.h"
+#include "zoneplate/antialias/post/smaa/edge_detection_lanes.h"
 #include "zoneplate/antialias/post/smaa/smaa.h"
+#include "zoneplate/math/lanes.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -37,26 +38,6 @@ std::uint8_t edges_of(T to_left, T to_top, T greatest, Least<T> least) {
   const bool is_left = to_left >= least.left && to_left + to_left >= greatest;
   const bool is_top = to_top >= least.top && to_top + to_top >= greatest;
   return static_cast<std::uint8_t>(is_left | is_top << 1);
-}
-
-template <class Threshold>
-void find_luma_edges(const EdgeRows<float>& rows, const Threshold& threshold, std::uint8_t* edges, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float *above2 = rows.row[0] + i, *above = rows.row[1] + i, *here = rows.row[2] + i, *below = rows.row[3] + i;
-    const float to_left = std::abs(here[0] - here[-1]), to_top = std::abs(here[0] - above[0]);
-    const float greatest = std::max({to_left, to_top, std::abs(here[0] - here[1]), std::abs(here[0] - below[0]),
-                                     std::abs(here[-1] - here[-2]), std::abs(above[0] - above2[0])});
-    edges[i] = edges_of(to_left, to_top, greatest, least_of(threshold, edges + i));
-  }
-}
-
-void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  find_luma_edges(rows, threshold, edges, n);
-}
-
-void predicated_luma_edges(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
-                           std::uint8_t* edges, std::size_t n) {
-  find_luma_edges(rows, threshold, edges, n);
 }
 
 std::uint32_t difference(std::uint32_t a, std::uint32_t b) {
@@ -95,10 +76,11 @@ void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const Predicate
 }  // namespace scalar
 
 template <>
-const SmaaKernels PerIsa<SmaaKernels>::scalar = {.luma_edges = scalar::luma_edges,
-                                                 .color_edges = scalar::color_edges,
-                                                 .predicated_luma_edges = scalar::predicated_luma_edges,
-                                                 .predicated_color_edges = scalar::predicated_color_edges};
+const SmaaKernels PerIsa<SmaaKernels>::scalar = {
+    .luma_edges = stages::smaa_luma_edges<scalar::Float, scalar::OneFloat>,
+    .color_edges = scalar::color_edges,
+    .predicated_luma_edges = stages::smaa_predicated_luma_edges<scalar::Float, scalar::OneFloat>,
+    .predicated_color_edges = scalar::predicated_color_edges};
 
 namespace antialias {
 namespace {

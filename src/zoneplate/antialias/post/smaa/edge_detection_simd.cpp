@@ -1,7 +1,8 @@
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/edges_simd.h"
-#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
+#include "zoneplate/antialias/post/smaa/edge_detection_lanes.h"
+#include "zoneplate/math/lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -26,40 +27,6 @@ HWY_INLINE Least<hn::Vec<D>> least_of(D d, const PredicatedThreshold<T>& thresho
   const auto plain = hn::Set(d, threshold.plain), other = hn::Set(d, threshold.crossed);
   const auto left = hn::TestBit(bits, hn::Set(du, 1)), top = hn::TestBit(bits, hn::Set(du, 2));
   return {hn::IfThenElse(hn::RebindMask(d, left), other, plain), hn::IfThenElse(hn::RebindMask(d, top), other, plain)};
-}
-
-template <class D, class Threshold>
-HWY_INLINE void luma_edges_some(D d, const EdgeRows<float>& rows, const Threshold& threshold, std::uint8_t* edges,
-                                std::size_t i) {
-  const hn::RebindToUnsigned<D> du;
-  const float *above2 = rows.row[0] + i, *above = rows.row[1] + i, *here = rows.row[2] + i, *below = rows.row[3] + i;
-  const auto least = least_of(d, threshold, edges + i);
-  const auto m = hn::LoadU(d, here), l = hn::LoadU(d, here - 1), t = hn::LoadU(d, above);
-  const auto to_left = hn::Abs(hn::Sub(m, l)), to_top = hn::Abs(hn::Sub(m, t));
-  const auto is_left = hn::Ge(to_left, least.left), is_top = hn::Ge(to_top, least.top);
-  if (hn::AllFalse(d, hn::Or(is_left, is_top))) {
-    const hn::Rebind<std::uint8_t, D> bytes;
-    hn::StoreU(hn::Zero(bytes), bytes, edges + i);
-    return;
-  }
-  const auto to_right = hn::Abs(hn::Sub(m, hn::LoadU(d, here + 1)));
-  const auto to_bottom = hn::Abs(hn::Sub(m, hn::LoadU(d, below)));
-  const auto far_left = hn::Abs(hn::Sub(l, hn::LoadU(d, here - 2)));
-  const auto far_top = hn::Abs(hn::Sub(t, hn::LoadU(d, above2)));
-  const auto near = hn::Max(hn::Max(to_left, to_top), hn::Max(to_right, to_bottom));
-  const auto greatest = hn::Max(near, hn::Max(far_left, far_top));
-  const auto left = hn::And(is_left, hn::Ge(hn::Add(to_left, to_left), greatest));
-  const auto top = hn::And(is_top, hn::Ge(hn::Add(to_top, to_top), greatest));
-  store_edges(du, hn::RebindMask(du, left), hn::RebindMask(du, top), edges + i);
-}
-
-void luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n) {
-  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
-}
-
-void predicated_luma_edges(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
-                           std::uint8_t* edges, std::size_t n) {
-  for_lanes(n, [&](auto d, std::size_t i) HWY_ATTR { luma_edges_some(d, rows, threshold, edges, i); });
 }
 
 /// The greatest difference of the three colours of each pixel.
@@ -116,8 +83,8 @@ HWY_AFTER_NAMESPACE();
 namespace zoneplate {
 template <>
 const SmaaKernels PerIsa<SmaaKernels>::HWY_NAMESPACE = {
-    .luma_edges = HWY_NAMESPACE::luma_edges,
+    .luma_edges = stages::smaa_luma_edges<HWY_NAMESPACE::Float, HWY_NAMESPACE::OneFloat>,
     .color_edges = HWY_NAMESPACE::color_edges,
-    .predicated_luma_edges = HWY_NAMESPACE::predicated_luma_edges,
+    .predicated_luma_edges = stages::smaa_predicated_luma_edges<HWY_NAMESPACE::Float, HWY_NAMESPACE::OneFloat>,
     .predicated_color_edges = HWY_NAMESPACE::predicated_color_edges};
 }  // namespace zoneplate

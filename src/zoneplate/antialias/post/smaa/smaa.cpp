@@ -46,6 +46,7 @@ constexpr Preset presets[] = {
 constexpr std::string_view preset_names[] = {"low", "medium", "high", "ultra"};
 constexpr std::string_view edges_names[] = {"luma", "color", "depth"};
 constexpr std::string_view modes[] = {"1x", "s2x"};
+constexpr std::string_view mixings[] = {"light", "codes"};
 constexpr std::string_view predications[] = {"none", "depth", "objects"};
 constexpr Param params[] = {
     {.name = "preset",
@@ -76,6 +77,10 @@ constexpr Param params[] = {
      .low = 0,
      .high = 1,
      .decimals = 2},
+    {.name = "mix",
+     .meaning = "blending in linear light or in sRGB-encoded values (codes)",
+     .value = 0,
+     .names = mixings},
 };
 
 /// The contents of the predication buffer.
@@ -92,8 +97,11 @@ SmaaOptions options_of(const Settings& s) {
   o.predication_threshold = s.number("pthreshold");
   o.predication_scale = s.number("pscale");
   o.predication_strength = s.number("pstrength");
+  o.mixes_light = s.chosen("mix") == "light";
   return o;
 }
+
+Mixing mixing_of(const SmaaOptions& options) { return options.mixes_light ? Mixing::Linear : Mixing::Encoded; }
 
 /// A plane of the same size whose values are those of another plane, changed by `change`.
 template <class T, class Change>
@@ -115,7 +123,7 @@ class Smaa : public Resolver {
   DisplayImage post_process(DisplayImage image, const Frame& frame) override {
     const Plane<float> predicate = predication_buffer(frame);
     const Plane<float>& depth = options_.is_predicated ? predicate : frame.reversed_depth;
-    return filter_encoded(std::move(image), Mixing::Linear,
+    return filter_encoded(std::move(image), mixing_of(options_),
                           [&](const Rgba8Image& i) { return apply_smaa(i, &depth, options_); });
   }
 
@@ -133,12 +141,13 @@ class Smaa : public Resolver {
   Predication predication_;
 };
 
-/// The mean of two display-referred images in linear light, premultiplied.
-Display mean_light(const Display& a, const Display& b) {
+/// The mean of two display-referred pixels, premultiplied.
+Display mean_of(const Display& a, const Display& b, Mixing mixing) {
   if (a == b) return a;
   const float alpha = (a.a + b.a) / 2;
   if (!(alpha > 0)) return {0, 0, 0, 0};
   const auto mean = [&](float p, float q) {
+    if (mixing == Mixing::Encoded) return (p * a.a + q * b.a) / (2 * alpha);
     return encode_srgb((decode_srgb(p) * a.a + decode_srgb(q) * b.a) / (2 * alpha));
   };
   return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
@@ -161,11 +170,12 @@ class SmaaS2x : public Resolver {
     for (std::size_t s = 0; s < 2; ++s) {
       SmaaOptions options = options_;
       options.slots = slots[s];
-      treated[s] = filter_encoded(make_display(frame.sample_color[s], frame.display), Mixing::Linear,
+      treated[s] = filter_encoded(make_display(frame.sample_color[s], frame.display), mixing_of(options),
                                   [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
     }
     for_rows(image.height(), [&](int y) {
-      for (int x = 0; x < image.width(); ++x) image(x, y) = mean_light(treated[0](x, y), treated[1](x, y));
+      for (int x = 0; x < image.width(); ++x)
+        image(x, y) = mean_of(treated[0](x, y), treated[1](x, y), mixing_of(options_));
     });
     return image;
   }

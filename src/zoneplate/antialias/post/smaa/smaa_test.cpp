@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/antialias/post/smaa/edge_detection_kernels.h"
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/smaa/edge_detection.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -124,6 +126,31 @@ TEST(Smaa, OutputsHaveTheirBits) {
   EXPECT_EQ(hash({.threshold = 0.05, .steps = 32, .diagonal_steps = 16}), 0xca556196d0ef9648u);
   EXPECT_EQ(hash({.slots = {1, 1, 1, 0}}), 0xd95b6c422f7c91e9u);
   EXPECT_EQ(hash({.steps = 112, .diagonal_steps = 20, .mixes_light = false}), 0xc81311afcfdf17a6u);
+}
+
+TEST(Smaa, MixCodesBlendsEncodedValues) {
+  const Rgba8Image image = random_shapes(60, 40, 1);
+  DisplayImage display(60, 40);
+  std::ranges::transform(image.values(), display.values().begin(), [](Rgba8 c) {
+    return Display{unorm8_value[c.r], unorm8_value[c.g], unorm8_value[c.b], unorm8_value[c.a]};
+  });
+  const auto filtered = [&](const char* method) {
+    return quantize8(make_resolver(methods(), method)->post_process(display, Frame()));
+  };
+  EXPECT_EQ(filtered("smaa:mix=codes"), apply_smaa(image, nullptr, {.mixes_light = false}));
+  EXPECT_EQ(filtered("smaa:mix=light"), apply_smaa(image, nullptr, {}));
+  EXPECT_EQ(filtered("smaa"), filtered("smaa:mix=light"));
+  EXPECT_NE(filtered("smaa"), filtered("smaa:mix=codes"));
+
+  // S2x: the mean of a black and a white sample.
+  Frame frame;
+  frame.sample_color = {LinearImage(4, 4, {0, 0, 0, 1}), LinearImage(4, 4, {1, 1, 1, 1})};
+  frame.sample_depth = {Plane<float>(4, 4), Plane<float>(4, 4)};
+  const auto mean = [&](const char* method) {
+    return make_resolver(methods(), method)->post_process(DisplayImage(4, 4), frame)(2, 2).g;
+  };
+  EXPECT_EQ(mean("smaa:mode=s2x,mix=codes"), 0.5f);
+  EXPECT_NEAR(mean("smaa:mode=s2x"), encode_srgb(0.5f), 1e-6);
 }
 
 /// An image with texture of small contrast, and a predication buffer of steps, slopes and infinities.

@@ -19,11 +19,9 @@ Line line_through(Place p, Place q) {
 
 }  // namespace
 
-AlphaEdges::AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
-                       int grid, float part_footprint, float footprint)
-    : grid_(grid),
-      coarse_(projected, shader, isa, target, part_footprint),
-      fine_(projected, shader, isa, target, footprint) {}
+AlphaEdges::AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
+                       float part_footprint, float footprint)
+    : grid_(grid), coarse_(projected, shader, target, part_footprint), fine_(projected, shader, target, footprint) {}
 
 std::uint32_t AlphaEdges::add_query(int x, int y, std::int32_t id, std::uint32_t part) {
   const auto grid = static_cast<std::uint32_t>(grid_);

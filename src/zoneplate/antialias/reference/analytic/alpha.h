@@ -14,8 +14,8 @@ namespace zoneplate::antialias {
 /// Computes the difference of alpha and cutoff of alpha-tested triangles, for one footprint.
 class AlphaTester {
  public:
-  AlphaTester(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, Target target, float spacing)
-      : target_(std::move(target)), shader_(projected, shader, isa, target_) {
+  AlphaTester(const ProjectedDraws& projected, const FragmentShader& shader, Target target, float spacing)
+      : target_(std::move(target)), shader_(projected, shader, target_) {
     target_.spacing = spacing;
   }
   AlphaTester(const AlphaTester&) = delete;  // the shader refers to this target
@@ -50,7 +50,7 @@ class AlphaEdges {
  public:
   static constexpr int cells = 4;  ///< squares along the side of a part
 
-  AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target, int grid,
+  AlphaEdges(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
              float part_footprint, float footprint);
 
   void clear() { queries_.clear(); }

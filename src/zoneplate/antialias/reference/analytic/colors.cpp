@@ -18,15 +18,15 @@ Fragment point_of(const AreaFragment& f, std::int32_t id) {
 
 }  // namespace
 
-AreaFragmentColors::Group::Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Isa isa,
-                                 Target of, float spacing)
-    : target(std::move(of)), shader(projected, point_shader, isa, target) {
+AreaFragmentColors::Group::Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Target of,
+                                 float spacing)
+    : target(std::move(of)), shader(projected, point_shader, target) {
   target.spacing = spacing;
 }
 
-AreaFragmentColors::AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa,
+AreaFragmentColors::AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader,
                                        const Target& target, Footprints footprints)
-    : parts_(projected, shader, isa, target, footprints.part), fine_(projected, shader, isa, target, footprints.fine) {}
+    : parts_(projected, shader, target, footprints.part), fine_(projected, shader, target, footprints.fine) {}
 
 void AreaFragmentColors::find(const AreaFragmentTable& table) {
   seen_.clear();

@@ -19,7 +19,7 @@ struct Footprints {
 /// Computes the colours of fragments: shades their layers and composites them from far to near.
 class AreaFragmentColors {
  public:
-  AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
+  AreaFragmentColors(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target,
                      Footprints footprints);
 
   void find(const AreaFragmentTable& table);
@@ -32,8 +32,8 @@ class AreaFragmentColors {
  private:
   /// Fragments of one footprint, with the indices of their colours.
   struct Group {
-    Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Isa isa, Target of, float spacing);
-    Group(const Group&) = delete;  // the shader refers to this target
+    Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Target of, float spacing);
+    Group(const Group&) = delete;  // the shader looks at this target
     Target target;
     FragmentBatcher shader;
     std::vector<Fragment> points;

@@ -28,13 +28,13 @@ double depth_at(const PixelTriangle& t, Place p) { return (t.z + t.zx * p.x) + t
 
 }  // namespace
 
-CrowdSampler::CrowdSampler(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
+CrowdSampler::CrowdSampler(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target,
                            const PolynomialFilter& filter, int shading, int grid, Footprints footprints)
     : filter_(filter),
       shading_(shading),
       grid_(grid),
-      alpha_(projected, shader, isa, target, footprints.alpha),
-      colors_(projected, shader, isa, target, footprints),
+      alpha_(projected, shader, target, footprints.alpha),
+      colors_(projected, shader, target, footprints),
       members_(SampleNet::deepest + 2),
       table_(SampleNet::groups * filter.weight_count()) {
   for_grid(unit_square(), {0, 0}, 1.0 / squares, squares, [&](int, int, const ConvexPolygon& square) {

@@ -35,7 +35,7 @@ class CrowdSampler {
     double r = 0, g = 0, b = 0, a = 0, variance = 0;
   };
 
-  CrowdSampler(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target,
+  CrowdSampler(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target,
                const PolynomialFilter& filter, int shading, int grid, Footprints footprints);
 
   /// Samples the pixel (x, y).

@@ -85,12 +85,11 @@ class TileIntegrator {
       : whole_(whole),
         list_(whole.filter, whole.options.shading),
         masked_list_(whole.filter, whole.options.shading),
-        colors_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target, footprints(whole)),
-        masked_colors_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target, footprints(whole)),
-        masks_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target, fine_grid(whole),
-               footprints(whole)),
-        crowd_(whole.projected, whole.drawing.shader, whole.drawing.rules.isa, whole.target, whole.filter,
-               whole.options.shading, crowd_grid(whole), crowd_footprints(whole)) {}
+        colors_(whole.projected, whole.drawing.shader, whole.target, footprints(whole)),
+        masked_colors_(whole.projected, whole.drawing.shader, whole.target, footprints(whole)),
+        masks_(whole.projected, whole.drawing.shader, whole.target, fine_grid(whole), footprints(whole)),
+        crowd_(whole.projected, whole.drawing.shader, whole.target, whole.filter, whole.options.shading,
+               crowd_grid(whole), crowd_footprints(whole)) {}
 
   void draw(std::size_t tile) {
     if (whole_.triangles.of_tile(tile).empty()) return;
@@ -264,7 +263,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   const Target& target = drawing.target;
   // Of the draws that are not kept, a triangle's vertices are transformed where it is looked at.
   ProjectedDraws projected = number_draws(drawing.draws, target.viewport, drawing.rules.capacity.screen_vertices);
-  project_kept(projected, drawing.rules.isa);
+  project_kept(projected);
   const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};
   TileTriangles triangles(projected, target, rules, filter.reach());
   drawing.counts.geometry_ms = geometry.ms();

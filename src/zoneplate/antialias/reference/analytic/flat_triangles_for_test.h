@@ -64,7 +64,6 @@ class FlatTriangles : public FragmentShader {
     });
   }
   RenderOptions render_options;
-  Isa isa = current_isa();
   mutable RasterCounts counts;  ///< of the last image that `analytic` or `converged` drew
 
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
@@ -118,7 +117,7 @@ class FlatTriangles : public FragmentShader {
     target.color = &image;
     if (coverage) *coverage = Plane<float>(c.width, c.height), target.coverage = coverage;
     if (error) *error = Plane<float>(c.width, c.height);
-    const RasterRules rules{.isa = isa};
+    const RasterRules rules;
     counts = {};
     RasterMemory memory;
     use(CustomDraw{draws, *this, rules, target, render_options, error, counts, memory});

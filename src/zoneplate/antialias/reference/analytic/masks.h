@@ -15,9 +15,9 @@ class MaskedPolygons {
  public:
   static constexpr std::size_t most_triangles = 8;  ///< alpha-tested ones in a pixel
 
-  MaskedPolygons(const ProjectedDraws& projected, const FragmentShader& shader, Isa isa, const Target& target, int grid,
+  MaskedPolygons(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
                  Footprints footprints)
-      : grid_(grid), edges_(projected, shader, isa, target, grid, footprints.alpha_part, footprints.alpha) {}
+      : grid_(grid), edges_(projected, shader, target, grid, footprints.alpha_part, footprints.alpha) {}
 
   void clear();
   /// The number of pending polygons and alpha queries.

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/image/rgb.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// The ending of a path in lower case, with its dot.
+std::string extension_of(const std::string& path);
+
+/// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp. JPEG has no alpha.
+///
+/// The file is written whole or not at all.
+/// Errors    ErrorKind::Usage for another ending; ErrorKind::Output naming the file.
+void save_image(const std::string& path, const Rgba8Image& image);
+
+/// Saves a scene-linear, premultiplied image in the format of the path's ending: .exr (half floats, with alpha) or .pfm
+/// (without alpha).
+///
+/// Errors    as above.
+void save_image(const std::string& path, const LinearImage& image);
+
+}  // namespace zoneplate

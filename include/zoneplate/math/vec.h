@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cmath>
+
+#include "zoneplate/base/api.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// Two floats: a texture coordinate, or a position or displacement in the image plane.
+struct float2 {
+  float x = 0, y = 0;  ///< components
+  bool operator==(const float2&) const = default;
+};
+
+/// Three floats: a position or direction in space, or a linear colour (x: red, y: green, z: blue).
+struct float3 {
+  float x = 0, y = 0, z = 0;  ///< components
+  bool operator==(const float3&) const = default;
+};
+
+/// Four floats: a homogeneous position, a tangent with its sign, or a colour with alpha (w).
+struct float4 {
+  float x = 0, y = 0, z = 0, w = 0;  ///< components
+  bool operator==(const float4&) const = default;
+};
+
+/// Two integers: a pixel, or the width and height of an image.
+struct int2 {
+  int x = 0, y = 0;  ///< components
+  bool operator==(const int2&) const = default;
+};
+
+///@{
+/// Arithmetic by component; a scalar multiplies every component.
+constexpr float2 operator+(float2 a, float2 b) { return {a.x + b.x, a.y + b.y}; }
+constexpr float2 operator-(float2 a, float2 b) { return {a.x - b.x, a.y - b.y}; }
+constexpr float2 operator*(float2 a, float2 b) { return {a.x * b.x, a.y * b.y}; }
+constexpr float2 operator*(float2 a, float s) { return {a.x * s, a.y * s}; }
+constexpr float2 operator*(float s, float2 a) { return a * s; }
+
+constexpr float3 operator+(float3 a, float3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr float3 operator-(float3 a, float3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr float3 operator-(float3 a) { return {-a.x, -a.y, -a.z}; }
+constexpr float3 operator*(float3 a, float3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+constexpr float3 operator*(float3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+constexpr float3 operator*(float s, float3 a) { return a * s; }
+constexpr float3& operator+=(float3& a, float3 b) { return a = a + b; }
+
+constexpr float4 operator+(float4 a, float4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
+constexpr float4 operator-(float4 a, float4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
+constexpr float4 operator*(float4 a, float4 b) { return {a.x * b.x, a.y * b.y, a.z * b.z, a.w * b.w}; }
+constexpr float4 operator*(float4 a, float s) { return {a.x * s, a.y * s, a.z * s, a.w * s}; }
+constexpr float4 operator*(float s, float4 a) { return a * s; }
+///@}
+
+///@{
+/// The dot product, summed in the order x, y, z, w.
+constexpr float dot(float2 a, float2 b) { return a.x * b.x + a.y * b.y; }
+constexpr float dot(float3 a, float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr float dot(float4 a, float4 b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+///@}
+/// The cross product: +x × +y = +z.
+constexpr float3 cross(float3 a, float3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+///@{
+/// The Euclidean length.
+inline float length(float2 a) { return std::sqrt(dot(a, a)); }
+inline float length(float3 a) { return std::sqrt(dot(a, a)); }
+///@}
+
+/// The direction of `a`, or `otherwise` where a has no direction (zero length).
+inline float3 normalize(float3 a, float3 otherwise = {0, 0, 0}) {
+  const float n = length(a);
+  return n > 0 ? float3{a.x / n, a.y / n, a.z / n} : otherwise;
+}
+
+/// The first three components, without a division by w.
+constexpr float3 xyz(float4 a) { return {a.x, a.y, a.z}; }
+/// True if no component is infinite or NaN.
+inline bool is_finite(float3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+}  // namespace zoneplate

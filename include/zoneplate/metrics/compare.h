@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/metrics/metric.h"
+
+namespace zoneplate {
+namespace ZONEPLATE_API metrics {
+
+/// Pairs of images to compare; each is loaded once, in order, and released when it has been measured.
+struct Comparands {
+  std::size_t count = 0;                                ///< the number of pairs
+  std::function<Picture(std::size_t)> reference, test;  ///< make picture i of [0, count)
+  bool are_frames = false;  ///< the images are frames of one sequence, so that metrics over several frames apply
+};
+
+/// What to do with a metric that does not apply to the images (too small, too few, without the measured feature).
+enum class Unfit {
+  Leave,   ///< omit the metric
+  Refuse,  ///< ErrorKind::Input
+};
+
+/// The result of one metric.
+struct Result {
+  const Metric* metric = nullptr;  ///< a row of the catalogue, never null in a Comparison
+  double value = 0;                ///< pooled over all images
+  std::vector<double> values;      ///< of each image, or of each run of `metric->frames` frames
+  std::size_t worst = 0;           ///< the index of the worst of `values`
+  Score score;                     ///< the map, curves and additional figures of the worst image
+};
+
+/// The results of all metrics.
+struct Comparison {
+  bool are_same = true;         ///< every pair has the same encoded values, including alpha
+  int width = 0, height = 0;    ///< pixels of the last test picture
+  std::size_t count = 0;        ///< the number of pairs that were compared
+  std::vector<Result> results;  ///< in the order of the choices, without omitted ones
+};
+
+/// Measures images with metrics.
+///
+/// Requires  count > 0.
+/// Errors    ErrorKind::Input naming the image's index and sizes if a metric requires other sizes; otherwise as in Unfit.
+Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit);
+
+/// The metrics that are measured when the user names none.
+std::vector<Choice> default_choices(std::span<const Metric> catalogue);
+
+/// True where `value` is `threshold` or better.
+bool is_as_good(const Metric& metric, double value, double threshold);
+
+}  // namespace metrics
+}  // namespace zoneplate

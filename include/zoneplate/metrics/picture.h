@@ -1,0 +1,54 @@
+#pragma once
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate {
+namespace ZONEPLATE_API metrics {
+
+/// The input of metrics: the same image as display-referred values and in linear light.
+struct Picture {
+  DisplayImage display;          ///< straight alpha
+  LinearImage linear;            ///< premultiplied
+  bool is_scene_linear = false;  ///< `display` was made from `linear`, not the other way round
+
+  /// Pixels in a row; both images have the same size.
+  int width() const { return display.width(); }
+  /// Rows of pixels.
+  int height() const { return display.height(); }
+};
+
+/// From display-referred values; linear light is their decoded value.
+Picture make_picture(DisplayImage display);
+
+/// From linear light; the display-referred values are clamped and encoded, without tone mapping.
+Picture make_picture(LinearImage linear);
+
+/// The image over black: each encoded value times alpha. Metrics measure this unless they state otherwise.
+struct Codes {
+  double r = 0, g = 0, b = 0;  ///< sRGB values times alpha, in [0, 1]
+};
+/// A colour over black, composited in codes.
+constexpr Codes codes_on_black(Display c) {
+  const double alpha = c.a;
+  return {c.r * alpha, c.g * alpha, c.b * alpha};
+}
+
+/// Weights of red, green and blue.
+struct LumaWeights {
+  double r = 0, g = 0, b = 0;  ///< they sum to 1
+};
+constexpr LumaWeights rec709_luma{0.2126, 0.7152, 0.0722};  ///< ITU-R BT.709-6
+constexpr LumaWeights rec601_luma{0.299, 0.587, 0.114};     ///< ITU-R BT.601-7
+
+/// Luma: the weighted sum of encoded values (not of linear light).
+constexpr double luma(Codes c, LumaWeights w = rec709_luma) { return w.r * c.r + w.g * c.g + w.b * c.b; }
+
+/// The luma of every pixel of an image on black.
+Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights = rec709_luma);
+
+/// Rec.709 luminance of every pixel of an image on black, in linear light.
+Plane<double> luminance_plane(const LinearImage& image);
+
+}  // namespace metrics
+}  // namespace zoneplate

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "zoneplate/base/api.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// At which of the samples that a triangle covers an alpha-tested surface is present.
+enum class AlphaTest {
+  Pixel,     ///< at all or none, by the alpha of the fragment
+  Samples,   ///< by the alpha at each sample
+  Coverage,  ///< at a number of samples in proportion to alpha (alpha to coverage)
+  Sharp,     ///< alpha to coverage of alpha sharpened to an edge one pixel wide
+};
+
+/// Where in a pixel a surface is shaded that owns a part of its samples. A surface that owns all of them is shaded at
+/// the pixel's centre.
+enum class Centroid {
+  Mean,    ///< at the mean of the samples that it owns
+  First,   ///< at the first of them
+  Centre,  ///< at the pixel's centre, even if it lies outside the triangle: the weights are clamped
+};
+
+}  // namespace zoneplate

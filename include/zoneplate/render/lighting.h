@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/scene/scene.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// The lights and the environment of a scene.
+struct Lighting {
+  std::vector<Light> lights;      ///< in world space or camera space
+  Environment environment;        ///< without an image: constant radiance
+  float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
+};
+
+/// Changes to the lighting of a scene.
+struct LightingOptions {
+  float intensity = 1;                ///< multiplies every light
+  std::optional<float3> environment;  ///< linear radiance of a constant environment in place of the scene's own
+};
+
+/// The scene's own lighting, changed by the options.
+///
+/// A scene without lights gets the default ones and their environment (scene/default_lights.h), unless the options
+/// give an environment; in a scene of (Blinn-)Phong materials alone the default lights are divided by π, which the
+/// diffuse term of these models lacks. The environment's radiance is also the ambient light of (Blinn-)Phong materials
+/// where the scene has none.
+/// Errors    ErrorKind::Input for a scene with an environment image.
+Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});
+
+/// Lights the scene by make_lighting without options: a scene that has lights keeps them.
+void light_unlit(Scene& scene);
+
+/// Gives a material another shading model, and the nearest parameters that the model has.
+void convert_material(Material& material, ShadingModel model);
+
+}  // namespace zoneplate

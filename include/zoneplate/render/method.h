@@ -1,0 +1,115 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/base/spec.h"
+#include "zoneplate/raster/types/sampling.h"
+#include "zoneplate/render/frame.h"
+#include "zoneplate/signal/samples.h"
+
+namespace zoneplate {
+struct CustomDraw;  // render/custom_draw.h
+}  // namespace zoneplate
+
+namespace ZONEPLATE_API zoneplate {
+
+/// How often a surface is shaded.
+enum class Rate {
+  Surface,  ///< once per pixel and triangle (multisampling)
+  Sample,   ///< once per sample (supersampling)
+};
+
+/// The quantity that is evaluated at the samples of a frame.
+enum class Content {
+  Colour,         ///< radiance: materials and lights are evaluated, which is called shading
+  Geometry,       ///< without shading: Frame::sample_geometry
+  EdgeDistances,  ///< without shading: Frame::edge_distance, of requests with one sample
+  Data,           ///< the planes of `planes` without any colour: materials are evaluated for normal, albedo and uv only
+  Visibility,     ///< only the triangle of each sample: `planes.sample_triangles`, or with its depth: `samples`
+};
+
+/// What a method requires of the renderer for one frame.
+///
+/// Tiles resolve the colour while it is in the cache: a mean of the samples, weighted by `weights`. Planes of samples
+/// are stored only if the method requests them.
+struct Request {
+  SamplePattern samples = {SamplePosition{}};  ///< positions in every pixel; by default one, in the centre
+  Content content = Content::Colour;           ///< other contents leave Frame::color and the data passes by pixel empty
+  Rate rate = Rate::Surface;                   ///< how often surfaces are shaded
+  std::vector<float> weights;                  ///< by sample; empty: all equal
+  AlphaTest alpha = AlphaTest::Pixel;          ///< of alpha-tested surfaces at rate *surface*
+  Centroid centroid = Centroid::Mean;          ///< where surfaces are shaded at rate *surface*
+  Planes planes;                               ///< the data that `resolve` and `post_process` read
+  Plane<std::uint8_t> pixel_mask;    ///< of the frame's size: only pixels that are not 0 here are drawn; empty: all
+  float footprint = 0;               ///< texture footprint at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  bool resolves_per_pixel = false;   ///< the mean is the result: `resolve` and `post_process` change nothing
+  bool is_display_referred = false;  ///< the method works after tone mapping: linear output does not contain it
+  int halo = 0;  ///< pixels around a crop that `post_process` reads: a crop then has the bits of the whole image
+
+  /// Draws the colour instead of the tiles; `samples` then apply to the data passes only. The function owns all data
+  /// that it needs, since it may be called after the method is destroyed.
+  std::function<void(const CustomDraw&)> draw;
+  bool estimates_error = false;  ///< `draw` fills Frame::error
+
+  /// The tiles map the colour to 8-bit display codes: Frame::display8 takes the place of Frame::color. Set by Renderer,
+  /// where `resolves_per_pixel`.
+  bool writes_display8 = false;
+  /// The next frame's FrameContext::previous has the data planes of this frame.
+  bool keeps_planes = false;
+};
+
+/// The position of a frame in its sequence, and the data of the frame before it.
+struct FrameContext {
+  int index = 0;         ///< in its sequence, in the order of rendering
+  bool is_first = true;  ///< the first frame of its sequence: the method drops all history
+  /// The sub-pixel jitter for methods that distribute their samples over frames; others ignore it. It cycles through
+  /// the first 8 elements of the Halton sequence of bases 2 and 3, rounded to 1/256 pixel.
+  /// Source    Karis, High Quality Temporal Supersampling, SIGGRAPH 2014 course.
+  SamplePosition jitter;
+  /// The data planes of the previous frame if its request had `keeps_planes`; otherwise, and for the first frame, null.
+  /// They are valid until the method has resolved and post-processed this frame.
+  const Frame* previous = nullptr;
+};
+
+/// The state of an antialiasing method over sequences of frames. A method overrides the steps that it changes.
+///
+/// For each frame `request` is called at least once, always with the same context; then `refine`, `resolve` and
+/// `post_process` in this order. A temporal method stores its history in its members, and drops it when `is_first`.
+class Resolver {
+ public:
+  virtual ~Resolver() = default;
+  /// What to render for a frame; one shaded sample at each pixel's centre by default.
+  virtual Request request(const FrameContext& /*context*/) { return {}; }
+  /// Another pass to be rendered, chosen from the result of this one; the method may move data out of `frame`. Nothing
+  /// if no pass is needed. `resolve` gets the frame of the last pass.
+  virtual std::optional<Request> refine(Frame& /*frame*/) { return std::nullopt; }
+  /// Makes the scene-linear image from the last frame, before tone mapping. By default it is Frame::color.
+  virtual LinearImage resolve(Frame& frame) { return std::move(frame.color); }
+  /// Filters the display-referred image, after tone mapping. By default it stays as it is.
+  virtual DisplayImage post_process(DisplayImage image, const Frame& /*frame*/) { return image; }
+};
+
+/// An entry of the catalogue of methods; each method's file defines its own.
+struct Method {
+  std::string_view name;               ///< in lower case: "msaa" of `msaa:n=4`
+  std::string_view summary;            ///< one line for listings
+  std::string_view source;             ///< the publication or implementation that defines the method
+  std::span<const Param> params = {};  ///< what may follow the name: n of `msaa:n=4`
+  std::function<std::unique_ptr<Resolver>(const Settings&)> make;  ///< makes a resolver from the values of `params`
+  std::span<const std::string_view> variants = {};  ///< parameters that are compared in addition to the defaults: "n=8"
+  bool is_reference = false;           ///< other methods are measured against it; not part of `compare --aa all`
+  bool is_specification_only = false;  ///< tested against its publication only, for lack of another implementation
+};
+
+/// Makes the resolver of a text such as `msaa:n=4` from a catalogue.
+///
+/// Errors    ErrorKind::Usage naming an unknown method (and the closest one), parameter or value.
+std::unique_ptr<Resolver> make_resolver(std::span<const Method> catalogue, std::string_view text);
+
+}  // namespace zoneplate

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/stage_times.h"
+#include "zoneplate/render/frame.h"
+#include "zoneplate/render/method.h"
+#include "zoneplate/scene/scene.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+class PreparedScene;
+
+/// A rectangle of the image.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;  ///< pixels; (x, y) is the top-left one of the crop
+};
+
+/// Which triangle owns a sample that lies exactly on an edge.
+enum class EdgeRule {
+  TopLeft,  ///< a sample on a shared edge belongs to exactly one triangle
+  Inside,   ///< for teaching: every triangle owns its edges
+};
+
+/// How hidden surfaces are removed.
+enum class Visibility {
+  ZBuffer,  ///< the nearest surface at each sample
+  Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
+};
+
+/// A scene and its camera at one point in time. Only the scene's meshes and instances are used.
+struct Moment {
+  std::shared_ptr<const Scene> scene;  ///< its meshes and instances correspond to those of the rendered scene
+  Camera camera;                       ///< its pose at the same time
+};
+
+/// The options of rendering that do not depend on the antialiasing method.
+struct RenderOptions {
+  int width = 800, height = 600;                ///< pixels of the whole image, 1 to 32768
+  std::optional<Crop> crop;                     ///< the frame has the crop's size and the bits of the whole image
+  EdgeRule edge_rule = EdgeRule::TopLeft;       ///< TopLeft, except for teaching
+  Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
+  bool cull_back_faces = true;                  ///< of single-sided materials
+  int anisotropy = 1;  ///< maximum texture probes along a footprint, for all samplers that blend mip levels; at most 16
+  bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's
+  float point_size = 1, line_width = 1;  ///< pixels
+  RasterCapacity capacity;               ///< trades memory for time; does not change any bit of the image
+  DisplayOptions display;                ///< from linear light to display-referred colour
+  std::optional<Moment> last;            ///< the moment from which Frame::motion is measured; none: no motion
+  std::optional<Moment> next;            ///< the moment to which Frame::flow leads
+};
+
+/// Times and counts of the work of a frame.
+struct RenderCounts {
+  double prepare_ms = 0;               ///< setup of the draws, materials and lights of the frame
+  double geometry_ms = 0;              ///< from vertices to triangles in tiles
+  double tiles_ms = 0;                 ///< visibility, shading, blending and output
+  double resolve_ms = 0;               ///< the method's resolve, unless the tiles did it
+  double display_ms = 0;               ///< tone mapping, encoding and quantization outside the tiles
+  double filter_ms = 0;                ///< the method's post-process filter
+  StageTimes stages;                   ///< of geometry and tiles
+  std::uint64_t vertices = 0;          ///< of all draws
+  std::uint64_t triangles = 0;         ///< of all draws
+  std::uint64_t triangles_set_up = 0;  ///< after culling and clipping
+  std::uint64_t shaded = 0;            ///< shaded fragments
+  std::uint64_t geometric = 0;         ///< fragments whose geometry or data were evaluated without lighting
+};
+
+/// Renders one frame of a scene by a request, on the processor and the threads of the innermost `with_threads`.
+/// Renderer (render/renderer.h) renders by a method, with all of the method's rounds.
+///
+/// Exact     the same bits for any number of threads and any instruction set; triangle order does not matter (equal depths: the
+///           earlier triangle wins).
+/// Errors    those of Backend::render.
+Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
+             RenderCounts* counts = nullptr);
+
+}  // namespace zoneplate

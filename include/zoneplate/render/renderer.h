@@ -1,0 +1,114 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/render/backend.h"
+#include "zoneplate/render/method.h"
+#include "zoneplate/render/prepared_scene.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// The format of a finished image.
+enum class ImageForm {
+  Display8,          ///< RenderedImage::display
+  Display8Dithered,  ///< the same with ordered dithering (image/dither.h)
+  Display16,         ///< RenderedImage::display16
+  Linear,            ///< RenderedImage::linear
+};
+
+/// The settings of a frame: options, data passes and output format.
+struct RenderSettings {
+  RenderOptions options;                 ///< size, crop, display transform and the rules of rasterization
+  Planes planes;                         ///< data passes; not `samples` or `sample_colors`
+  ImageForm form = ImageForm::Display8;  ///< which image of RenderedImage is made
+};
+
+/// A finished image with its data passes, all of the size of the crop or, without one, of the image.
+struct RenderedImage {
+  Rgba8Image display;     ///< display-referred, straight alpha
+  Rgba16Image display16;  ///< the same with 16 bits
+  LinearImage linear;     ///< before exposure, tone mapping and background: premultiplied, in scene units
+  Frame data;             ///< the planes of the settings; its colours are empty
+  RenderCounts counts;    ///< the sums over all rounds of the method
+};
+
+/// A prepared scene and its camera at one moment.
+struct SceneView {
+  PreparedScene scene;  ///< with its lights
+  Camera camera;        ///< its pose at the same moment
+};
+
+/// Renders frames of a scene by an antialiasing method: all rounds of the method, data passes, motion, and the apron
+/// around a crop that the method reads.
+///
+/// The renderer owns the state that frames share: the backend with its memory, the index of the frame in its sequence,
+/// the method's history and the planes of the last frame.
+class Renderer {
+ public:
+  /// A renderer of one scene by one method, at the beginning of a sequence.
+  Renderer(PreparedScene scene, std::unique_ptr<Resolver> method,
+           std::unique_ptr<Backend> backend = make_cpu_backend());
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// The same scene at another moment, for the frames that follow.
+  void set_scene(PreparedScene scene);
+  /// The scene that was set last, by the constructor or set_scene.
+  const PreparedScene& scene() const { return scene_; }
+
+  /// Begins a new sequence with the next frame, after a cut: the frame counter is 0 and there is no last frame. A frame
+  /// of another size or crop than the last one begins a new sequence too.
+  void begin_sequence() { index_ = 0; }
+
+  /// Renders the next frame of the sequence.
+  ///
+  /// Motion is measured from the last frame of the sequence, unless `settings.options.last` is set.
+  /// Exact     the same bits for any number of threads and any instruction set; a crop has the bits of the whole image.
+  /// Errors    ErrorKind::Usage for a size, crop, or data pass that cannot be rendered.
+  RenderedImage render(const Camera& camera, const RenderSettings& settings);
+
+  /// Renders the next frame with motion blur: the mean of `count` moments in linear light. `moment(i)` is called once
+  /// for each, in order. Requires: no data passes in `settings.planes`.
+  ///
+  /// Exact     the sum is made in order and divided once.
+  RenderedImage render_mean(int count, const std::function<SceneView(int)>& moment, const RenderSettings& settings);
+
+  /// Returns an image to the renderer, which reuses its memory for the next frame of the same size.
+  void recycle(Rgba8Image image);
+
+ private:
+  void begin_frame(const RenderSettings& settings);
+  Request request_for(const RenderSettings& settings);
+  /// The frame of the method's last round, and the data planes of the first round.
+  struct Rounds {
+    Frame frame;
+    std::optional<Frame> data;  ///< none: there was one round, and its data planes are in `frame`
+    Frame take_data();
+  };
+  Rounds render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
+                       RenderCounts& counts);
+  void finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out);
+  void end_frame(const Camera& camera, const Request& request, bool are_planes_requested, Frame& data);
+
+  PreparedScene scene_;
+  std::unique_ptr<Resolver> method_;
+  std::unique_ptr<Backend> backend_;
+  SamplePattern jitter_;
+  int index_ = 0;
+  FrameContext context_;  ///< of the frame that is being rendered
+
+  // Of the last frame.
+  int width_ = 0, height_ = 0;
+  std::optional<Crop> crop_;
+  std::optional<Moment> moment_;
+  std::optional<Frame> previous_;
+};
+
+/// The rectangle that is rendered for a crop: `halo` pixels larger on each side, within the image.
+std::optional<Crop> padded_crop(const RenderOptions& options, int halo);
+
+}  // namespace zoneplate

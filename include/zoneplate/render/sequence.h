@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/render/view.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// The timing of a sequence. Frame i has the time start + i / rate seconds.
+struct SequenceTiming {
+  double rate = 24;              ///< frames per second
+  double start = 0;              ///< seconds
+  double duration = 0;           ///< of the animation, in seconds
+  std::optional<int> turntable;  ///< frames of one turn of the camera about the centre of the scene; none: no turntable
+};
+
+/// Functions that make the scene at a time in seconds.
+struct SceneLoader {
+  std::function<Scene(double)> load;        ///< the whole scene at a time
+  std::function<Scene(double)> load_shape;  ///< the same without images
+};
+
+/// The scenes and cameras of a sequence of frames. Frames are numbered from 0; fractional frame numbers are allowed.
+///
+/// The camera of a whole-scene view is fixed and frames the whole animation, whichever frames are rendered. A camera of
+/// the scene follows its own animation. On a turntable of n frames the camera has turned by i / n of a revolution about
+/// the centre of the scene at frame i.
+class Sequence {
+ public:
+  /// A static scene; only the camera may move.
+  Sequence(PreparedScene scene, const SequenceTiming& timing);
+  /// An animated scene, which is loaded again for each frame.
+  Sequence(SceneLoader loader, bool raw_colors, const SequenceTiming& timing);
+
+  /// Chooses the camera of frame 0, for images of this aspect ratio (width / height). Must be called before functions
+  /// that use the camera.
+  ///
+  /// Errors    those of choose_camera.
+  void set_view(const View& view, float aspect);
+
+  /// The time of a frame, in seconds of the animation.
+  double seconds_of(double frame) const { return timing_.start + frame / timing_.rate; }
+
+  /// The prepared scene at a frame. Textures are made once for all frames; the last scene is cached.
+  const PreparedScene& scene(double frame);
+  /// The scene at a frame and the camera then, for Renderer.
+  SceneView view(double frame);
+  /// The geometry and the camera of the scene at a frame, for Frame::motion and Frame::flow. Does not replace the
+  /// cached scene.
+  Moment moment(double frame);
+
+ private:
+  Camera camera(const Scene& scene, double frame) const;
+  Scene all_poses();
+  float4x4 turned(float angle) const;
+  void add_turns(Scene& all) const;
+
+  SceneLoader loader_;  ///< empty for a static scene
+  bool raw_colors_ = false;
+  SequenceTiming timing_;
+  std::optional<PreparedScene> scene_;
+  double frame_ = 0;  ///< of `scene_`
+  View view_;
+  float aspect_ = 1;
+  Camera still_;  ///< before the turntable turns it
+  float3 centre_;
+};
+
+/// The time, as a frame number, of sample i of `count` of a shutter that opens at the frame's time and stays open for
+/// the fraction `open` of the frame interval. Samples lie at the middle of equal parts of that time.
+double shutter_time(double frame, double open, int i, int count);
+
+}  // namespace zoneplate

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/scene/scene.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// The choice of a camera; angles in radians.
+struct View {
+  std::optional<int> index;                 ///< a camera of the scene
+  std::optional<float3> position;           ///< of the eye, in world space
+  std::optional<float3> focal_point;        ///< the point that the camera looks at
+  std::optional<float3> view_up;            ///< the direction that is upwards in the image
+  std::optional<float> view_angle;          ///< vertical field of view
+  std::optional<float> azimuth, elevation;  ///< of the whole-scene view, or a turn about the focal point
+  bool is_orthographic = false;             ///< a parallel projection that shows the same height at the focal point
+  float3 up{0, 1, 0};                       ///< the scene's upward axis
+};
+
+/// The camera for an image of the given aspect ratio (width / height).
+///
+/// The base is camera `index` of the scene, or without an index a whole-scene view, three-quarter from above. Position,
+/// focal point, view-up and view angle replace those of the base. For the whole-scene view, azimuth and elevation are
+/// its direction, 0 and 0 being the front; any other camera is turned by them about its focal point as the last step,
+/// azimuth to the right and elevation upwards. The focal point of a base camera is the point on its axis nearest to the
+/// centre of the scene. Near and far planes enclose the scene, unless the base is used unchanged.
+///
+/// Errors    ErrorKind::Usage for an index outside the scene's cameras, or a position equal to the focal point.
+Camera choose_camera(const Scene& scene, const View& view, float aspect);
+
+}  // namespace zoneplate

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/math/vec.h"
+#include "zoneplate/scene/alpha_mode.h"
+#include "zoneplate/scene/texel_image.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// How a texture continues outside of [0, 1].
+enum class Wrap {
+  Repeat,  ///< the image repeats
+  Mirror,  ///< the image repeats, every second time mirrored
+  Clamp,   ///< the texels of the border continue
+};
+
+/// How texels of one mip level are combined.
+enum class TexelFilter {
+  Nearest,  ///< the texel that contains the coordinate
+  Linear,   ///< the bilinear mean of the four nearest texels
+};
+/// How mip levels are combined.
+enum class LevelFilter {
+  None,     ///< the full image only, which aliases where it is minified
+  Nearest,  ///< the level nearest to the level of detail
+  Linear,   ///< the weighted mean of the two nearest levels
+};
+
+/// How a texture is addressed and filtered.
+struct Sampler {
+  Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;  ///< along u, along v
+  TexelFilter magnify = TexelFilter::Linear;          ///< where a texel is larger than a pixel
+  TexelFilter minify = TexelFilter::Linear;           ///< within a mip level, where texels are smaller than pixels
+  LevelFilter level = LevelFilter::Linear;            ///< between mip levels, where texels are smaller than pixels
+  int anisotropy = 1;  ///< probes along a footprint that is longer than wide, at most 16; for linear filters
+  bool operator==(const Sampler&) const = default;
+};
+
+/// A decoded image file.
+struct TextureImage {
+  /// Maximum of texels along a side. Larger images are reduced to a half, a quarter, ... of that side.
+  static constexpr int most_side = 32768;
+
+  std::string name;   ///< its file or image, for messages
+  TexelImage pixels;  ///< in the file's own precision, row 0 at the top
+};
+
+/// A use of an image in one slot of a material. `image` < 0: no texture, only the factor.
+///
+/// The coordinate is (offset + rotation(angle) * (scale * uv)), KHR_texture_transform's order: uv is scaled, then
+/// rotated counter-clockwise in a +v-up sense as the extension's matrix says, then moved.
+struct TextureUse {
+  int image = -1;                    ///< index into Scene::images
+  Sampler sampler;                   ///< the wrap modes and filters of this use
+  int uv_set = 0;                    ///< 0 or 1
+  float2 offset{0, 0}, scale{1, 1};  ///< in texture coordinates
+  float rotation = 0;                ///< radians
+};
+
+/// The reflection model of a material.
+enum class ShadingModel {
+  MetallicRoughness,  ///< glTF 2.0's metallic-roughness BRDF
+  BlinnPhong,         ///< a specular lobe about the half vector, as of OBJ's MTL files
+  Phong,              ///< a specular lobe about the mirrored direction
+  Unlit,              ///< the base colour, without lights
+};
+
+/// The parameters of a surface. Factors are linear; base colour and emissive images are sRGB-encoded, the others
+/// linear.
+struct Material {
+  std::string name;                                      ///< need not be unique; Cryptomatte identifies materials by it
+  ShadingModel model = ShadingModel::MetallicRoughness;  ///< decides which of the factors below count
+  AlphaMode alpha_mode = AlphaMode::Opaque;              ///< what the alpha of the base colour means
+  float alpha_cutoff = 0.5f;                             ///< an alpha-tested surface is present where alpha >= cutoff
+  bool double_sided = false;                             ///< back faces are drawn too
+
+  float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
+  TextureUse base_color_texture;  ///< multiplies `base_color`
+  float3 emissive{0, 0, 0};       ///< radiance that the surface emits, unbounded
+  TextureUse emissive_texture;    ///< multiplies `emissive`
+  TextureUse normal_texture;      ///< normals in tangent space: red, green and blue in [0, 1] are x, y and z in [-1, 1]
+  float normal_scale = 1;         ///< multiplies x and y of the normal texture
+  TextureUse occlusion_texture;   ///< red channel
+  float occlusion_strength = 1;   ///< 0: no occlusion; 1: as the texture has it
+
+  float metallic = 1, roughness = 1;      ///< metallic-roughness only
+  TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
+  float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka; times the base colour's texture, as Kd is
+  float3 specular{0, 0, 0};               ///< (Blinn-)Phong only: Ks
+  float exponent = 32;                    ///< (Blinn-)Phong only: Ns
+};
+
+/// A texture slot of a material.
+struct MaterialTextureSlot {
+  std::string_view gltf_name;  ///< the property of a glTF material with this texture
+  TextureUse Material::*use;   ///< the member of Material that is the slot
+  bool is_color;               ///< sRGB-encoded, otherwise linear
+  bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
+};
+
+/// The number of texture slots of a material.
+inline constexpr std::size_t texture_slot_count = 5;
+/// Indices into `material_texture_slots`.
+enum class TextureSlotIndex {
+  BaseColor,          ///< Material::base_color_texture
+  MetallicRoughness,  ///< Material::metallic_roughness_texture
+  Emissive,           ///< Material::emissive_texture
+  Normal,             ///< Material::normal_texture
+  Occlusion,          ///< Material::occlusion_texture
+};
+/// The texture slots of every material, by TextureSlotIndex.
+inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_texture_slots = {
+    {{"baseColorTexture", &Material::base_color_texture, true, true},
+     {"metallicRoughnessTexture", &Material::metallic_roughness_texture, false, true},
+     {"emissiveTexture", &Material::emissive_texture, true, false},
+     {"normalTexture", &Material::normal_texture, false, false},
+     {"occlusionTexture", &Material::occlusion_texture, false, false}}};
+
+/// The textures of a material, by slot.
+inline std::array<const TextureUse*, texture_slot_count> texture_slots(const Material& material) {
+  std::array<const TextureUse*, texture_slot_count> uses{};
+  for (std::size_t slot = 0; slot < texture_slot_count; ++slot)
+    uses[slot] = &(material.*material_texture_slots[slot].use);
+  return uses;
+}
+
+}  // namespace zoneplate

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/scene/camera.h"
+#include "zoneplate/scene/environment.h"
+#include "zoneplate/scene/light.h"
+#include "zoneplate/scene/material.h"
+#include "zoneplate/scene/mesh.h"
+#include "zoneplate/scene/name_list.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// An instance of a mesh in the world. Meshes of one node share its `object` index.
+struct Instance {
+  int mesh = 0;                ///< index into Scene::meshes
+  int object = 0;              ///< index into Scene::objects
+  float4x4 world_from_object;  ///< affine; the identity by default
+};
+
+/// An animation of a file, and its time span.
+struct AnimationSpan {
+  std::string name;          ///< of the file; may be empty
+  float begin = 0, end = 0;  ///< in seconds
+};
+
+/// All data of a scene, without hierarchy.
+///
+/// Requires  every index is in range; `materials` is not empty when there are meshes.
+struct Scene {
+  std::vector<Mesh> meshes;               ///< drawn where instances place them
+  std::vector<Instance> instances;        ///< in this order: of equal depths the first drawn is visible
+  NameList objects;                       ///< names of objects, for ids
+  std::vector<Material> materials;        ///< Mesh::material is an index into this list
+  std::vector<TextureImage> images;       ///< TextureUse::image is an index into this list
+  std::vector<Light> lights;              ///< none: see make_lighting
+  std::vector<Camera> cameras;            ///< of the file; View::index chooses one
+  Environment environment;                ///< light from infinitely far away
+  float3 up{0, 1, 0};                     ///< the up axis of the file's format, for the camera
+  float3 ambient_light{0, 0, 0};          ///< of (Blinn-)Phong's ambient term; multiplied by Material::ambient
+  std::vector<AnimationSpan> animations;  ///< of the file
+  std::vector<std::string> variants;      ///< material variants of the file
+  std::vector<std::string> warnings;      ///< what the loader ignored, one line each
+
+  /// The world-space bounds of all instances (only of vertices that a primitive uses).
+  Box bounds() const;
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "zoneplate/base/api.h"
+#include "zoneplate/math/vec.h"
+#include "zoneplate/scene/material.h"
+#include "zoneplate/shade/texture/texture.h"
+
+namespace ZONEPLATE_API zoneplate {
+
+/// Looks up a texture at `uv`, for user shaders (render/user_shader.h): red, green, blue and straight alpha; colours
+/// are linear.
+///
+/// `dx` and `dy` are the derivatives of `uv` per pixel to the right and downwards. They choose the mip levels, and with
+/// Sampler::anisotropy the probes. Filtering is that of FilteringKernels, bit for bit as in materials.
+float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 dx, float2 dy);
+
+}  // namespace zoneplate

@@ -1,0 +1,135 @@
+// zoneplate filter: post-process antialiasing of images that exist already, without a scene.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/codec/save.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FilterArgs {
+  std::string output, method;
+  int bit_depth = 8, threads = 0;
+};
+
+/// True for a method that reads nothing of a frame but its display-referred image.
+bool reads_image_alone(Resolver& method) {
+  const Request request = method.request({});
+  return request.is_display_referred && request.samples.size() == 1 && !request.draw && !request.planes.any();
+}
+
+std::string filter_names() {
+  std::string names;
+  for (const Method& method : antialias::methods())
+    if (reads_image_alone(*make_resolver(antialias::methods(), method.name)))
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
+  return names;
+}
+
+std::unique_ptr<Resolver> make_filter(const std::string& method) {
+  if (method.empty()) throw Error(ErrorKind::Usage, "--anti-aliasing is missing: one of " + filter_names());
+  std::unique_ptr<Resolver> filter = make_resolver(antialias::methods(), method);
+  if (!reads_image_alone(*filter))
+    throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing: {} needs a scene, expected a filter of images: {}",
+                                              method, filter_names()));
+  return filter;
+}
+
+struct FilterItem {
+  std::string input, output;
+};
+
+/// The images that the operand names, and the file that each is written to.
+///
+/// Errors    ErrorKind::Usage where two images would be written to one file.
+std::vector<FilterItem> plan(const std::string& operand, const std::string& output) {
+  const std::vector<std::string> inputs = metrics::list_pictures(operand);
+  if (inputs.size() == 1 && inputs.front() == operand) return {{operand, output}};
+  std::vector<FilterItem> items;
+  for (const std::string& input : inputs) {
+    items.push_back({input, (fs::path(output) / fs::path(input).stem()).string() + ".png"});
+    for (std::size_t i = 0; i + 1 < items.size(); ++i)
+      if (items[i].output == items.back().output)
+        throw Error(ErrorKind::Usage, fmt::format("--output: {} and {} would both be written to {}", items[i].input,
+                                                  input, items.back().output));
+  }
+  return items;
+}
+
+void filter_image(const FilterItem& item, Resolver& filter, int bit_depth) {
+  metrics::Picture picture = metrics::load_picture(item.input);
+  if (picture.is_scene_linear)
+    throw Error(ErrorKind::Input,
+                item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)");
+  const DisplayImage image = filter.post_process(std::move(picture.display), Frame());
+  if (bit_depth == 8) return save_image(item.output, quantize8(image));
+  if (fs::path(item.output).extension() != ".png")
+    throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + item.output);
+  save_bytes(item.output, encode_png(quantize16(image)));
+}
+
+Syntax make_syntax(FilterArgs& args) {
+  Syntax syntax{
+      .verb = "filter",
+      .summary = "Antialias existing images by a post-process filter",
+      .operands = "IMAGES",
+      .examples =
+          "  zoneplate filter shot.png --aa smaa -o smooth.png\n"
+          "  zoneplate filter shot.png --aa fxaa:preset=39,mix=light -o smooth.webp\n"
+          "  zoneplate filter shots/ --aa cmaa2 -o smooth/\n"
+          "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n",
+      .notes =
+          "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png).\n"
+          "Filters work on 8-bit sRGB values. A pixel that the filter leaves alone keeps its value; images with\n"
+          "alpha are filtered premultiplied.\n"};
+  syntax.options = {
+      {"--output,-o", "FILE", "The image to write: .png, .jpg or .webp; of several images a folder, for .png files",
+       "Options", true, [&](auto& text) { args.output = text; }},
+      {"--anti-aliasing,--aa", "METHOD", "Filter, as smaa or fxaa:preset=39: one of " + filter_names(), "Options", true,
+       [&](auto& text) { args.method = text; }},
+      {"--bit-depth", "N", "Bits per channel of .png: 8, the default, or 16", "Options", false,
+       [&](auto& text) {
+         args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
+       }},
+      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
+       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+  return syntax;
+}
+
+}  // namespace
+
+void run_filter(std::span<const std::string> arguments) {
+  FilterArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  if (syntax.found_operands.size() != 1)
+    throw Error(ErrorKind::Usage, "filter takes one input: an image, a folder or a sequence");
+  if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: name a file or folder with -o");
+  const std::unique_ptr<Resolver> filter = make_filter(args.method);
+  const std::vector<FilterItem> items = plan(syntax.found_operands.front(), args.output);
+  if (items.front().output != args.output) {
+    std::error_code error;
+    fs::create_directories(args.output, error);
+    if (error) throw Error(ErrorKind::Output, args.output + ": " + error.message());
+  }
+  for (const FilterItem& item : items) check_savable(item.output);
+  with_threads(args.threads, [&] {
+    for (const FilterItem& item : items) filter_image(item, *filter, args.bit_depth);
+  });
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,100 @@
+// The verb as scripts meet it. Runs the built program.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FilterVerb : public testing::Test {
+ protected:
+  FilterVerb() : folder_(fs::temp_directory_path() / ("zoneplate_filter_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~FilterVerb() override { fs::remove_all(folder_); }
+
+  /// Runs the program in the folder; gives its exit code and keeps its output.
+  int run(const std::string& arguments) {
+    const std::string command = "cd '" + folder_.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    std::array<char, 4096> part{};
+    output_.clear();
+    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) output_.append(part.data(), n);
+    return WEXITSTATUS(::pclose(pipe));
+  }
+  PngImage png(const std::string& name) const {
+    const FileBytes file((folder_ / name).string());
+    return decode_png(file.bytes(), name);
+  }
+  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
+    save_bytes((folder_ / name).string(), bytes);
+  }
+  bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
+
+  std::string output_;
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(FilterVerb, AnImageIsFilteredAsARenderingIs) {
+  ASSERT_EQ(run("teapot -o plain.png --size 96x72 --aa none"), 0) << output_;
+  for (const std::string method : {"fxaa", "smaa", "smaa:mix=codes", "mlaa", "cmaa2", "dlaa", "ddaa"}) {
+    ASSERT_EQ(run("teapot -o rendered.png --size 96x72 --aa " + method), 0) << output_;
+    ASSERT_EQ(run("filter plain.png -o filtered.png --aa " + method), 0) << output_;
+    EXPECT_EQ(png("filtered.png").pixels, png("rendered.png").pixels) << method;
+    EXPECT_NE(png("filtered.png").pixels, png("plain.png").pixels) << method;
+  }
+}
+
+TEST_F(FilterVerb, UnchangedPixelsKeepSixteenBits) {
+  Rgba16Image flat(8, 8, Rgba16{30001, 2, 65535, 65535});
+  save("flat.png", encode_png(flat));
+  ASSERT_EQ(run("filter flat.png -o out.png --aa smaa --bit-depth 16"), 0) << output_;
+  EXPECT_EQ(png("out.png").pixels16, flat);
+}
+
+TEST_F(FilterVerb, SequencesAndFoldersAreWrittenToAFolder) {
+  ASSERT_EQ(run("teapot -o a.####.png --size 48x36 --turntable 3 --aa none"), 0) << output_;
+  ASSERT_EQ(run("filter a.####.png -o sequence --aa fxaa"), 0) << output_;
+  ASSERT_EQ(run("filter . -o folder/ --aa fxaa"), 0) << output_;
+  for (const char* name : {"a.0000.png", "a.0001.png", "a.0002.png"}) {
+    EXPECT_EQ(png(std::string("sequence/") + name).pixels, png(std::string("folder/") + name).pixels);
+    EXPECT_NE(png(std::string("sequence/") + name).pixels, png(name).pixels);
+  }
+}
+
+TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
+  ASSERT_EQ(run("triangles -o a.png --size 16x16"), 0) << output_;
+  ASSERT_EQ(run("triangles -o a.exr --size 16x16"), 0) << output_;
+  EXPECT_EQ(run("filter a.png -o b.png --aa msaa"), 2);
+  EXPECT_EQ(
+      output_,
+      "zoneplate: error: --anti-aliasing: msaa needs a scene, expected a filter of images: fxaa, smaa, mlaa, cmaa2, "
+      "dlaa, ddaa\n");
+  for (const char* method : {"smaa:edges=depth", "smaa:mode=s2x", "analytic:order=display", "none"})
+    EXPECT_EQ(run(std::string("filter a.png -o b.png --aa ") + method), 2) << method;
+  EXPECT_EQ(run("filter a.png -o b.png"), 2);
+  EXPECT_EQ(run("filter a.png --aa smaa"), 2);
+  EXPECT_EQ(run("filter a.exr -o b.png --aa smaa"), 3);
+  EXPECT_EQ(output_,
+            "zoneplate: error: a.exr: is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)\n");
+  EXPECT_EQ(run("filter a.png -o b.exr --aa smaa"), 2);
+  EXPECT_EQ(run("filter none.png -o b.png --aa smaa"), 3);
+  EXPECT_FALSE(exists("b.png"));
+  // The model reader names the verb that reads images.
+  EXPECT_EQ(run("a.png -o b.png --aa smaa"), 3);
+  EXPECT_NE(output_.find("zoneplate filter"), std::string::npos) << output_;
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

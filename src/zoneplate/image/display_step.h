@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/image/pixel.h"
+#include "zoneplate/image/tonemap.h"
+
+namespace zoneplate {
+
+/// The display transform of a pixel, with the background converted.
+struct DisplayStep {
+  ToneMapping mapping = ToneMapping::None;  ///< None where raw
+  float exposure = 1;
+  bool is_encoded = true;
+  bool is_transparent = false;
+  float code[4] = {0, 0, 0, 1};   ///< the background, encoded, straight alpha; all 0 if its alpha is 0
+  float light[4] = {0, 0, 0, 1};  ///< the background in linear light, premultiplied
+};
+
+struct TonemapKernels : PerIsa<TonemapKernels> {
+  /// n pixels of four floats: Linear in, Display out.
+  void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
+  /// The same of n groups of eight pixels, and quantize8 of that.
+  void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
+};
+
+}  // namespace zoneplate

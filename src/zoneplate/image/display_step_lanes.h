@@ -1,0 +1,184 @@
+#pragma once
+
+#include <cstddef>
+
+#include "zoneplate/image/display_step.h"
+#include "zoneplate/image/transfer_lanes.h"
+#include "zoneplate/math/for_row.h"
+
+/// Tone mapping and the display transform over a lane type of math/lanes.h.
+namespace zoneplate {
+
+/// The constants of the tone curves.
+namespace tone {
+
+/// Light above this counts as this, which keeps every intermediate value finite.
+inline constexpr float greatest = 0x1p24f;
+
+/// Hill's fit: by rows, sRGB to the space of the curve and back, and the curve (v (v + a) - b) / (v (c v + d) + e).
+/// Source: Stephen Hill, BakingLab, ACES.hlsl; the exposure of 1 / 0.6 is that of three.js.
+inline constexpr float aces_exposure = 1 / 0.6f;
+inline constexpr float aces_in[3][3] = {
+    {0.59719f, 0.35458f, 0.04823f}, {0.07600f, 0.90834f, 0.01566f}, {0.02840f, 0.13383f, 0.83777f}};
+inline constexpr float aces_out[3][3] = {
+    {1.60475f, -0.53108f, -0.07367f}, {-0.10208f, 1.10813f, -0.00605f}, {-0.00327f, -0.07276f, 1.07602f}};
+inline constexpr float aces_a = 0.0245786f, aces_b = 0.000090537f;
+inline constexpr float aces_c = 0.983729f, aces_d = 0.4329510f, aces_e = 0.238081f;
+
+/// Source: Khronos Group, PBR Neutral Tone Mapper specification.
+inline constexpr float neutral_f90 = 0.04f;
+inline constexpr float neutral_start = 0.8f - neutral_f90;
+inline constexpr float neutral_desaturation = 0.15f;
+
+}  // namespace tone
+
+/// A colour in each lane.
+template <class F>
+struct ColorLanes {
+  F r, g, b;
+};
+
+template <class F, class Step>
+[[gnu::always_inline]] inline ColorLanes<F> each(const ColorLanes<F>& c, Step step) {
+  return {step(c.r), step(c.g), step(c.b)};
+}
+
+template <class F>
+[[gnu::always_inline]] inline ColorLanes<F> times(const float (&m)[3][3], const ColorLanes<F>& c) {
+  const auto row = [&](int k) { return F(m[k][0]) * c.r + F(m[k][1]) * c.g + F(m[k][2]) * c.b; };
+  return {row(0), row(1), row(2)};
+}
+
+template <class F>
+[[gnu::always_inline]] inline ColorLanes<F> map_aces(const ColorLanes<F>& color) {
+  const auto curve = [](F v) {
+    return (v * (v + F(tone::aces_a)) - F(tone::aces_b)) /
+           (v * (F(tone::aces_c) * v + F(tone::aces_d)) + F(tone::aces_e));
+  };
+  const ColorLanes<F> exposed = each(color, [](F x) { return x * F(tone::aces_exposure); });
+  return times(tone::aces_out, each(times(tone::aces_in, exposed), curve));
+}
+
+/// Hue is kept: up to `neutral_start` only the light that a dielectric reflects is taken off, above it the peak is
+/// compressed towards 1 and the colour towards white.
+template <class F>
+[[gnu::always_inline]] inline ColorLanes<F> map_neutral(const ColorLanes<F>& color) {
+  const F start(tone::neutral_start), one(1.0f), f90(tone::neutral_f90);
+  const F least = min(min(color.r, color.g), color.b);
+  const F offset = select(least < F(2 * tone::neutral_f90), least - F(6.25f) * (least * least), f90);
+  const ColorLanes<F> low = each(color, [&](F x) { return x - offset; });
+  const F peak = max(max(low.r, low.g), low.b);
+
+  constexpr float width = 1 - tone::neutral_start;
+  const F new_peak = one - F(width * width) / (peak + F(width) - start);
+  const F ratio = new_peak / peak;
+  const F white = one - one / (F(tone::neutral_desaturation) * (peak - new_peak) + one);
+  const F tint = new_peak * white, rest = one - white;
+  return each(low, [&](F x) { return select(peak < start, x, x * ratio * rest + tint); });
+}
+
+/// See tone_map in image/tonemap.h.
+template <ToneMapping mapping, class F>
+[[gnu::always_inline]] inline ColorLanes<F> tone_map(ColorLanes<F> color) {
+  const auto unit = [](F x) { return clamp_unit(x); };
+  if constexpr (mapping == ToneMapping::None) return each(color, unit);
+  color = each(color, [](F x) { return min(max(x, F(0.0f)), F(tone::greatest)); });
+  if constexpr (mapping == ToneMapping::Aces) color = map_aces(color);
+  if constexpr (mapping == ToneMapping::Neutral) color = map_neutral(color);
+  return each(color, unit);
+}
+
+namespace stages {
+
+template <class F>
+struct PixelLanes {
+  ColorLanes<F> color;
+  F alpha;
+};
+
+template <ToneMapping mapping, class F>
+[[gnu::always_inline]] inline PixelLanes<F> displayed(const DisplayStep& step, const PixelLanes<F>& linear) {
+  const F zero(0.0f), one(1.0f), exposure(step.exposure);
+  const F a = clamp_unit(linear.alpha);
+  const auto encoded = [&](F x) { return step.is_encoded ? encode_srgb(x) : clamp_unit(x); };
+
+  // Where all is opaque, nothing is divided and nothing shines through: x / 1, x 1 + 0 and a > 0 change no bit.
+  if (all(a == one)) {
+    const ColorLanes<F> mapped = tone_map<mapping>(each(linear.color, [&](F x) { return x * exposure; }));
+    return {step.is_encoded ? each(mapped, encoded) : mapped, one};
+  }
+
+  // Where nothing is, there is the background alone.
+  if (all(a == zero)) return {{F(step.code[0]), F(step.code[1]), F(step.code[2])}, F(step.code[3])};
+  const auto is_seen = a > zero;
+  const ColorLanes<F> mapped =
+      tone_map<mapping>(each(linear.color, [&](F x) { return where(is_seen, x / a * exposure); }));
+  const F rest = one - a;
+  const F sum = step.light[3] == 1 ? one : a + F(step.light[3]) * rest;
+  const F total = step.is_transparent ? a : sum;
+  const auto shown = [&](F light, int c) {
+    const F over = (light * a + F(step.light[c]) * rest) / total;
+    return select(is_seen, encoded(step.is_transparent ? light : over), F(step.code[c]));
+  };
+  return {{shown(mapped.r, 0), shown(mapped.g, 1), shown(mapped.b, 2)},
+          select(is_seen, clamp_unit(total), F(step.code[3]))};
+}
+
+template <ToneMapping mapping, class Full, class One>
+[[gnu::always_inline]] inline void display_pixels(const DisplayStep& step, const float* linear, float* display,
+                                                  std::size_t n) {
+  for_row<Full, One>(n, [=]<class F>(std::size_t i) {
+    F v[4];
+    F::load_fours(linear + 4 * i, v);
+    const PixelLanes<F> p = displayed<mapping>(step, PixelLanes<F>{{v[0], v[1], v[2]}, v[3]});
+    const F out[4] = {p.color.r, p.color.g, p.color.b, p.alpha};
+    F::store_fours(out, display + 4 * i);
+  });
+}
+
+template <ToneMapping mapping, class F>
+[[gnu::always_inline]] inline void show_pixels(const DisplayStep& step, const Linear8* linear, Rgba8* shown,
+                                               std::size_t n) {
+  static_assert(sizeof(Rgba8) == 4 && Linear8::size % F::lanes == 0);
+  // 0 to 255; x in [0, 1].
+  const auto codes = [](F x) { return truncate(x * F(255.0f) + F(0.5f)); };
+  for (const Linear8* group = linear; group != linear + n; ++group)
+    for (std::size_t k = 0; k < Linear8::size; k += F::lanes, shown += F::lanes) {
+      const PixelLanes<F> p = displayed<mapping>(
+          step,
+          PixelLanes<F>{{F::load(group->r + k), F::load(group->g + k), F::load(group->b + k)}, F::load(group->a + k)});
+      F::Int::store_pixels(codes(p.color.r), codes(p.color.g), codes(p.color.b), codes(p.alpha), &shown->r);
+    }
+}
+
+template <class Full, class One>
+[[gnu::flatten]] void display_row(const DisplayStep& step, const float* linear, float* display, std::size_t n) {
+  switch (step.mapping) {
+    case ToneMapping::None:
+      return display_pixels<ToneMapping::None, Full, One>(step, linear, display, n);
+    case ToneMapping::Aces:
+      return display_pixels<ToneMapping::Aces, Full, One>(step, linear, display, n);
+    case ToneMapping::Neutral:
+      return display_pixels<ToneMapping::Neutral, Full, One>(step, linear, display, n);
+  }
+}
+
+template <class F>
+[[gnu::flatten]] void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n) {
+  switch (step.mapping) {
+    case ToneMapping::None:
+      return show_pixels<ToneMapping::None, F>(step, linear, shown, n);
+    case ToneMapping::Aces:
+      return show_pixels<ToneMapping::Aces, F>(step, linear, shown, n);
+    case ToneMapping::Neutral:
+      return show_pixels<ToneMapping::Neutral, F>(step, linear, shown, n);
+  }
+}
+
+template <class Full, class One>
+constexpr TonemapKernels display_step() {
+  return {.display_row = &display_row<Full, One>, .show_groups = &show_groups<Full>};
+}
+
+}  // namespace stages
+}  // namespace zoneplate

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+
+#include "zoneplate/image/display_step.h"
+#include "zoneplate/image/pixel.h"
+#include "zoneplate/image/tonemap.h"
+
+namespace zoneplate {
+
+/// make_display of some pixels without the encoding: straight linear light in [0, 1], four floats a pixel.
+void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light);
+
+/// make_display of some pixels: straight and encoded, four floats a pixel.
+void show_encoded(std::span<const Linear> pixels, const DisplayOptions& options, float* encoded);
+
+/// quantize8 of make_display, a few pixels at a time, while they are in the cache.
+class DisplayTransform {
+ public:
+  explicit DisplayTransform(const DisplayOptions& options);
+
+  /// `out` has eight pixels for each group.
+  void present(std::span<const Linear8> groups, Rgba8* out) const;
+  /// The display-referred colour of empty pixels.
+  Rgba8 background() const { return background_; }
+
+ private:
+  DisplayStep step_;
+  Rgba8 background_;
+};
+
+}  // namespace zoneplate

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "zoneplate/math/elementary.h"
+
+/// One number with the operations that kernels are written in.
+///
+/// A stage of shading or another kernel is a template over such a type, in a file `*_lanes.h`: `Lane<float>` makes the
+/// scalar twin, math/lanes_simd.h the vectors, and `Lane<double>` the references of the tests. Every operation rounds
+/// correctly, but for the elementary functions, which are those of math/elementary.h (with double: of the C library).
+///
+/// Edges     min and max return their second argument where either is NaN, as on x86.
+namespace zoneplate::scalar {
+
+struct Bool {
+  bool v;
+  friend Bool operator&(Bool a, Bool b) { return {a.v && b.v}; }
+  friend Bool operator|(Bool a, Bool b) { return {a.v || b.v}; }
+  friend bool all(Bool a) { return a.v; }
+  friend bool none(Bool a) { return !a.v; }
+};
+
+struct Int {
+  static constexpr int lanes = 1;
+  std::int32_t v;
+  Int() = default;
+  Int(std::int32_t x) : v(x) {}
+  static Int load(const std::int32_t* p) { return *p; }
+  void store(std::int32_t* p) const { *p = v; }
+  /// From and as unsigned numbers of 8 or 16 bits. Requires: in their range.
+  template <class T>
+  static Int load_from(const T* p) {
+    return static_cast<std::int32_t>(*p);
+  }
+  template <class T>
+  void store_as(T* p) const {
+    *p = static_cast<T>(v);
+  }
+  template <class T>
+  static void store_zeros(T* p) {
+    *p = 0;
+  }
+  /// Interleaves four bytes a lane. Requires: each in [0, 255].
+  static void store_pixels(Int r, Int g, Int b, Int a, std::uint8_t* p) {
+    r.store_as(p), g.store_as(p + 1), b.store_as(p + 2), a.store_as(p + 3);
+  }
+  /// Stores values i and on of a list by fours: four lanes of this, then the same four lanes of `second`.
+  void store_by_fours(Int second, std::int16_t* list, int i) const {
+    const int first = i / 4 * 8 + i % 4;
+    list[first] = static_cast<std::int16_t>(v), list[first + 4] = static_cast<std::int16_t>(second.v);
+  }
+  static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
+  /// The same for a table of 16 elements.
+  static Int look_up(const std::int32_t* table, Int i) { return table[i.v]; }
+  std::int32_t first() const { return v; }
+  bool equals(Int other) const { return v == other.v; }
+  bool is_uniform() const { return true; }
+  friend Int operator+(Int a, Int b) { return a.v + b.v; }
+  friend Int operator-(Int a, Int b) { return a.v - b.v; }
+  friend Int operator*(Int a, Int b) { return a.v * b.v; }
+  friend Bool operator<(Int a, Int b) { return {a.v < b.v}; }
+  friend Bool operator>(Int a, Int b) { return {a.v > b.v}; }
+  friend Int operator&(Int a, Int b) { return a.v & b.v; }
+  friend Int operator|(Int a, Int b) { return a.v | b.v; }
+  template <int bits>
+  Int shifted_right() const {
+    return v >> bits;
+  }
+  friend Int min(Int a, Int b) { return a.v < b.v ? a : b; }
+  friend Int max(Int a, Int b) { return a.v > b.v ? a : b; }
+  friend Int select(Bool m, Int a, Int b) { return m.v ? a : b; }
+  /// a where m, else 0.
+  friend Int where(Bool m, Int a) { return m.v ? a.v : 0; }
+};
+
+template <class T>
+struct Lane {
+  using Bool = scalar::Bool;
+  using Int = scalar::Int;
+  static constexpr int lanes = 1;
+  T v;
+  Lane() = default;
+  Lane(T x) : v(x) {}
+  static Lane load(const T* p) { return *p; }
+  void store(T* p) const { *p = v; }
+  /// Four numbers a lane, one lane after the other: number c of each to or from v[c].
+  static void load_fours(const T* p, Lane (&v)[4]) {
+    for (int c = 0; c < 4; ++c) v[c] = p[c];
+  }
+  static void store_fours(const Lane (&v)[4], T* p) {
+    for (int c = 0; c < 4; ++c) p[c] = v[c].v;
+  }
+  static Lane gather(const T* table, Int i) { return table[i.v]; }
+  /// out[c]: element c of each lane's quad, which begins at at(lane).
+  template <class At>
+  static void load_quads(const At& at, Lane (&out)[4]) {
+    for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(at(0)[c]);
+  }
+  friend Lane operator+(Lane a, Lane b) { return a.v + b.v; }
+  friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }
+  friend Lane operator*(Lane a, Lane b) { return a.v * b.v; }
+  friend Lane operator/(Lane a, Lane b) { return a.v / b.v; }
+  friend Lane operator-(Lane a) { return -a.v; }
+  friend Bool operator<(Lane a, Lane b) { return {a.v < b.v}; }
+  friend Bool operator>(Lane a, Lane b) { return {a.v > b.v}; }
+  friend Bool operator>=(Lane a, Lane b) { return {a.v >= b.v}; }
+  friend Bool operator==(Lane a, Lane b) { return {a.v == b.v}; }
+  friend Lane min(Lane a, Lane b) { return a.v < b.v ? a : b; }
+  friend Lane max(Lane a, Lane b) { return a.v > b.v ? a : b; }
+  friend Lane select(Bool m, Lane a, Lane b) { return m.v ? a : b; }
+  friend Lane where(Bool m, Lane a) { return m.v ? a : Lane(0); }
+  friend T greatest(Lane a) { return a.v; }
+  friend Lane abs(Lane a) { return std::abs(a.v); }
+  friend Lane sqrt(Lane a) { return std::sqrt(a.v); }
+  friend Lane floor(Lane a) { return std::floor(a.v); }
+  friend Int truncate(Lane a) { return static_cast<std::int32_t>(a.v); }
+  friend Lane log2(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::log2(a.v);
+    return static_cast<T>(std::log2(a.v));
+  }
+  friend Lane coarse_log2(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::coarse_log2(a.v);
+    return static_cast<T>(std::log2(a.v));
+  }
+  friend Lane exp2(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::exp2(a.v);
+    return static_cast<T>(std::exp2(a.v));
+  }
+  friend Lane pow(Lane a, Lane b) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::pow(a.v, b.v);
+    return static_cast<T>(std::pow(a.v, b.v));
+  }
+  friend Lane exp(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::exp(a.v);
+    return static_cast<T>(std::exp(a.v));
+  }
+  friend Lane log(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::log(a.v);
+    return static_cast<T>(std::log(a.v));
+  }
+  friend Lane sin(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::sin(a.v);
+    return static_cast<T>(std::sin(a.v));
+  }
+  friend Lane cos(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::cos(a.v);
+    return static_cast<T>(std::cos(a.v));
+  }
+  friend Lane acos(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::acos(a.v);
+    return static_cast<T>(std::acos(a.v));
+  }
+  friend Lane asin(Lane a) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::asin(a.v);
+    return static_cast<T>(std::asin(a.v));
+  }
+  friend Lane atan2(Lane a, Lane b) {
+    if constexpr (std::is_same_v<T, float>) return zoneplate::atan2(a.v, b.v);
+    return static_cast<T>(std::atan2(a.v, b.v));
+  }
+  static Lane from(Int i) { return static_cast<T>(i.v); }
+};
+
+using Float = Lane<float>;
+using WideFloat = Float;
+using OneFloat = Float;
+
+}  // namespace zoneplate::scalar

@@ -1,0 +1,66 @@
+#include "zoneplate/render/canvas.h"
+
+namespace zoneplate {
+
+struct Canvas::Mesh {
+  std::vector<float4> clip;
+  std::vector<std::uint32_t> indices;
+  std::unique_ptr<FragmentShader> shader;
+  MeshOptions options;
+};
+
+namespace {
+
+/// Calls the shader of a batch's mesh; the material of a draw is the index of its mesh.
+class ShaderByMesh : public FragmentShader {
+ public:
+  explicit ShaderByMesh(std::vector<const FragmentShader*> shaders) : shaders_(std::move(shaders)) {}
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    of(batch).shade(batch, outputs, out);
+  }
+  float alpha(const FragmentBatch& batch, float* out) const override { return of(batch).alpha(batch, out); }
+
+ private:
+  const FragmentShader& of(const FragmentBatch& batch) const {
+    return *shaders_[static_cast<std::size_t>(batch.material)];
+  }
+  std::vector<const FragmentShader*> shaders_;
+};
+
+}  // namespace
+
+Canvas::Canvas(int width, int height, SamplePattern samples, bool is_per_sample)
+    : width_(width), height_(height), samples_(std::move(samples)), is_per_sample_(is_per_sample) {}
+Canvas::~Canvas() = default;
+
+void Canvas::add(std::vector<float4> clip, std::span<const std::uint32_t> indices,
+                 std::unique_ptr<FragmentShader> shader, const MeshOptions& options) {
+  meshes_.push_back({std::move(clip), {indices.begin(), indices.end()}, std::move(shader), options});
+}
+
+LinearImage Canvas::resolve() const {
+  std::vector<Draw> draws;
+  std::vector<const FragmentShader*> shaders;
+  for (const Mesh& mesh : meshes_) {
+    Draw draw;
+    draw.clip = mesh.clip;
+    draw.index = mesh.indices;
+    draw.alpha_mode = mesh.options.alpha_mode;
+    draw.culls_back_faces = mesh.options.culls_back_faces;
+    draw.material = static_cast<int>(draws.size());
+    draw.instance = static_cast<std::uint32_t>(draws.size());
+    draws.push_back(draw);
+    shaders.push_back(mesh.shader.get());
+  }
+  LinearImage image(width_, height_, Linear{0, 0, 0, 0});
+  Target target;
+  target.viewport = {width_, height_};
+  target.width = width_, target.height = height_;
+  target.samples = samples_;
+  target.is_per_sample = is_per_sample_;
+  target.color = &image;
+  rasterize(draws, ShaderByMesh(std::move(shaders)), {}, target);
+  return image;
+}
+
+}  // namespace zoneplate

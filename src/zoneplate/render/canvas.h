@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/render/draw.h"
+
+namespace zoneplate {
+
+/// How one mesh of a Canvas is drawn.
+struct MeshOptions {
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  bool culls_back_faces = false;
+};
+
+/// An image into which several meshes are drawn, each with a shader of its own, with one depth buffer.
+///
+/// `draw` stores a mesh; `resolve` rasterizes all of them together. Opaque surfaces hide each other by depth, and
+/// blended ones are composited in the order of their depth, whatever the order of the calls.
+class Canvas {
+ public:
+  /// `is_per_sample`: the fragment part runs once per sample, not once per triangle and pixel.
+  Canvas(int width, int height, SamplePattern samples = standard_pattern(4), bool is_per_sample = false);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Adds indexed triangles with a copy of a user's shader.
+  ///
+  /// Requires  three indices per triangle, each < vertices; the shader is pure, and what it refers to exists until the
+  ///           last `resolve`.
+  template <Shader S>
+  void draw(const S& shader, std::span<const std::uint32_t> indices, std::uint32_t vertices,
+            const MeshOptions& options = {}) {
+    std::vector<float4> clip(vertices);
+    parallel_ranges(vertices, 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) clip[v] = shader.vertex(Vertex{static_cast<std::uint32_t>(v)}).first;
+    });
+    add(std::move(clip), indices, std::make_unique<OwnShader<S>>(shader), options);
+  }
+
+  /// The image of all meshes so far: linear and premultiplied, without a background.
+  LinearImage resolve() const;
+
+ private:
+  /// A shader with the batches that call it.
+  template <Shader S>
+  class OwnShader : public FragmentShader {
+   public:
+    explicit OwnShader(const S& shader) : shader_(shader), fragments_(shader_) {}
+    void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+      fragments_.shade(batch, outputs, out);
+    }
+    float alpha(const FragmentBatch& batch, float* out) const override { return fragments_.alpha(batch, out); }
+
+   private:
+    S shader_;
+    ShaderPoints<S> fragments_;
+  };
+  struct Mesh;
+
+  void add(std::vector<float4> clip, std::span<const std::uint32_t> indices, std::unique_ptr<FragmentShader> shader,
+           const MeshOptions& options);
+
+  int width_, height_;
+  SamplePattern samples_;
+  bool is_per_sample_;
+  std::vector<Mesh> meshes_;
+};
+
+}  // namespace zoneplate

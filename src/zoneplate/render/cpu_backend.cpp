@@ -1,0 +1,278 @@
+#include "zoneplate/render/backend.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/custom_draw.h"
+#include "zoneplate/render/draw_list.h"
+#include "zoneplate/render/edge_distances.h"
+#include "zoneplate/render/geometry_fragments.h"
+#include "zoneplate/render/motion.h"
+#include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/shade/surface/surface.h"
+
+namespace zoneplate {
+namespace {
+
+/// Adapts the scene's materials to FragmentShader.
+class SceneFragmentShader : public FragmentShader {
+ public:
+  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view)
+      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()) {}
+
+  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    surfaces_.shade(batch, outputs, out);
+  }
+  float alpha(const FragmentBatch& batch, float* out) const override {
+    surfaces_.alpha(batch, out);
+    return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
+  }
+  float brightest() const override { return surfaces_.brightest(); }
+  bool needs_derivatives(int material) const override { return surfaces_.needs_derivatives(material); }
+  VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
+    const std::span<const float> record = surfaces_.vertex_record(instance, material);
+    return {reinterpret_cast<const std::byte*>(record.data()), record.size_bytes()};
+  }
+
+ private:
+  const Scene& scene_;
+  SurfaceShader surfaces_;
+};
+
+/// Clip space looks x = m00 X + m02 Z, w = -Z: through the pixel's (x, y) goes the direction ((x + m02) / m00, ...,
+/// -1).
+PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const RenderOptions& options) {
+  const float4x4& m = clip_from_camera;
+  const float4x4& world = camera.world_from_camera;
+  const float3 right = xyz(world.column[0]), up = xyz(world.column[1]), back = xyz(world.column[2]);
+  const float tan_x = 1 / m.column[0].x, tan_y = 1 / m.column[1].y;
+  const float3 first = back - right * ((m.column[2].x - 1) * tan_x) - up * ((m.column[2].y + 1) * tan_y);
+  return {first, right * (-2 * tan_x / (256 * static_cast<float>(options.width))),
+          up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
+}
+
+ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
+                              const RenderOptions& options) {
+  const float4x4& world_from_camera = camera.world_from_camera;
+  ViewUniforms s;
+  s.eye = xyz(world_from_camera.column[3]);
+  s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
+  s.is_orthographic = camera.is_orthographic;
+  if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
+  for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
+  s.environment = lighting.environment.constant_radiance();
+  s.ambient_light = lighting.ambient_light;
+  s.anisotropy = options.anisotropy;
+  return s;
+}
+
+/// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.
+Rgba8Image make_shown(int w, int h, RasterMemory& memory) {
+  const bool fits = memory.display8.width() == w && memory.display8.height() == h;
+  return fits ? std::move(memory.display8) : Rgba8Image(w, h);
+}
+
+/// The planes of a request that has no colour.
+void make_uncoloured(const Request& request, int w, int h, Frame& frame, Target& target) {
+  const std::size_t samples = request.samples.size();
+  if (request.content == Content::Geometry) {
+    frame.sample_geometry.assign(samples, LinearImage(w, h, Linear{0, 0, 0, 0}));
+    target.sample_color = &frame.sample_geometry;
+  } else if (request.content == Content::EdgeDistances) {
+    frame.color = LinearImage(w, h, Linear{0, 0, 0, 0});
+    target.color = &frame.color;
+  } else {
+    frame.sample_triangle.assign(samples, Plane<std::uint32_t>(w, h, Frame::no_id));
+    target.sample_triangle = &frame.sample_triangle;
+    if (!request.planes.samples) return;
+    frame.sample_depth.assign(samples, Plane<float>(w, h, 0.0f));
+    target.sample_depth = &frame.sample_depth;
+  }
+}
+
+void make_planes(const Request& request, int w, int h, Frame& frame, Target& target) {
+  Planes planes = request.planes;
+  const std::size_t samples = request.samples.size();
+  const auto make = [&](bool is_requested, auto& plane, auto*& pointer, auto empty) {
+    if (!is_requested) return;
+    plane = {w, h, empty};
+    pointer = &plane;
+  };
+  if (planes.any_point_plane()) planes.object_id = planes.primitive_id = true;
+  make(request.content == Content::Colour && !target.display_transform, frame.color, target.color, Linear{0, 0, 0, 0});
+  make(planes.any_point_plane(), frame.data_position, target.data_position, SamplePosition{});
+  make(planes.depth, frame.reversed_depth, target.reversed_depth, 0.0f);
+  make(planes.normal, frame.normal, target.normal, float3{});
+  make(planes.albedo, frame.albedo, target.albedo, float3{});
+  make(planes.uv, frame.uv, target.uv, float2{});
+  make(planes.object_id, frame.object_id, target.instance, Frame::no_id);
+  make(planes.material_id, frame.material_id, target.material, Frame::no_id);
+  make(planes.primitive_id, frame.primitive_id, target.primitive, Frame::no_id);
+  make(planes.coverage, frame.coverage, target.coverage, 0.0f);
+  if (planes.samples || planes.sample_triangles) {
+    frame.sample_triangle.assign(samples, Plane<std::uint32_t>(w, h, Frame::no_id));
+    target.sample_triangle = &frame.sample_triangle;
+  }
+  if (planes.samples || planes.sample_colors) {
+    frame.sample_color.assign(samples, LinearImage(w, h, Linear{0, 0, 0, 0}));
+    target.sample_color = &frame.sample_color;
+  }
+  if (!planes.samples) return;
+  frame.sample_depth.assign(samples, Plane<float>(w, h, 0.0f));
+  target.sample_depth = &frame.sample_depth;
+}
+
+/// The distance along the view axis that the projection maps to this reversed depth.
+void find_distances(const float4x4& clip_from_camera, Frame& frame) {
+  const double zz = clip_from_camera.column[2].z, zw = clip_from_camera.column[3].z;
+  const double wz = clip_from_camera.column[2].w, ww = clip_from_camera.column[3].w;
+  frame.depth = Plane<float>(frame.reversed_depth.width(), frame.reversed_depth.height());
+  for (std::size_t i = 0; i < frame.depth.values().size(); ++i) {
+    const double z = frame.reversed_depth.values()[i];
+    const double view_z = (zw - z * ww) / (z * wz - zz);
+    frame.depth.values()[i] = z > 0 ? static_cast<float>(-view_z) : std::numeric_limits<float>::infinity();
+  }
+}
+
+void check(const RenderOptions& o, const Request& request) {
+  const auto reject = [](const std::string& what) { throw Error(ErrorKind::Usage, what); };
+  if (o.width < 1 || o.height < 1 || o.width > 32768 || o.height > 32768)
+    reject("an image has 1 to 32768 pixels a side, not " + std::to_string(o.width) + " × " + std::to_string(o.height));
+  if (const Crop c = o.crop.value_or(Crop{0, 0, o.width, o.height});
+      c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > o.width - c.width || c.y > o.height - c.height)
+    reject("the crop must lie within the image of " + std::to_string(o.width) + " × " + std::to_string(o.height));
+  if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
+    reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
+  if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))
+    reject("a method that draws for itself gives a linear image and has no samples");
+  assert(request.content == Content::Colour || !(request.draw || request.writes_display8));
+  assert(request.content != Content::Data || !(request.planes.samples || request.planes.sample_colors));
+  assert(request.content != Content::EdgeDistances || request.samples.size() == 1);
+}
+
+/// Draws the colour by Request::draw, and the data passes by tiles.
+RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const FragmentShader& shader,
+                     const RasterRules& rules, const Target& target, const RenderOptions& options, RasterMemory& memory,
+                     Plane<float>* error, std::uint64_t& geometric) {
+  RasterCounts counts;
+  if (request.planes.any_pixel_plane()) {
+    Target planes = target;
+    planes.color = nullptr;
+    const RasterCounts data = rasterize(draws, shader, rules, planes, &memory);
+    geometric = data.shaded + data.evaluated;
+  }
+  request.draw({draws, shader, rules, target, options, error, counts, memory});
+  return counts;
+}
+
+/// Without colour only opaque and alpha-tested surfaces matter. Data passes keep the blended draws, so that triangle
+/// ids stay the same.
+RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
+                             const FragmentShader& surfaces, const RasterRules& rules, Target& target,
+                             RasterMemory& memory) {
+  const auto run = [&](const FragmentShader& points) { return rasterize(draws, points, rules, target, &memory); };
+  if (request.content == Content::Data) return run(surfaces);
+  std::erase_if(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
+  if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
+  if (request.content == Content::Visibility) return run(surfaces);
+  target.is_per_sample = true;
+  return run(GeometryFragmentShader(scene, camera, surfaces));
+}
+
+class CpuBackend : public Backend {
+ public:
+  Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
+               RenderCounts* counts) override;
+  void recycle(Rgba8Image image) override { memory_.display8 = std::move(image); }
+
+ private:
+  RasterMemory memory_;
+};
+
+Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, const Request& request,
+                         const RenderOptions& options, RenderCounts* counts) {
+  check(options, request);
+  RasterMemory& memory = memory_;
+  const Scene& scene = prepared.scene();
+  const Stopwatch prepare;
+  const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
+  SceneDraws draws = growing(
+      "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
+  const SceneFragmentShader points(prepared, view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options));
+
+  Frame frame;
+  frame.x = crop.x, frame.y = crop.y;
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
+  target.samples = request.samples;
+  target.weights = request.weights;
+  target.alpha = request.alpha;
+  target.centroid = request.centroid;
+  target.is_per_sample = request.rate == Rate::Sample;
+  if (target.is_per_sample && options.sample_footprint)
+    target.spacing =
+        request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
+  std::optional<DisplayTransform> display_transform;
+  if (request.writes_display8) target.display_transform = &display_transform.emplace(options.display);
+  const bool has_color = request.content == Content::Colour;
+  const bool has_data = has_color || request.content == Content::Data;
+  if (has_data)
+    make_planes(request, crop.width, crop.height, frame, target);
+  else
+    make_uncoloured(request, crop.width, crop.height, frame, target);
+  if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory));
+  const double prepare_ms = prepare.ms();
+
+  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
+                          .is_painter = options.visibility == Visibility::Painter,
+                          .capacity = options.capacity};
+  if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
+  std::uint64_t geometric = 0;
+  const RasterCounts c = !has_color
+                             ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, memory)
+                         : request.draw ? draw_by(request, draws.draws, points, rules, target, options, memory,
+                                                  frame.error.empty() ? nullptr : &frame.error, geometric)
+                                        : rasterize(draws.draws, points, rules, target, &memory);
+  if (request.content == Content::EdgeDistances)
+    frame.edge_distance = edge_distances_of(std::exchange(frame.color, {}));
+  if (target.reversed_depth) find_distances(clip_from_camera, frame);
+  if (has_data && request.planes.any_point_plane()) {
+    frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
+    add_surface_points({prepared.shared_scene(), camera}, request.planes, options, frame);
+  }
+  for (std::uint32_t& id : frame.object_id.values())
+    if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
+  if (counts)
+    *counts = {.prepare_ms = prepare_ms,
+               .geometry_ms = c.geometry_ms,
+               .tiles_ms = c.tiles_ms,
+               .stages = c.stages,
+               .vertices = c.vertices,
+               .triangles = c.triangles,
+               .triangles_set_up = c.set_up,
+               .shaded = has_color ? c.shaded : 0,
+               .geometric = geometric + c.evaluated + (has_color ? 0 : c.shaded)};
+  return frame;
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> make_cpu_backend() { return std::make_unique<CpuBackend>(); }
+
+Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
+             RenderCounts* counts) {
+  return CpuBackend().render(scene, camera, request, options, counts);
+}
+
+}  // namespace zoneplate

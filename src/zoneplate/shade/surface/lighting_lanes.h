@@ -1,0 +1,274 @@
+#pragma once
+
+#include <algorithm>
+
+#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/surface/brightness.h"
+#include "zoneplate/shade/surface/geometry_lanes.h"
+#include "zoneplate/shade/surface/shading.h"
+
+/// The stages of shade/surface/shading.h from the lights to the colour, over the lane types of
+/// math/lanes.h.
+namespace zoneplate::stages {
+
+template <class F>
+[[gnu::always_inline]] inline Vector<F> zeros() {
+  return {F(0.0f), F(0.0f), F(0.0f)};
+}
+
+/// The most frequent case, fixed at compile time: one directional light, opaque surfaces without emission.
+struct PlainUniforms {
+  static constexpr int lights = 1;
+  static constexpr bool has_sun_only = true;
+  static constexpr bool has_occlusion = false, has_emissive = false, has_emissive_texture = false;
+  static constexpr bool has_bare_meshes = false, is_blended = false;
+};
+
+/// The general case, read at run time.
+struct AnyUniforms {
+  int lights;
+  static constexpr bool has_sun_only = false;
+  bool has_occlusion, has_emissive, has_emissive_texture, has_bare_meshes, is_blended;
+  explicit AnyUniforms(const ShadingUniforms& s)
+      : lights(s.lights),
+        has_occlusion(s.has_occlusion),
+        has_emissive(s.has_emissive),
+        has_emissive_texture(s.has_emissive_texture),
+        has_bare_meshes(s.has_bare_meshes),
+        is_blended(s.is_blended) {}
+};
+
+inline bool is_plain(const ShadingUniforms& s, const ShadingState& p) {
+  return p.light_visibility == nullptr && s.lights == 1 && s.light[0].is_directional && !s.has_occlusion &&
+         !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended;
+}
+
+/// The irradiance of a light at fragments, perpendicular to its direction.
+template <class F>
+struct Arriving {
+  Vector<F> from;  ///< unit direction to the light
+  Vector<F> radiance;
+};
+
+template <class F>
+[[gnu::always_inline]] inline Arriving<F> arriving(const PreparedLight& light, bool is_sun, const ShadingState& p,
+                                                   int i) {
+  const auto radiance = Vector<F>::all(light.radiance);
+  if (is_sun || light.is_directional) return {Vector<F>::all(light.towards), radiance};
+  const Vector<F> path = Vector<F>::all(light.position) - Vector<F>::load(p.position, i);
+  const Vector<F> l = normalize(path);
+  F strength = fading(light, dot(path, path));
+  if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
+  return {l, radiance * strength};
+}
+
+/// The radiance of light k times its visibility at the fragments.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> visible(Vector<F> radiance, const ShadingState& p, int k, int i) {
+  if (p.light_visibility == nullptr) return radiance;
+  return radiance * F::load(p.light_visibility + k * FragmentBatch::padded_capacity + i);
+}
+
+/// Colour × alpha, colour clamped to [0, brightest_color].
+template <class F>
+[[gnu::always_inline]] inline void store_color(Vector<F> color, bool is_blended, const ShadingState& p,
+                                               FragmentOutputs& out, int i) {
+  const F low(0.0f), high(brightest_color);
+  Vector<F> color_out{min(max(color.x, low), high), min(max(color.y, low), high), min(max(color.z, low), high)};
+  const F alpha = is_blended ? F::load(p.base[3] + i) : F(1.0f);
+  if (is_blended) color_out = color_out * alpha;
+  color_out.x.store(out.r + i), color_out.y.store(out.g + i), color_out.z.store(out.b + i);
+  alpha.store(out.a + i);
+}
+
+/// Adds what does not depend on lights: emission, the colour of fragments without normals, alpha.
+template <class F, class Kind>
+[[gnu::always_inline]] inline void finish(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
+                                          Vector<F> sum, Vector<F> base, FragmentOutputs& out, int i) {
+  if (kind.has_emissive_texture) {
+    sum = sum + Vector<F>::load(p.emissive, i);
+  } else if (kind.has_emissive) {
+    sum = sum + Vector<F>::all(s.emissive);
+  }
+  if (kind.has_bare_meshes) sum = select(F::load(p.is_lit + i) > F(0.5f), sum, base);
+  store_color(sum, kind.is_blended, p, out, i);
+}
+
+/// Ambient light, attenuated by occlusion.
+template <class F, class Kind>
+[[gnu::always_inline]] inline Vector<F> unoccluded(const Kind& kind, const ShadingState& p, Vector<F> light, int i) {
+  return kind.has_occlusion ? light * F::load(p.occlusion + i) : light;
+}
+
+enum class Highlight { None, BlinnPhong, Phong };
+
+/// The square of max(n · h, 0) with h halfway between l and the vector `way` to the viewer, of any length; 0 where h
+/// does not exist.
+template <class F>
+[[gnu::always_inline]] inline F halfway_cosine_square(Vector<F> n, Vector<F> l, Vector<F> way) {
+  const Vector<F> h = l * sqrt(dot(way, way)) + way;
+  const F square = dot(h, h), nh = max(dot(n, h), F(0.0f));
+  return select(square > F(1e-36f), nh * nh / square, F(0.0f));
+}
+
+/// The cosines of one light at a batch's fragments.
+struct Cosines {
+  alignas(64) float diffuse[FragmentBatch::padded_capacity];
+  alignas(64) float highlight[FragmentBatch::padded_capacity];  ///< the cosine's power
+};
+
+/// Computes the cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in shade/surface/brdf.h.
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline void find_cosines(const ShadingUniforms& s, const PreparedLight& of, bool is_sun,
+                                                const FragmentBatch& batch, const ShadingState& p, Cosines& out) {
+  const Viewer<F> viewer(s.viewpoint);
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const auto n = Vector<F>::load(p.normal, i), l = arriving<F>(of, is_sun, p, i).from;
+    lambert(dot(n, l)).store(out.diffuse + i);
+    if constexpr (highlight == Highlight::Phong)
+      max(phong_cosine(n, l, viewer.direction(batch, p, i)), F(0.0f)).store(out.highlight + i);
+    if constexpr (highlight == Highlight::BlinnPhong)
+      halfway_cosine_square(n, l, viewer.way(batch, p, i)).store(out.highlight + i);
+  }
+}
+
+/// Several independent vectors with one operation on all of them, so that their latencies overlap.
+template <class F, int size>
+struct Several {
+  F v[size];
+  explicit Several(float x) { std::fill_n(v, size, F(x)); }
+  template <class Make>
+  [[gnu::always_inline]] explicit Several(Make make) {
+    for (int k = 0; k < size; ++k) v[k] = make(k);
+  }
+  [[gnu::always_inline]] friend Several operator*(const Several& a, const Several& b) {
+    return Several([&](int k) { return a.v[k] * b.v[k]; });
+  }
+  [[gnu::always_inline]] friend Several sqrt(const Several& a) {
+    return Several([&](int k) { return sqrt(a.v[k]); });
+  }
+  [[gnu::always_inline]] friend Several pow(const Several& a, const Several& b) {
+    return Several([&](int k) { return pow(a.v[k], b.v[k]); });
+  }
+};
+
+/// Raises the cosines to the exponent. This is a loop of its own because both computations are long dependency chains.
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline void raise_cosines(const Exponent& exponent, Cosines& cosines, int count) {
+  constexpr int vectors = 8 / F::lanes < 2 ? 2 : 8 / F::lanes;
+  constexpr int step = vectors * F::lanes;
+  static_assert(ShadingState::capacity % step == 0);
+  if (count % step != 0) std::fill_n(cosines.highlight + count, step - count % step, 0.0f);
+  for (int i = 0; i < count; i += step) {
+    const Several<F, vectors> x([&](int k) { return F::load(cosines.highlight + i + k * F::lanes); });
+    const auto raised = highlight == Highlight::Phong ? power(x, exponent) : power_of_square(x, exponent);
+    for (int k = 0; k < vectors; ++k) raised.v[k].store(cosines.highlight + i + k * F::lanes);
+  }
+}
+
+/// The light accumulated at fragments, for base colour and highlight.
+template <class F>
+struct Gathered {
+  Vector<F> diffuse, specular;
+};
+
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline Gathered<F> gather(const PreparedLight& of, int k, bool is_sun, const ShadingState& p,
+                                                 const Cosines& cosines, int i) {
+  Vector<F> radiance = arriving<F>(of, is_sun, p, i).radiance;
+  if (!is_sun) radiance = visible(radiance, p, k, i);
+  if constexpr (highlight == Highlight::None) return {radiance * F::load(cosines.diffuse + i), zeros<F>()};
+  return {radiance * F::load(cosines.diffuse + i), radiance * F::load(cosines.highlight + i)};
+}
+
+/// Stores the colour that follows from the accumulated light.
+template <class F, Highlight highlight, class Kind>
+[[gnu::always_inline]] inline void store_gathered(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
+                                                  const Gathered<F>& light, FragmentOutputs& out, int i) {
+  const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
+  Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
+  if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * light.specular;
+  finish(s, kind, p, sum, base, out, i);
+}
+
+/// `s` and each light are copies, so that their members are loaded once and not again after each store.
+template <class F, Highlight highlight, class Kind>
+void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch& batch, const ShadingState& p,
+                 FragmentOutputs& out) {
+  if (kind.lights == 0) {
+    for (int i = 0; i < p.count; i += F::lanes)
+      store_gathered<F, highlight>(s, kind, p, {zeros<F>(), zeros<F>()}, out, i);
+    return;
+  }
+  Cosines cosines;
+  alignas(64) ShadingState::Array diffuse[3], specular[3];
+  for (int k = 0; k < kind.lights; ++k) {
+    const PreparedLight light = s.light[k];
+    find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
+    if constexpr (highlight != Highlight::None) raise_cosines<F, highlight>(s.exponent, cosines, p.count);
+    for (int i = 0; i < p.count; i += F::lanes) {
+      Gathered<F> all = gather<F, highlight>(light, k, kind.has_sun_only, p, cosines, i);
+      if (k > 0) {
+        all.diffuse = Vector<F>::load(diffuse, i) + all.diffuse;
+        all.specular = Vector<F>::load(specular, i) + all.specular;
+      }
+      if (k + 1 < kind.lights) {
+        all.diffuse.store(diffuse, i), all.specular.store(specular, i);
+      } else {
+        store_gathered<F, highlight>(s, kind, p, all, out, i);
+      }
+    }
+  }
+}
+
+template <class F, Highlight highlight>
+void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
+  if (is_plain(s, p)) return light_phong<F, highlight>(s, PlainUniforms(), batch, p, out);
+  light_phong<F, highlight>(s, AnyUniforms(s), batch, p, out);
+}
+
+template <class F>
+void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
+  if (!s.has_specular) return light_phong<F, Highlight::None>(s, batch, p, out);
+  if (s.is_phong) return light_phong<F, Highlight::Phong>(s, batch, p, out);
+  light_phong<F, Highlight::BlinnPhong>(s, batch, p, out);
+}
+
+template <class F, bool has_texture>
+void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
+  const auto environment = Vector<F>::all(s.environment);
+  const AnyUniforms kind(s);
+  const Viewer<F> viewer(s.viewpoint);
+  const SpecularFit<F> one_fit{F(s.roughness)};
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
+    const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
+    const F metallic = has_texture ? F::load(p.metallic + i) : F(s.metallic);
+    const F roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
+    const Metallic<F> m = make_metallic(base, metallic, roughness);
+    Vector<F> sum = zeros<F>();
+    for (int k = 0; k < s.lights; ++k) {
+      const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
+      sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
+    }
+    if (s.has_environment) {
+      const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
+      const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
+      sum = sum + unoccluded(kind, p, environment, i) * metallic_environment(base, metallic, fit, nv);
+    }
+    finish(s, kind, p, sum, base, out, i);
+  }
+}
+
+template <class F>
+void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
+  if (s.has_material_texture) return light_metallic<F, true>(s, batch, p, out);
+  light_metallic<F, false>(s, batch, p, out);
+}
+
+template <class F>
+void unlit(bool is_blended, const ShadingState& p, FragmentOutputs& out) {
+  for (int i = 0; i < p.count; i += F::lanes) store_color(Vector<F>::load(p.base, i), is_blended, p, out, i);
+}
+
+}  // namespace zoneplate::stages

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "zoneplate/shade/surface/geometry_lanes.h"
+#include "zoneplate/shade/surface/lighting_lanes.h"
+
+namespace zoneplate::stages {
+
+/// The stages of shade/surface/shading.h for one lane type of math/lanes.h.
+template <class F, class Wide>
+constexpr SurfaceKernels all() {
+  return {
+      .scale = &scale<Wide>,
+      .multiply = &multiply<Wide>,
+      .fill = &fill<Wide>,
+      .saturate = &saturate<Wide>,
+      .interpolate = &interpolate<F>,
+      .map_coordinates = &map_coordinates<F>,
+      .transform_positions = &transform_positions<F>,
+      .transform_normals = &transform_normals<F>,
+      .transform_tangents = &transform_tangents<F>,
+      .find_normals = &find_normals<F>,
+      .bend_normals = &bend_normals<F>,
+      .default_normals = &default_normals<F>,
+      .light_phong = &light_phong<Wide>,
+      .light_metallic = &light_metallic<Wide>,
+      .unlit = &unlit<Wide>,
+  };
+}
+
+}  // namespace zoneplate::stages

@@ -1,0 +1,382 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "zoneplate/shade/texture/filtering.h"
+
+namespace zoneplate {
+
+/// The mip level of a texture at each fragment: its size in 1/32768 texel, and the layout of its texels.
+template <class F>
+struct MipLevel {
+  F width, height;
+  typename F::Int columns, rows, pitch, offset;
+};
+
+/// The same level for all fragments.
+template <class F, class View>
+[[gnu::always_inline]] inline MipLevel<F> mip_level(const View& t, std::int32_t level) {
+  using Int = typename F::Int;
+  const std::int32_t w = t.width[level], h = t.height[level];
+  const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
+  return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[level])};
+}
+
+/// The level of each fragment.
+template <class F, class View>
+[[gnu::always_inline]] inline MipLevel<F> mip_levels(const View& t, typename F::Int level) {
+  using Int = typename F::Int;
+  static_assert(View::max_levels == 16);
+  const Int w = Int::look_up(t.width, level), h = Int::look_up(t.height, level);
+  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::look_up(t.offset, level)};
+}
+
+/// A coordinate wrapped to [0, 1]; NaN gives 0.
+template <class F>
+[[gnu::always_inline]] inline F wrap(F u, bool mirrors, bool clamps) {
+  const F zero(0.0f), one(1.0f);
+  F w = u;
+  if (mirrors) {
+    const F half = u * F(0.5f);
+    w = F(2.0f) * (half - floor(half));
+    w = select(w > one, F(2.0f) - w, w);
+  } else if (!clamps) {
+    return max(u - floor(u), zero);
+  }
+  return min(max(w, zero), one);
+}
+
+/// The most frequent sampler, fixed at compile time: repeating, linear within and between mip levels.
+struct TrilinearRepeat {
+  static constexpr bool mirror_u = false, clamp_u = false, mirror_v = false, clamp_v = false;
+  static constexpr bool nearest_magnify = false, nearest_minify = false;
+  static constexpr bool has_mips = true, blends_mips = true;
+};
+
+template <class Filter>
+[[gnu::always_inline]] inline bool may_be_nearest(const Filter& f) {
+  return f.nearest_magnify || f.nearest_minify;
+}
+
+inline bool is_trilinear_repeat(const SamplerState& f) {
+  return !f.mirror_u && !f.clamp_u && !f.mirror_v && !f.clamp_v && !may_be_nearest(f) && f.has_mips && f.blends_mips;
+}
+
+/// The two texels of an axis around a wrapped coordinate, counted from the border on, and the weight of the second in
+/// 1/32768. The second follows the first, or is the same and has no weight.
+template <class F>
+struct AxisTaps {
+  typename F::Int first, weight;
+  typename F::Bool is_same;
+};
+
+/// `size` in 1/32768 texel, `count` in texels.
+template <class F>
+[[gnu::always_inline]] inline AxisTaps<F> axis_taps(F wrapped, F size, typename F::Int count, bool may_be_nearest,
+                                                    typename F::Bool is_nearest, bool repeats) {
+  using Int = typename F::Int;
+  // Centres of texels lie at halves, and the border is one texel wide.
+  const F to_first = may_be_nearest ? select(is_nearest, F(32768.0f), F(16384.0f)) : F(16384.0f);
+  const Int at = truncate(wrapped * size + to_first);
+  Int first = at.template shifted_right<15>(), weight = at & Int(32767);
+  if (may_be_nearest) weight = select(is_nearest, Int(0), weight);
+  if (repeats) return {first, weight, may_be_nearest ? is_nearest : weight < Int(0)};
+
+  // A coordinate in [0, 1] leaves the level by one texel at most. Without repetition both texels are the same there.
+  const auto is_same = (first < Int(1)) | (first > count - Int(1)) | (may_be_nearest ? is_nearest : weight < Int(0));
+  first = min(max(first, Int(1)), count);
+  return {first, select(is_same, Int(0), weight), is_same};
+}
+
+/// log2 of the footprint in texels of level 0, which is w × h, clamped to ±64.
+template <class F>
+[[gnu::always_inline]] inline F footprint_level(F w, F h, const Footprint& p, int i) {
+  const F sx = F::load(p.dudx + i) * w, tx = F::load(p.dvdx + i) * h;
+  const F sy = F::load(p.dudy + i) * w, ty = F::load(p.dvdy + i) * h;
+  const F square = max(sx * sx + tx * tx, sy * sy + ty * ty);
+  return F(0.5f) * coarse_log2(min(max(square, F(0x1p-100f)), F(0x1p100f)));
+}
+
+template <class F>
+struct WrappedCoordinates {
+  F u, v;
+  typename F::Bool is_nearest;
+};
+
+/// Prefetches texels that a later stage mixes.
+struct TexelFetch {
+  const unsigned char* codes;
+  int shift;  ///< log2 of a texel's bytes
+
+  template <class View>
+  explicit TexelFetch(const View& t)
+      : codes(t.unorm8 != nullptr    ? t.unorm8
+              : t.unorm15 != nullptr ? reinterpret_cast<const unsigned char*>(t.unorm15)
+              : t.halves != nullptr  ? reinterpret_cast<const unsigned char*>(t.halves)
+                                     : reinterpret_cast<const unsigned char*>(t.values)),
+        shift(t.unorm8 != nullptr                           ? 2
+              : t.unorm15 != nullptr || t.halves != nullptr ? 3
+                                                            : 4) {}
+  [[gnu::always_inline]] void prefetch(std::int32_t texel) const {
+    __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
+  }
+};
+
+/// The mip levels to read.
+template <class F>
+struct Levels {
+  typename F::Int first;
+  F mip_weight;  ///< weight of the next level
+  typename F::Bool is_minified;
+};
+
+template <class F, class Filter>
+[[gnu::always_inline]] inline Levels<F> find_levels(F last_level, const Filter& f, F lod) {
+  const F clamped = min(max(lod, F(0.0f)), last_level);
+  const F fine = f.has_mips ? floor(f.blends_mips ? clamped : clamped + F(0.5f)) : F(0.0f);
+  const F mip_weight = f.has_mips && f.blends_mips ? clamped - fine : F(0.0f);
+  return {truncate(fine), mip_weight, lod > F(0.0f)};
+}
+
+/// The mip levels of fragments, and their weights.
+template <class F>
+struct Lookup {
+  F last_level;
+  MipLevel<F> level[2];
+  typename F::Int first;       ///< the first level
+  typename F::Int mip_weight;  ///< weight of the second level, in 1/32768
+  typename F::Bool is_nearest;
+};
+
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline void set_levels(const View& t, const Filter& f, typename F::Int first, Lookup<F>& at) {
+  using Int = typename F::Int;
+  const bool has_second = f.has_mips && f.blends_mips;
+  at.first = first;
+  if (first.is_uniform()) {
+    at.level[0] = mip_level<F>(t, first.first());
+    if (has_second) at.level[1] = mip_level<F>(t, first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1);
+  } else {
+    at.level[0] = mip_levels<F>(t, first);
+    if (has_second) at.level[1] = mip_levels<F>(t, min(first + Int(1), Int(t.levels - 1)));
+  }
+}
+
+/// Updates `at`, the look-up of the fragments before, which mostly read the same levels: then the texel addresses do
+/// not depend on this computation.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F lod, Lookup<F>& at) {
+  using Int = typename F::Int;
+  const Levels<F> levels = find_levels<F>(at.last_level, f, lod);
+  const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
+  if (!levels.first.equals(at.first)) set_levels(t, f, levels.first, at);
+  at.mip_weight = min(truncate(levels.mip_weight * F(32768.0f) + F(0.5f)), Int(32767));
+  at.is_nearest = select(levels.is_minified, minify, magnify) > F(0.5f);
+}
+
+/// The look-up of fragments at the first level.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline Lookup<F> begin_lookup(const View& t, const Filter& f) {
+  Lookup<F> at;
+  at.last_level = F(static_cast<float>(t.levels - 1));
+  set_levels(t, f, typename F::Int(0), at);
+  return at;
+}
+
+/// Stores the taps of one level, and prefetches the lower texels at one or both ends of the fragments, which mostly are
+/// a row.
+template <class F, class Filter>
+[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedCoordinates<F>& p,
+                                               const MipLevel<F>& level, Taps& out, int which, int i) {
+  using Int = typename F::Int;
+  const bool nearest = may_be_nearest(f), repeats_v = !f.mirror_v && !f.clamp_v;
+  const AxisTaps<F> x = axis_taps(p.u, level.width, level.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
+  const AxisTaps<F> y = axis_taps(p.v, level.height, level.rows, nearest, p.is_nearest, repeats_v);
+  const Int upper = level.offset + y.first * level.pitch + x.first;
+  const Int below = repeats_v && !nearest ? level.pitch : select(y.is_same, Int(0), level.pitch);
+  upper.store(out.upper[which] + i);
+  x.weight.store_by_fours(y.weight, out.bilinear_weight[which], i);
+  const Int lower = upper + below;
+  lower.store(out.lower[which] + i);
+  fetch.prefetch(lower.first());
+  // A row of the second level has half as many texels.
+  if (which == 0) fetch.prefetch(out.lower[which][i + F::lanes - 1]);
+}
+
+/// Stores the taps of fragments at (u, v), from the i-th of `out` on.
+template <class F, class Filter>
+[[gnu::always_inline]] inline void store_taps(const TexelFetch& fetch, const Filter& f, const Lookup<F>& at, F u, F v,
+                                              Taps& out, int i) {
+  at.mip_weight.store_by_fours(at.mip_weight, out.mip_weight, i);
+  const WrappedCoordinates<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
+  for (int which = 0; which < (f.has_mips && f.blends_mips ? 2 : 1); ++which)
+    store_level<F>(fetch, f, p, at.level[which], out, which, i);
+}
+
+/// `at` is a copy, so that its pointers are loaded once and not again after each store.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint at, Taps& out,
+                                                 int count) {
+  static constexpr bool none[Taps::groups] = {};
+  static constexpr int step = F::lanes < 8 ? 8 : F::lanes;
+  const bool* const repeats = at.repeats != nullptr ? at.repeats : none;
+  // True if all fragments from i on, of one group or two, have the levels of the fragments before them. A vector of two
+  // groups repeats the vector before it if that had one footprint.
+  const auto is_known = [&](int i) {
+    const int g = i / 8;
+    if constexpr (step == 8) return repeats[g];
+    return repeats[g] && repeats[g + 1] && repeats[g - 1];
+  };
+  // The levels are found in a loop before the addresses, because both are long dependency chains.
+  const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0]));
+  int leader = 0;
+  for (int i = 0; i < count; i += step) {
+    if (is_known(i)) continue;
+    for (int k = i; k < i + step; k += F::lanes) footprint_level(w, h, at, k).store(out.lod + k);
+    if constexpr (step == 8) continue;
+    for (int k = i; k < i + step; k += 8) {
+      if (repeats[k / 8]) {
+        std::copy_n(out.lod + leader, 8, out.lod + k);
+      } else {
+        leader = k;
+      }
+    }
+  }
+  const TexelFetch fetch(t);
+  Lookup<F> lookup = begin_lookup<F>(t, f);
+  for (int i = 0; i < count; i += step) {
+    const bool is_same = is_known(i);
+    for (int k = i; k < i + step; k += F::lanes) {
+      if (!is_same) find_lookup<F>(t, f, F::load(out.lod + k), lookup);
+      store_taps<F>(fetch, f, lookup, F::load(at.u + k), F::load(at.v + k), out, k);
+    }
+  }
+}
+
+/// The stage `find_taps` of shade/texture/filtering.h.
+template <class F, class View>
+void find_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
+  if (is_trilinear_repeat(f)) return find_all_taps<F>(t, TrilinearRepeat{}, footprint, out, count);
+  find_all_taps<F>(t, f, footprint, out, count);
+}
+
+/// The longer axes of the fragments' footprints, the numbers of probes along them, and the probes' LOD.
+struct Probes {
+  alignas(64) float du[Taps::padded_capacity], dv[Taps::padded_capacity];
+  alignas(64) float count[Taps::padded_capacity], lod[Taps::padded_capacity];
+};
+
+template <class F, class View>
+[[gnu::always_inline]] inline void find_probes(const View& t, int anisotropy, const Footprint& p, int i, Probes& out) {
+  const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0])), one(1.0f);
+  const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
+  const F sx = ux * w, tx = vx * h, sy = uy * w, ty = vy * h;
+  const F x = min(max(sx * sx + tx * tx, F(0x1p-60f)), F(0x1p60f));
+  const F y = min(max(sy * sy + ty * ty, F(0x1p-60f)), F(0x1p60f));
+  const auto is_wide = x > y;
+  const F longer = max(x, y);
+
+  // One probe per shorter axis along the longer one, but at most one per texel.
+  const F ratio = min(-floor(-sqrt(min(longer / min(x, y), longer))), F(static_cast<float>(anisotropy)));
+  const F count = max(ratio, one);
+  select(is_wide, ux, uy).store(out.du + i), select(is_wide, vx, vy).store(out.dv + i);
+  count.store(out.count + i);
+  (F(0.5f) * coarse_log2(longer / (count * count))).store(out.lod + i);
+}
+
+/// Copies the probes before i to i and on, where all fragments have the same footprint.
+template <class F>
+[[gnu::always_inline]] inline void repeat_probes(Probes& p, int i) {
+  for (float* const of : {p.du, p.dv, p.count, p.lod}) F::load(of + i - F::lanes).store(of + i);
+}
+
+/// The probes of several groups in one list of taps. Of a group, probe n of all fragments comes before probe n + 1;
+/// every fragment has as many entries as the fragment of the group with the most probes.
+struct ProbeTaps {
+  static_assert(Taps::capacity >= 8 * SamplerState::max_anisotropy);
+  Taps taps;
+  int count = 0;            ///< of taps
+  int first = 0, last = 0;  ///< the range of fragments
+  int most[Taps::groups];   ///< the most probes of a fragment, by group from that of the first fragment on
+
+  bool has_room(int probes) const { return count + 8 * probes <= Taps::capacity; }
+};
+
+/// Stores the taps of the probes of eight fragments.
+template <class F, class View, class Filter>
+[[gnu::always_inline]] inline void store_probes(const View& t, const Filter& f, const Footprint& at,
+                                                const Probes& probes, int most, Lookup<F>& lookup, ProbeTaps& out) {
+  const TexelFetch fetch(t);
+  for (int k = 0; k < 8; k += F::lanes) {
+    const int i = out.last + k;
+    find_lookup<F>(t, f, F::load(probes.lod + i), lookup);
+    const F u = F::load(at.u + i), v = F::load(at.v + i), du = F::load(probes.du + i), dv = F::load(probes.dv + i);
+    const F all = F::load(probes.count + i), step = F(1.0f) / (all + F(1.0f));
+    for (int n = 0; n < most; ++n) {
+      const F along = min(F(static_cast<float>(n + 1)), all) * step - F(0.5f);
+      store_taps<F>(fetch, f, lookup, u + du * along, v + dv * along, out.taps, out.count + 8 * n + k);
+    }
+  }
+  out.most[(out.last - out.first) / 8] = most;
+  out.count += 8 * most;
+  out.last += 8;
+}
+
+/// Stores the mean of each fragment's probes.
+template <class F>
+[[gnu::always_inline]] inline void store_means(const ProbeTaps& of, const Probes& probes, const float* const mixed[4],
+                                               float* const out[4]) {
+  for (int i = of.first, from = 0; i < of.last; i += 8) {
+    const int most = of.most[(i - of.first) / 8];
+    for (int k = 0; k < 8; k += F::lanes) {
+      const F all = F::load(probes.count + i + k), mean_weight = F(1.0f) / all;
+      F sum[4];
+      for (int c = 0; c < 4; ++c) sum[c] = F::load(mixed[c] + from + k) * mean_weight;
+      for (int n = 1; n < most; ++n) {
+        const F weight = select(F(static_cast<float>(n + 1)) > all, F(0.0f), mean_weight);
+        for (int c = 0; c < 4; ++c) sum[c] = sum[c] + F::load(mixed[c] + from + 8 * n + k) * weight;
+      }
+      for (int c = 0; c < 4; ++c) sum[c].store(out[c] + i + k);
+    }
+    from += 8 * most;
+  }
+}
+
+/// The stage `sample_anisotropic` of shade/texture/filtering.h; mix(taps, out, count) mixes the first taps.
+template <class F, class View, class Mix>
+[[gnu::always_inline]] inline void sample_anisotropic(const View& t, const SamplerState& f, const Footprint& at,
+                                                      float* const out[4], int count, Mix mix) {
+  Probes probes;
+  for (int i = 0; i < count; i += F::lanes) {
+    if (at.repeats != nullptr && at.repeats[i / 8]) {
+      repeat_probes<F>(probes, i);
+    } else {
+      find_probes<F>(t, f.anisotropy, at, i, probes);
+    }
+  }
+  ProbeTaps taps;
+  alignas(64) float mixed[4][Taps::padded_capacity];
+  float* const means[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
+  const float* const from[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
+  const bool usual = is_trilinear_repeat(f);
+  Lookup<F> lookup = begin_lookup<F>(t, f);
+  while (taps.last < count) {
+    taps.first = taps.last, taps.count = 0;
+    while (taps.last < count) {
+      F most = F::load(probes.count + taps.last);
+      for (int k = F::lanes; k < 8; k += F::lanes) most = max(most, F::load(probes.count + taps.last + k));
+      const int n = static_cast<int>(greatest(most));
+      if (!taps.has_room(n)) break;
+      if (usual) {
+        store_probes<F>(t, TrilinearRepeat{}, at, probes, n, lookup, taps);
+      } else {
+        store_probes<F>(t, f, at, probes, n, lookup, taps);
+      }
+    }
+    mix(taps.taps, means, taps.count);
+    store_means<F>(taps, probes, from, out);
+  }
+}
+
+}  // namespace zoneplate
