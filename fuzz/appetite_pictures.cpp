@@ -53,7 +53,7 @@ void append_scan(Bytes& out, int first, int last, int before, int bit, const Byt
   append(out, data);
 }
 
-/// A grey image whose coefficients are all zero, told in one scan of differences and many of one bit of one
+/// A grey image whose coefficients are all zero, coded in one scan of differences and many of one bit of one
 /// coefficient.
 Bytes progressive_jpeg(unsigned side, int scans) {
   const std::uint32_t blocks = side / 8 * (side / 8);

@@ -99,7 +99,7 @@ void expect_one_error(const std::string& err, const std::string& name) {
 
 void Appetite::expect_within(const Limits& limits, const Input& input) const {
   SCOPED_TRACE(input.kind + ": " + input.name);
-  Words words{"render", path_of(input), "-o", "pictures/" + input.output()};
+  Words words{"render", path_of(input), "-o", "images/" + input.output()};
   words.insert(words.end(), limits.words.begin(), limits.words.end());
   for (const auto& [option, value] : input.options.items())
     if (option != "output") words.insert(words.end(), {"--" + option, value});

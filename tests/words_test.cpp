@@ -90,7 +90,7 @@ TEST(Words, RetiredPhrasesAreNotInComments) {
           << line;
     }
   };
-  for (const char* folder : {"src", "examples", "docs"})
+  for (const char* folder : {"include", "src", "examples", "docs"})
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) check(entry.path());
   for (const char* document : {"README.md", "CONTRIBUTING.md"}) check(root / document);
   EXPECT_GT(files, 600);

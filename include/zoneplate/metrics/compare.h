@@ -13,7 +13,7 @@ namespace ZONEPLATE_API metrics {
 /// Pairs of images to compare; each is loaded once, in order, and released when it has been measured.
 struct Comparands {
   std::size_t count = 0;                                ///< the number of pairs
-  std::function<Picture(std::size_t)> reference, test;  ///< make picture i of [0, count)
+  std::function<Picture(std::size_t)> reference, test;  ///< load image i of [0, count)
   bool are_frames = false;  ///< the images are frames of one sequence, so that metrics over several frames apply
 };
 
@@ -35,7 +35,7 @@ struct Result {
 /// The results of all metrics.
 struct Comparison {
   bool are_same = true;         ///< every pair has the same encoded values, including alpha
-  int width = 0, height = 0;    ///< pixels of the last test picture
+  int width = 0, height = 0;    ///< in pixels, of the last test image
   std::size_t count = 0;        ///< the number of pairs that were compared
   std::vector<Result> results;  ///< in the order of the choices, without omitted ones
 };

@@ -47,7 +47,7 @@ struct Score {
   Plane<float> map;           ///< the error at each pixel, from 0 (none) to 1; empty if the metric has no map
 };
 
-using Frames = std::span<const Picture>;  ///< consecutive pictures of a sequence, the newest last
+using Frames = std::span<const Picture>;  ///< consecutive images of a sequence, the newest last
 
 /// The mean, for metrics whose values add: how most of them pool the frames of a sequence.
 double mean_of(std::span<const double> values);
@@ -68,7 +68,7 @@ struct Metric {
   int smallest = 1;                     ///< least width and height
   Sizes sizes = Sizes::Same;            ///< required of reference and test
   std::span<const Param> params = {};   ///< what may follow the name: ppd of `flip:ppd=30`
-  /// Measures the newest test picture against its reference.
+  /// Measures the newest test image against its reference.
   /// Requires  `frames` images each (fewer if starts_short), of the sizes that `sizes` and `smallest` require. Nothing if
   /// the images lack the measured feature.
   std::function<std::optional<Score>(Frames reference, Frames test, const Settings&)> measure;

@@ -10,7 +10,7 @@ namespace ZONEPLATE_API zoneplate {
 /// A device that renders frames. Everything above it (antialiasing methods, Renderer, the command) describes a frame by
 /// a Request and receives its planes in a Frame, so that neither depends on the device.
 ///
-/// A backend is used by one thread at a time. It may keep what consecutive frames share: memory, or copies of a
+/// A backend is used by one thread at a time. It may keep data that consecutive frames share: memory, or copies of a
 /// PreparedScene, whose `shared_scene()` is the same object as long as nothing of it changes.
 class Backend {
  public:
@@ -27,7 +27,7 @@ class Backend {
   virtual void recycle(Rgba8Image /*image*/) {}
 };
 
-/// The rasterizer on the processor. It keeps the buffers of the last frame, whose pages need not be mapped again.
+/// The rasterizer on the CPU. It keeps the buffers of the last frame, whose pages need not be mapped again.
 std::unique_ptr<Backend> make_cpu_backend();
 
 }  // namespace zoneplate

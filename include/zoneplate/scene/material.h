@@ -53,7 +53,7 @@ struct TextureImage {
 /// A use of an image in one slot of a material. `image` < 0: no texture, only the factor.
 ///
 /// The coordinate is (offset + rotation(angle) * (scale * uv)), KHR_texture_transform's order: uv is scaled, then
-/// rotated counter-clockwise in a +v-up sense as the extension's matrix says, then moved.
+/// rotated counter-clockwise in a +v-up sense as by the extension's matrix, then translated.
 struct TextureUse {
   int image = -1;                    ///< index into Scene::images
   Sampler sampler;                   ///< the wrap modes and filters of this use

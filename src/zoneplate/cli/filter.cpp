@@ -94,19 +94,20 @@ Syntax make_syntax(FilterArgs& args) {
           "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n",
       .notes =
           "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png).\n"
-          "Filters work on 8-bit sRGB values. A pixel that the filter leaves alone keeps its value; images with\n"
-          "alpha are filtered premultiplied.\n"};
+          "Filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact value;\n"
+          "images with alpha are filtered premultiplied.\n"};
   syntax.options = {
-      {"--output,-o", "FILE", "The image to write: .png, .jpg or .webp; of several images a folder, for .png files",
-       "Options", true, [&](auto& text) { args.output = text; }},
-      {"--anti-aliasing,--aa", "METHOD", "Filter, as smaa or fxaa:preset=39: one of " + filter_names(), "Options", true,
-       [&](auto& text) { args.method = text; }},
+      {"--output,-o", "FILE",
+       "The image to write: .png, .jpg or .webp; for several inputs a folder, which receives .png files", "Options",
+       true, [&](auto& text) { args.output = text; }},
+      {"--anti-aliasing,--aa", "METHOD", "Filter, such as smaa or fxaa:preset=39: one of " + filter_names(), "Options",
+       true, [&](auto& text) { args.method = text; }},
       {"--bit-depth", "N", "Bits per channel of .png: 8, the default, or 16", "Options", false,
        [&](auto& text) {
          args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
        }},
-      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
-       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+      {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota",
+       "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
   return syntax;
 }
 

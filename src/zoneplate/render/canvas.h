@@ -11,7 +11,7 @@
 
 namespace zoneplate {
 
-/// How one mesh of a Canvas is drawn.
+/// Options for one mesh of a Canvas.
 struct MeshOptions {
   AlphaMode alpha_mode = AlphaMode::Opaque;
   bool culls_back_faces = false;
@@ -20,7 +20,7 @@ struct MeshOptions {
 /// An image into which several meshes are drawn, each with a shader of its own, with one depth buffer.
 ///
 /// `draw` stores a mesh; `resolve` rasterizes all of them together. Opaque surfaces hide each other by depth, and
-/// blended ones are composited in the order of their depth, whatever the order of the calls.
+/// blended ones are composited in the order of their depth, regardless of the order of the calls.
 class Canvas {
  public:
   /// `is_per_sample`: the fragment part runs once per sample, not once per triangle and pixel.
@@ -31,8 +31,8 @@ class Canvas {
 
   /// Adds indexed triangles with a copy of a user's shader.
   ///
-  /// Requires  three indices per triangle, each < vertices; the shader is pure, and what it refers to exists until the
-  ///           last `resolve`.
+  /// Requires  three indices per triangle, each < vertices; the shader is pure, and the objects that it references
+  ///           outlive the last `resolve`.
   template <Shader S>
   void draw(const S& shader, std::span<const std::uint32_t> indices, std::uint32_t vertices,
             const MeshOptions& options = {}) {
@@ -59,7 +59,7 @@ class Canvas {
 
    private:
     S shader_;
-    ShaderPoints<S> fragments_;
+    UserFragmentShader<S> fragments_;
   };
   struct Mesh;
 

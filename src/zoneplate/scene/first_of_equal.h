@@ -23,10 +23,10 @@ class FirstOfEqual {
 
   explicit FirstOfEqual(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 1), none) {}
 
-  /// The number that was put in before with an equal key, else `number` itself, which is put in.
+  /// The number that was inserted before with an equal key, otherwise `number` itself, which is inserted.
   ///
-  /// Requires  `is_equal(other)` says whether the key of a number that is in is equal to this one's; `make_key()`
-  ///           gives it.
+  /// Requires  `is_equal(other)` returns whether the key of an inserted number is equal to this one's; `make_key()`
+  ///           returns this key.
   template <class Equal, class MakeKey>
   std::uint32_t put(std::uint32_t number, std::size_t hash, const Equal& is_equal, const MakeKey& make_key) {
     const std::size_t mask = slots_.size() - 1;

@@ -9,9 +9,9 @@ namespace zoneplate {
 /// The colour image, at its own size, with an opacity map as its alpha; without a colour image, white at the map's
 /// size.
 ///
-/// A texel of the map is as opaque as its alpha says where the map has any that is not 1, else as its luma (Rec. 709 of
-/// codes, or of light as it is) says. The result has as many bits as the more precise of the two: light where the
-/// colour image is light, or where there is none and the map is; else 16 bits where one of the two has more than 8.
+/// The opacity of a texel is the alpha of the map if any alpha of the map differs from 1, otherwise its luma (Rec. 709,
+/// of encoded or of linear values as stored). The result has the precision of the more precise of the two: linear light
+/// if the colour image is linear, or if there is none and the map is; otherwise 16 bits if one of them has more than 8.
 /// Requires  no image is empty.
 TexelImage with_opacity(const TexelImage* color, const TexelImage& map);
 

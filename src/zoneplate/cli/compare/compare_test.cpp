@@ -137,10 +137,10 @@ TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
   EXPECT_GT(stage(1, "filter"), 0.05);
   EXPECT_GT(stage(1, "display"), 0);
   EXPECT_GT(stage(2, "resolve"), 0);
-  // A run of one scene is titled by it, and the reference's cost stands beside its name.
-  EXPECT_TRUE(contains(text_of("out/cost.svg"), "teapot: error and cost"));
+  // The title of a run of one scene names the scene, and the cost of the reference follows its name.
+  EXPECT_TRUE(contains(text_of("out/cost.svg"), "teapot: error against cost"));
   EXPECT_TRUE(contains(text_of("out/compare.txt"), "against ssaa:n=2 ("));
-  EXPECT_TRUE(contains(text_of("out/compare.txt"), " shaded a pixel)\n"));
+  EXPECT_TRUE(contains(text_of("out/compare.txt"), " shaded samples per pixel)\n"));
 }
 
 TEST(Report, NamesMethodsThatGotFewerTurns) {

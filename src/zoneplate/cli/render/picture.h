@@ -50,7 +50,7 @@ void check_passes(const RenderArgs& args, const Request& request);
 /// Gives the materials of a loaded scene the shading model of the arguments.
 void convert_materials(const RenderArgs& args, Scene& scene);
 
-/// Changes the materials and the lighting of a loaded scene as the arguments say.
+/// Changes the materials and the lighting of a loaded scene according to the arguments.
 void set_look(const RenderArgs& args, Scene& scene);
 
 /// The settings of each frame from the arguments. The extension of `output` determines the image format.

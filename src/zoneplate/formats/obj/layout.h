@@ -13,7 +13,7 @@ struct ObjLayout {
   std::vector<ObjRun> runs;
   std::vector<std::string> objects;    ///< names, in the order in which they get their first element
   std::vector<std::string> materials;  ///< likewise; "" is no material
-  std::vector<std::string> libraries;  ///< what each mtllib statement says
+  std::vector<std::string> libraries;  ///< the operands of each mtllib statement
 };
 
 /// Objects are those of `o`; in a file without any `o`, the groups of `g`. What comes before the first is `unnamed`.

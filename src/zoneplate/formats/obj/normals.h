@@ -14,7 +14,7 @@ struct ObjRun {
   std::uint32_t smoothing = 0;  ///< group; 0 is off
 };
 
-/// Smoothing of a file that never says `s`: across edges that bend by less than 50°.
+/// Smoothing of a file without `s` statements: across edges that bend by less than 50°.
 inline constexpr std::uint32_t smooth_by_angle = 0xffffffffu;
 
 /// The normals that the file does not give, for each corner of each chunk; empty where a chunk has them all.

@@ -11,7 +11,7 @@ namespace zoneplate {
 ///
 /// One mesh for each material of each object: of each `o`, or of each `g` in a file without any `o`. Polygons become
 /// triangles, polylines lines; a file of nothing but vertices is a cloud of points. Missing normals are smooth within
-/// a smoothing group and flat where smoothing is off; a file that never says `s` is smooth across edges that bend by
+/// a smoothing group and flat where smoothing is off; a file without `s` statements is smooth across edges that bend by
 /// less than 50°. Vertex colours after the coordinates are sRGB codes. Materials: formats/obj/mtl_material.h.
 ///
 /// Edges     elements with a vertex that is not finite are dropped; ignored content (unknown statements, free-form

@@ -11,7 +11,7 @@ namespace zoneplate {
 
 /// The contents of an OBJ file before they become meshes. Indices are zero-based and validated; -1 is none.
 struct ObjFile {
-  std::vector<float3> positions;  ///< not finite where the file says so
+  std::vector<float3> positions;  ///< not finite if the file's values are not
   std::vector<float4> colors;     ///< as long as positions, or empty; codes as in the file, white where it has none
   std::vector<float2> uvs;        ///< finite; origin at the bottom left
   std::vector<float3> normals;    ///< of unit length, or zero where the file's is zero or not finite
