@@ -21,10 +21,6 @@
 namespace zoneplate::cli {
 namespace {
 
-struct Verb {
-  std::string_view name, summary;
-  void (*run)(std::span<const std::string> arguments);
-};
 constexpr Verb verbs[] = {{"render", "a model or a built-in scene to a picture (the verb may be left out)", run_render},
                           {"contact-sheet", "many models in one picture, each with its name", run_contact_sheet},
                           {"list", "antialiasing methods, built-in scenes, file formats", run_list},
@@ -42,13 +38,11 @@ const Verb* find_verb(std::string_view name) {
 }
 
 std::string overview() {
-  std::string text =
-      "Zoneplate renders 3D models to antialiased pictures, on the CPU alone.\n"
-      "\n"
-      "Usage: zoneplate [VERB] ARGUMENTS\n"
-      "\n";
-  for (const Verb& verb : verbs) text += fmt::format("  {:<15}{}\n", verb.name, verb.summary);
-  return text +
+  return "Zoneplate renders 3D models to antialiased pictures, on the CPU alone.\n"
+         "\n"
+         "Usage: zoneplate [VERB] ARGUMENTS\n"
+         "\n" +
+         lines_of(verbs, 15) +
          "\n"
          "Examples:\n"
          "  zoneplate teapot -o teapot.png\n"
