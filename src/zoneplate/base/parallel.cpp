@@ -187,7 +187,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, const std::function<v
 }
 
 void with_threads(int threads, const std::function<void()>& body) {
-  // More threads than cores are given where they are asked for.
+  // An explicit number of threads may exceed the number of cores.
   Team team(threads > 0 ? threads : usable_processors());
   struct Return {
     Place outer;

@@ -92,7 +92,7 @@ TEST(Processors, DISABLED_OneProcessorIsOneThread) {
   EXPECT_EQ(usable_processors(), 1);
   EXPECT_EQ(thread_limit(), 1);
   with_threads(0, [] { EXPECT_EQ(thread_limit(), 1); });
-  with_threads(3, [] { EXPECT_EQ(thread_limit(), 3); });  // more are given where they are asked for
+  with_threads(3, [] { EXPECT_EQ(thread_limit(), 3); });  // an explicit number is not reduced
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ std::optional<Number> parse_whole(std::string_view text) {
   return value;
 }
 
-/// A number of at most so many decimals, in units of the last of them, or nothing.
+/// Parses a number with at most `decimals` decimals, in units of the last one; nothing if the text is no such number.
 std::optional<std::int64_t> parse_decimals(std::string_view text, int decimals) {
   const std::size_t point = decimals > 0 ? text.find('.') : std::string_view::npos;
   const std::string_view fraction = point == std::string_view::npos ? std::string_view{} : text.substr(point + 1);

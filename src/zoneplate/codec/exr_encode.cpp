@@ -150,4 +150,12 @@ std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChann
   return out;
 }
 
+std::vector<ExrChannel> rgba_channels(const LinearImage& image) {
+  const Linear* const first = image.values().data();
+  return {{"R", ExrType::Half, &first->r, nullptr, 4},
+          {"G", ExrType::Half, &first->g, nullptr, 4},
+          {"B", ExrType::Half, &first->b, nullptr, 4},
+          {"A", ExrType::Half, &first->a, nullptr, 4}};
+}
+
 }  // namespace zoneplate

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "zoneplate/image/plane.h"
+#include "zoneplate/image/rgb.h"
 
 namespace zoneplate {
 
@@ -22,6 +23,9 @@ struct ExrChannel {
   const std::uint32_t* number = nullptr;  ///< the same for Number
   std::size_t step = 1;                   ///< from a pixel's value to the next one's
 };
+
+/// The channels of a scene-linear image: R, G, B and A as half floats. They are views of the image.
+std::vector<ExrChannel> rgba_channels(const LinearImage& image);
 
 using ExrAttributes = std::vector<std::pair<std::string, std::string>>;
 

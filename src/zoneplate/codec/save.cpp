@@ -12,16 +12,12 @@
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {
-namespace {
-
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return extension;
 }
-
-}  // namespace
 
 void save_image(const std::string& path, const Rgba8Image& image) {
   const std::string extension = extension_of(path);
@@ -36,12 +32,7 @@ void save_image(const std::string& path, const LinearImage& image) {
   const std::string extension = extension_of(path);
   if (extension == ".pfm") return save_bytes(path, encode_pfm(image));
   if (extension != ".exr") throw Error(ErrorKind::Usage, path + ": scene-linear images are saved as .exr or .pfm");
-  const Linear* const first = image.values().data();
-  save_bytes(path, encode_exr(image.width(), image.height(),
-                              {{"R", ExrType::Half, &first->r, nullptr, 4},
-                               {"G", ExrType::Half, &first->g, nullptr, 4},
-                               {"B", ExrType::Half, &first->b, nullptr, 4},
-                               {"A", ExrType::Half, &first->a, nullptr, 4}}));
+  save_bytes(path, encode_exr(image.width(), image.height(), rgba_channels(image)));
 }
 
 }  // namespace zoneplate

@@ -6,6 +6,9 @@
 
 namespace zoneplate {
 
+/// The ending of a path in lower case, with its dot.
+std::string extension_of(const std::string& path);
+
 /// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp. JPEG has no alpha.
 ///
 /// The file is written whole or not at all.

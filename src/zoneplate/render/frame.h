@@ -82,10 +82,16 @@ struct Frame {
   /// colours and what Content other than Colour makes.
   template <class Use>
   void for_data_planes(Use use) {
-    use(place), use(depth), use(reversed_depth), use(normal), use(albedo), use(uv);
-    use(object_id), use(material_id), use(primitive_id), use(instance);
-    use(position), use(motion), use(flow), use(coverage), use(error);
-    for (Plane<std::uint32_t>& plane : sample_triangle) use(plane);
+    for_data_planes(*this, *this, [&](auto& plane, auto&) { use(plane); });
+  }
+  /// The same for the planes of two frames, pair by pair. Requires: as many planes of triangles by sample in both.
+  template <class Use>
+  static void for_data_planes(Frame& a, Frame& b, Use use) {
+    use(a.place, b.place), use(a.depth, b.depth), use(a.reversed_depth, b.reversed_depth), use(a.normal, b.normal);
+    use(a.albedo, b.albedo), use(a.uv, b.uv), use(a.object_id, b.object_id), use(a.material_id, b.material_id);
+    use(a.primitive_id, b.primitive_id), use(a.instance, b.instance), use(a.position, b.position);
+    use(a.motion, b.motion), use(a.flow, b.flow), use(a.coverage, b.coverage), use(a.error, b.error);
+    for (std::size_t s = 0; s < a.sample_triangle.size(); ++s) use(a.sample_triangle[s], b.sample_triangle[s]);
   }
 };
 

@@ -35,10 +35,7 @@ Frame data_of(Frame& frame) {
   Frame data;
   data.x = frame.x, data.y = frame.y;
   data.sample_triangle.resize(frame.sample_triangle.size());
-  std::vector<void*> from;
-  frame.for_data_planes([&](auto& plane) { from.push_back(&plane); });
-  std::size_t i = 0;
-  data.for_data_planes([&]<class T>(Plane<T>& plane) { plane = std::move(*static_cast<Plane<T>*>(from[i++])); });
+  Frame::for_data_planes(frame, data, [](auto& from, auto& to) { to = std::move(from); });
   return data;
 }
 

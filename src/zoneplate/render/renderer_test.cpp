@@ -54,7 +54,7 @@ void expect_same_data(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.sample_triangle, b.sample_triangle);
 }
 
-/// The camera, so many pixels farther to its right.
+/// The camera moved to its right by a number of pixels.
 Camera moved_right(Camera camera, float pixels) {
   const float world_per_pixel = 2 * camera.half_height / height;
   camera.world_from_camera = camera.world_from_camera * translation({pixels * world_per_pixel, 0, 0});

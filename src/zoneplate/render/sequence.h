@@ -36,8 +36,8 @@ class Sequence {
   /// An animated scene, which is loaded for each frame.
   Sequence(SceneLoader loader, bool raw_colors, const SequenceTiming& timing);
 
-  /// Chooses the camera of frame 0, for pictures of this aspect (width / height). Comes before all that asks for a
-  /// camera.
+  /// Chooses the camera of frame 0, for pictures of this aspect (width / height). Must be called before any
+  /// function that uses the camera.
   ///
   /// Errors    those of choose_camera.
   void set_view(const View& view, float aspect);

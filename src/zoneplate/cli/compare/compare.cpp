@@ -137,7 +137,7 @@ TrialOptions trial_options(const CompareArgs& args) {
   else
     make_resolver(antialias::methods(), out.reference);  // names the methods that there are
   if (out.is_reference_file && args.scenes.size() > 1)
-    throw Error(ErrorKind::Usage, fmt::format("--reference {}: one picture is the truth of one scene, not of {}",
+    throw Error(ErrorKind::Usage, fmt::format("--reference {}: one image is the reference of one scene, not of {}",
                                               out.reference, args.scenes.size()));
   return out;
 }

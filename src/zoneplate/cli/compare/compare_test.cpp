@@ -151,7 +151,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   save_bytes((place / "small.png").string(), encode_png(Rgba8Image(16, 16)));
   expect("triangles --aa none -o out --size 64x48 --reference small.png", 3,
          "has 16x16 pixels, the pictures have 64x48");
-  expect("triangles cyclic --aa none -o out --reference small.png", 2, "one picture is the truth of one scene");
+  expect("triangles cyclic --aa none -o out --reference small.png", 2, "one image is the reference of one scene");
   fs::create_directory(place / "there");
   expect("triangles --aa none -o there", 4, "is there already");
   std::size_t names = 0;

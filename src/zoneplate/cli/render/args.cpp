@@ -320,12 +320,6 @@ Syntax render_syntax(RenderArgs& args) {
   return syntax;
 }
 
-std::string extension_of(const std::string& name) {
-  std::string out = std::filesystem::path(name).extension().string();
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return out;
-}
-
 void check_picture_ending(const std::string& output) {
   if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"}))
     throw Error(

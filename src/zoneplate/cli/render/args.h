@@ -10,6 +10,7 @@
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/render/shard.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/render/lighting.h"
@@ -79,9 +80,6 @@ void check_args(RenderArgs& args);
 
 /// Errors    ErrorKind::Usage for a name whose ending is not that of a picture that can be written.
 void check_picture_ending(const std::string& output);
-
-/// The ending of a name in lower case, with its dot.
-std::string extension_of(const std::string& name);
 
 /// True where there is a file of that name.
 bool exists(const std::string& path);

@@ -38,11 +38,7 @@ DisplayOptions display_of(const RenderArgs& args) {
 }
 
 std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& data) {
-  const Linear* first = color.values().data();
-  std::vector<ExrChannel> channels = {{"R", ExrType::Half, &first->r, nullptr, 4},
-                                      {"G", ExrType::Half, &first->g, nullptr, 4},
-                                      {"B", ExrType::Half, &first->b, nullptr, 4},
-                                      {"A", ExrType::Half, &first->a, nullptr, 4}};
+  std::vector<ExrChannel> channels = rgba_channels(color);
   add_exr_channels(data, channels);
   return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
 }

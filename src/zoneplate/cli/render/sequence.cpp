@@ -21,7 +21,7 @@ constexpr int most_frames = 100'000;
 class Plan {
  public:
   Plan(const RenderArgs& args, SceneSource& source) : args_(args), source_(source) {
-    // A turntable leaves the animation alone, unless one is asked for.
+    // On a turntable the animation does not run, unless the options select one.
     const bool is_asked = args.load.choice.animation || args.has_animation_time;
     choice_ = args.load.choice;
     Scene scene = load(&SceneSource::load, choice_.time);

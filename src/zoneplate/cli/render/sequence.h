@@ -10,7 +10,7 @@ namespace zoneplate::cli {
 ///
 /// Frame i shows the animation at i / rate seconds. On a turntable of n frames the camera has gone i / n of a turn
 /// about the centre of the scene. The camera of a whole-scene view stands so that it sees the whole animation,
-/// whichever frames are asked for, and stays there.
+/// whichever frames are rendered, and does not move.
 ///
 /// Errors    ErrorKind::Usage: no frames, a name without a place for the number; ErrorKind::Input for an animation of
 ///           too many frames.

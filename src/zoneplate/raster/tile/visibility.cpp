@@ -9,7 +9,7 @@
 namespace zoneplate {
 namespace {
 
-/// Materializes all blocks if the small triangles have so many samples that most blocks would be.
+/// Materializes all blocks if the small triangles have enough samples to touch most blocks.
 bool materialize_if_most(const TileJob& job, TileVisibility& visibility) {
   constexpr std::int32_t enough = 2048;
   std::int32_t count = 0;
