@@ -116,14 +116,18 @@ TEST(Surface, PhongReflectsTheLight) {
   EXPECT_NEAR(color_of(scene, {.view_direction = {-0.6f, 0, -0.8f}, .is_orthographic = true}).x, 1, 1e-6);
 }
 
-TEST(Surface, LightsFadeWithDistance) {
-  Scene scene = flat_triangle();
-  scene.materials[0].model = ShadingModel::BlinnPhong;
+/// A light above the point that color_of shades.
+Light light_above(LightKind kind, float height) {
   Light light;
-  light.kind = LightKind::Point;
-  light.position = {0.25f, 0.25f, 2};
-  light.intensity = 8;
-  scene.lights = {light};
+  light.kind = kind;
+  light.position = {0.25f, 0.25f, height};
+  return light;
+}
+
+TEST(Surface, LightsFadeWithDistance) {
+  Scene scene = flat_triangle(ShadingModel::BlinnPhong);
+  scene.lights = {light_above(LightKind::Point, 2)};
+  scene.lights[0].intensity = 8;
   EXPECT_NEAR(color_of(scene, {}).x, 2, 1e-6);
   scene.lights[0].range = 4;
   EXPECT_NEAR(color_of(scene, {}).x, 2 * (1 - 1.0 / 16), 1e-6);
@@ -140,11 +144,8 @@ TEST(Surface, LightsFadeWithDistance) {
 }
 
 TEST(Surface, SpotsHaveAConeAndAPenumbra) {
-  Scene scene = flat_triangle();
-  scene.materials[0].model = ShadingModel::BlinnPhong;
-  Light spot;
-  spot.kind = LightKind::Spot;
-  spot.position = {0.25f, 0.25f, 1};
+  Scene scene = flat_triangle(ShadingModel::BlinnPhong);
+  Light spot = light_above(LightKind::Spot, 1);
   spot.inner_cone = 0.2f, spot.outer_cone = 0.6f;
   for (const float angle : {0.0f, 0.1f, 0.3f, 0.5f, 0.7f}) {
     spot.direction = {std::sin(angle), 0, -std::cos(angle)};
