@@ -12,15 +12,10 @@
 #include "zoneplate/signal/filter/convolve.h"
 #include "zoneplate/signal/filter/kernel.h"
 #include "zoneplate/signal/fourier/fourier.h"
+#include "zoneplate/signal/noise_for_test.h"
 
 namespace zoneplate {
 namespace {
-
-Plane<float> noise(int width, int height) {
-  Plane<float> plane(width, height);
-  for (std::uint32_t i = 0; float& v : plane.values()) v = unit_float(hash(i++));
-  return plane;
-}
 
 double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -39,7 +34,7 @@ void copy(const Plane<float>& from, Plane<float>& to) {
 // too. A turn is long, because the system adds up the time of other threads only a few milliseconds later.
 void gaussian_blur(benchmark::State& state) {
   constexpr std::size_t planes = 16, copies = 64, blurs = 6;
-  std::vector<Plane<float>> from(planes, noise(1920, 1080)), to = from;
+  std::vector<Plane<float>> from(planes, noise_plane(1920, 1080)), to = from;
   const auto taps = sampled(make_kernel("gaussian:sigma=8"));
   double copy_ms = 1e9, blur_ms = 1e9;
   std::size_t turn = 0;
@@ -64,7 +59,7 @@ void gaussian_blur(benchmark::State& state) {
 BENCHMARK(gaussian_blur)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void spectrum_of_4096(benchmark::State& state) {
-  const Plane<float> plane = noise(4096, 4096);
+  const Plane<float> plane = noise_plane(4096, 4096);
   with_threads(static_cast<int>(state.range(0)), [&] {
     for (auto _ : state) benchmark::DoNotOptimize(fourier(plane));
   });

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/formats/import/scene_bytes.h"
+#include "zoneplate/formats/import/scene_bytes_for_test.h"
 #include "zoneplate/scene/validate.h"
 
 namespace zoneplate {
@@ -25,15 +25,6 @@ Scene read(const Bytes& bytes) {
     at += size;
   };
   return read_scene(source, budget);
-}
-
-Bytes written(const Scene& scene) {
-  Bytes out;
-  write_scene(scene, [&](const void* data, std::size_t size) {
-    const auto* at = static_cast<const std::uint8_t*>(data);
-    out.insert(out.end(), at, at + size);
-  });
-  return out;
 }
 
 void check(const Scene& scene) {

@@ -12,29 +12,18 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using zoneplate::text_of;
 
 // Runs the program in an empty folder of its own, which is removed at the end.
-class FragmentBatch : public testing::Test {
+class FragmentBatch : public zoneplate::ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "zoneplate_batch_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    place = name;
-  }
-  void TearDown() override { fs::remove_all(place); }
-
   // The exit code; stdout's lines are left in `lines`, stderr in `complaint`.
   int run(const std::string& arguments) {
     const std::string command =
@@ -56,7 +45,6 @@ class FragmentBatch : public testing::Test {
     return out;
   }
 
-  fs::path place;
   std::vector<nlohmann::json> lines;
   std::string complaint;
 };

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace {
@@ -18,12 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using zoneplate::text_of;
 
 struct Result {
   int code = -1;
@@ -31,15 +27,12 @@ struct Result {
 };
 
 // Runs the program in an empty folder of its own, which is removed at the end.
-class Cli : public testing::Test {
+class Cli : public zoneplate::ProgramTest {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "zoneplate_cli_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    place = name;
+    ProgramTest::SetUp();
     fs::create_directory(place / "work");
   }
-  void TearDown() override { fs::remove_all(place); }
 
   // Starts the program with stdout to `out` (a path) and stderr to a file.
   pid_t start(Words words, const std::string& out, const Words& environment = {}) const {
@@ -75,8 +68,6 @@ class Cli : public testing::Test {
     std::sort(names.begin(), names.end());
     return names;
   }
-
-  fs::path place;
 };
 
 bool is_png(const std::string& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.size() > 100; }

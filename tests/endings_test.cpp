@@ -18,6 +18,7 @@
 #include <sstream>
 #include <thread>
 
+#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace {
@@ -25,23 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using zoneplate::text_of;
 
 // Runs the program in an empty folder of its own, which is removed at the end.
-class Endings : public testing::Test {
+class Endings : public zoneplate::ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "zoneplate_endings_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    place = name;
-  }
-  void TearDown() override { fs::remove_all(place); }
-
   // Starts the program, after `prepare` in the new process; stdout and stderr go to files.
   pid_t start(Words words, const std::function<void()>& prepare = {}) const {
     words.insert(words.begin(), ZONEPLATE_PROGRAM);
@@ -89,8 +78,6 @@ class Endings : public testing::Test {
       file << R"({"input":"teapot","output":")" << folder << "/" << i << R"(.png","camera-azimuth-angle":)"
            << i * 7 % 360 << "}\n";
   }
-
-  fs::path place;
 };
 
 void allow_files_of(rlim_t bytes) {

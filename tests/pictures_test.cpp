@@ -10,6 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/hash_for_test.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -44,18 +45,6 @@ struct Shot {
     return render(scene, camera, request, options);
   }
 };
-
-/// FNV-1a over the bits of the linear image: what every machine, compiler and number of threads must agree on.
-std::uint64_t hash_of(const LinearImage& image) {
-  std::uint64_t h = 0xcbf29ce484222325u;
-  for (const Linear& c : image.values())
-    for (const float v : {c.r, c.g, c.b, c.a}) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, &v, sizeof word);
-      for (int byte = 0; byte < 4; ++byte) h = (h ^ (word >> (8 * byte) & 0xff)) * 0x100000001b3u;
-    }
-  return h;
-}
 
 struct Golden {
   const char* scene;

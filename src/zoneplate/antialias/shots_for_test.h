@@ -6,6 +6,7 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/render/renderer.h"
+#include "zoneplate/scene/facing_for_test.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate::antialias {
@@ -25,23 +26,6 @@ inline double mean_error(const LinearImage& a, const LinearImage& b) {
   for (std::size_t i = 0; i < a.values().size(); ++i)
     sum += std::abs(double{a.values()[i].g} - double{b.values()[i].g});
   return sum / static_cast<double>(a.values().size());
-}
-
-/// A mesh in the plane z = 0, seen from both sides without light, that faces an orthographic camera.
-inline Scene facing_scene(Mesh mesh, Material material = {}) {
-  Scene scene;
-  material.model = ShadingModel::Unlit;
-  material.double_sided = true;
-  scene.materials.push_back(std::move(material));
-  mesh.normal.assign(mesh.position.size(), {0, 0, 1});
-  scene.objects.push_back("mesh");
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back({});
-  Camera camera;
-  camera.world_from_camera.column[3] = {0, 0, 5, 1};
-  camera.is_orthographic = true;
-  scene.cameras.push_back(camera);
-  return scene;
 }
 
 }  // namespace zoneplate::antialias

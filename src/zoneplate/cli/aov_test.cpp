@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "zoneplate/codec/png.h"
 
@@ -73,17 +75,17 @@ TEST(Aov, DepthTellsItsDistances) {
   EXPECT_NE(text.find(std::string("tEXtfar\0006", 9)), std::string::npos);
 }
 
-TEST(Aov, NormalsAreHalved) {
-  const PngImage png = picture("normal");
-  EXPECT_EQ(png.pixels(0, 0), (Rgba8{128, 128, 255, 255}));
-  EXPECT_EQ(png.pixels(1, 0), (Rgba8{0, 128, 128, 255}));
-  EXPECT_EQ(png.pixels(2, 0), nothing);
-}
+/// The three pixels of a picture: a surface, another one, and none.
+using ThreePixels = std::array<Rgba8, 3>;
+ThreePixels pixels_of(const PngImage& png) { return {png.pixels(0, 0), png.pixels(1, 0), png.pixels(2, 0)}; }
 
-TEST(Aov, AlbedoIsSrgb) {
-  const PngImage png = picture("albedo");
-  EXPECT_EQ(png.pixels(0, 0), (Rgba8{255, 0, 124, 255}));  // encode_srgb(0.2) = 0.4845
-  EXPECT_EQ(png.pixels(2, 0), nothing);
+TEST(Aov, NormalsAlbedoAndPositionsHaveTheirColours) {
+  const std::pair<const char*, ThreePixels> pictures[] = {
+      {"normal", {{{128, 128, 255, 255}, {0, 128, 128, 255}, nothing}}},  // halved
+      {"albedo", {{{255, 0, 124, 255}, {255, 255, 255, 255}, nothing}}},  // encode_srgb(0.2) = 0.4845
+      {"position", {{{0, 255, 128, 255}, {255, 0, 128, 255}, nothing}}},  // over their range
+  };
+  for (const auto& [name, pixels] : pictures) EXPECT_EQ(pixels_of(picture(name)), pixels) << name;
 }
 
 TEST(Aov, UvShowsFractions) {
@@ -114,13 +116,6 @@ TEST(Aov, IdsHaveDistinctColoursAndNothingHasNone) {
     EXPECT_GE(png.pixels(0, 0).g, 64);
     EXPECT_EQ(png.pixels(2, 0), nothing);
   }
-}
-
-TEST(Aov, PositionsFillTheirRange) {
-  const PngImage png = picture("position");
-  EXPECT_EQ(png.pixels(0, 0), (Rgba8{0, 255, 128, 255}));
-  EXPECT_EQ(png.pixels(1, 0), (Rgba8{255, 0, 128, 255}));
-  EXPECT_EQ(png.pixels(2, 0), nothing);
 }
 
 TEST(Aov, MotionIsAHueOfItsDirection) {

@@ -21,10 +21,6 @@
 namespace zoneplate::cli {
 namespace {
 
-struct Verb {
-  std::string_view name, summary;
-  void (*run)(std::span<const std::string> arguments);
-};
 constexpr Verb verbs[] = {
     {"render", "render a model or a built-in scene to an image (the verb is optional)", run_render},
     {"contact-sheet", "render many models into one image, with their names", run_contact_sheet},
@@ -44,13 +40,11 @@ const Verb* find_verb(std::string_view name) {
 }
 
 std::string overview() {
-  std::string text =
-      "Zoneplate renders 3D models to antialiased images, on the CPU.\n"
-      "\n"
-      "Usage: zoneplate [VERB] ARGUMENTS\n"
-      "\n";
-  for (const Verb& verb : verbs) text += fmt::format("  {:<15}{}\n", verb.name, verb.summary);
-  return text +
+  return "Zoneplate renders 3D models to antialiased images, on the CPU.\n"
+         "\n"
+         "Usage: zoneplate [VERB] ARGUMENTS\n"
+         "\n" +
+         lines_of(verbs, 15) +
          "\n"
          "Examples:\n"
          "  zoneplate teapot -o teapot.png\n"

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/os/file.h"
@@ -19,44 +20,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Answer {
-  int code = -1;
-  std::string out;  ///< stdout and stderr together
-};
-
-class MetricsVerb : public testing::Test {
+class MetricsVerb : public ProgramTest {
  protected:
-  MetricsVerb() : folder_(fs::temp_directory_path() / ("zoneplate_metrics_test_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
+  void SetUp() override {
+    ProgramTest::SetUp();
     save("black.png", 0);
     save("grey.png", 51);
   }
-  ~MetricsVerb() override { fs::remove_all(folder_); }
 
   void save(const std::string& name, std::uint8_t code, int side = 16) const {
-    fs::create_directories((folder_ / name).parent_path());
-    save_bytes((folder_ / name).string(), encode_png(Rgba8Image(side, side, {code, code, code, 255})));
+    fs::create_directories((place / name).parent_path());
+    save_bytes((place / name).string(), encode_png(Rgba8Image(side, side, {code, code, code, 255})));
   }
-  Answer run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" ZONEPLATE_PROGRAM "' metrics " + arguments + " 2>&1";
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    Answer answer;
-    std::array<char, 4096> part{};
-    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) answer.out.append(part.data(), n);
-    answer.code = WEXITSTATUS(::pclose(pipe));
-    return answer;
-  }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  fs::path folder_;
+  ProgramAnswer run(const std::string& arguments) const { return ProgramTest::run("metrics " + arguments); }
+  std::string at(const std::string& name) const { return (place / name).string(); }
 };
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
-
 TEST_F(MetricsVerb, SamePicturesAreZeroAndInfinite) {
-  const Answer answer = run("grey.png grey.png --json");
+  const ProgramAnswer answer = run("grey.png grey.png --json");
   EXPECT_EQ(answer.code, 0);
   const auto json = parsed_json(answer.out);
   EXPECT_EQ(json["identical"], true);
@@ -68,7 +49,7 @@ TEST_F(MetricsVerb, SamePicturesAreZeroAndInfinite) {
 }
 
 TEST_F(MetricsVerb, DifferentPicturesAnswerOne) {
-  const Answer answer = run("black.png grey.png");
+  const ProgramAnswer answer = run("black.png grey.png");
   EXPECT_EQ(answer.code, 1);
   EXPECT_TRUE(contains(answer.out, "1 image, 16 × 16\n")) << answer.out;
   EXPECT_TRUE(contains(answer.out, "mse")) << answer.out;
@@ -79,7 +60,7 @@ TEST_F(MetricsVerb, DifferentPicturesAnswerOne) {
 
 TEST_F(MetricsVerb, ThresholdsDecide) {
   EXPECT_EQ(run("black.png grey.png --metric psnr --threshold 13.9").code, 0);
-  const Answer below = run("black.png grey.png --metric psnr --threshold 14");
+  const ProgramAnswer below = run("black.png grey.png --metric psnr --threshold 14");
   EXPECT_EQ(below.code, 1);
   EXPECT_TRUE(below.out.ends_with("\nzoneplate: psnr is 13.9794, the threshold is 14 or more\n")) << below.out;
   EXPECT_EQ(run("black.png grey.png --metric mse,mae --threshold mse=0.05,mae=0.2").code, 1);  // 51 / 255 > 0.2
@@ -113,7 +94,7 @@ TEST_F(MetricsVerb, TroubleIsTwo) {
   for (const char* arguments :
        {"grey.png", "grey.png missing.png", "grey.png grey.png --metric flop", "grey.png grey.png --metric ms_ssim",
         "grey.png grey.png --threshold 3", "grey.png grey.png --map /no/such/folder/map.png", "--no-such-option"}) {
-    const Answer answer = run(arguments);
+    const ProgramAnswer answer = run(arguments);
     EXPECT_EQ(answer.code, 2) << arguments << '\n' << answer.out;
     EXPECT_TRUE(contains(answer.out, "zoneplate: ")) << answer.out;
   }
@@ -121,7 +102,7 @@ TEST_F(MetricsVerb, TroubleIsTwo) {
 
 TEST_F(MetricsVerb, SizesHaveToAgree) {
   save("small.png", 0, 8);
-  const Answer answer = run("grey.png small.png");
+  const ProgramAnswer answer = run("grey.png small.png");
   EXPECT_EQ(answer.code, 2);
   EXPECT_TRUE(contains(answer.out, "image 1 has 8 × 8 pixels, expected 16 × 16 as the reference")) << answer.out;
 }
@@ -137,7 +118,7 @@ TEST_F(MetricsVerb, JudgesSequencesAndFolders) {
     save("a/f" + std::to_string(i) + ".png", 100);
     save("b/f" + std::to_string(i) + ".png", i == 1 ? 151 : 100);
   }
-  const Answer answer = run("a b --metric flicker,mae --json");
+  const ProgramAnswer answer = run("a b --metric flicker,mae --json");
   EXPECT_EQ(answer.code, 1);
   const auto json = parsed_json(answer.out.substr(0, answer.out.find('\n')));
   EXPECT_EQ(json["images"], 3);

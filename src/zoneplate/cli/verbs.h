@@ -1,8 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace zoneplate::cli {
 
@@ -17,6 +20,19 @@ class Difference : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// A word after `zoneplate`, or after `zoneplate signal`, and what it runs with the arguments that follow.
+struct Verb {
+  std::string_view name, summary;
+  void (*run)(std::span<const std::string> arguments);
+};
+
+/// A line for each verb, with its name in a column of `width` characters.
+inline std::string lines_of(std::span<const Verb> verbs, int width) {
+  std::string text;
+  for (const Verb& verb : verbs) text += fmt::format("  {:<{}}{}\n", verb.name, width, verb.summary);
+  return text;
+}
 
 // The verbs of the command. Each takes the arguments after its name, writes its result to stdout or files, and throws
 // zoneplate::Error where it cannot.

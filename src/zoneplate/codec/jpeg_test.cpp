@@ -34,7 +34,9 @@ int smooth(int x, int y, int channel) {
   return static_cast<int>(std::lround(128 + 100 * std::sin(phase)));
 }
 
-Bytes jpeg_of(int width, int height, const Kind& kind) {
+/// A JPEG: `set_up(jpeg)` sets what the defaults do not, `fill(y, row)` gives each row.
+template <class SetUp, class Fill>
+Bytes compressed(int width, int height, int channels, J_COLOR_SPACE space, SetUp set_up, Fill fill) {
   jpeg_error_mgr errors;
   jpeg_compress_struct jpeg;
   jpeg.err = jpeg_std_error(&errors);
@@ -44,22 +46,14 @@ Bytes jpeg_of(int width, int height, const Kind& kind) {
   jpeg_mem_dest(&jpeg, &data, &size);
   jpeg.image_width = static_cast<JDIMENSION>(width);
   jpeg.image_height = static_cast<JDIMENSION>(height);
-  jpeg.input_components = kind.channels;
-  jpeg.in_color_space = kind.given;
+  jpeg.input_components = channels;
+  jpeg.in_color_space = space;
   jpeg_set_defaults(&jpeg);
-  jpeg_set_colorspace(&jpeg, kind.stored);
-  jpeg_set_quality(&jpeg, 100, TRUE);
-  for (int c = 0; c < kind.channels; ++c) jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
-  jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = kind.is_subsampled ? 2 : 1;
-  if (kind.is_progressive) jpeg_simple_progression(&jpeg);
+  set_up(jpeg);
   jpeg_start_compress(&jpeg, TRUE);
-  Bytes row(static_cast<std::size_t>(width * kind.channels));
+  Bytes row(static_cast<std::size_t>(width * channels));
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < kind.channels; ++c) {
-        row[static_cast<std::size_t>(x * kind.channels + c)] = static_cast<std::uint8_t>(smooth(x, y, c));
-      }
-    }
+    fill(y, row);
     JSAMPROW pointer = row.data();
     jpeg_write_scanlines(&jpeg, &pointer, 1);
   }
@@ -68,6 +62,21 @@ Bytes jpeg_of(int width, int height, const Kind& kind) {
   const Bytes bytes(data, data + size);
   std::free(data);
   return bytes;
+}
+
+Bytes jpeg_of(int width, int height, const Kind& kind) {
+  const auto set_up = [&](jpeg_compress_struct& jpeg) {
+    jpeg_set_colorspace(&jpeg, kind.stored);
+    jpeg_set_quality(&jpeg, 100, TRUE);
+    for (int c = 0; c < kind.channels; ++c) jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
+    jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = kind.is_subsampled ? 2 : 1;
+    if (kind.is_progressive) jpeg_simple_progression(&jpeg);
+  };
+  return compressed(width, height, kind.channels, kind.given, set_up, [&](int y, Bytes& row) {
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < kind.channels; ++c)
+        row[static_cast<std::size_t>(x * kind.channels + c)] = static_cast<std::uint8_t>(smooth(x, y, c));
+  });
 }
 
 /// The greatest difference of a code from the smooth image, after `expected` has mixed its channels.
@@ -169,28 +178,12 @@ Bytes in_many_scans(int size) {
   std::vector<jpeg_scan_info> scans = {{1, {0}, 0, 0, 0, 0}};
   for (int bit = 2; bit >= 0; --bit)
     for (int k = 1; k < 64; ++k) scans.push_back({1, {0}, k, k, bit == 2 ? 0 : bit + 1, bit});
-  jpeg_error_mgr errors;
-  jpeg_compress_struct jpeg;
-  jpeg.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&jpeg);
-  unsigned char* data = nullptr;
-  unsigned long bytes = 0;
-  jpeg_mem_dest(&jpeg, &data, &bytes);
-  jpeg.image_width = jpeg.image_height = static_cast<JDIMENSION>(size);
-  jpeg.input_components = 1;
-  jpeg.in_color_space = JCS_GRAYSCALE;
-  jpeg_set_defaults(&jpeg);
-  jpeg.scan_info = scans.data();
-  jpeg.num_scans = static_cast<int>(scans.size());
-  jpeg_start_compress(&jpeg, TRUE);
-  Bytes row(static_cast<std::size_t>(size), 77);
-  JSAMPROW pointer = row.data();
-  while (jpeg.next_scanline < jpeg.image_height) jpeg_write_scanlines(&jpeg, &pointer, 1);
-  jpeg_finish_compress(&jpeg);
-  jpeg_destroy_compress(&jpeg);
-  const Bytes out(data, data + bytes);
-  std::free(data);
-  return out;
+  const auto set_up = [&](jpeg_compress_struct& jpeg) {
+    jpeg.scan_info = scans.data();
+    jpeg.num_scans = static_cast<int>(scans.size());
+  };
+  return compressed(size, size, 1, JCS_GRAYSCALE, set_up,
+                    [](int, Bytes& row) { std::fill(row.begin(), row.end(), std::uint8_t{77}); });
 }
 
 TEST(Jpeg, TakesFewerScansOfALargerPicture) {

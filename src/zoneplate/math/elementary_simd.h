@@ -104,43 +104,46 @@ HWY_INLINE hn::Vec<D> sin_quarter(D d, Ints<D> quarter, hn::Vec<D> r) {
   return hn::Xor(v, hn::BitCast(d, sign));
 }
 
-template <class D>
-HWY_INLINE hn::Vec<D> exp2(D d, hn::Vec<D> x) {
-  const auto low_edge = hn::Set(d, elementary::exp2_low), high_edge = hn::Set(d, elementary::exp2_high);
+/// value(x), but 0 below `low` and infinity from `high` on.
+template <class D, class Value>
+HWY_INLINE hn::Vec<D> between_edges(D d, hn::Vec<D> x, float low, float high, Value value) {
+  const auto low_edge = hn::Set(d, low), high_edge = hn::Set(d, high);
   const auto is_low = hn::Not(hn::Ge(x, low_edge));
   const auto is_high = hn::Ge(x, high_edge);
-  const auto inside = hn::IfThenElse(hn::Or(is_low, is_high), low_edge, x);
-  const auto k = nearest(d, inside);
-  const auto f = hn::Sub(inside, hn::ConvertTo(d, k));
-  const auto f2 = hn::Mul(f, f);
-  const float(&c)[6] = elementary::exp2_c;
-  const auto low = add_product(d, hn::Set(d, c[0]), hn::Set(d, c[1]), f);
-  const auto middle = add_product(d, hn::Set(d, c[2]), hn::Set(d, c[3]), f);
-  const auto high = add_product(d, hn::Set(d, c[4]), hn::Set(d, c[5]), f);
-  const auto sum = add_product(d, low, f2, add_product(d, middle, f2, high));
-  const auto value = scaled(d, add_product(d, hn::Set(d, 1.0f), f, sum), k);
+  const auto inside = value(hn::IfThenElse(hn::Or(is_low, is_high), low_edge, x));
   return hn::IfThenElse(is_high, hn::BitCast(d, hn::Set(hn::RebindToSigned<D>(), 0x7f800000)),
-                        hn::IfThenZeroElse(is_low, value));
+                        hn::IfThenZeroElse(is_low, inside));
+}
+
+template <class D>
+HWY_INLINE hn::Vec<D> exp2(D d, hn::Vec<D> x) {
+  return between_edges(d, x, elementary::exp2_low, elementary::exp2_high, [=](hn::Vec<D> inside) HWY_ATTR {
+    const auto k = nearest(d, inside);
+    const auto f = hn::Sub(inside, hn::ConvertTo(d, k));
+    const auto f2 = hn::Mul(f, f);
+    const float(&c)[6] = elementary::exp2_c;
+    const auto low = add_product(d, hn::Set(d, c[0]), hn::Set(d, c[1]), f);
+    const auto middle = add_product(d, hn::Set(d, c[2]), hn::Set(d, c[3]), f);
+    const auto high = add_product(d, hn::Set(d, c[4]), hn::Set(d, c[5]), f);
+    const auto sum = add_product(d, low, f2, add_product(d, middle, f2, high));
+    return scaled(d, add_product(d, hn::Set(d, 1.0f), f, sum), k);
+  });
 }
 
 template <class D>
 HWY_INLINE hn::Vec<D> exp(D d, hn::Vec<D> x) {
-  const auto low_edge = hn::Set(d, elementary::exp_low), high_edge = hn::Set(d, elementary::exp_high);
-  const auto is_low = hn::Not(hn::Ge(x, low_edge));
-  const auto is_high = hn::Ge(x, high_edge);
-  const auto inside = hn::IfThenElse(hn::Or(is_low, is_high), low_edge, x);
-  const auto k = nearest(d, hn::Mul(inside, hn::Set(d, elementary::log2_e)));
-  const auto n = hn::ConvertTo(d, k);
-  const auto r = hn::Sub(hn::Sub(inside, hn::Mul(n, hn::Set(d, elementary::ln2_head))),
-                         hn::Mul(n, hn::Set(d, elementary::ln2_tail)));
-  const auto r2 = hn::Mul(r, r);
-  const float(&c)[5] = elementary::exp_c;
-  const auto low = add_product(d, hn::Set(d, c[0]), hn::Set(d, c[1]), r);
-  const auto middle = add_product(d, hn::Set(d, c[2]), hn::Set(d, c[3]), r);
-  const auto sum = add_product(d, low, r2, add_product(d, middle, r2, hn::Set(d, c[4])));
-  const auto value = scaled(d, hn::Add(hn::Set(d, 1.0f), add_product(d, r, r2, sum)), k);
-  return hn::IfThenElse(is_high, hn::BitCast(d, hn::Set(hn::RebindToSigned<D>(), 0x7f800000)),
-                        hn::IfThenZeroElse(is_low, value));
+  return between_edges(d, x, elementary::exp_low, elementary::exp_high, [=](hn::Vec<D> inside) HWY_ATTR {
+    const auto k = nearest(d, hn::Mul(inside, hn::Set(d, elementary::log2_e)));
+    const auto n = hn::ConvertTo(d, k);
+    const auto r = hn::Sub(hn::Sub(inside, hn::Mul(n, hn::Set(d, elementary::ln2_head))),
+                           hn::Mul(n, hn::Set(d, elementary::ln2_tail)));
+    const auto r2 = hn::Mul(r, r);
+    const float(&c)[5] = elementary::exp_c;
+    const auto low = add_product(d, hn::Set(d, c[0]), hn::Set(d, c[1]), r);
+    const auto middle = add_product(d, hn::Set(d, c[2]), hn::Set(d, c[3]), r);
+    const auto sum = add_product(d, low, r2, add_product(d, middle, r2, hn::Set(d, c[4])));
+    return scaled(d, hn::Add(hn::Set(d, 1.0f), add_product(d, r, r2, sum)), k);
+  });
 }
 
 /// `value` where x is at least the least normal number, else -infinity.

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
+#include <cstdlib>
 
 #include "zoneplate/math/elementary.h"
 
@@ -14,6 +15,25 @@
 ///
 /// Edges     min and max return their second argument where either is NaN, as on x86.
 namespace zoneplate::scalar {
+
+/// The elementary functions of a lane's number: of float those of math/elementary.h, of double those of the C library.
+namespace number {
+
+using zoneplate::acos, zoneplate::asin, zoneplate::atan2, zoneplate::coarse_log2, zoneplate::cos, zoneplate::exp;
+using zoneplate::exp2, zoneplate::log, zoneplate::log2, zoneplate::pow, zoneplate::sin;
+inline double log2(double x) { return std::log2(x); }
+inline double coarse_log2(double x) { return std::log2(x); }
+inline double exp2(double x) { return std::exp2(x); }
+inline double exp(double x) { return std::exp(x); }
+inline double log(double x) { return std::log(x); }
+inline double sin(double x) { return std::sin(x); }
+inline double cos(double x) { return std::cos(x); }
+inline double acos(double x) { return std::acos(x); }
+inline double asin(double x) { return std::asin(x); }
+inline double pow(double x, double y) { return std::pow(x, y); }
+inline double atan2(double y, double x) { return std::atan2(y, x); }
+
+}  // namespace number
 
 struct Bool {
   bool v;
@@ -72,6 +92,11 @@ struct Int {
   friend Int min(Int a, Int b) { return a.v < b.v ? a : b; }
   friend Int max(Int a, Int b) { return a.v > b.v ? a : b; }
   friend Int select(Bool m, Int a, Int b) { return m.v ? a : b; }
+  /// The greatest difference of the lowest three bytes.
+  friend Int color_difference(Int a, Int b) {
+    const auto of = [&](int shift) { return std::abs((a.v >> shift & 255) - (b.v >> shift & 255)); };
+    return std::max({of(0), of(8), of(16)});
+  }
   /// a where m, else 0.
   friend Int where(Bool m, Int a) { return m.v ? a.v : 0; }
 };
@@ -117,50 +142,17 @@ struct Lane {
   friend Lane sqrt(Lane a) { return std::sqrt(a.v); }
   friend Lane floor(Lane a) { return std::floor(a.v); }
   friend Int truncate(Lane a) { return static_cast<std::int32_t>(a.v); }
-  friend Lane log2(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::log2(a.v);
-    return static_cast<T>(std::log2(a.v));
-  }
-  friend Lane coarse_log2(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::coarse_log2(a.v);
-    return static_cast<T>(std::log2(a.v));
-  }
-  friend Lane exp2(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::exp2(a.v);
-    return static_cast<T>(std::exp2(a.v));
-  }
-  friend Lane pow(Lane a, Lane b) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::pow(a.v, b.v);
-    return static_cast<T>(std::pow(a.v, b.v));
-  }
-  friend Lane exp(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::exp(a.v);
-    return static_cast<T>(std::exp(a.v));
-  }
-  friend Lane log(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::log(a.v);
-    return static_cast<T>(std::log(a.v));
-  }
-  friend Lane sin(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::sin(a.v);
-    return static_cast<T>(std::sin(a.v));
-  }
-  friend Lane cos(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::cos(a.v);
-    return static_cast<T>(std::cos(a.v));
-  }
-  friend Lane acos(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::acos(a.v);
-    return static_cast<T>(std::acos(a.v));
-  }
-  friend Lane asin(Lane a) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::asin(a.v);
-    return static_cast<T>(std::asin(a.v));
-  }
-  friend Lane atan2(Lane a, Lane b) {
-    if constexpr (std::is_same_v<T, float>) return zoneplate::atan2(a.v, b.v);
-    return static_cast<T>(std::atan2(a.v, b.v));
-  }
+  friend Lane log2(Lane a) { return number::log2(a.v); }
+  friend Lane coarse_log2(Lane a) { return number::coarse_log2(a.v); }
+  friend Lane exp2(Lane a) { return number::exp2(a.v); }
+  friend Lane exp(Lane a) { return number::exp(a.v); }
+  friend Lane log(Lane a) { return number::log(a.v); }
+  friend Lane sin(Lane a) { return number::sin(a.v); }
+  friend Lane cos(Lane a) { return number::cos(a.v); }
+  friend Lane acos(Lane a) { return number::acos(a.v); }
+  friend Lane asin(Lane a) { return number::asin(a.v); }
+  friend Lane pow(Lane a, Lane b) { return number::pow(a.v, b.v); }
+  friend Lane atan2(Lane a, Lane b) { return number::atan2(a.v, b.v); }
   static Lane from(Int i) { return static_cast<T>(i.v); }
 };
 

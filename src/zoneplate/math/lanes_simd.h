@@ -86,6 +86,15 @@ struct IntVector {
   friend HWY_INLINE Int select(Bool m, Int a, Int b) {
     return Int(hn::IfThenElse(hn::RebindMask(IntTag(), m.v), a.v, b.v));
   }
+  friend HWY_INLINE Int color_difference(Int a, Int b) {
+    const IntTag d;
+    const hn::Repartition<std::uint8_t, IntTag> bytes;
+    const auto x = hn::BitCast(bytes, a.v), y = hn::BitCast(bytes, b.v);
+    const auto each = hn::BitCast(d, hn::Or(hn::SaturatedSub(x, y), hn::SaturatedSub(y, x)));
+    const auto mask = hn::Set(d, 255);
+    const auto red = hn::And(each, mask), green = hn::And(hn::ShiftRight<8>(each), mask);
+    return Int(hn::Max(red, hn::Max(green, hn::And(hn::ShiftRight<16>(each), mask))));
+  }
   friend HWY_INLINE Int where(Bool m, Int a) { return Int(hn::IfThenElseZero(hn::RebindMask(IntTag(), m.v), a.v)); }
 };
 

@@ -28,12 +28,15 @@ TEST(ChooseMetric, ReadsParameters) {
 }
 
 TEST(ChooseMetric, SaysWhatThereIs) {
-  EXPECT_EQ(message_of("mse:n=3"), "metric mse: unknown parameter 'n'; it has none");
-  EXPECT_EQ(message_of("flip:pd=3"), "metric flip: unknown parameter 'pd'; did you mean 'ppd'?");
-  EXPECT_EQ(message_of("flip:ppd=0"), "metric flip: ppd is '0', expected a number from 1 to 1000");
-  EXPECT_EQ(message_of("flip:ppd=x"), "metric flip: ppd is 'x', expected a number from 1 to 1000");
-  EXPECT_EQ(message_of("flip:ppd"), "metric flip: ppd is '', expected a number from 1 to 1000");
-  EXPECT_EQ(message_of("flop"), "unknown metric 'flop'; did you mean 'flip'?");
+  const std::pair<const char*, const char*> refused[] = {
+      {"mse:n=3", "metric mse: unknown parameter 'n'; it has none"},
+      {"flip:pd=3", "metric flip: unknown parameter 'pd'; did you mean 'ppd'?"},
+      {"flip:ppd=0", "metric flip: ppd is '0', expected a number from 1 to 1000"},
+      {"flip:ppd=x", "metric flip: ppd is 'x', expected a number from 1 to 1000"},
+      {"flip:ppd", "metric flip: ppd is '', expected a number from 1 to 1000"},
+      {"flop", "unknown metric 'flop'; did you mean 'flip'?"},
+  };
+  for (const auto& [text, message] : refused) EXPECT_EQ(message_of(text), message);
   EXPECT_EQ(message_of("butteraugli").find("unknown metric 'butteraugli'; there are mse, mae,"), 0u);
 }
 

@@ -9,6 +9,7 @@
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/scene/facing_for_test.h"
 
 namespace zoneplate {
 namespace {
@@ -18,24 +19,13 @@ constexpr int width = 160, height = 120;
 /// Triangles that face an orthographic camera whose image has a unit a pixel; (0, 0) is the image's top-left corner
 /// and y goes down.
 Scene flat_scene(std::vector<float3> corners, Material material = {}) {
-  Scene scene;
-  material.model = ShadingModel::Unlit;
-  material.double_sided = true;
-  scene.materials.push_back(std::move(material));
   Mesh mesh;
   for (std::uint32_t i = 0; const float3 p : corners) {
     mesh.position.push_back({p.x - width / 2.0f, height / 2.0f - p.y, p.z});
-    mesh.normal.push_back({0, 0, 1});
     mesh.index.push_back(i++);
   }
-  scene.objects.push_back("mesh");
-  scene.meshes.push_back(std::move(mesh));
-  scene.instances.push_back({});
-  Camera camera;
-  camera.world_from_camera.column[3] = {0, 0, 5, 1};
-  camera.is_orthographic = true;
-  camera.half_height = height / 2.0f;
-  scene.cameras.push_back(camera);
+  Scene scene = facing_scene(std::move(mesh), std::move(material));
+  scene.cameras[0].half_height = height / 2.0f;
   return scene;
 }
 

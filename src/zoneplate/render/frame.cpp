@@ -1,23 +1,23 @@
 #include "zoneplate/render/frame.h"
 
+#include <iterator>
+
 namespace zoneplate {
+namespace {
+
+constexpr bool Planes::*all_planes[] = {
+    &Planes::depth,     &Planes::normal,           &Planes::albedo,       &Planes::uv,
+    &Planes::object_id, &Planes::material_id,      &Planes::primitive_id, &Planes::coverage,
+    &Planes::position,  &Planes::motion,           &Planes::flow,         &Planes::error,
+    &Planes::samples,   &Planes::sample_triangles, &Planes::sample_colors};
+static_assert(std::size(all_planes) * sizeof(bool) == sizeof(Planes), "a plane is missing");
+
+}  // namespace
 
 Planes Planes::operator|(const Planes& o) const {
-  return {.depth = depth || o.depth,
-          .normal = normal || o.normal,
-          .albedo = albedo || o.albedo,
-          .uv = uv || o.uv,
-          .object_id = object_id || o.object_id,
-          .material_id = material_id || o.material_id,
-          .primitive_id = primitive_id || o.primitive_id,
-          .coverage = coverage || o.coverage,
-          .position = position || o.position,
-          .motion = motion || o.motion,
-          .flow = flow || o.flow,
-          .error = error || o.error,
-          .samples = samples || o.samples,
-          .sample_triangles = sample_triangles || o.sample_triangles,
-          .sample_colors = sample_colors || o.sample_colors};
+  Planes both = *this;
+  for (const auto plane : all_planes) both.*plane = both.*plane || o.*plane;
+  return both;
 }
 
 }  // namespace zoneplate

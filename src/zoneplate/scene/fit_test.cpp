@@ -6,24 +6,19 @@
 
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/scene/points_for_test.h"
 
 namespace zoneplate {
 namespace {
 
 // A thousand points in a long tilted shape, whose box is much larger than what it holds.
 Scene cloud() {
-  Scene scene;
-  Mesh& mesh = scene.meshes.emplace_back();
-  mesh.topology = Topology::Points;
-  for (std::uint32_t i = 0; i < 1000; ++i) {
-    const float a = unit_float(hash(i, 1)), b = unit_float(hash(i, 2)), c = unit_float(hash(i, 3));
-    mesh.position.push_back({4 * a + b, 3 * a - c, 2 * b - a});
-    mesh.index.push_back(i);
-  }
+  Scene scene = point_scene(1000, {-1, 2, 0.5f}, [](float a, float b, float c) {
+    return float3{4 * a + b, 3 * a - c, 2 * b - a};
+  });
+  Mesh& mesh = scene.meshes[0];
+  for (std::uint32_t i = 0; i < 1000; ++i) mesh.index.push_back(i);
   mesh.position.push_back({100, 100, 100});  // no primitive uses it
-  scene.materials.emplace_back();
-  scene.instances.resize(2);
-  scene.instances[1].world_from_object = translation({-1, 2, 0.5f});
   return scene;
 }
 

@@ -9,24 +9,18 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/scene/points_for_test.h"
 
 namespace zoneplate {
 namespace {
 
 /// 100,000 vertices, of which primitives use those in odd places.
 Scene many() {
-  Scene scene;
-  Mesh& mesh = scene.meshes.emplace_back();
-  mesh.topology = Topology::Points;
-  for (std::uint32_t i = 0; i < 100000; ++i) {
-    mesh.position.push_back({unit_float(hash(i, 1)), unit_float(hash(i, 2)), unit_float(hash(i, 3))});
-    if (i % 2 == 1) mesh.index.insert(mesh.index.end(), {i, i});
-  }
+  Scene scene = point_scene(100000, {0, 0, 7}, [](float a, float b, float c) { return float3{a, b, c}; });
+  Mesh& mesh = scene.meshes[0];
+  for (std::uint32_t i = 1; i < 100000; i += 2) mesh.index.insert(mesh.index.end(), {i, i});
   mesh.position[40000] = {50, 0, 0};
   mesh.position[40001] = {0, 60, 0};
-  scene.materials.emplace_back();
-  scene.instances.resize(2);
-  scene.instances[1].world_from_object = translation({0, 0, 7});
   return scene;
 }
 

@@ -11,30 +11,28 @@ namespace {
 
 using std::numbers::pi;
 
+/// c[0] + u (c[1] + u (c[2] + ...)), written from the highest power down.
+template <std::size_t n>
+double polynomial(const double (&highest_first)[n], double u) {
+  double sum = highest_first[0];
+  for (std::size_t i = 1; i < n; ++i) sum = sum * u + highest_first[i];
+  return sum;
+}
+
 // Taylor polynomials for |t| <= π/4; the first term left out is below 1e-17.
+constexpr double sine_terms[] = {1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
+                                 1.0 / 362880.0,          -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
+constexpr double cosine_terms[] = {1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0,
+                                   1.0 / 40320.0,          -1.0 / 720.0,         1.0 / 24.0};
+
 double small_sin(double t) {
   const double u = t * t;
-  double s = 1.0 / 355687428096000.0;
-  s = s * u - 1.0 / 1307674368000.0;
-  s = s * u + 1.0 / 6227020800.0;
-  s = s * u - 1.0 / 39916800.0;
-  s = s * u + 1.0 / 362880.0;
-  s = s * u - 1.0 / 5040.0;
-  s = s * u + 1.0 / 120.0;
-  s = s * u - 1.0 / 6.0;
-  return t + t * (u * s);
+  return t + t * (u * polynomial(sine_terms, u));
 }
 
 double small_cos(double t) {
   const double u = t * t;
-  double c = 1.0 / 20922789888000.0;
-  c = c * u - 1.0 / 87178291200.0;
-  c = c * u + 1.0 / 479001600.0;
-  c = c * u - 1.0 / 3628800.0;
-  c = c * u + 1.0 / 40320.0;
-  c = c * u - 1.0 / 720.0;
-  c = c * u + 1.0 / 24.0;
-  return 1 - (0.5 * u - u * u * c);
+  return 1 - (0.5 * u - u * u * polynomial(cosine_terms, u));
 }
 
 /// The sine and cosine at angle quadrant · π/2 + t, for |t| <= π/4.

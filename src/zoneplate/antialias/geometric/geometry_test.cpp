@@ -9,6 +9,7 @@
 #include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/hash_for_test.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
@@ -24,18 +25,6 @@ Scene half_plane(float slope) {
   Scene scene = facing_scene(std::move(mesh));
   scene.cameras[0].half_height = 60;
   return scene;
-}
-
-/// FNV-1a over the bits of a linear image.
-std::uint64_t hash_of(const LinearImage& image) {
-  std::uint64_t h = 0xcbf29ce484222325u;
-  for (const Linear& c : image.values())
-    for (const float v : {c.r, c.g, c.b, c.a}) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, &v, sizeof word);
-      for (int byte = 0; byte < 4; ++byte) h = (h ^ (word >> (8 * byte) & 0xff)) * 0x100000001b3u;
-    }
-  return h;
 }
 
 /// The share of the pixel's middle column that lies below the line.

@@ -11,6 +11,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/compare/report.h"
+#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"
@@ -21,41 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Answer {
-  int code = -1;
-  std::string out;  ///< stdout and stderr together
-};
-
-class CompareVerb : public testing::Test {
+class CompareVerb : public ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "zoneplate_compare_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    place = name;
-  }
-  void TearDown() override { fs::remove_all(place); }
-  Answer run(const std::string& arguments) const {
-    const std::string command = "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    Answer answer;
-    std::array<char, 4096> part{};
-    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) answer.out.append(part.data(), n);
-    answer.code = WEXITSTATUS(::pclose(pipe));
-    return answer;
-  }
-  std::string text_of(const std::string& name) const {
-    const FileBytes file((place / name).string());
-    return {file.bytes().begin(), file.bytes().end()};
-  }
-  fs::path place;
+  std::string text_of(const std::string& name) const { return zoneplate::text_of(place / name); }
 };
-
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 constexpr const char* small = " --size 64x48 --turns 1 --reference ssaa:n=4 ";
 
 TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
-  const Answer answer =
+  const ProgramAnswer answer =
       run(std::string("compare triangles cyclic --aa none,ssaa:n=2,ssaa:pattern=halton,samples=8 -o out") + small);
   ASSERT_EQ(answer.code, 0) << answer.out;
   EXPECT_EQ(answer.out, text_of("out/compare.txt"));
@@ -111,13 +86,14 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   for (const char* name : {"psnr", "flip", "edge_error"})
     EXPECT_EQ(json["scenes"][0]["methods"][0]["metrics"][name]["value"], own["metrics"][name]["value"]) << name;
   // An image is a reference too; and against itself a method is without error.
-  const Answer again = run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
+  const ProgramAnswer again =
+      run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
   ASSERT_EQ(again.code, 0) << again.out;
   EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
 }
 
 TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
-  const Answer answer =
+  const ProgramAnswer answer =
       run("compare teapot --aa none,fxaa,ssaa:n=4,resolve=display --size 320x240 --turns 4 -o out"
           " --reference ssaa:n=2 --json");
   ASSERT_EQ(answer.code, 0) << answer.out;
@@ -155,7 +131,7 @@ TEST(Report, NamesMethodsThatGotFewerTurns) {
 
 TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   const auto expect = [&](const std::string& arguments, int code, std::string_view words) {
-    const Answer answer = run("compare " + arguments);
+    const ProgramAnswer answer = run("compare " + arguments);
     EXPECT_EQ(answer.code, code) << arguments;
     EXPECT_TRUE(contains(answer.out, words)) << answer.out;
   };
@@ -186,7 +162,7 @@ TEST_F(CompareVerb, RefusesNamesThatNoFolderCanHave) {
   const std::string slow =
       "compare city --turns 100 --aa ssaa:n=16 --size 4096x4096 -o ";  // not before minutes of work
   save_bytes((place / "file").string(), {});
-  Answer answer = run(slow + "file");
+  ProgramAnswer answer = run(slow + "file");
   EXPECT_EQ(answer.code, 4);
   EXPECT_EQ(answer.out, "zoneplate: error: file: is there already; give another folder or remove it\n");
   answer = run(slow + "file/out");
@@ -206,11 +182,11 @@ TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
   // Of runs at the same time one makes the folder, whole; the others say that it is there.
   fs::remove_all(place / "out");
   std::vector<std::thread> runs;
-  std::array<Answer, 4> answers;
-  for (Answer& answer : answers) runs.emplace_back([&] { answer = run(one); });
+  std::array<ProgramAnswer, 4> answers;
+  for (ProgramAnswer& answer : answers) runs.emplace_back([&] { answer = run(one); });
   for (std::thread& thread : runs) thread.join();
   int made = 0;
-  for (const Answer& answer : answers) {
+  for (const ProgramAnswer& answer : answers) {
     made += answer.code == 0;
     EXPECT_TRUE(answer.code == 0 || (answer.code == 4 && contains(answer.out, "out: is there already"))) << answer.out;
   }
@@ -223,7 +199,8 @@ TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
 // Where a surface's texture has no smaller levels, exact edges are not enough: the default reference samples surfaces
 // too.
 TEST_F(CompareVerb, TheDefaultReferenceIsRightInsideOfSurfacesToo) {
-  const Answer answer = run("compare tiles --aa analytic,converged:samples=256 --turns 1 --size 64x48 -o out --json");
+  const ProgramAnswer answer =
+      run("compare tiles --aa analytic,converged:samples=256 --turns 1 --size 64x48 -o out --json");
   ASSERT_EQ(answer.code, 0) << answer.out;
   const auto scene = parsed_json(answer.out)["scenes"][0];
   EXPECT_EQ(scene["reference"]["source"], "converged");

@@ -1,8 +1,6 @@
 // zoneplate signal: spectra, filters and sampling. A table of subcommands, each in a file of its own.
 #include "zoneplate/cli/signal/signal.h"
 
-#include <fmt/format.h>
-
 #include <vector>
 
 #include "zoneplate/cli/log.h"
@@ -12,11 +10,7 @@
 namespace zoneplate::cli {
 namespace {
 
-struct Subcommand {
-  std::string_view name, summary;
-  void (*run)(std::span<const std::string> arguments);
-};
-constexpr Subcommand subcommands[] = {
+constexpr Verb subcommands[] = {
     {"spectrum", "spectrum of an image: magnitude, phase, radial profile", run_signal_spectrum},
     {"filter", "low-pass, high-pass, band-pass or band-stop filter of an image", run_signal_filter},
     {"convolve", "convolution of an image or a list of numbers, in space, by the spectra, or both",
@@ -28,13 +22,11 @@ constexpr Subcommand subcommands[] = {
     {"box", "box filters and their spectra: wider in space, narrower in frequency", run_signal_box}};
 
 std::string overview() {
-  std::string text =
-      "Usage: zoneplate signal SUBCOMMAND ARGUMENTS\n"
-      "\n"
-      "Spectra, filters and sampling, on image files or on generated test patterns.\n"
-      "\n";
-  for (const Subcommand& s : subcommands) text += fmt::format("  {:<10}{}\n", s.name, s.summary);
-  return text +
+  return "Usage: zoneplate signal SUBCOMMAND ARGUMENTS\n"
+         "\n"
+         "Spectra, filters and sampling, on image files or on generated test patterns.\n"
+         "\n" +
+         lines_of(subcommands, 10) +
          "\n"
          "Examples:\n"
          "  zoneplate signal spectrum zone-plate --side-by-side -o spectrum.png\n"
@@ -50,7 +42,7 @@ std::string overview() {
 void run_signal(std::span<const std::string> arguments) {
   if (arguments.empty() || arguments[0] == "-h" || arguments[0] == "--help") return print(overview());
   std::vector<std::string_view> names;
-  for (const Subcommand& s : subcommands) names.push_back(s.name);
+  for (const Verb& s : subcommands) names.push_back(s.name);
   subcommands[parse_choice(arguments[0], names)].run(arguments.subspan(1));
 }
 

@@ -93,7 +93,8 @@ TEST_F(SignalSpectrum, TheSmallestImages) {
 TEST_F(SignalSpectrum, RefusesWhatMakesNoSense) {
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {}), "requires one IMAGE"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "--window", "hat"}), "--window: "));
-  EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "--window", "hann", "--periodic"}), "cannot be combined"));
+  EXPECT_TRUE(
+      contains(refusal(run_signal_spectrum, {"noise", "--window", "hann", "--periodic"}), "cannot be combined"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise", "-o", "x.jpg"}), "ends in .png"));
   EXPECT_TRUE(contains(refusal(run_signal_spectrum, {"noise:size=0"}), "size"));
   refusal(run_signal_spectrum, {at("missing.png")}, ErrorKind::Input);

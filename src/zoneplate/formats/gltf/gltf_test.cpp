@@ -6,26 +6,10 @@
 #include <ctime>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/gltf/load_for_test.h"
 
 namespace zoneplate {
 namespace {
-
-Scene load(const GltfMaker& m, const LoadLimits& limits = {}) {
-  const TestFolder folder;
-  return load_gltf(folder.write("f.glb", m.glb()), limits);
-}
-
-std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
-  try {
-    load(m, limits);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
-    const std::string text = e.what();
-    return text.substr(text.find("f.glb: ") + 7);
-  }
-  return "no error";
-}
 
 void expect_near(float3 a, float3 b) {
   EXPECT_NEAR(a.x, b.x, 1e-6f);

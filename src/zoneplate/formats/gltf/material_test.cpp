@@ -5,7 +5,7 @@
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/gltf/gltf.h"
-#include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/gltf/load_for_test.h"
 
 namespace zoneplate {
 namespace {
@@ -23,22 +23,6 @@ GltfMaker painted(const std::string& materials, const std::string& textures = ""
            R"(,"mimeType":"image/png"}],"textures":[)" +
            (textures.empty() ? R"({"source":0},{"source":1})" : textures) + "]";
   return m;
-}
-
-Scene load(const GltfMaker& m, const LoadLimits& limits = {}) {
-  const TestFolder folder;
-  return load_gltf(folder.write("f.glb", m.glb()), limits);
-}
-
-std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
-  try {
-    load(m, limits);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
-    const std::string text = e.what();
-    return text.substr(text.find("f.glb: ") + 7);
-  }
-  return "no error";
 }
 
 TEST(GltfMaterial, DefaultsAreTheSpecifications) {

@@ -20,20 +20,17 @@ std::string text_of(const std::optional<std::vector<std::uint8_t>>& bytes) {
 }
 
 TEST(GltfUri, PercentDecoding) {
-  EXPECT_EQ(decode_percent("a%20b%2fc%C3%A9"), "a b/c\xc3\xa9");
-  EXPECT_EQ(decode_percent("100%"), "100%");
-  EXPECT_EQ(decode_percent("%4"), "%4");
-  EXPECT_EQ(decode_percent("%zz%41"), "%zzA");
-  EXPECT_EQ(decode_percent(""), "");
+  const std::pair<const char*, const char*> texts[] = {
+      {"a%20b%2fc%C3%A9", "a b/c\xc3\xa9"}, {"100%", "100%"}, {"%4", "%4"}, {"%zz%41", "%zzA"}, {"", ""},
+  };
+  for (const auto& [coded, text] : texts) EXPECT_EQ(decode_percent(coded), text) << coded;
 }
 
 TEST(GltfUri, Base64OfRfc4648) {
-  EXPECT_EQ(text_of(decode_base64("")), "");
-  EXPECT_EQ(text_of(decode_base64("Zg==")), "f");
-  EXPECT_EQ(text_of(decode_base64("Zm8=")), "fo");
-  EXPECT_EQ(text_of(decode_base64("Zm9v")), "foo");
-  EXPECT_EQ(text_of(decode_base64("Zm9vYmFy")), "foobar");
-  EXPECT_EQ(text_of(decode_base64("Zm9\nvYg")), "foob");
+  const std::pair<const char*, const char*> texts[] = {
+      {"", ""}, {"Zg==", "f"}, {"Zm8=", "fo"}, {"Zm9v", "foo"}, {"Zm9vYmFy", "foobar"}, {"Zm9\nvYg", "foob"},
+  };
+  for (const auto& [coded, text] : texts) EXPECT_EQ(text_of(decode_base64(coded)), text) << coded;
   EXPECT_EQ(decode_base64("+/8A")->at(0), 0xfb);
   EXPECT_EQ(decode_base64("-_8A")->at(1), 0xff);
   EXPECT_FALSE(decode_base64("Zm9*"));

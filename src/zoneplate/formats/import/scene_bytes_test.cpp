@@ -8,20 +8,12 @@
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/gltf/sample_for_test.h"
 #include "zoneplate/formats/import/damage_for_test.h"
+#include "zoneplate/formats/import/scene_bytes_for_test.h"
 
 namespace zoneplate {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-Bytes written(const Scene& scene) {
-  Bytes out;
-  write_scene(scene, [&](const void* data, std::size_t size) {
-    const auto* at = static_cast<const std::uint8_t*>(data);
-    out.insert(out.end(), at, at + size);
-  });
-  return out;
-}
 
 Scene read(const Bytes& bytes, const LoadLimits& limits = {}) {
   std::size_t at = 0;

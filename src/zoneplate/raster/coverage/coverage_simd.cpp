@@ -254,28 +254,34 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
   return has_risen;
 }
 
-int collect(const TileTriangle& t, const TileVisibility& tile, CoveredPixel* out) {
-  const DF d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
+/// Calls use(step, bx, y) for the groups of eight pixels of these blocks that the triangle may touch.
+template <class Use>
+HWY_INLINE void for_groups(const TileTriangle& t, const TileVisibility& tile, std::uint64_t blocks, Use use) {
   const Spread spread = spread_of(t, tile.sample_count);
   const Reach reach = reach_of(t, spread, 8);
   const Step step(t);
-  int count = 0;
   for (int y = t.first_y; y <= t.last_y; ++y)
-    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      if (classify(t, reach, bx, y & ~7) == Block::Outside) continue;
-      std::uint64_t samples[8] = {};
-      for (int s = 0; s < tile.sample_count; ++s)
-        for (int x = 0; x < 8; x += lanes) {
-          VF z;
-          std::uint8_t bits[8] = {};
-          hn::StoreMaskBits(d, step.wins(t, tile, s, bx + x, y, z), bits);
-          for (int lane = 0; lane < lanes; ++lane)
-            samples[x + lane] |= static_cast<std::uint64_t>((bits[0] >> lane) & 1) << s;
-        }
-      for (int x = 0; x < 8; ++x)
-        if (samples[x]) out[count++] = {samples[x], static_cast<std::uint32_t>(y * tile_size + bx + x)};
-    }
+    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8)
+      if ((blocks >> ((y & ~7) + bx / 8) & 1) && classify(t, reach, bx, y & ~7) != Block::Outside) use(step, bx, y);
+}
+
+int collect(const TileTriangle& t, const TileVisibility& tile, CoveredPixel* out) {
+  const DF d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  int count = 0;
+  for_groups(t, tile, ~std::uint64_t{0}, [&](const Step& step, int bx, int y) HWY_ATTR {
+    std::uint64_t samples[8] = {};
+    for (int s = 0; s < tile.sample_count; ++s)
+      for (int x = 0; x < 8; x += lanes) {
+        VF z;
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, step.wins(t, tile, s, bx + x, y, z), bits);
+        for (int lane = 0; lane < lanes; ++lane)
+          samples[x + lane] |= static_cast<std::uint64_t>((bits[0] >> lane) & 1) << s;
+      }
+    for (int x = 0; x < 8; ++x)
+      if (samples[x]) out[count++] = {samples[x], static_cast<std::uint32_t>(y * tile_size + bx + x)};
+  });
   return count;
 }
 
@@ -283,30 +289,25 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_
                  std::uint8_t* is_partial) {
   const DF d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const Spread spread = spread_of(t, tile.sample_count);
-  const Reach reach = reach_of(t, spread, 8);
-  const Step step(t);
   int count = 0;
-  for (int y = t.first_y; y <= t.last_y; ++y)
-    for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
-      if (!(blocks >> ((y & ~7) + bx / 8) & 1) || classify(t, reach, bx, y & ~7) == Block::Outside) continue;
-      VF low = step.z_high, high = step.z_low;
-      bool all = true, any = false;
-      for (int s = 0; s < tile.sample_count; ++s)
-        for (int x = bx; x < bx + 8; x += lanes) {
-          VF z;
-          const auto mask = step.wins(t, tile, s, x, y, z);
-          all = all && hn::AllTrue(d, mask);
-          any = any || !hn::AllFalse(d, mask);
-          low = hn::Min(low, z);
-          high = hn::Max(high, z);
-        }
-      const auto row = static_cast<std::uint32_t>(y * 8 + bx / 8);
-      if (all)
-        out[count++] = {t.id, row, hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
-      else if (any)
-        is_partial[row] = 1;
-    }
+  for_groups(t, tile, blocks, [&](const Step& step, int bx, int y) HWY_ATTR {
+    VF low = step.z_high, high = step.z_low;
+    bool all = true, any = false;
+    for (int s = 0; s < tile.sample_count; ++s)
+      for (int x = bx; x < bx + 8; x += lanes) {
+        VF z;
+        const auto mask = step.wins(t, tile, s, x, y, z);
+        all = all && hn::AllTrue(d, mask);
+        any = any || !hn::AllFalse(d, mask);
+        low = hn::Min(low, z);
+        high = hn::Max(high, z);
+      }
+    const auto row = static_cast<std::uint32_t>(y * 8 + bx / 8);
+    if (all)
+      out[count++] = {t.id, row, hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
+    else if (any)
+      is_partial[row] = 1;
+  });
   return count;
 }
 

@@ -9,14 +9,18 @@
 namespace zoneplate {
 namespace {
 
+/// Draws the alpha-tested triangles into an empty tile.
+void test_alpha_alone(TileBuffers& b) {
+  begin_with_visibility(b, [](int, int, int) { return no_primitive; });
+  b.alpha_tester.rasterize(b.job, b.batcher, b.visibility);
+}
+
 TEST(AlphaTestStage, ASurfaceIsPresentWhereAlphaReachesTheCutoff) {
   const TileScene scene({full_tile(0.2f, {1, 1, 1, 1}), full_tile(0.4f, {1, 1, 1, 0.6f}, AlphaMode::Mask),
                          full_tile(0.6f, {1, 1, 1, 0.4f}, AlphaMode::Mask)},
                         standard_pattern(4));
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, [](int, int, int) { return no_primitive; });
-  b.alpha_tester.rasterize(b.job, b.batcher, b.visibility);
+  test_alpha_alone(b);
   for (int i = 0; i < 4 * tile_pixels; ++i) {
     ASSERT_EQ(b.visibility.id[i], 1);
     ASSERT_EQ(b.visibility.depth[i], 0.4f);
@@ -28,9 +32,7 @@ TEST(AlphaTestStage, CoverageTakesAsManySamplesAsAlphaGives) {
   target.alpha = AlphaTest::Coverage;
   const TileScene scene({full_tile(0.4f, {1, 1, 1, 0.25f}, AlphaMode::Mask)}, standard_pattern(8), {}, target);
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, [](int, int, int) { return no_primitive; });
-  b.alpha_tester.rasterize(b.job, b.batcher, b.visibility);
+  test_alpha_alone(b);
   for (int pixel = 0; pixel < tile_pixels; ++pixel) {
     int samples = 0;
     for (int s = 0; s < 8; ++s) samples += b.visibility.id[s * tile_pixels + pixel] == 0;

@@ -57,8 +57,7 @@ TEST(Composite, LayersOfAPixelByHand) {
                          full_tile(0.3f, {1, 0, 0, 0.5f}, AlphaMode::Blend)},
                         standard_pattern(1));
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, [](int, int x, int) { return x < 32 ? 0 : no_primitive; });
+  begin_with_visibility(b, [](int, int x, int) { return x < 32 ? 0 : no_primitive; });
   std::fill_n(b.visibility.depth, tile_pixels, 0.1f);
   std::vector<Linear> results(tile_pixels);
   b.pixels.for_pixels(b.job, {0, 0, tile_size, tile_size}, nullptr, b.visibility, b.batcher,

@@ -23,8 +23,7 @@ Linear color_at(const TileColors& colors, int x, int y) {
 TEST(OpaqueStage, ShadesOncePerSurfaceAndPixel) {
   const TileScene scene(two, standard_pattern(4));
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, owner_of_columns);
+  begin_with_visibility(b, owner_of_columns);
   shade_opaque(b.job, b.visibility, b.batcher, b.opaque, b.colors);
   resolve_fragments(b.job, b.opaque, b.colors);
   for (int y = 0; y < tile_size; ++y) {
@@ -41,8 +40,7 @@ TEST(OpaqueStage, ShadesEverySampleAtRateSample) {
   target.is_per_sample = true;
   const TileScene scene(two, standard_pattern(4), {}, target);
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, owner_of_columns);
+  begin_with_visibility(b, owner_of_columns);
   shade_opaque(b.job, b.visibility, b.batcher, b.opaque, b.colors);
   resolve_fragments(b.job, b.opaque, b.colors);
   EXPECT_EQ(color_at(b.colors, 40, 3), (Linear{0, 0.5f, 0, 0.5f}));
@@ -52,8 +50,7 @@ TEST(OpaqueStage, ShadesEverySampleAtRateSample) {
 TEST(OpaqueStage, FragmentsOfAPixelFollowTheirFirstSamples) {
   const TileScene scene(two, standard_pattern(4));
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, [](int s, int, int) { return s == 1 ? no_primitive : s == 0 ? 1 : 0; });
+  begin_with_visibility(b, [](int s, int, int) { return s == 1 ? no_primitive : s == 0 ? 1 : 0; });
   std::vector<Fragment> fragments;
   add_pixel(b.job, b.visibility, 64 * 3 + 5, fragments);
   ASSERT_EQ(fragments.size(), 2u);
@@ -71,8 +68,7 @@ TEST(OpaqueStage, WeightsApplyToSamples) {
   target.weights = {1, 2, 3, 10};
   const TileScene scene(two, standard_pattern(4), {}, target);
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, [](int s, int, int) { return s == 3 ? 1 : 0; });
+  begin_with_visibility(b, [](int s, int, int) { return s == 3 ? 1 : 0; });
   shade_opaque(b.job, b.visibility, b.batcher, b.opaque, b.colors);
   resolve_fragments(b.job, b.opaque, b.colors);
   EXPECT_EQ(color_at(b.colors, 30, 30), (Linear{6.0f / 16, 10.0f / 16, 0, 1}));

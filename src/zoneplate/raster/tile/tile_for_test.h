@@ -122,4 +122,11 @@ void fill_visibility(const TileJob& job, TileVisibility& visibility, Owner owner
       }
 }
 
+/// Begins the tile with a visibility written by hand.
+template <class Owner>
+void begin_with_visibility(TileBuffers& buffers, Owner owner) {
+  begin_whole_pass(buffers);
+  fill_visibility(buffers.job, buffers.visibility, owner);
+}
+
 }  // namespace zoneplate

@@ -33,8 +33,7 @@ TEST(VisibilityStage, WritesOwnersAndDepthsWithoutShading) {
   target.sample_depth = &depths;
   const TileScene scene({full_tile(0.25f, {})}, standard_pattern(4), {}, target);
   TileBuffers b(*scene.setup);
-  begin_whole_pass(b);
-  fill_visibility(b.job, b.visibility, [](int s, int x, int) { return s == 2 && x < 10 ? 0 : no_primitive; });
+  begin_with_visibility(b, [](int s, int x, int) { return s == 2 && x < 10 ? 0 : no_primitive; });
   write_visibility(b.job, b.visibility);
   EXPECT_EQ(ids[2](9, 40), 0u);
   EXPECT_EQ(ids[2](10, 40), Target::no_id);

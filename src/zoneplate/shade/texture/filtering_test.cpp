@@ -12,6 +12,7 @@
 #include "zoneplate/image/half.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/material.h"
+#include "zoneplate/shade/texture/noise_for_test.h"
 #include "zoneplate/shade/texture/texture.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
@@ -56,19 +57,8 @@ Values look_along(const Texture& texture, const SamplerState& filtering, const P
   return values;
 }
 
-Rgba8Image noise(int width, int height) {
-  Rgba8Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t word = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 3);
-      image(x, y) = {static_cast<std::uint8_t>(word), static_cast<std::uint8_t>(word >> 8),
-                     static_cast<std::uint8_t>(word >> 16), static_cast<std::uint8_t>(word >> 24)};
-    }
-  return image;
-}
-
 TEST(SamplerState, BilinearAtATexelsCentreIsThatTexel) {
-  const Rgba8Image image = noise(16, 8);
+  const Rgba8Image image = noise(16, 8, 3);
   const Texture texture(image, TexelMeaning::Values);
   for (int y = 0; y < 8; ++y) {
     Points points;
@@ -122,7 +112,7 @@ TEST(SamplerState, EveryWrapModeAgreesWithItsDefinition) {
   constexpr Wrap modes[] = {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp};
   const int sizes[][2] = {{8, 4}, {5, 3}, {1, 7}};
   for (const auto& size : sizes) {
-    const Rgba8Image image = noise(size[0], size[1]);
+    const Rgba8Image image = noise(size[0], size[1], 3);
     const Texture texture(image, TexelMeaning::Values);
     for (const Wrap wrap_u : modes)
       for (const Wrap wrap_v : modes) {
@@ -143,7 +133,7 @@ TEST(SamplerState, EveryWrapModeAgreesWithItsDefinition) {
 }
 
 TEST(SamplerState, NearestTakesTheTexelThatHoldsThePoint) {
-  const Rgba8Image image = noise(8, 4);
+  const Rgba8Image image = noise(8, 4, 3);
   const Texture texture(image, TexelMeaning::Values);
   for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
     const Sampler sampler{
@@ -161,16 +151,6 @@ TEST(SamplerState, NearestTakesTheTexelThatHoldsThePoint) {
       ASSERT_EQ(values.channel[2][i], static_cast<float>(image(x, y).b) * (1.0f / 255));
     }
   }
-}
-
-/// Noise of the light from 2^-8 to 2^16, with alpha.
-Plane<float4> bright_noise(int width, int height) {
-  Plane<float4> image(width, height);
-  for (std::uint32_t i = 0; i < image.values().size(); ++i) {
-    const auto light = [&](std::uint32_t c) { return std::exp2(24 * unit_float(hash(i, c, 9)) - 8); };
-    image.values()[i] = {light(0), light(1), light(2), unit_float(hash(i, 3, 9))};
-  }
-  return image;
 }
 
 /// The same noise in half floats.
@@ -360,7 +340,7 @@ TEST(SamplerState, EachAxisOfTheFootprintCounts) {
 }
 
 TEST(SamplerState, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
-  const Texture texture(noise(64, 64), TexelMeaning::Values);
+  const Texture texture(noise(64, 64, 3), TexelMeaning::Values);
   Points points;
   for (std::uint32_t i = 0; i < 128; ++i) {
     const auto random = [&](std::uint32_t k) { return unit_float(hash(i, k, 5)) - 0.5f; };
@@ -398,7 +378,7 @@ TEST(SamplerState, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
 }
 
 TEST(SamplerState, AnisotropicIsTheSameForRoundFootprints) {
-  const Texture texture(noise(64, 32), TexelMeaning::Color);
+  const Texture texture(noise(64, 32, 3), TexelMeaning::Color);
   Points points;
   for (int i = 0; i < 64; ++i) {
     points.add(0.013f * static_cast<float>(i), 0.37f);
@@ -470,7 +450,7 @@ TEST(SamplerState, NoPlaceLeavesTheTexture) {
   const Points points = wild_points(128, false);
   const int sizes[][2] = {{64, 64}, {13, 5}, {1, 1}};
   for (const auto& size : sizes) {
-    const Texture texture(noise(size[0], size[1]), TexelMeaning::Values);
+    const Texture texture(noise(size[0], size[1], 3), TexelMeaning::Values);
     const TextureView& view = texture.view();
     const int texels = view.offset[view.levels - 1] + 9 + 2;
     for (const SamplerState& filtering : all_filterings())
@@ -539,10 +519,10 @@ TEST(SamplerState, EveryHalfFloatIsConvertedExactly) {
 }
 
 TEST(SamplerState, EveryInstructionSetGivesTheSameBits) {
-  const Texture textures[] = {Texture(noise(64, 32), TexelMeaning::Color), Texture(noise(19, 44), TexelMeaning::Values),
-                              Texture(bright_noise(19, 44), TexelMeaning::Color),
-                              Texture(half_noise(19, 44), TexelMeaning::Color),
-                              Texture(all_halves(), TexelMeaning::Color)};
+  const Texture textures[] = {
+      Texture(noise(64, 32, 3), TexelMeaning::Color), Texture(noise(19, 44, 3), TexelMeaning::Values),
+      Texture(bright_noise(19, 44), TexelMeaning::Color), Texture(half_noise(19, 44), TexelMeaning::Color),
+      Texture(all_halves(), TexelMeaning::Color)};
   const auto filterings = all_filterings();
   for (int count = 0; count <= 128; ++count) {
     const Points points = wild_points(count, false);

@@ -12,21 +12,11 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/half.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/shade/texture/noise_for_test.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
-
-Rgba8Image noise(int width, int height) {
-  Rgba8Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t word = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 7);
-      image(x, y) = {static_cast<std::uint8_t>(word), static_cast<std::uint8_t>(word >> 8),
-                     static_cast<std::uint8_t>(word >> 16), static_cast<std::uint8_t>(word >> 24)};
-    }
-  return image;
-}
 
 /// A level's codes, without its border.
 std::vector<std::uint32_t> codes_of(const TextureView& view, int level) {
@@ -74,7 +64,7 @@ TEST(Texture, EachLevelIsTheRoundedMeanOfTheOneBefore) {
   const int sizes[][2] = {{16, 16}, {8, 32}, {13, 7}, {5, 8}, {1, 9}, {6, 1}, {31, 33}, {12, 20}};
   for (const auto& size : sizes)
     for (const TexelMeaning meaning : {TexelMeaning::Values, TexelMeaning::Color}) {
-      const Texture texture(noise(size[0], size[1]), meaning);
+      const Texture texture(noise(size[0], size[1], 7), meaning);
       const TextureView& view = texture.view();
       for (int l = 1; l < view.levels; ++l) {
         const auto source = codes_of(view, l - 1), codes = codes_of(view, l);
@@ -90,7 +80,7 @@ TEST(Texture, EachLevelIsTheRoundedMeanOfTheOneBefore) {
 }
 
 TEST(Texture, TheBorderRepeatsTheLevel) {
-  const Texture texture(noise(12, 7), TexelMeaning::Values);
+  const Texture texture(noise(12, 7, 7), TexelMeaning::Values);
   const TextureView& view = texture.view();
   for (int l = 0; l < view.levels; ++l) {
     const int w = view.width[l], h = view.height[l];
@@ -189,16 +179,6 @@ TEST(Texture, LightAndSixteenBitsAreFloats) {
   EXPECT_EQ(decoded[3], value(32769));
 }
 
-/// Light from next to nothing to far above white.
-Plane<float4> bright_noise(int width, int height) {
-  Plane<float4> image(width, height);
-  for (std::uint32_t i = 0; i < image.values().size(); ++i) {
-    const auto light = [&](std::uint32_t c) { return std::exp2(24 * unit_float(hash(i, c, 9)) - 8); };
-    image.values()[i] = {light(0), light(1), light(2), unit_float(hash(i, 3, 9))};
-  }
-  return image;
-}
-
 /// The image with every channel rounded to half floats.
 Plane<float4> rounded_to_halves(Plane<float4> image) {
   for (float4& p : image.values())
@@ -280,7 +260,7 @@ TEST(Texture, LevelsOfFloatsAreMeansByArea) {
 }
 
 TEST(Texture, AnImageThatIsGivenIsFreed) {
-  TexelImage image = noise(37, 20);
+  TexelImage image = noise(37, 20, 7);
   const Texture kept(image, TexelMeaning::Color);
   EXPECT_FALSE(image.empty());
   const Texture taken(std::move(image), TexelMeaning::Color);
@@ -298,7 +278,7 @@ TEST(Texture, AnEmptyImageIsWhite) {
 }
 
 TEST(Texture, ThreadsDoNotMatter) {
-  const Rgba8Image image = noise(301, 222);
+  const Rgba8Image image = noise(301, 222, 7);
   const Plane<float4> bright = bright_noise(301, 222);
   std::vector<std::vector<std::uint32_t>> first;
   std::vector<std::vector<float>> first_values;

@@ -8,15 +8,10 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/signal/noise_for_test.h"
 
 namespace zoneplate {
 namespace {
-
-Plane<float> noise_plane(int w, int h) {
-  Plane<float> p(w, h);
-  for (std::uint32_t i = 0; float& v : p.values()) v = unit_float(hash(i++));
-  return p;
-}
 
 constexpr std::pair<int, int> sizes[] = {{64, 48}, {32, 24}, {17, 13}, {100, 75}, {192, 144}, {1, 1}, {65, 47}};
 

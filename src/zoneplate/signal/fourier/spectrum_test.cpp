@@ -7,15 +7,10 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/signal/noise_for_test.h"
 
 namespace zoneplate {
 namespace {
-
-Plane<float> noise_plane(int w, int h) {
-  Plane<float> p(w, h);
-  for (std::uint32_t i = 0; float& v : p.values()) v = unit_float(hash(i++));
-  return p;
-}
 
 TEST(Spectrum, PicturesShowEveryBinAtItsPlace) {
   for (const auto& [w, h] : {std::pair{8, 6}, {7, 5}, {8, 5}, {1, 4}, {2, 1}, {1, 1}}) {

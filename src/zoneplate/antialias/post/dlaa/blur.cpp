@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "zoneplate/antialias/post/dlaa/blur_lanes.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {
@@ -80,9 +81,6 @@ float4 long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
           static_cast<float>(a) / scale};
 }
 
-/// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
-float mask_of(int sum) { return 2 * sum <= Constants::whole ? 0 : static_cast<float>(2 * sum) / Constants::whole - 1; }
-
 void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float upright_mask, std::uint8_t* to) {
   const int level_bend = bend(p - 4, p + 4, p), upright_bend = bend(p - s, p + s, p);
   const bool has_long = std::abs(level_mask - upright_mask) > Constants::least_unlike;
@@ -107,13 +105,6 @@ void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float
   to[0] = code(out.x), to[1] = code(out.y), to[2] = code(out.z), to[3] = code(out.w);
 }
 
-void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i)
-    if (seen[i])
-      blur_pixel(rows.codes + 4 * i, rows.stride, mask_of(rows.level[i] - rows.edges[i]),
-                 mask_of(rows.upright[i] - rows.edges[i]), out + 4 * i);
-}
-
 }  // namespace
 
 }  // namespace scalar
@@ -123,6 +114,6 @@ const DlaaKernels PerIsa<DlaaKernels>::scalar = {.edge_row = scalar::edge_row,
                                                  .sum_row = scalar::sum_row,
                                                  .slide_row = scalar::slide_row,
                                                  .seen_row = scalar::seen_row,
-                                                 .blur_row = scalar::blur_row};
+                                                 .blur_row = stages::dlaa_blur_row<scalar::blur_pixel>};
 
 }  // namespace zoneplate

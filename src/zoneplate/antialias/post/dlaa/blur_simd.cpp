@@ -1,6 +1,6 @@
 #include <hwy/highway.h>
 
-#include "zoneplate/antialias/post/dlaa/blur.h"
+#include "zoneplate/antialias/post/dlaa/blur_lanes.h"
 #include "zoneplate/math/for_lanes_simd.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -161,10 +161,6 @@ HWY_INLINE Value long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
   return Value(hn::Div(hn::ConvertTo(d4, sum), hn::Set(d4, static_cast<float>(Constants::whole))));
 }
 
-HWY_INLINE float mask_of(int sum) {
-  return 2 * sum <= Constants::whole ? 0 : static_cast<float>(2 * sum) / Constants::whole - 1;
-}
-
 HWY_INLINE VF4 blurred(VF4 two, VF4 one, VF4 next, VF4 after, VF4 c) {
   const VF4 sum = hn::Add(hn::Add(hn::Add(two, one), next), after);
   return hn::Mul(hn::Add(sum, hn::Mul(c, hn::Set(d4, 2.0f))), hn::Set(d4, 1.0f / 6));
@@ -193,13 +189,6 @@ void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float
   hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(di4, rounded)), bytes, to);
 }
 
-void blur_row(const DlaaRows& rows, const std::uint8_t* seen, std::uint8_t* out, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i)
-    if (seen[i])
-      blur_pixel(rows.codes + 4 * i, rows.stride, mask_of(rows.level[i] - rows.edges[i]),
-                 mask_of(rows.upright[i] - rows.edges[i]), out + 4 * i);
-}
-
 }  // namespace
 
 }  // namespace zoneplate::HWY_NAMESPACE
@@ -211,5 +200,5 @@ const DlaaKernels PerIsa<DlaaKernels>::HWY_NAMESPACE = {.edge_row = HWY_NAMESPAC
                                                         .sum_row = HWY_NAMESPACE::sum_row,
                                                         .slide_row = HWY_NAMESPACE::slide_row,
                                                         .seen_row = HWY_NAMESPACE::seen_row,
-                                                        .blur_row = HWY_NAMESPACE::blur_row};
+                                                        .blur_row = stages::dlaa_blur_row<HWY_NAMESPACE::blur_pixel>};
 }  // namespace zoneplate

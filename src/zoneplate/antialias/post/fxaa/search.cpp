@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "zoneplate/antialias/post/fxaa/search.h"
+#include "zoneplate/antialias/post/fxaa/search_lanes.h"
 
 namespace zoneplate {
 namespace scalar {
@@ -135,16 +135,8 @@ void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch&
 
 void mix_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::uint8_t* bits,
              const FxaaEnds& ends, std::uint8_t* out, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!(bits[i / 8] >> i % 8 & 1)) continue;
-    const bool is_level = ends.flags[i] & FxaaEnds::level, is_second = ends.flags[i] & FxaaEnds::second_side;
-    const std::size_t left = i > 0 ? i - 1 : 0, right = i + 1 < n ? i + 1 : i;
-    const std::uint8_t* there = is_level ? (is_second ? below : above) + 4 * i : here + 4 * (is_second ? right : left);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const float from = here[4 * i + c], to = there[c];
-      out[4 * i + c] = static_cast<std::uint8_t>(from + (to - from) * ends.shift[i] + 0.5f);
-    }
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (bits[i / 8] >> i % 8 & 1) stages::fxaa_mix_pixel(above, here, below, ends, out, i, n);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <hwy/highway.h>
 
-#include "zoneplate/antialias/post/fxaa/search.h"
+#include "zoneplate/antialias/post/fxaa/search_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
@@ -314,16 +314,8 @@ HWY_INLINE VI load_pixels(const std::uint8_t* p) {
 /// A few pixels at the picture's sides, one by one.
 void mix_few(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int bits,
              const FxaaEnds& ends, std::uint8_t* out, std::size_t begin, std::size_t end, std::size_t n) {
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!(bits >> (i - begin) & 1)) continue;
-    const bool is_level = ends.flags[i] & FxaaEnds::level, is_second = ends.flags[i] & FxaaEnds::second_side;
-    const std::size_t left = i > 0 ? i - 1 : 0, right = i + 1 < n ? i + 1 : i;
-    const std::uint8_t* there = is_level ? (is_second ? below : above) + 4 * i : here + 4 * (is_second ? right : left);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const float from = here[4 * i + c], to = there[c];
-      out[4 * i + c] = static_cast<std::uint8_t>(from + (to - from) * ends.shift[i] + 0.5f);
-    }
-  }
+  for (std::size_t i = begin; i < end; ++i)
+    if (bits >> (i - begin) & 1) stages::fxaa_mix_pixel(above, here, below, ends, out, i, n);
 }
 
 /// Eight pixels that have neighbours on both sides.

@@ -1,6 +1,5 @@
 #include <hwy/highway.h>
 
-#include "zoneplate/antialias/post/edges_simd.h"
 #include "zoneplate/antialias/post/mlaa/edge_detection_lanes.h"
 #include "zoneplate/math/lanes_simd.h"
 
@@ -22,6 +21,14 @@ HWY_INLINE hn::Mask<D> differ(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> mask) 
   const auto x = hn::BitCast(bytes, a), y = hn::BitCast(bytes, b);
   const auto difference = hn::BitCast(d, hn::Or(hn::SaturatedSub(x, y), hn::SaturatedSub(y, x)));
   return hn::Not(hn::Eq(hn::And(difference, mask), hn::Zero(d)));
+}
+
+/// Stores 1 where `left` and 2 where `top` as bytes, one a lane.
+template <class D, class M>
+HWY_INLINE void store_edges(D d, M left, M top, std::uint8_t* edges) {
+  const hn::Rebind<std::uint8_t, D> bytes;
+  const auto bits = hn::Or(hn::IfThenElseZero(left, hn::Set(d, 1)), hn::IfThenElseZero(top, hn::Set(d, 2)));
+  hn::StoreU(hn::DemoteTo(bytes, bits), bytes, edges);
 }
 
 template <class D>

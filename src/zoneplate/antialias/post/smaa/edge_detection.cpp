@@ -14,73 +14,8 @@
 #include "zoneplate/math/lanes.h"
 
 namespace zoneplate {
-namespace scalar {
-namespace {
-
-/// The thresholds of a pixel's left and top border.
-template <class T>
-struct Least {
-  T left, top;
-};
-template <class T>
-Least<T> least_of(T threshold, const std::uint8_t*) {
-  return {threshold, threshold};
-}
-/// `crossed`: what the edges hold before.
-template <class T>
-Least<T> least_of(const PredicatedThreshold<T>& threshold, const std::uint8_t* crossed) {
-  const auto of = [&](int border) { return *crossed & border ? threshold.crossed : threshold.plain; };
-  return {of(1), of(2)};
-}
-
-template <class T>
-std::uint8_t edges_of(T to_left, T to_top, T greatest, Least<T> least) {
-  const bool is_left = to_left >= least.left && to_left + to_left >= greatest;
-  const bool is_top = to_top >= least.top && to_top + to_top >= greatest;
-  return static_cast<std::uint8_t>(is_left | is_top << 1);
-}
-
-std::uint32_t difference(std::uint32_t a, std::uint32_t b) {
-  const auto channel = [&](int shift) {
-    return static_cast<std::uint32_t>(
-        std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
-  };
-  return std::max({channel(0), channel(8), channel(16)});
-}
-
-// The original compares the pixel itself, not its neighbour, with the one after that.
-template <class Threshold>
-void find_color_edges(const EdgeRows<std::uint32_t>& rows, const Threshold& threshold, std::uint8_t* edges,
-                      std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t* here = rows.row[2] + i;
-    const auto to = [&](std::uint32_t other) { return difference(*here, other); };
-    const std::uint32_t to_left = to(here[-1]), to_top = to(rows.row[1][i]);
-    const std::uint32_t greatest =
-        std::max({to_left, to_top, to(here[1]), to(rows.row[3][i]), to(here[-2]), to(rows.row[0][i])});
-    edges[i] = edges_of(to_left, to_top, greatest, least_of(threshold, edges + i));
-  }
-}
-
-void color_edges(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n) {
-  find_color_edges(rows, threshold, edges, n);
-}
-
-void predicated_color_edges(const EdgeRows<std::uint32_t>& rows, const PredicatedThreshold<std::uint32_t>& threshold,
-                            std::uint8_t* edges, std::size_t n) {
-  find_color_edges(rows, threshold, edges, n);
-}
-
-}  // namespace
-
-}  // namespace scalar
-
 template <>
-const SmaaKernels PerIsa<SmaaKernels>::scalar = {
-    .luma_edges = stages::smaa_luma_edges<scalar::Float, scalar::OneFloat>,
-    .color_edges = scalar::color_edges,
-    .predicated_luma_edges = stages::smaa_predicated_luma_edges<scalar::Float, scalar::OneFloat>,
-    .predicated_color_edges = scalar::predicated_color_edges};
+const SmaaKernels PerIsa<SmaaKernels>::scalar = stages::smaa_edge_detection<scalar::Float, scalar::OneFloat>();
 
 namespace antialias {
 namespace {

@@ -20,11 +20,10 @@ struct SmaaKernels : PerIsa<SmaaKernels> {
   /// The same by the greatest difference of red, green and blue codes.
   void (*color_edges)(const EdgeRows<std::uint32_t>& rows, std::uint32_t threshold, std::uint8_t* edges, std::size_t n);
   /// The same with a threshold for each border. Before, `edges` holds the borders that the predication buffer crosses.
-  void (*predicated_luma_edges)(const EdgeRows<float>& rows, const PredicatedThreshold<float>& threshold,
-                                std::uint8_t* edges, std::size_t n);
-  void (*predicated_color_edges)(const EdgeRows<std::uint32_t>& rows,
-                                 const PredicatedThreshold<std::uint32_t>& threshold, std::uint8_t* edges,
-                                 std::size_t n);
+  void (*predicated_luma_edges)(const EdgeRows<float>& rows, PredicatedThreshold<float> threshold, std::uint8_t* edges,
+                                std::size_t n);
+  void (*predicated_color_edges)(const EdgeRows<std::uint32_t>& rows, PredicatedThreshold<std::uint32_t> threshold,
+                                 std::uint8_t* edges, std::size_t n);
 };
 
 }  // namespace zoneplate

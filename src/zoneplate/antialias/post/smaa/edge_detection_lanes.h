@@ -4,35 +4,46 @@
 #include "zoneplate/antialias/post/smaa/edge_detection.h"
 #include "zoneplate/math/for_row.h"
 
-/// The edges by luma of SmaaKernels over a lane type of math/lanes.h.
+/// The kernels of antialias/post/smaa/edge_detection.h over a lane type of math/lanes.h.
 namespace zoneplate::stages {
 
-/// The thresholds of the left and top borders of some pixels.
-template <class F>
+/// The thresholds of the left and top borders of some pixels, as numbers of a lane type F or F::Int.
+template <class Number>
 struct BorderThresholds {
-  F left, top;
+  Number left, top;
 };
-template <class F>
-[[gnu::always_inline]] inline BorderThresholds<F> thresholds_of(float threshold, const std::uint8_t*) {
-  return {F(threshold), F(threshold)};
+template <class Number>
+[[gnu::always_inline]] inline Number number_of(float threshold) {
+  return Number(threshold);
+}
+template <class Number>
+[[gnu::always_inline]] inline Number number_of(std::uint32_t threshold) {
+  return Number(static_cast<std::int32_t>(threshold));
+}
+
+template <class F, class Number, class T>
+[[gnu::always_inline]] inline BorderThresholds<Number> thresholds_of(T threshold, const std::uint8_t*) {
+  return {number_of<Number>(threshold), number_of<Number>(threshold)};
 }
 /// `crossed`: what the edges hold before.
-template <class F>
-[[gnu::always_inline]] inline BorderThresholds<F> thresholds_of(const PredicatedThreshold<float>& threshold,
-                                                                const std::uint8_t* crossed) {
+template <class F, class Number, class T>
+[[gnu::always_inline]] inline BorderThresholds<Number> thresholds_of(PredicatedThreshold<T> threshold,
+                                                                     const std::uint8_t* crossed) {
   using Int = typename F::Int;
   const Int bits = Int::load_from(crossed);
-  const F plain(threshold.plain), other(threshold.crossed);
-  const auto of = [&](int border) { return select((bits & Int(border)) > Int(0), other, plain); };
+  const auto of = [&](int border) {
+    return select((bits & Int(border)) > Int(0), number_of<Number>(threshold.crossed),
+                  number_of<Number>(threshold.plain));
+  };
   return {of(1), of(2)};
 }
 
 template <class Full, class One, class Threshold>
-[[gnu::always_inline]] inline void find_luma_edges(const EdgeRows<float>& rows, const Threshold& threshold,
-                                                   std::uint8_t* edges, std::size_t n) {
+[[gnu::flatten]] void smaa_luma_edges(const EdgeRows<float>& rows, Threshold threshold, std::uint8_t* edges,
+                                      std::size_t n) {
   for_row<Full, One>(n, [=]<class F>(std::size_t i) {
     const float* here = rows.row[2] + i;
-    const auto least = thresholds_of<F>(threshold, edges + i);
+    const auto least = thresholds_of<F, F>(threshold, edges + i);
     const F m = F::load(here), l = F::load(here - 1), t = F::load(rows.row[1] + i);
     const F to_left = abs(m - l), to_top = abs(m - t);
     const auto is_left = to_left >= least.left, is_top = to_top >= least.top;
@@ -44,17 +55,32 @@ template <class Full, class One, class Threshold>
   });
 }
 
-template <class Full, class One>
-[[gnu::flatten]] void smaa_luma_edges(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges,
-                                      std::size_t n) {
-  find_luma_edges<Full, One>(rows, threshold, edges, n);
+// The original compares the pixel itself, not its neighbour, with the one after that.
+template <class Full, class One, class Threshold>
+[[gnu::flatten]] void smaa_color_edges(const EdgeRows<std::uint32_t>& rows, Threshold threshold, std::uint8_t* edges,
+                                       std::size_t n) {
+  for_row<Full, One>(n, [=]<class F>(std::size_t i) {
+    using Int = typename F::Int;
+    const auto pixels = [&](int row, int x) {
+      return Int::load(reinterpret_cast<const std::int32_t*>(rows.row[row] + i) + x);
+    };
+    const Int one(1), m = pixels(2, 0);
+    const auto to = [&](int row, int x) { return color_difference(m, pixels(row, x)); };
+    const auto least = thresholds_of<F, Int>(threshold, edges + i);
+    const Int to_left = to(2, -1), to_top = to(1, 0), far_left = to(2, -2), far_top = to(0, 0);
+    const Int near = max(max(to_left, to_top), max(to(2, 1), to(3, 0)));
+    const Int below_half = max(near, max(far_left, far_top)) - one;
+    store_edges<F>((to_left > least.left - one) & (to_left + to_left > below_half),
+                   (to_top > least.top - one) & (to_top + to_top > below_half), edges + i);
+  });
 }
 
 template <class Full, class One>
-[[gnu::flatten]] void smaa_predicated_luma_edges(const EdgeRows<float>& rows,
-                                                 const PredicatedThreshold<float>& threshold, std::uint8_t* edges,
-                                                 std::size_t n) {
-  find_luma_edges<Full, One>(rows, threshold, edges, n);
+constexpr SmaaKernels smaa_edge_detection() {
+  return {.luma_edges = &smaa_luma_edges<Full, One, float>,
+          .color_edges = &smaa_color_edges<Full, One, std::uint32_t>,
+          .predicated_luma_edges = &smaa_luma_edges<Full, One, PredicatedThreshold<float>>,
+          .predicated_color_edges = &smaa_color_edges<Full, One, PredicatedThreshold<std::uint32_t>>};
 }
 
 }  // namespace zoneplate::stages

@@ -6,15 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/api.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/render/draw.h"
+#include "zoneplate/render/user_shader.h"
 
-namespace zoneplate {
+namespace ZONEPLATE_API zoneplate {
 
 /// Options for one mesh of a Canvas.
 struct MeshOptions {
-  AlphaMode alpha_mode = AlphaMode::Opaque;
-  bool culls_back_faces = false;
+  AlphaMode alpha_mode = AlphaMode::Opaque;  ///< Mask: the mesh is present where alpha is at least 0.5
+  bool culls_back_faces = false;             ///< skips triangles whose vertices run clockwise in the image
 };
 
 /// An image into which several meshes are drawn, each with a shader of its own, with one depth buffer.
@@ -23,13 +24,14 @@ struct MeshOptions {
 /// blended ones are composited in the order of their depth, regardless of the order of the calls.
 class Canvas {
  public:
-  /// `is_per_sample`: the fragment part runs once per sample, not once per triangle and pixel.
+  /// An empty image of `width` × `height` pixels with these sample positions. `is_per_sample`: every sample is shaded,
+  /// not once per triangle and pixel.
   Canvas(int width, int height, SamplePattern samples = standard_pattern(4), bool is_per_sample = false);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Adds indexed triangles with a copy of a user's shader.
+  /// Adds indexed triangles with a copy of a user shader.
   ///
   /// Requires  three indices per triangle, each < vertices; the shader is pure, and the objects that it references
   ///           outlive the last `resolve`.

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+namespace zoneplate {
+
+/// The bytes of a file; nothing where there is none.
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+inline bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+/// What a run of the built program printed and returned.
+struct ProgramAnswer {
+  int code = -1;
+  std::string out;  ///< stdout and stderr together
+};
+
+/// Tests of the built program, in an empty folder of their own, which is removed at the end.
+class ProgramTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "zoneplate_program_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(place); }
+
+  /// Runs the program in that folder, with arguments as a shell reads them.
+  ProgramAnswer run(const std::string& arguments) const {
+    const std::string command = "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    ProgramAnswer answer;
+    std::array<char, 4096> part{};
+    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) answer.out.append(part.data(), n);
+    answer.code = WEXITSTATUS(::pclose(pipe));
+    return answer;
+  }
+
+  std::filesystem::path place;
+};
+
+}  // namespace zoneplate

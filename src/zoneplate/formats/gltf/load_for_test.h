@@ -1,0 +1,31 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
+
+namespace zoneplate {
+
+/// The scene of a file made in code.
+inline Scene load(const GltfMaker& m, const LoadLimits& limits = {}) {
+  const TestFolder folder;
+  return load_gltf(folder.write("f.glb", m.glb()), limits);
+}
+
+/// Why that file is refused, after its name; "no error" where it is not.
+inline std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
+  try {
+    load(m, limits);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    const std::string text = e.what();
+    return text.substr(text.find("f.glb: ") + 7);
+  }
+  return "no error";
+}
+
+}  // namespace zoneplate
