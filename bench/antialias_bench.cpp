@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Speed of the methods on shown images, against a copy of the same image on the same threads.
 //
 // Figures are of processor time, shared out to the threads: on a busy machine the clock on the wall counts its other

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Speed of rasterizing: the geometry stage (vertices, culling, setup, sorting into tiles) in nanoseconds a triangle,
 // and frames without their shading.
 #include <benchmark/benchmark.h>

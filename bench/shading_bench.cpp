@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Speed of the shading kernels, with all that they read in the first cache: nanoseconds a group of eight points.
 #include <benchmark/benchmark.h>
 

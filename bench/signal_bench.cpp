@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Speed of the signal folder against a copy of the same plane: the ratio is the figure that does not depend on the day.
 #include <benchmark/benchmark.h>
 

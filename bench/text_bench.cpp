@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of text formats (OBJ, MTL, ASCII PLY and STL): our reader beside the standard library's. libstdc++ 12
 // converts by Lemire's fast_float; both round to the nearest float.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Every bench/foo_bench.cpp is one program of Google Benchmark: build/bench/foo_bench.
 find_package(benchmark REQUIRED)
 file(GLOB benches CONFIGURE_DEPENDS bench/*_bench.cpp)

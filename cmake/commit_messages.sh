@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks the messages of the commits that descend from the one that added this file: a subject of at most 72 characters, an
 # empty line, and a body. Merges are exempt. A copy of the sources without their history has nothing to check.
 export LC_ALL=C.UTF-8

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The renderer without what needs a library: no file formats, no command. So it can be built for processors for which
 # Debian has a compiler but no libraries, and its tests run in an emulator (./check --targets).
 include(CTest)

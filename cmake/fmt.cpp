@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of {fmt} is no template, for a program that has it in itself (ZONEPLATE_STATIC).
 #include <fmt/format-inl.h>
 

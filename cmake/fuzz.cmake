@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The fuzz targets of libFuzzer, fuzz_<format>, and the program that writes their seeds. They need clang.
 #
 # They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # find_package(Zoneplate) with the target Zoneplate::zoneplate, and zoneplate.pc, for programs outside this tree.
 include(CMakePackageConfigHelpers)
 

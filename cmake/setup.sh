@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `zoneplate` and `check` have in common: packages and builds. Sourced by them, with `root` and `program` set.
 #
 # Everything is said on stderr; a step that fails shows its own output and ends the script with exit code 1.

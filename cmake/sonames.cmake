@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The names of the shared libraries that the program opens when a file needs them, as the libraries beside the headers
 # state them: another version may have other structures.
 set(linked_suffixes ${CMAKE_FIND_LIBRARY_SUFFIXES})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The sources and how they are built, on every processor.
 
 # Every object may become part of a shared library, which exports what the public headers declare (base/api.h) and

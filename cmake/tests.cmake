@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Every foo_test.cpp and tests/*_test.cpp in one program, and the tests that are not C++.
 find_package(GTest REQUIRED)
 include(GoogleTest)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Builds for WebAssembly with Debian's Emscripten; what is built runs in Node.
 include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 find_program(node NAMES node nodejs REQUIRED NO_CMAKE_FIND_ROOT_PATH)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the C++ library of Debian 12's Emscripten lacks of C++20, for the sources that use it. Included before every one
 // of them, in builds for WebAssembly only.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes a scene from arrays, renders colour and depth, and reads the pixels.
 #include <algorithm>
 #include <cmath>

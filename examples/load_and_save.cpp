@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loads a model, renders it from the default view, and saves a PNG: load_and_save MODEL OUT.png
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An antialiasing method defined outside the library: rotated-grid supersampling and a vignette of the finished image.
 // Its catalogue is used together with that of the library.
 #include <cmath>

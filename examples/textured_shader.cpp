@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws a textured floor in perspective with a shader of its own.
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/tonemap.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes inputs of a small file and a large appetite into a folder, with a list of them: what a service that draws
 // files of strangers must refuse, or draw within its limits.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF files whose numbers promise much and whose bytes hold little.
 #include "appetite_gltf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What takes little to read and much to render: crowds of surfaces over the same pixels, and large images.
 #include "appetite_gltf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // EXR images that claim many pixels, tiles, parts or samples.
 #include <zlib.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of the formats that the library assimp reads.
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY and STL files.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF files whose bytes are packed: by Draco, by meshoptimizer, in chunks, or one file that is used many times.
 #include <algorithm>
 

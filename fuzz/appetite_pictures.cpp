@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JPEG, WebP and Radiance images of many pixels in few bytes.
 #include "appetite.h"
 

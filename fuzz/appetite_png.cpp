@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PNG images of many pixels in few bytes.
 #include <zlib.h>
 

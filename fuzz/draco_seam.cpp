@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stands in for the Draco child in fuzz targets: what comes back through the pipe has the right sizes, and that is all
 // that can be said of it.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be an image.
 //
 // The codecs are libraries without sanitizers; what is watched is what we do with them. Checksums of a PNG's chunks are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be the messages of an item's process, and the results in them.
 #include <algorithm>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be the manifest of a batch, a JSON object a line.
 //
 // A line is refused in one line of text, or becomes a tree in which every key of an object is found, the last of equal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be a model of the format that the build names.
 //
 // Whatever they are, reading them ends with a sound scene or with zoneplate::Error of one line; the sanitizers watch

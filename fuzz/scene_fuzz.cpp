@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be the answer of a child process that has read a scene.
 //
 // Whatever they are, they are refused in one line or become a scene that is sound and that is the same when it is

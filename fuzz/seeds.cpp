@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the seeds of the fuzz targets, a folder a format: small files that between them use what a format has.
 #include <filesystem>
 #include <string>

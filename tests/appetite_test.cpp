@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Inputs of a small file and a large appetite, which fuzz/appetite.cpp writes: whatever they ask for, the program ends
 // within its limits of time and memory, with a documented exit code and one line that names the input; and in a batch
 // they do no harm to the jobs beside them. Runs the built program.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many images by one command: several inputs, manifests, shards, sequences. Runs the built program.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command as its users meet it: streams, exit codes, files, signals. Runs the built program.
 #include <fcntl.h>
 #include <gtest/gtest.h>

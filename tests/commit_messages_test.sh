@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Which commits cmake/commit_messages.sh refuses: in a history of its own.
 set -e
 sources=$1

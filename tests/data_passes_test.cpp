@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Data passes as the command writes them: layers of one file, files beside an image, frames of a sequence.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs that end badly: no room, nobody who reads, no folder, killed at any moment. What stands under an output's name
 // is always the whole of it. Runs the built program.
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # The program is built with the checks of cmake/sources.cmake: position-independent, tables of addresses read-only after
 # they were bound at the start, a guard on stacks, and the checking functions of the C library.
 program=$1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Broken files of every format, each with its verdict: the command refuses it with one line that names the file and the
 // place, or draws what can be drawn and warns; at once, in little memory, and without leaving anything half written.
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The structure of the source tree: which room may include which, how many files a folder holds, and one meaning for
 // each type name. src/zoneplate/layers.txt lists the rooms from the bottom up. A room's public headers are in
 // include/zoneplate, everything else of it in src/zoneplate.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage of four samples a pixel beside an independent rasterizer: Mesa's llvmpipe, where libosmesa6 is installed.
 //
 // Vertices on the lattice of 1/16 pixel in an image of 64 × 64 are exact in both, and edges often go through samples,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outlines of models: of shapes whose outline a camera's equations give in closed form, and of models as other
 // renderers draw them: babylon.js, Blender's Cycles, Filament, the glTF Sample Viewer, three.js' path tracer,
 // model-viewer.

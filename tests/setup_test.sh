@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # When cmake/setup.sh builds again: a tree of its own, with programs that only note how they were called.
 set -e
 sources=$1

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # The shared library exports what the public headers declare and nothing else: names of namespace zoneplate, and none
 # of its internal classes.
 #

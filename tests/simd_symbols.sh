@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Fails if an object given as an argument defines a function that the linker may merge with another object's.
 #
 # A *_simd.cpp is compiled for one instruction set. An inline function or template that it shares with ordinary

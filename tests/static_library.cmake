@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Configures the program with static libraries and reads what the installed library consists of, without building it.
 #
 # Given: build (a folder of its own), source, compiler, ninja.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a texture holds beyond 8 bits and above white, in the image that the command writes.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vocabulary of CONVENTIONS.md: identifiers that were replaced by the field's terms do not come back.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The benchmark scenes drawn by Mesa's software OpenGL and by Zoneplate, in turns, in one run: times, their ratio, and
 // how far the two pictures are from each other. bench/peers/run builds and starts it.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What bench/peers/run-filters asks of Zoneplate: draw a scene, filter it and tell the times, compare the result with
 // another program's. Pictures are files of bare RGBA codes, rows from the top.
 #include <fmt/format.h>

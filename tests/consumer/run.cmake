@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs the package, takes the library program out of README.md, builds it against the static library and the programs
 # of examples/ against the shared one, and runs them. Each public header is compiled alone, and one program is built by
 # pkg-config.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 /// Marks a namespace block whose declarations the shared library exports. The library is compiled with hidden

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate filter: post-process antialiasing of images that exist already, without a scene.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate: the command. The table of verbs, and the conversion of errors to exit codes.
 #include <fmt/format.h>
 

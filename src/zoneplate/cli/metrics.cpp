@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate metrics: how far images are from a reference, by any of the catalogue's metrics.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/codec/webp_still.h"
 
 #include <webp/decode.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/image/display_step.h"
 
 #include "zoneplate/image/display_step_lanes.h"

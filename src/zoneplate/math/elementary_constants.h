@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 /// The coefficients of math/elementary.h and its vector twin, lowest power first.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/math/elementary_rows.h"
 
 #include "zoneplate/math/elementary_lanes.h"

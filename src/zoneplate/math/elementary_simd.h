@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The vector twins of math/elementary.h, included by *_simd.cpp files only: the same operations in the same order,
 // so the same bits. `d` is a descriptor of float lanes; edges and errors are those of the scalar functions.
 #if defined(ZONEPLATE_MATH_ELEMENTARY_SIMD_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Loops over a row by vectors, included by *_simd.cpp files only.
 #if defined(ZONEPLATE_MATH_FOR_LANES_SIMD_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ZONEPLATE_MATH_FOR_LANES_SIMD_H_

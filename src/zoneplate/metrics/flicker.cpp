@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flicker: change from frame to frame that the reference does not have.
 //
 // A still scene whose edges shimmer scores what shimmers; a moving one scores only what moves otherwise than the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean absolute error, with the greatest error and where it is: the plainest answer to "how different?".
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean squared error: the one that everything else is compared to.
 //
 // Weak where errors are seen: it counts a pixel's error the same alone, in a texture or in a flat sky.

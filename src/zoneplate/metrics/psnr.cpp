@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Peak signal-to-noise ratio: mean squared error on the scale that papers use.
 //
 // Weak as mean squared error is, and the share of empty background moves it: compare only like with like.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Peak signal-to-noise ratio of luma: blind to errors of hue alone, closer to what an eye sees of edges.
 #include <limits>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The root mean square of squared YIQ colour distances, in decibels: how renderers are compared with the images
 // in glTF's render fidelity collection, where two rasterisers of the same scene differ by -16 to -35 dB.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/os/limited_child.h"
 
 #include <fcntl.h>

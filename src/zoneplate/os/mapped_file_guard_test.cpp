@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/os/mapped_file_guard.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What frames without colour hold: geometry, edge distances and visibility, each against what it is made from.
 #include <gtest/gtest.h>
 

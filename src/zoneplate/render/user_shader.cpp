@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/user_shader.h"
 
 #include "zoneplate/raster/tile/rasterize.h"

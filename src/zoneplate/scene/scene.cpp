@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/scene/scene.h"
 
 #include "zoneplate/scene/used_vertices.h"

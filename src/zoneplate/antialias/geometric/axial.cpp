@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axial coverage: 64 visibility samples along the pixel's row and column measure how far its triangle reaches; the
 // pixel is blended with its neighbour by the length beyond the triangle's edge.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/antialias/geometric/bilateral.h"
 
 #include "zoneplate/antialias/geometric/bilateral_lanes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Geometry buffer antialiasing: each pixel stores the distance to the nearest edge of its triangle along its row or
 // column. Where that edge, or an edge stored by a neighbour, crosses the pixel, it is blended with the neighbour's
 // colour by the fraction beyond the edge.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What methods that know geometry at more places than they shade must keep, on rendered scenes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subpixel reconstruction by triangle id: each pixel is shaded once, at its centre. Triangle ids are rendered at more
 // samples, and each sample takes the colour of nearby shaded pixels that show its triangle.
 //

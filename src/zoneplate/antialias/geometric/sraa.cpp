@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subpixel reconstruction antialiasing: each pixel is shaded once, at its centre. Normals and distances are rendered at
 // more samples, and each sample takes a mean of the shaded colours around it, weighted by the similarity of surfaces.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every method that works on the shown image must keep, whatever it does.
 #include <gtest/gtest.h>
 

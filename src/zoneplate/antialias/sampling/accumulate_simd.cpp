@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/antialias/sampling/accumulate.h"
 
 #include "zoneplate/antialias/sampling/accumulate_lanes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adaptive supersampling: four samples per pixel, and many more where those differ.
 //
 // Where the first samples are similar, the pixel is their mean; elsewhere it is supersampled, with the bits of ssaa.

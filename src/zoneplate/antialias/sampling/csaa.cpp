@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coverage sampling: coverage and depth at many samples, colours in few slots.
 //
 // A pixel stores the colours of as many surfaces as it has slots, in the order of drawing. If another surface is drawn,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Multisampling first; then the triangles are drawn again in order, to find the samples that few slots would have kept.
 #include "zoneplate/antialias/sampling/csaa_draw.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light behind many layers, whatever the method: values above 1 are seen through what would hide those below.
 #include <gtest/gtest.h>
 

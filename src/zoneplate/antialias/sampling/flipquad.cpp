@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FLIPQUAD: four samples on a pixel's sides, each shared with the neighbour: two samples per pixel on average.
 //
 // The four samples of the rotated grid moved to the pixel's sides, with the pattern mirrored from pixel to pixel so

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Multisampling: coverage and depth at every sample, shading once per surface and pixel.
 //
 // Smooths the edges of geometry at little more than the cost of one sample; has no effect on aliasing inside surfaces

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // No antialiasing: one sample at the pixel's centre, the baseline of the other methods.
 #include "zoneplate/render/method.h"
 

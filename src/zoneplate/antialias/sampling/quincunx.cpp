@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quincunx: two samples per pixel, its centre and a corner; corner samples are shared by four pixels.
 //
 // Five samples at the cost of two, with a blur over three by three half-pixels: edges are smooth, but textures soft,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/antialias/sampling/sample_accumulator.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What methods that sample more than once a pixel must keep, on rendered scenes.
 #include <gtest/gtest.h>
 

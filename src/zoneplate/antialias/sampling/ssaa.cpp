@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Supersampling: shades every sample of a pattern and averages them in linear light.
 //
 // Converges to the box-filtered image as the number of samples grows, at proportional cost. Weak where an edge follows

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate bench: frames of the benchmark scenes, timed stage by stage.
 #include <fmt/format.h>
 

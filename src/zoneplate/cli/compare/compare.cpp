@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate compare: antialiasing methods on scenes, each measured against one reference.
 #include <fmt/format.h>
 

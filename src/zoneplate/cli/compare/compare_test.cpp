@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The verb as scripts meet it, and what it measures with. Runs the built program.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The images of a comparison: crops of the regions with the greatest error, and plots of error against cost.
 #include "zoneplate/cli/compare/pictures.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of a comparison as text, CSV, Markdown and JSON.
 #include "zoneplate/cli/compare/report.h"
 #include "zoneplate/base/isa.h"

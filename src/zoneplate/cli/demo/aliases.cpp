@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Aliases: different waves with the same samples, and the suppression of aliases by each filter.
 #include <fmt/format.h>
 

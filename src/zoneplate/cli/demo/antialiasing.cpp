@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Antialiasing: one region of an image by every method, with its cost and its error against the reference.
 #include <fmt/format.h>
 

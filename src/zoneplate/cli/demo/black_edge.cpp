@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The black edge: the artifact of one colour per pixel with four coverage samples.
 //
 // Both errors are reproduced on purpose from the renderer's samples, in the order of drawing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The convolution theorem: convolution of images equals multiplication of their spectra.
 #include <fmt/format.h>
 

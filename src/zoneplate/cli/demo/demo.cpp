@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate demo: lessons about aliasing, each a captioned image.
 #include "zoneplate/cli/demo/demo.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact coverage: the error of sample grids at edges, measured against exact areas.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Jaggies: one sample a pixel gives a coverage of 0 or 1; the mean of several samples approximates the coverage.
 #include <fmt/format.h>
 

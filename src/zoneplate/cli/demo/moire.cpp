@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moire: detail too fine for the pixels appears as a false coarse pattern.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Filtering before and after sampling: the same two steps, of which only one order is correct.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sampling repeats the spectrum at every multiple of the rate; below twice the bandwidth the copies overlap.
 #include <fmt/format.h>
 

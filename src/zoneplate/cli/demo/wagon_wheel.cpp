@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Aliasing in time: a wheel that turns by nearly one spoke per frame appears to turn backwards.
 //
 // The apparent motion is measured in the rendered frames: the displacement by correlation of consecutive frames, the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/cli/render/item_messages.h"
 
 #include <algorithm>

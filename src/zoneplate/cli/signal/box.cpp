@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal box: boxes and their spectra.
 #include <fmt/format.h>
 

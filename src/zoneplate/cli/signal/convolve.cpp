@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal convolve: an image or a list of numbers with a kernel, in space, by its spectrum, or both.
 #include <fmt/format.h>
 

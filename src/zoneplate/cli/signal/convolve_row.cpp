@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Convolution of one row of numbers, as in a textbook exercise.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal decimate: every n-th pixel, with and without filtering first.
 #include <fmt/format.h>
 

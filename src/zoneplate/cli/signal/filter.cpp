@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal filter: an image without the low, the high or a band of its frequencies.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/cli/signal/reduce.h"
 
 #include "zoneplate/cli/signal/alpha.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal resample: an image on another grid.
 #include <fmt/format.h>
 

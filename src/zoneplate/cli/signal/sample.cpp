@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal sample: two waves with the same samples, and the copies of a sampled spectrum.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal series: a wave built up from its harmonics.
 #include "zoneplate/signal/fourier/series.h"
 

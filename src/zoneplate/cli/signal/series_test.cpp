@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subcommands that draw plots from numbers alone: series, sample, box.
 #include "zoneplate/signal/fourier/series.h"
 #include "zoneplate/cli/signal/signal.h"

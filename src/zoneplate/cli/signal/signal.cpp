@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal: spectra, filters and sampling. A table of subcommands, each in a file of its own.
 #include "zoneplate/cli/signal/signal.h"
 

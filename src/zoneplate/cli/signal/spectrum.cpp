@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // zoneplate signal spectrum: which frequencies an image holds.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/codec/png/png_rows.h"
 
 namespace zoneplate::scalar {

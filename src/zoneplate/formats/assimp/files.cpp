@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/assimp/files.h"
 
 #if __has_include(<assimp/cfileio.h>)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/gltf/draco_primitive.h"
 
 #include <cstring>

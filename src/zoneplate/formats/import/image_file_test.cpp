@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/import/image_file.h"
 
 #include <gtest/gtest.h>

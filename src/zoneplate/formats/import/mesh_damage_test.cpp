@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Damaged PLY, STL and OBJ files: loading ends with a sound scene or with one line that says why not.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ColorVideoVDP: the difference between two images as an eye would see it on a stated screen.
 //
 // Each image becomes what the screen emits, opponent colours, bands of contrast; differences are weighed by the eye's

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ColorVideoVDP of a sequence: stills seen through the eye's slowness, and a fourth channel for what flickers.
 //
 // A frame is judged with the quarter of a second before it. Weak on fast pans: the eye of this model does not follow.

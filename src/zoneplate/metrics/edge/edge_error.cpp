@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error at edges, by their angle: where stairs are seen, and where methods with sparse or shifted samples differ.
 //
 // The edges are the reference's own, so that a method cannot hide one by blurring it. Weak on textures, whose fine

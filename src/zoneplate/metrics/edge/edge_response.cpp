@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The edge response: sharpness as a modulation transfer function, from a slanted edge.
 //
 // A straight edge, not along an axis, is sampled by its rows at all distances; sorted by distance they show how a step

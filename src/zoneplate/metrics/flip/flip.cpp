@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FLIP: differences as a viewer sees them who flips between two images, from a stated distance.
 //
 // Each image is blurred as the eye blurs it at that distance, colours are compared in a uniform space, and edges

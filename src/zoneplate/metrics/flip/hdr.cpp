@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FLIP for high dynamic range: the images are compared at a range of exposures derived from the reference, and
 // each pixel has its greatest error.
 //

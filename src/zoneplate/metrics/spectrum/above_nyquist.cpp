@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Energy above Nyquist: how much of what an image's pixels cannot show came back as something else.
 //
 // A sampled image has no frequencies above ½, so its aliases are found with a reference n × n times as large, which

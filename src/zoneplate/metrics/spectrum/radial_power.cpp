@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The radial power spectrum of the error: at what size of detail an image is wrong.
 //
 // Coarse errors are seen, fine ones much less; a method that moves its error upward is better at the same mean square.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Structural similarity over five scales: fine detail counts less than the form of things, as at a viewing distance.
 //
 // The map and the borders are as in ssim; there is no map, for the scales differ in size.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MS-SSIM beside a program written from the paper alone: whole windows instead of their two factors, loops over pixels.
 #include <gtest/gtest.h>
 

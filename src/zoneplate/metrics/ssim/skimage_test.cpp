@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same metrics by scikit-image, where Debian's python3-skimage is installed: five pairs of images made here.
 #include <gtest/gtest.h>
 #include <unistd.h>

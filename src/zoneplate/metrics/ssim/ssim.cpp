@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Structural similarity of luma: do the two images rise and fall together, whatever their level?
 //
 // Weak on small contrasts and on tiny windows: it forgives blur where the image is smooth, and a shift of one pixel

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/raster/geometry/bin.h"
 
 #include <algorithm>

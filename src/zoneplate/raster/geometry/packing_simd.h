@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moving lanes to the front. Included by *_simd.cpp files only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Setup of a vector of triangles, one a lane: the twin of make_triangle. Included by *_simd.cpp files only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coverage of a vector of small triangles, one triangle a lane. Included by *_simd.cpp files only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images do not depend on how much of a tile's layers, or of the screen vertices, is held at once.
 #include "zoneplate/raster/types/raster_capacity.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A checkerboard that reaches the horizon: every frequency that an image can and cannot show.
 #include <array>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 80 × 50 textured boxes in a grid and the ground between them, seen from the end of a street.
 //
 // The boxes come in random order, the ground in their middle, so that nothing is sorted for the renderer.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 32 textured quads, each larger than a 16:9 image, from back to front: every pixel is drawn 32 times.
 #include "zoneplate/math/angle.h"
 #include "zoneplate/scene/builtin/bench.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trees of leaves cut out of a texture: edges that lie inside of triangles, where no coverage is counted.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polished metal with flutes and dents: highlights narrower than a pixel, which shading once a pixel finds or misses.
 #include <functional>
 

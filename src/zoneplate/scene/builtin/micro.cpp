@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A wavy sheet of 4,000,000 triangles that covers a 16:9 image: triangles smaller than pixels.
 #include <cmath>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slats that are nearly level and nearly upright: the angles at which one step of an edge is longest.
 #include "zoneplate/scene/builtin/shapes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sphere made from a cube, its surface displaced by noise: any number of triangles of nearly equal size.
 #include <cmath>
 #include <vector>

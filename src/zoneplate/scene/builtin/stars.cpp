@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stars of a pixel and less over a ridge: light that one sample a pixel finds or misses.
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin/shapes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sun behind a roof: an edge between very bright and dark, whose mean is white however little light a pixel gets.
 #include "zoneplate/scene/builtin/shapes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Newell's teapot: 32 bicubic Bezier patches, given here by the sections that they were drawn from.
 //
 // The body, the lid and the bottom turn four quarters about the axis, each quarter one patch; the handle and the

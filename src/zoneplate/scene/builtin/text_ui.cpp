@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A window full of text, drawn pixel for pixel: every change by a method is an error.
 //
 // The panel has one texel a pixel in an image of its own size, and is read without a filter: every sample of a pixel

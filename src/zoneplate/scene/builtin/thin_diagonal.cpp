@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cable-stayed bridge: oblique lines of about a pixel, at every angle between steep and flat.
 #include "zoneplate/scene/builtin/shapes.h"
 

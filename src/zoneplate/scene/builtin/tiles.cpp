@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tiled floor and a brick wall whose textures are read as they lie: the nearest texel, no smaller levels.
 #include "zoneplate/scene/builtin/bench.h"
 #include "zoneplate/scene/builtin/shapes.h"

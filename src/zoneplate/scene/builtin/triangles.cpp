@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of a few plain triangles, on which coverage, order and colour can be followed by hand.
 #include <cmath>
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A wagon's wheel of any number of spokes, all alike, so that one spoke further it looks the same.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Power lines and a fence that become thinner than a pixel with distance.
 #include "zoneplate/scene/builtin/shapes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reflection models under lights, each against its formula.
 #include <gtest/gtest.h>
 

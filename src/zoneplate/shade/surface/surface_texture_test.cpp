@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normals, normal maps, and how a material's textures are looked up.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/math/halves_simd.h"
 #include "zoneplate/math/lanes_simd.h"
 #include "zoneplate/shade/texture/filtering.h"

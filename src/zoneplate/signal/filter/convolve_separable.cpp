@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Separable convolution: both directions in one sweep.
 //
 // A task owns a block of columns and runs down it: it filters some rows along x into a buffer that stays in the cache,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CMAA2: processes only pixels at a corner of edges. They are blurred slightly, and where the corner is a step of a
 // long, nearly symmetric edge (a Z shape), the pixels along the edge are blended as by MLAA.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/antialias/post/cmaa2/edge_detection.h"
 
 #include <algorithm>

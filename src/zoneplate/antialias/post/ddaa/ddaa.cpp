@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDAA: for edges near the axes an edge search like FXAA's, but at every pixel; for edges near the diagonals a short
 // blur along the edge.
 //

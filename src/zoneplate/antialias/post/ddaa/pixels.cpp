@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scalar twins of DDAA's kernels.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <hwy/highway.h>
 
 #include "zoneplate/antialias/post/ddaa/pixels.h"

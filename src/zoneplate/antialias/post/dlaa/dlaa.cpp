@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DLAA: blurs every pixel slightly along the direction of smaller change; on long edges, interpolates it between its
 // neighbours by a blur of sixteen pixels along the edge.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scalar twins of the console path of FXAA 3.11: two taps half a pixel
 // along the edge, and two farther ones where those stay within the lumas
 // around.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FXAA 3.11: finds the direction of an edge by luma, follows it to its ends, and fetches each pixel's colour from up to
 // half a pixel across it.
 //

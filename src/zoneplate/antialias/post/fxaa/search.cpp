@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scalar twins of FXAA's kernels, and its search where a comparison is tied.
 #include <algorithm>
 #include <array>

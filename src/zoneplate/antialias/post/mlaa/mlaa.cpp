@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Morphological antialiasing: interprets borders between different pixels as steps of straight lines, and blends each
 // pixel with the other side by the area that the line through the midpoints of the steps cuts off.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The original morphological antialiasing: separation lines of any length, in L, Z and U shapes.
 //
 // A Z or U shape is split at its middle into two L shapes; each L is a triangle from a height on the step at its end to

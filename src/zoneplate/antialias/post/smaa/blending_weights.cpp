@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SMAA's second pass, blending weight calculation: how far each edge goes and what crosses its ends, and with that the
 // areas of its pixels.
 //

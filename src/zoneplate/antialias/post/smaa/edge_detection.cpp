@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SMAA's first pass, edge detection: a border is an edge where its difference reaches the threshold and half of the
 // greatest difference around it (local contrast adaptation). With predication a border's threshold depends on whether a
 // second buffer crosses it, which is found out first and noted in the edges themselves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SMAA's third pass, neighborhood blending: each pixel is mixed with its neighbours on the axis of its greater weight.
 #include <algorithm>
 #include <utility>

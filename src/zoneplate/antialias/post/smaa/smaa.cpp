@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SMAA: detects edges by contrast, follows each to its ends, and blends its pixels by the area under the line through
 // the ends.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SMAA's lookup textures, byte for byte.
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/antialias/reference/analytic/alpha.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact coverage: the visible polygons of every pixel, with exact hidden-surface removal, and the integral of the
 // filter over each polygon in closed form. A reference for all other methods, free of sampling noise.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exact image, tile by tile: the candidates of each pixel, its visible polygons, their colours, their sum.
 #include "zoneplate/antialias/reference/analytic/draw.h"
 

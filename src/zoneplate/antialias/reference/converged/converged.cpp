@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The converged reference: many shaded samples per pixel, whose variance gives an estimate of the remaining error.
 //
 // The reference for shading inside surfaces (textures, highlights, alpha), for which exact coverage has no closed form;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The converged image: passes of a few samples over one strip of the image at a time, each added up at once.
 #include "zoneplate/antialias/reference/converged/draw.h"
 
