@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/surface/surface_for_test.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -163,9 +165,9 @@ TEST(TextureSet, TakesTheImagesWithIt) {
                       &expected = kept.find({.image = image}, meaning)->view();
     const std::int32_t at = 4 * view.texel(0, 0, 0);
     if (meaning == TexelMeaning::Color)
-      EXPECT_EQ(std::memcmp(view.codes15 + at, expected.codes15 + at, 8), 0);
+      EXPECT_EQ(std::memcmp(view.unorm15 + at, expected.unorm15 + at, 8), 0);
     else
-      EXPECT_EQ(std::memcmp(view.codes8 + at, expected.codes8 + at, 4), 0);
+      EXPECT_EQ(std::memcmp(view.unorm8 + at, expected.unorm8 + at, 4), 0);
   }
   try {
     const TextureSet again(scene, false);
