@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/canvas.h"
 
+#include "zoneplate/raster/tile/rasterize.h"
+
 namespace zoneplate {
 
 struct Canvas::Mesh {
@@ -43,14 +45,14 @@ LinearImage Canvas::resolve() const {
   std::vector<Draw> draws;
   std::vector<const FragmentShader*> shaders;
   for (const Mesh& mesh : meshes_) {
-    Draw draw;
-    draw.clip = mesh.clip;
-    draw.index = mesh.indices;
-    draw.alpha_mode = mesh.options.alpha_mode;
-    draw.culls_back_faces = mesh.options.culls_back_faces;
-    draw.material = static_cast<int>(draws.size());
-    draw.instance = static_cast<std::uint32_t>(draws.size());
-    draws.push_back(draw);
+    Draw drawn;
+    drawn.clip = mesh.clip;
+    drawn.index = mesh.indices;
+    drawn.alpha_mode = mesh.options.alpha_mode;
+    drawn.culls_back_faces = mesh.options.culls_back_faces;
+    drawn.material = static_cast<int>(draws.size());
+    drawn.instance = static_cast<std::uint32_t>(draws.size());
+    draws.push_back(drawn);
     shaders.push_back(mesh.shader.get());
   }
   LinearImage image(width_, height_, Linear{0, 0, 0, 0});
