@@ -13,7 +13,7 @@
 
 namespace ZONEPLATE_API zoneplate {
 
-/// The file formats that `load_scene` reads itself, in addition to those of assimp.h.
+/// The file formats that `load_scene` reads itself. It reads others by the library assimp where that is installed.
 std::span<const SceneFormat> scene_formats();
 
 /// True for the name of a built-in scene, with or without parameters.
@@ -24,13 +24,14 @@ struct LoadOptions {
   LoadLimits limits;          ///< of memory, time and files
   std::string format;         ///< an extension without its dot, "stl"; empty: that of the name
   SceneChoice choice;         ///< scene, variant and moment of a glTF file
-  bool is_sandboxed = false;  ///< reads in a child process with limits (import_child.h), whatever the format
+  bool is_sandboxed = false;  ///< reads in a child process with limits, whatever the format
 };
 
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".
 ///
 /// A built-in scene takes precedence over a file of the same name, which is given as "./teapot". "-" is standard input,
-/// and requires a format; files that it refers to are searched in the working directory.
+/// and requires a format; files that it refers to are searched in the working directory. No default lights are
+/// added: see light_unlit.
 /// Errors    ErrorKind::Input naming a file that is missing, of an unknown format or wrong inside; ErrorKind::Usage for
 ///           parameters of a built-in scene, a format that is not read, and standard input without one.
 Scene load_scene(const std::string& name, const LoadOptions& options = {});

@@ -20,7 +20,8 @@ float4x4 rotation(Quaternion q);
 /// Rotation by `angle` about `axis`, counter-clockwise when the axis points at the viewer.
 float4x4 rotation(float3 axis, float angle);
 
-/// The rigid transform into a camera at `eye` that looks at `target` along -Z with `up` upwards.
+/// The rigid transform camera_from_world of a camera at `eye` that looks at `target` along -Z with `up` upwards. Its
+/// inverse is Camera::world_from_camera.
 ///
 /// If up is parallel to the view direction, another up vector is used (+Z, then +X), so that the transform always
 /// exists.
@@ -30,7 +31,7 @@ float4x4 look_at(float3 eye, float3 target, float3 up);
 /// z/w is 1 at `near` and 0 at `far`; x/w and y/w are in [-1, 1] inside the frustum, y upwards.
 ///
 /// Units     `vertical_fov` in radians, in (0, π); aspect = width / height; 0 < near < far, far may be infinite.
-/// Source    l, r, b, t from field of view and aspect: t = near tan(fov/2), r = t aspect (MISSION row A1).
+/// Source    l, r, b, t from field of view and aspect: t = near tan(fov/2), r = t aspect.
 float4x4 perspective(float vertical_fov, float aspect, float near, float far);
 
 /// Orthographic projection, reversed depth: z is 1 at `near` and 0 at `far`. Half extents in world units.

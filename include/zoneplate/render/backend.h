@@ -24,7 +24,7 @@ class Backend {
   virtual Frame render(const PreparedScene& scene, const Camera& camera, const Request& request,
                        const RenderOptions& options, RenderCounts* counts) = 0;
 
-  /// Accepts an image whose memory the next frame may use for Frame::shown.
+  /// Accepts an image whose memory the next frame may use for Frame::display8.
   virtual void recycle(Rgba8Image /*image*/) {}
 };
 

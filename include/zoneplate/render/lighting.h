@@ -31,7 +31,8 @@ struct LightingOptions {
 /// Errors    ErrorKind::Input for a scene with an environment image.
 Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});
 
-/// Lights the scene by make_lighting without options: a scene that has lights keeps them.
+/// Lights the scene by make_lighting without options: a scene that has lights keeps them, any other gets the default
+/// ones. The renderer itself adds no lights.
 void light_unlit(Scene& scene);
 
 /// Gives a material another shading model, and the nearest parameters that the model has.

@@ -54,7 +54,8 @@ struct Request {
   int halo = 0;  ///< pixels around a crop that `post_process` reads: a crop then has the bits of the whole image
 
   /// Draws the colour instead of the tiles; `samples` then apply to the data passes only. The function owns all data
-  /// that it needs, since it may be called after the method is destroyed.
+  /// that it needs, since it may be called after the method is destroyed. Only methods of the library can use it:
+  /// CustomDraw is not public.
   std::function<void(const CustomDraw&)> draw;
   bool estimates_error = false;  ///< `draw` fills Frame::error
 
@@ -96,7 +97,9 @@ class Resolver {
   virtual DisplayImage post_process(DisplayImage image, const Frame& /*frame*/) { return image; }
 };
 
-/// An entry of the catalogue of methods; each method's file defines its own.
+/// An entry of a catalogue of methods: an array of Method, of the library (antialias::methods) or of a program.
+///
+/// Requires  the arrays and texts that the members refer to outlive every use of the entry.
 struct Method {
   std::string_view name;               ///< in lower case: "msaa" of `msaa:n=4`
   std::string_view summary;            ///< one line for listings

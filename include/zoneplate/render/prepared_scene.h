@@ -15,7 +15,8 @@ class InterleavedVertices;
 namespace ZONEPLATE_API zoneplate {
 
 /// A scene with the data that rendering derives from it once: texture mip levels and vertex buffers. Data that depend
-/// on the lights or the camera are made for each frame.
+/// on the lights or the camera are made for each frame. The lights are those of the scene, or of `lit`: no default
+/// lights are added (see light_unlit).
 ///
 /// Copies share the data, which are immutable. Several threads may use one copy.
 class PreparedScene {

@@ -23,7 +23,7 @@ enum class Topology {
 /// Space     object space, right-handed, +Y up; uv (0,0) is the top-left of the image; front faces are
 ///           counter-clockwise. `tangent.w` is the sign of the bitangent; `color` is linear, straight alpha.
 /// Requires  after load: all values finite, every index < position.size(), normals (where present) of unit length.
-///           `normal` is present for triangles; lines and points without normals are drawn unlit.
+///           `normal` is present for triangles. A mesh without normals is drawn unlit.
 struct Mesh {
   std::string name;                         ///< from the file, for listings; need not be unique
   Topology topology = Topology::Triangles;  ///< how `index` is grouped

@@ -38,7 +38,7 @@ struct Scene {
   NameList objects;                       ///< names of objects, for ids
   std::vector<Material> materials;        ///< Mesh::material is an index into this list
   std::vector<TextureImage> images;       ///< TextureUse::image is an index into this list
-  std::vector<Light> lights;              ///< none: see make_lighting
+  std::vector<Light> lights;              ///< none: see light_unlit
   std::vector<Camera> cameras;            ///< of the file; View::index chooses one
   Environment environment;                ///< light from infinitely far away
   float3 up{0, 1, 0};                     ///< the up axis of the file's format, for the camera
