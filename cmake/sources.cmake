@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The sources and how they are built, on every processor.
 
-# Every object may become part of a shared library, which exports what the public headers declare (base/api.h) and
-# nothing else; calls within the library stay direct.
+# Every object may become part of a shared library, which exports what the public headers declare and nothing
+# else (each header sets the default visibility for its declarations); calls within the library stay direct.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)

@@ -97,7 +97,7 @@ TEST(Layers, NoIncludePointsUp) {
 
 TEST(Layers, PublicHeadersIncludePublicHeadersAlone) {
   const std::vector<fs::path> headers = files_of(public_headers);
-  EXPECT_LE(headers.size(), 54u);
+  EXPECT_LE(headers.size(), 53u);
   for (const fs::path& file : headers) {
     EXPECT_FALSE(fs::exists(source / file)) << file << " exists twice";
     for (const std::string& header : includes_of(file))
@@ -128,7 +128,7 @@ std::string code_of(const fs::path& file) {
 std::vector<std::string> types_of(const fs::path& file) {
   const std::string code = code_of(file);
   static const std::regex token(
-      R"(\bnamespace\s*(?:ZONEPLATE_API\s+)?([\w:]*)\s*\{|\b(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{|\{|\})");
+      R"(\bnamespace\s*([\w:]*)\s*\{|\b(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{|\{|\})");
   std::vector<std::string> scopes, out;  // a scope that defines nothing is "(body)"
   for (std::sregex_iterator i(code.begin(), code.end(), token), end; i != end; ++i) {
     const std::string found = i->str();

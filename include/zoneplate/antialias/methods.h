@@ -3,15 +3,16 @@
 
 #include <span>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/render/method.h"
 
+#pragma GCC visibility push(default)
 namespace zoneplate {
 /// Antialiasing methods, by name.
-namespace ZONEPLATE_API antialias {
+namespace antialias {
 
 /// The catalogue, in the order of methods.txt.
 std::span<const Method> methods();
 
 }  // namespace antialias
 }  // namespace zoneplate
+#pragma GCC visibility pop

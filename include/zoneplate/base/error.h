@@ -4,9 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The kind of an error; the command line maps it to its exit code.
 enum class ErrorKind {
@@ -23,12 +22,13 @@ enum class ErrorKind {
 class Error : public std::runtime_error {
  public:
   /// An error with its message, one line without a line end.
-  Error(ErrorKind trouble, const std::string& message) : std::runtime_error(message), trouble_(trouble) {}
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
   /// The kind of the error; `what()` is its message.
-  ErrorKind trouble() const { return trouble_; }
+  ErrorKind kind() const { return kind_; }
 
  private:
-  ErrorKind trouble_;
+  ErrorKind kind_;
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

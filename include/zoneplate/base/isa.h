@@ -3,9 +3,8 @@
 
 #include <span>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// An instruction set for which kernels are built. Scalar is the plain C++ twin; all give the same bits.
 enum class Isa {
@@ -86,3 +85,4 @@ struct PerIsa {
 #endif
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 // Page faults dominate the time of loading a large model: touching new pages one by one takes longer than filling them.
 
@@ -32,3 +31,4 @@ void make_large(std::vector<T>& values, std::size_t count) {
 }
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -6,9 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Calls `body(i)` for every i in [0, count), on the threads of the innermost `with_threads`.
 ///
@@ -62,3 +61,4 @@ class PerThread {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -7,9 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A parameter in a text of the form name:key=value: n of `msaa:n=4`.
 ///
@@ -114,3 +113,4 @@ Spec<Row> parse_spec(std::string_view kind, std::span<const Row> rows, std::stri
 }
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A decoded PNG: values as stored, expanded to four channels; 16-bit files keep their precision in `pixels16`.
 struct PngImage {
@@ -49,3 +49,4 @@ std::vector<std::uint8_t> encode_png(const Rgba16Image& image, const PngOptions&
 std::vector<std::uint8_t> encode_png(const Plane<std::uint16_t>& image, const PngOptions& options = {});
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The ending of a path in lower case, with its dot.
 std::string extension_of(const std::string& path);
@@ -24,3 +24,4 @@ void save_image(const std::string& path, const Rgba8Image& image);
 void save_image(const std::string& path, const LinearImage& image);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The file formats that `load_scene` reads itself. It reads others by the library assimp where that is installed.
 std::span<const SceneFormat> scene_formats();
@@ -62,3 +62,4 @@ class SceneSource {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A colour in linear light: Rec.709 primaries, 1 = diffuse white, unbounded; alpha premultiplied.
 struct Linear {
@@ -51,3 +50,4 @@ constexpr Linear operator*(Linear a, float s) { return {a.r * s, a.g * s, a.b * 
 ///@}
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/base/large_array.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A rectangle of values of one type, row 0 at the top, rows one after the other without padding.
 template <class T>
@@ -64,3 +64,4 @@ class Plane {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The curve that maps unbounded linear colour to the range of a display.
 enum class ToneMapping {
@@ -43,3 +43,4 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
 LinearImage over_background(LinearImage image, const DisplayOptions& options);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

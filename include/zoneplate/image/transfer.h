@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 ///@{
 /// The sRGB transfer curve (IEC 61966-2-1) between linear light and encoded values.
@@ -39,3 +39,4 @@ Rgba16Image quantize16(const DisplayImage& image);
 ///@}
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

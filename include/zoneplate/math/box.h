@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/mat.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// An axis-aligned box; empty (low > high) until something is added.
 struct Box {
@@ -41,3 +41,4 @@ struct Box {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

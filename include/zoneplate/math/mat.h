@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/vec.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A 4 × 4 matrix that acts on column vectors; stored by columns, as glTF does.
 ///
@@ -59,3 +59,4 @@ constexpr float4x4 normal_matrix(const float4x4& m) {
 float4x4 inverse(const float4x4& m);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/mat.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A rotation as a quaternion x i + y j + z k + w, in glTF's order of components.
 struct Quaternion {
@@ -38,3 +38,4 @@ float4x4 perspective(float vertical_fov, float aspect, float near, float far);
 float4x4 orthographic(float half_width, float half_height, float near, float far);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

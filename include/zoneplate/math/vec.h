@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Two floats: a texture coordinate, or a position or displacement in the image plane.
 struct float2 {
@@ -82,3 +81,4 @@ constexpr float3 xyz(float4 a) { return {a.x, a.y, a.z}; }
 inline bool is_finite(float3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

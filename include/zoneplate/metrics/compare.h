@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/metrics/metric.h"
 
+#pragma GCC visibility push(default)
 namespace zoneplate {
-namespace ZONEPLATE_API metrics {
+namespace metrics {
 
 /// Pairs of images to compare; each is loaded once, in order, and released when it has been measured.
 struct Comparands {
@@ -55,3 +55,4 @@ bool is_as_good(const Metric& metric, double value, double threshold);
 
 }  // namespace metrics
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/metrics/picture.h"
 
+#pragma GCC visibility push(default)
 namespace zoneplate {
-namespace ZONEPLATE_API metrics {
+namespace metrics {
 
 /// Which values of a metric are better.
 enum class Better {
@@ -89,3 +89,4 @@ Choice choose_metric(std::span<const Metric> catalogue, std::string_view text);
 
 }  // namespace metrics
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -3,15 +3,16 @@
 
 #include <span>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/metrics/metric.h"
 
+#pragma GCC visibility push(default)
 namespace zoneplate {
 /// Image metrics: what they measure, by name, and comparisons of images.
-namespace ZONEPLATE_API metrics {
+namespace metrics {
 
 /// The catalogue, in the order of metrics.txt.
 std::span<const Metric> metrics();
 
 }  // namespace metrics
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 
+#pragma GCC visibility push(default)
 namespace zoneplate {
-namespace ZONEPLATE_API metrics {
+namespace metrics {
 
 /// The input of metrics: the same image as display-referred values and in linear light.
 struct Picture {
@@ -53,3 +53,4 @@ Plane<double> luminance_plane(const LinearImage& image);
 
 }  // namespace metrics
 }  // namespace zoneplate
+#pragma GCC visibility pop

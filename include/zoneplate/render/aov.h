@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/scene/scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The least precision with which a channel is stored.
 enum class ChannelPrecision {
@@ -53,3 +53,4 @@ struct Aov {
 std::span<const Aov> aovs();
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/render/render.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A device that renders frames. Everything above it (antialiasing methods, Renderer, the command) describes a frame by
 /// a Request and receives its planes in a Frame, so that neither depends on the device.
@@ -32,3 +32,4 @@ class Backend {
 std::unique_ptr<Backend> make_cpu_backend();
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/render/user_shader.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Options for one mesh of a Canvas.
 struct MeshOptions {
@@ -76,3 +76,4 @@ class Canvas {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/signal/samples.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The data passes that may be stored in addition to the colour; a pass that is not requested costs nothing.
 struct Planes {
@@ -105,3 +105,4 @@ struct Frame {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/scene/scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The lights and the environment of a scene.
 struct Lighting {
@@ -39,3 +39,4 @@ void light_unlit(Scene& scene);
 void convert_material(Material& material, ShadingModel model);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/render/frame.h"
@@ -18,7 +17,8 @@ namespace zoneplate {
 struct CustomDraw;  // render/custom_draw.h
 }  // namespace zoneplate
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// How often a surface is shaded.
 enum class Rate {
@@ -117,3 +117,4 @@ struct Method {
 std::unique_ptr<Resolver> make_resolver(std::span<const Method> catalogue, std::string_view text);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/scene/scene.h"
 
@@ -12,7 +11,8 @@ class TextureSet;
 class InterleavedVertices;
 }  // namespace zoneplate
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A scene with the data that rendering derives from it once: texture mip levels and vertex buffers. Data that depend
 /// on the lights or the camera are made for each frame. The lights are those of the scene, or of `lit`: no default
@@ -57,3 +57,4 @@ class PreparedScene {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

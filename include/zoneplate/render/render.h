@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/raster/types/raster_capacity.h"
 #include "zoneplate/raster/types/stage_times.h"
@@ -12,7 +11,8 @@
 #include "zoneplate/render/method.h"
 #include "zoneplate/scene/scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 class PreparedScene;
 
@@ -81,3 +81,4 @@ Frame render(const PreparedScene& scene, const Camera& camera, const Request& re
              RenderCounts* counts = nullptr);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/render/backend.h"
 #include "zoneplate/render/method.h"
 #include "zoneplate/render/prepared_scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The format of a finished image.
 enum class ImageForm {
@@ -113,3 +113,4 @@ class Renderer {
 std::optional<Crop> padded_crop(const RenderOptions& options, int halo);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

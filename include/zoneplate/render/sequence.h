@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/render/view.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The timing of a sequence. Frame i has the time start + i / rate seconds.
 struct SequenceTiming {
@@ -77,3 +77,4 @@ class Sequence {
 double shutter_time(double frame, double open, int i, int count);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

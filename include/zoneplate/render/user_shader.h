@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
@@ -18,7 +17,8 @@
 #include "zoneplate/scene/alpha_mode.h"
 #include "zoneplate/signal/samples.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The argument of a user shader's vertex stage: the vertex's index in the arrays that the shader itself holds.
 struct Vertex {
@@ -127,3 +127,4 @@ LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::u
 }
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/scene/scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The choice of a camera; angles in radians.
 struct View {
@@ -32,3 +32,4 @@ struct View {
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// How a surface's alpha is used (glTF 2.0, section 3.9.4).
 enum class AlphaMode {
@@ -13,3 +12,4 @@ enum class AlphaMode {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

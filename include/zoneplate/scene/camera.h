@@ -4,11 +4,11 @@
 #include <span>
 #include <string>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/box.h"
 #include "zoneplate/math/transform.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A camera in the world. It looks along its own -Z with +Y up.
 struct Camera {
@@ -45,3 +45,4 @@ Camera fit_camera(std::span<const float3> points, float picture_aspect, const Au
 Camera fit_camera(const Box& box, float picture_aspect, const AutoFit& fit);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

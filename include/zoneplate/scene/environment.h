@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/vec.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The light that reaches a scene from all directions, from infinitely far away.
 ///
@@ -25,3 +25,4 @@ struct Environment {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,11 +4,11 @@
 #include <limits>
 #include <string>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/mat.h"
 #include "zoneplate/math/vec.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The shape of a light's emission.
 enum class LightKind {
@@ -46,3 +46,4 @@ struct Light {
 Light in_world_space(Light light, const float4x4& world_from_camera);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

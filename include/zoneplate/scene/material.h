@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/scene/alpha_mode.h"
 #include "zoneplate/scene/texel_image.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// How a texture continues outside of [0, 1].
 enum class Wrap {
@@ -131,3 +131,4 @@ inline std::array<const TextureUse*, texture_slot_count> texture_slots(const Mat
 }
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

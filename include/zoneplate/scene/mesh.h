@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/vec.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// What the indices of a mesh form.
 enum class Topology {
@@ -44,3 +44,4 @@ struct Mesh {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The names of a list of items. Items with the same name share its text: each takes four more bytes.
 class NameList {
@@ -93,3 +92,4 @@ class NameList {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

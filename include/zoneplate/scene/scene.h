@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/scene/camera.h"
 #include "zoneplate/scene/environment.h"
 #include "zoneplate/scene/light.h"
@@ -14,7 +13,8 @@
 #include "zoneplate/scene/mesh.h"
 #include "zoneplate/scene/name_list.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// An instance of a mesh in the world. Meshes of one node share its `object` index.
 struct Instance {
@@ -52,3 +52,4 @@ struct Scene {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -5,11 +5,11 @@
 #include <utility>
 #include <variant>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The type of the texels of a decoded image. Alpha is always straight.
 enum class TexelKind : std::uint8_t {
@@ -64,3 +64,4 @@ class TexelImage {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

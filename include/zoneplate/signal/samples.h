@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A sample's position in its pixel, in 1/256 pixel from the pixel's top-left corner.
 struct SamplePosition {
@@ -34,3 +33,4 @@ SamplePattern grid_pattern(int n);
 SamplePattern named_pattern(const std::string& name, int samples);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -13,7 +13,7 @@ std::string refusal(std::string_view text) {
   try {
     make_resolver(antialias::methods(), text);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(e.kind(), ErrorKind::Usage);
     return e.what();
   }
   return "accepted";

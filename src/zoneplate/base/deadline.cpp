@@ -11,21 +11,21 @@ using Clock = std::chrono::steady_clock;
 
 class Deadline {
  public:
-  Deadline(double seconds, ErrorKind trouble, const std::string& message, const Deadline* outer)
+  Deadline(double seconds, ErrorKind kind, const std::string& message, const Deadline* outer)
       : end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))),
-        trouble_(trouble),
+        kind_(kind),
         message_(message),
         outer_(outer) {}
 
   void check() const {
     const Clock::time_point now = Clock::now();
     for (const Deadline* limit = this; limit; limit = limit->outer_)
-      if (now > limit->end_) throw Error(limit->trouble_, limit->message_);
+      if (now > limit->end_) throw Error(limit->kind_, limit->message_);
   }
 
  private:
   Clock::time_point end_;
-  ErrorKind trouble_;
+  ErrorKind kind_;
   const std::string& message_;
   const Deadline* outer_;
 };
@@ -38,9 +38,9 @@ const Deadline* current_deadline() { return current; }
 
 const Deadline* exchange_deadline(const Deadline* deadline) { return std::exchange(current, deadline); }
 
-void with_deadline(double seconds, ErrorKind trouble, const std::string& message, const std::function<void()>& body) {
+void with_deadline(double seconds, ErrorKind kind, const std::string& message, const std::function<void()>& body) {
   constexpr double longest = 1e9;  // seconds; what the clock's type holds is some 300 years
-  const Deadline deadline(std::min(seconds, longest), trouble, message, current);
+  const Deadline deadline(std::min(seconds, longest), kind, message, current);
   struct Restore {
     const Deadline* outer;
     ~Restore() { current = outer; }

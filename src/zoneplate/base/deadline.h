@@ -14,8 +14,8 @@ namespace zoneplate {
 /// before each item. A long serial loop, such as the rows of a decoder, calls `check_deadline`. Limits nest: all of
 /// them hold.
 /// Requires  `message` is one complete line, which names the file and the option that raises the limit.
-/// Errors    whatever `body` throws; Error(trouble, message) from the first check after the time is up.
-void with_deadline(double seconds, ErrorKind trouble, const std::string& message, const std::function<void()>& body);
+/// Errors    whatever `body` throws; Error(kind, message) from the first check after the time is up.
+void with_deadline(double seconds, ErrorKind kind, const std::string& message, const std::function<void()>& body);
 
 /// Errors    that of the first limit of the enclosing `with_deadline`s whose time is up.
 /// Cost      reads the clock once for each limit, some 25 ns: once a row, a chunk or a thousand cheap iterations.

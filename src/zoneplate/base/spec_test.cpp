@@ -32,7 +32,7 @@ std::string refusal(std::string_view text) {
   try {
     parsed(text);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
     return error.what();
   }
   return "";

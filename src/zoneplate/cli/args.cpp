@@ -72,7 +72,7 @@ void set(const Option& option, const std::string& text) {
   try {
     option.set(text);
   } catch (const Error& error) {
-    throw Error(error.trouble(), names_of(option).front() + ": " + error.what());
+    throw Error(error.kind(), names_of(option).front() + ": " + error.what());
   }
 }
 

@@ -29,7 +29,7 @@ struct Toy {
     try {
       parse(syntax, words);
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+      EXPECT_EQ(error.kind(), ErrorKind::Usage);
       return error.what();
     }
     return "no error";

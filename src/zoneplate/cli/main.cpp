@@ -114,8 +114,8 @@ extern "C" void leave(int signal) {
   ::_exit(128 + signal);
 }
 
-int exit_code(ErrorKind trouble) {
-  switch (trouble) {
+int exit_code(ErrorKind kind) {
+  switch (kind) {
     case ErrorKind::Failed:
       return 1;
     case ErrorKind::Usage:
@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const Error& error) {
     cli::say_error(error.what());
-    return cli::exit_code(error.trouble());
+    return cli::exit_code(error.kind());
   } catch (const cli::PartialFailure& failure) {
     cli::say_error(failure.what());
     return 5;

@@ -46,7 +46,7 @@ class OutputPaths : public testing::Test {
     try {
       call();
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Output) << error.what();
+      EXPECT_EQ(error.kind(), ErrorKind::Output) << error.what();
       std::string text = error.what();
       for (std::size_t i; (i = text.find(place.string() + "/")) != std::string::npos;)
         text.erase(i, place.string().size() + 1);

@@ -14,7 +14,7 @@ std::string refusal(Parse parse) {
   try {
     parse();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
     return error.what();
   }
   return "no error";

@@ -50,7 +50,7 @@ std::string error_of(const Bytes& bytes, std::uint64_t most = 10'000) {
   try {
     decode_exr(bytes, "a.exr", most);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
     return error.what();
   }
   return "no error";

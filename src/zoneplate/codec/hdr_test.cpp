@@ -27,7 +27,7 @@ std::string error_of(const Bytes& bytes, std::uint64_t most = 1000) {
   try {
     decode_hdr(bytes, "a.hdr", most);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
     return error.what();
   }
   return "no error";

@@ -24,7 +24,7 @@ std::string error_of(const Bytes& bytes, std::uint64_t most = 1000) {
   try {
     decode_pfm(bytes, "a.pfm", most);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
     return error.what();
   }
   return "no error";

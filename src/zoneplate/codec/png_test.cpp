@@ -282,7 +282,7 @@ std::string error_of(const Bytes& bytes, std::uint64_t max_pixels = std::uint64_
   try {
     decode_png(bytes, "a.png", max_pixels);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
     return error.what();
   }
   return "";

@@ -70,7 +70,7 @@ TEST(Webp, RefusesWhatTheFormatCannotHold) {
     encode_webp(wide);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Failed);
+    EXPECT_EQ(error.kind(), ErrorKind::Failed);
   }
 }
 

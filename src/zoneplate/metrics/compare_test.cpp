@@ -81,7 +81,7 @@ std::string refusal(const Picture& a, const Picture& b, std::string_view name) {
   try {
     compare(sequence(as, bs), choices({name}), Unfit::Refuse);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
     return error.what();
   }
   return {};

@@ -15,7 +15,7 @@ std::string message_of(std::string_view text) {
   try {
     choose_metric(metrics(), text);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
     return error.what();
   }
   return {};

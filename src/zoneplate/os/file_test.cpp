@@ -35,11 +35,11 @@ Bytes loaded(const std::string& path) {
 }
 
 template <class Body>
-std::string error_of(ErrorKind trouble, Body body) {
+std::string error_of(ErrorKind kind, Body body) {
   try {
     body();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), trouble);
+    EXPECT_EQ(error.kind(), kind);
     return error.what();
   }
   ADD_FAILURE() << "no error";
@@ -209,7 +209,7 @@ TEST_F(File, ReportsAClosedPipe) {
               try {
                 save_bytes("-", made(1000));
               } catch (const Error& error) {
-                return error.trouble() == ErrorKind::Output &&
+                return error.kind() == ErrorKind::Output &&
                                error.what() == std::string("standard output: cannot be written: Broken pipe")
                            ? 0
                            : 2;
@@ -233,7 +233,7 @@ TEST_F(File, LeavesNothingBehindWhenTheDiskIsFull) {
               try {
                 save_bytes(path("a"), made(50000));
               } catch (const Error& error) {
-                return error.trouble() == ErrorKind::Output ? 0 : 1;
+                return error.kind() == ErrorKind::Output ? 0 : 1;
               }
               return 2;
             }),

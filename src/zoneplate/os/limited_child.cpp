@@ -38,9 +38,9 @@ void write_whole(int pipe, const void* data, std::size_t size) {
   }
 }
 
-[[noreturn]] void send_error(int pipe, ErrorKind trouble, const std::string& cause) {
-  const auto kind = static_cast<std::uint8_t>(trouble);
-  write_whole(pipe, &kind, 1);
+[[noreturn]] void send_error(int pipe, ErrorKind kind, const std::string& cause) {
+  const auto first = static_cast<std::uint8_t>(kind);
+  write_whole(pipe, &first, 1);
   write_whole(pipe, cause.data(), cause.size());
   ::_exit(0);
 }
@@ -73,7 +73,7 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
       ::_exit(0);  // the kernel ends the other threads sooner than they could be joined
     });
   } catch (const Error& error) {
-    if (!answer.is_begun()) send_error(pipe, error.trouble(), error.what());
+    if (!answer.is_begun()) send_error(pipe, error.kind(), error.what());
   } catch (const LibraryNeeded& needed) {
     if (!answer.is_begun()) send_error(pipe, ErrorKind::Input, needed.what());
   } catch (const std::exception&) {

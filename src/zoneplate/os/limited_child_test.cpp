@@ -62,7 +62,7 @@ TEST(LimitedChild, PassesErrorsOn) {
     child.read(&byte, 1);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
     EXPECT_STREQ(error.what(), "two lines");
   }
 }

@@ -7,9 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A file format that holds a scene.
 struct SceneFormat {
@@ -37,3 +36,4 @@ struct LoadLimits {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Fragments that are shaded together: they have one material and any triangles. Structure of arrays.
 ///
@@ -91,3 +90,4 @@ struct FragmentOutputs {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

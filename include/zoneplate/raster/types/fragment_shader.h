@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/raster/types/batch.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Computes the colours of fragments, a batch at a time. Its functions are called from many threads at once.
 class FragmentShader {
@@ -37,3 +37,4 @@ class FragmentShader {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Capacities of buffers whose contents may exceed any memory. What does not fit is processed in parts, or computed
 /// again where it is needed: capacities change the time, but no bit of an image.
@@ -16,3 +15,4 @@ struct RasterCapacity {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

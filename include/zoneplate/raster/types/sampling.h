@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// At which of the samples that a triangle covers an alpha-tested surface is present.
 enum class AlphaTest {
@@ -22,3 +21,4 @@ enum class Centroid {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

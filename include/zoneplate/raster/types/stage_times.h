@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
-
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// The time of a frame by stage, in milliseconds.
 ///
@@ -26,3 +25,4 @@ struct StageTimes {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/scene/scene.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// A row of the list of scenes that are made in code.
 struct BuiltinScene {
@@ -37,3 +37,4 @@ bool check_builtin_scene(const std::string& text);
 std::optional<Scene> make_builtin_scene(const std::string& text);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/scene/material.h"
 #include "zoneplate/shade/texture/texture.h"
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// Looks up a texture at `uv`, for user shaders (render/user_shader.h): red, green, blue and straight alpha; colours
 /// are linear.
@@ -16,3 +16,4 @@ namespace ZONEPLATE_API zoneplate {
 float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 dx, float2 dy);
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

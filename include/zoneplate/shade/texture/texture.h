@@ -3,14 +3,14 @@
 
 #include <memory>
 
-#include "zoneplate/base/api.h"
 #include "zoneplate/scene/texel_image.h"
 
 namespace zoneplate {
 struct TextureView;  // shade/texture/texture_view.h
 }  // namespace zoneplate
 
-namespace ZONEPLATE_API zoneplate {
+#pragma GCC visibility push(default)
+namespace zoneplate {
 
 /// How the texels of an image are interpreted.
 enum class TexelMeaning {
@@ -59,3 +59,4 @@ class Texture {
 };
 
 }  // namespace zoneplate
+#pragma GCC visibility pop

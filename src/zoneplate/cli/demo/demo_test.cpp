@@ -26,7 +26,7 @@ std::string message_of(const std::vector<std::string>& arguments) {
   try {
     run_demo(arguments);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
     return error.what();
   }
   return "no error";
@@ -102,7 +102,7 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
       // The last lesson is the slowest: at this size it takes minutes.
       run_demo(std::vector<std::string>{lesson, "-o", root + output, "--panel", "1024"});
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Output);
+      EXPECT_EQ(error.kind(), ErrorKind::Output);
       return std::string(error.what()).substr(root.size());
     }
     return std::string("no error");

@@ -56,7 +56,7 @@ class Jobs {
     try {
       return read(job, JsonView(job, line.place));
     } catch (const Error& error) {
-      if (error.trouble() != ErrorKind::Usage) throw;
+      if (error.kind() != ErrorKind::Usage) throw;
       throw Error(ErrorKind::Usage, line.place + ": " + error.what());
     }
   }

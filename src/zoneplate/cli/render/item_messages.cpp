@@ -87,8 +87,8 @@ void ItemSender::film_frame(const Rgba8Image& image) {
   send(Kind::FilmFrame, 0, 0, {first, image.values().size_bytes()});
 }
 void ItemSender::result(std::span<const std::uint8_t> bytes) { send(Kind::Result, 0, 0, bytes); }
-void ItemSender::failure(ErrorKind trouble, const std::string& message) {
-  send(Kind::Failure, static_cast<int>(trouble), 0, bytes_of(message));
+void ItemSender::failure(ErrorKind kind, const std::string& message) {
+  send(Kind::Failure, static_cast<int>(kind), 0, bytes_of(message));
 }
 void ItemSender::needs_library(Library library, const std::string& message) {
   send(Kind::NeedsLibrary, static_cast<int>(library), 0, bytes_of(message));

@@ -37,7 +37,7 @@ class ItemSender {
   void film_frame(const Rgba8Image& image);
   /// The end of a job: its result, an error, or the library without which it cannot go on.
   void result(std::span<const std::uint8_t> bytes);
-  void failure(ErrorKind trouble, const std::string& message);
+  void failure(ErrorKind kind, const std::string& message);
   void needs_library(Library library, const std::string& message);
 
   /// Whether the job at work has called has_read.

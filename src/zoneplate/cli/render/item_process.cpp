@@ -78,9 +78,9 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     } catch (const Error& error) {
       // Errors after reading, or while rendering, do not contain the model's name.
       const std::string message = error.what();
-      const bool needs_name = sender.is_past_reading() || error.trouble() == ErrorKind::Failed;
+      const bool needs_name = sender.is_past_reading() || error.kind() == ErrorKind::Failed;
       const bool is_named = !needs_name || message.find(limits_.name) != message.npos;
-      sender.failure(error.trouble(), is_named ? message : limits_.name + ": " + message);
+      sender.failure(error.kind(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
                      out_of_memory(limits_, error, sender.is_past_reading()));
@@ -96,7 +96,7 @@ void ItemProcess::read(std::span<std::uint8_t> out) {
   try {
     child_->read(out.data(), out.size());
   } catch (const Error& error) {
-    if (has_read_ && error.trouble() == ErrorKind::Input) throw Error(ErrorKind::Failed, error.what());
+    if (has_read_ && error.kind() == ErrorKind::Input) throw Error(ErrorKind::Failed, error.what());
     throw;
   }
 }

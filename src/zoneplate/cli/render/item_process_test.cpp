@@ -41,7 +41,7 @@ Ending ending_of(ItemProcess& process, const ItemEvents& events = {}) {
     process.next(events);
     return {};
   } catch (const Error& error) {
-    return {error.trouble(), error.what()};
+    return {error.kind(), error.what()};
   }
 }
 

@@ -54,7 +54,7 @@ TEST_F(SignalLoad, SaysWhatIsWrongWithAFile) {
       load_signal(at(name), false);
       ADD_FAILURE() << name;
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Input);
+      EXPECT_EQ(error.kind(), ErrorKind::Input);
       EXPECT_TRUE(contains(error.what(), name)) << error.what();
     }
   }

@@ -58,11 +58,11 @@ class SignalVerb : public testing::Test {
   }
   /// The message of the error that is thrown, which has to be of this kind.
   template <class Run>
-  static std::string refusal(Run run, const Words& words, ErrorKind trouble = ErrorKind::Usage) {
+  static std::string refusal(Run run, const Words& words, ErrorKind kind = ErrorKind::Usage) {
     try {
       out(run, words);
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), trouble) << error.what();
+      EXPECT_EQ(error.kind(), kind) << error.what();
       return error.what();
     }
     return "no error";

@@ -144,7 +144,7 @@ TEST(Assimp, SaysWhyNot) {
       load_scene(path, {.limits = limits, .format = format, .choice = {}});
       return std::string();
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Input);
+      EXPECT_EQ(error.kind(), ErrorKind::Input);
       EXPECT_TRUE(std::string(error.what()).starts_with(path + ": ")) << error.what();
       return std::string(error.what());
     }

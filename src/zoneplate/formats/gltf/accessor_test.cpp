@@ -23,7 +23,7 @@ std::string error_of(const GltfMaker& m, const std::string& number, Read read, c
   try {
     read_last(m, number, read, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     return e.what();
   }
   return "no error";

@@ -93,7 +93,7 @@ TEST(GltfAnimation, ListsNamesAndSpansAndPlaysAllOrOne) {
     load_gltf(path, {}, {.animation = 1});
     FAIL();
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(e.kind(), ErrorKind::Usage);
     EXPECT_STREQ(e.what(), "--animation-index: the file has animations 0 to 0, not 1");
   }
 }
@@ -102,7 +102,7 @@ std::string refusal(const GltfMaker& m) {
   try {
     at(m, 1.5);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     const std::string text = e.what();
     return text.substr(text.find("animation 0"));
   }

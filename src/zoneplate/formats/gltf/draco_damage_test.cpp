@@ -74,7 +74,7 @@ bool is_mesh(const Packed& sheet, const Bytes& bytes) {
     is_good = true;
   } catch (const Error& error) {
     const std::string line = error.what();
-    EXPECT_EQ(error.trouble(), ErrorKind::Input) << line;
+    EXPECT_EQ(error.kind(), ErrorKind::Input) << line;
     EXPECT_EQ(line.find("a.glb"), 0u) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   }

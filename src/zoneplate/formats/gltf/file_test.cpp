@@ -13,7 +13,7 @@ std::string error_of(const std::string& path, const LoadLimits& limits = {}) {
   try {
     load_gltf(path, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     EXPECT_EQ(std::string(e.what()).rfind(path, 0), 0u) << e.what();
     EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
     return e.what();

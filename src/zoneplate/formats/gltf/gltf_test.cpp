@@ -219,7 +219,7 @@ TEST(Gltf, MissingFilesAreNamed) {
     load_gltf("/nowhere/x.glb");
     FAIL();
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     EXPECT_NE(std::string(e.what()).find("/nowhere/x.glb"), std::string::npos);
   }
 }

@@ -17,7 +17,7 @@ std::string error_of(const std::string& text, const LoadLimits& limits = {}) {
   try {
     parse(text, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     return e.what();
   }
   return "";

@@ -22,7 +22,7 @@ inline std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
   try {
     load(m, limits);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     const std::string text = e.what();
     return text.substr(text.find("f.glb: ") + 7);
   }

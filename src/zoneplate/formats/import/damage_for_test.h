@@ -42,7 +42,7 @@ std::string load_soundly(const Load& load, const std::string& path) {
     expect_sound(load(path, {.memory = 1 << 24, .pixels = 1 << 20, .seconds = 5}));
     return "";
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
     return e.what();
   }

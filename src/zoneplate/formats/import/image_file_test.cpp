@@ -21,7 +21,7 @@ std::string error_of(const Bytes& bytes) {
   try {
     decode_image(bytes, "tex", 100);
   } catch (const Error& e) {
-    EXPECT_EQ(e.trouble(), ErrorKind::Input);
+    EXPECT_EQ(e.kind(), ErrorKind::Input);
     return e.what();
   }
   return "no error";

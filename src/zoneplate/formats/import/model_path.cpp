@@ -135,7 +135,7 @@ FileBytes open_found(const std::string& folder, const std::string& path, std::sp
     return FileBytes(name, limit);
   } catch (const Error& error) {
     const std::string text = error.what();
-    throw Error(error.trouble(), text.starts_with(name) ? path + text.substr(name.size()) : text);
+    throw Error(error.kind(), text.starts_with(name) ? path + text.substr(name.size()) : text);
   }
 }
 

@@ -80,7 +80,7 @@ TEST(SceneBytes, AreNotTrusted) {
     try {
       expect_sound(read(bytes, {.memory = 1 << 24, .pixels = 1 << 20}));
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Input);
+      EXPECT_EQ(error.kind(), ErrorKind::Input);
       ++refused;
     }
     if (HasFatalFailure()) FAIL() << "case " << i;

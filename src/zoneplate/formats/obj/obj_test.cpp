@@ -43,7 +43,7 @@ class ObjModel : public testing::Test {
     try {
       load(text, limits);
     } catch (const Error& error) {
-      EXPECT_EQ(error.trouble(), ErrorKind::Input);
+      EXPECT_EQ(error.kind(), ErrorKind::Input);
       return without_folder(error.what());
     }
     return "loaded";
@@ -269,7 +269,7 @@ TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
     load_obj((folder_ / "missing.obj").string());
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
   }
 }
 
@@ -422,7 +422,7 @@ TEST_F(ObjModel, SurvivesAnyChange) {
       with_threads(1, [&] { scene = load(changed, limits); });
       expect_sound(scene);
     } catch (const Error& error) {
-      ASSERT_EQ(error.trouble(), ErrorKind::Input) << error.what();
+      ASSERT_EQ(error.kind(), ErrorKind::Input) << error.what();
     }
   }
 }
@@ -453,7 +453,7 @@ TEST_P(SharedInvalidObj, IsRefusedOrDrawnWithAWarning) {
     expect_sound(scene);
     EXPECT_FALSE(scene.warnings.empty());
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Input);
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
   }
 }
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedInvalidObj);

@@ -26,7 +26,7 @@ std::string message_of(const std::string& text) {
   try {
     make_builtin_scene(text);
   } catch (const Error& error) {
-    EXPECT_EQ(error.trouble(), ErrorKind::Usage);
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
     return error.what();
   }
   return "no error";
