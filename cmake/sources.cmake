@@ -9,7 +9,7 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # One scene, one image, on every compiler: no contraction of a * b + c, no fast-math (docs/architecture.md).
 add_library(zoneplate_flags INTERFACE)
-target_compile_options(zoneplate_flags INTERFACE -ffp-contract=off -fno-semantic-interposition -Wall -Wextra -Wshadow -Wconversion
+target_compile_options(zoneplate_flags INTERFACE -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition> -Wall -Wextra -Wshadow -Wconversion
                        -Wno-missing-field-initializers # designated initialisers leave out what keeps its default
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                        $<$<CXX_COMPILER_ID:Clang>:-Wno-undefined-var-template>) # tables of PerIsa (base/isa.h) have sources of their own

@@ -72,11 +72,32 @@ constexpr void transform(Range&& range, Out out, Change change) {
 }
 template <class Range, class Condition>
 constexpr bool any_of(Range&& range, Condition condition) {
-  return std::any_of(std::begin(range), std::end(range), condition);
+  return std::any_of(std::begin(range), std::end(range), [&](auto&& x) { return std::invoke(condition, x); });
 }
-template <class Range, class Order>
-void sort(Range&& range, Order order) {
-  std::sort(std::begin(range), std::end(range), order);
+template <class Range, class Condition>
+constexpr bool all_of(Range&& range, Condition condition) {
+  return std::all_of(std::begin(range), std::end(range), [&](auto&& x) { return std::invoke(condition, x); });
+}
+template <class Range, class Condition>
+constexpr bool none_of(Range&& range, Condition condition) {
+  return !ranges::any_of(range, condition);
+}
+template <class Range, class Condition>
+constexpr auto count_if(Range&& range, Condition condition) {
+  return std::count_if(std::begin(range), std::end(range), [&](auto&& x) { return std::invoke(condition, x); });
+}
+template <class In, class Count, class Out>
+constexpr void copy_n(In in, Count count, Out out) {
+  std::copy_n(in, count, out);
+}
+template <class Range, class T>
+constexpr void fill(Range&& range, const T& value) {
+  std::fill(std::begin(range), std::end(range), value);
+}
+template <class Range, class Order = std::less<>, class Part = identity>
+void sort(Range&& range, Order order = {}, Part part = {}) {
+  std::sort(std::begin(range), std::end(range),
+            [&](auto&& a, auto&& b) { return std::invoke(order, std::invoke(part, a), std::invoke(part, b)); });
 }
 template <class Range, class T>
 constexpr auto count(Range&& range, const T& value) {
