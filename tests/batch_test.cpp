@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using zoneplate::text_of;
 
 // Runs the program in an empty folder of its own, which is removed at the end.
-class FragmentBatch : public zoneplate::ProgramTest {
+class BatchRun : public zoneplate::ProgramTest {
  protected:
   // The exit code; stdout's lines are left in `lines`, stderr in `complaint`.
   int run(const std::string& arguments) {
@@ -50,7 +50,7 @@ class FragmentBatch : public zoneplate::ProgramTest {
   std::string complaint;
 };
 
-TEST_F(FragmentBatch, SeveralInputsGiveALineEachAndFailuresExitFive) {
+TEST_F(BatchRun, SeveralInputsGiveALineEachAndFailuresExitFive) {
   EXPECT_EQ(run("teapot nothing.stl sphere:triangles=12 -o '{model}.png' --size 16x16"), 5);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[0]["status"], "done");
@@ -62,7 +62,7 @@ TEST_F(FragmentBatch, SeveralInputsGiveALineEachAndFailuresExitFive) {
   EXPECT_EQ(run("teapot triangles -o one.png"), 2);
 }
 
-TEST_F(FragmentBatch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
+TEST_F(BatchRun, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
   std::string manifest;
   for (int i = 0; i < 7; ++i)
     manifest += R"({"input":"sphere:triangles=)" + std::to_string(12 * (i + 1) * (i + 1)) + R"(","output":"DIR/)" +
@@ -90,7 +90,7 @@ TEST_F(FragmentBatch, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere)
   EXPECT_EQ(text_of(place / "whole/4.png"), text_of(place / "parts/4.png"));
 }
 
-TEST_F(FragmentBatch, AManifestsBadLinesAreNamed) {
+TEST_F(BatchRun, AManifestsBadLinesAreNamed) {
   write("jobs.jsonl",
         "{\"input\":\"teapot\",\"output\":\"a.png\"}\n{]\n{\"output\":\"b.png\"}\n"
         "{\"input\":\"teapot\",\"output\":\"b.png\",\"siz\":\"8x8\"}\n"
@@ -106,7 +106,7 @@ TEST_F(FragmentBatch, AManifestsBadLinesAreNamed) {
   EXPECT_NE(complaint.find("jobs.jsonl: line 6: manifest is for all jobs together"), std::string::npos) << complaint;
 }
 
-TEST_F(FragmentBatch, TheShardIsReadFromTheScheduler) {
+TEST_F(BatchRun, TheShardIsReadFromTheScheduler) {
   fs::create_directory(place / "out");
   write("jobs.jsonl",
         "{\"input\":\"teapot\",\"output\":\"out/0.png\"}\n{\"input\":\"teapot\",\"output\":\"out/1.png\"}\n");
@@ -120,7 +120,7 @@ TEST_F(FragmentBatch, TheShardIsReadFromTheScheduler) {
   EXPECT_EQ(run("--manifest jobs.jsonl --size 8x8 --shard 2/2"), 2);
 }
 
-TEST_F(FragmentBatch, TurntablesAreNumberedOrFilms) {
+TEST_F(BatchRun, TurntablesAreNumberedOrFilms) {
   EXPECT_EQ(run("teapot -o t.###.png --turntable 4 --size 32x24"), 0) << complaint;
   EXPECT_EQ(pictures(), (std::vector<std::string>{"t.000.png", "t.001.png", "t.002.png", "t.003.png"}));
   EXPECT_NE(text_of(place / "t.000.png"), text_of(place / "t.002.png"));
@@ -146,7 +146,7 @@ std::string animated_triangle(const std::string& end) {
   "animations":[{"samplers":[{"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]})";
 }
 
-TEST_F(FragmentBatch, AnItemFailsAloneWhateverItTakes) {
+TEST_F(BatchRun, AnItemFailsAloneWhateverItTakes) {
   write("long.gltf", animated_triangle("1e30"));
   const std::string long_name(300, 'x');
   write("jobs.jsonl",
@@ -178,7 +178,7 @@ TEST_F(FragmentBatch, AnItemFailsAloneWhateverItTakes) {
   EXPECT_EQ(run("long.gltf -o d.####.png --frame-start 0 --size 8x8"), 3) << complaint;
 }
 
-TEST_F(FragmentBatch, ASandboxedItemOpensTheLibraryThatItNeeds) {
+TEST_F(BatchRun, ASandboxedItemOpensTheLibraryThatItNeeds) {
   ASSERT_EQ(run("checkerboard -o board.exr --size 16x16"), 0) << complaint;
   write("quad.mtl", "newmtl a\nmap_Kd board.exr\n");
   write("quad.obj",
@@ -190,7 +190,7 @@ TEST_F(FragmentBatch, ASandboxedItemOpensTheLibraryThatItNeeds) {
   EXPECT_EQ(text_of(place / "boxed.png"), text_of(place / "open.png"));
 }
 
-TEST_F(FragmentBatch, AContactSheetShowsEveryInputOrItsTrouble) {
+TEST_F(BatchRun, AContactSheetShowsEveryInputOrItsTrouble) {
   EXPECT_EQ(run("contact-sheet teapot nothing.obj triangles -o sheet.png --size 48x32"), 0) << complaint;
   EXPECT_EQ(pictures(), (std::vector<std::string>{"sheet.png"}));
   EXPECT_EQ(run("contact-sheet -o sheet.png"), 2);

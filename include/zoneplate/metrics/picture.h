@@ -29,7 +29,7 @@ Picture make_picture(LinearImage linear);
 struct Codes {
   double r = 0, g = 0, b = 0;  ///< sRGB values times alpha, in [0, 1]
 };
-/// A colour over black, composited in codes.
+/// A colour composited over black in sRGB-encoded values.
 constexpr Codes codes_on_black(Display c) {
   const double alpha = c.a;
   return {c.r * alpha, c.g * alpha, c.b * alpha};

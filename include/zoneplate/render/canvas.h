@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "zoneplate/base/parallel.h"
 #include "zoneplate/render/user_shader.h"
 
 #pragma GCC visibility push(default)
@@ -39,11 +38,7 @@ class Canvas {
   template <Shader S>
   void draw(const S& shader, std::span<const std::uint32_t> indices, std::uint32_t vertices,
             const MeshOptions& options = {}) {
-    std::vector<float4> clip(vertices);
-    parallel_ranges(vertices, 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) clip[v] = shader.vertex(Vertex{static_cast<std::uint32_t>(v)}).first;
-    });
-    add(std::move(clip), indices, std::make_unique<OwnShader<S>>(shader), options);
+    add(clip_positions(shader, vertices), indices, std::make_unique<OwnShader<S>>(shader), options);
   }
 
   /// The image of all meshes so far: linear and premultiplied, without a background.

@@ -113,17 +113,24 @@ class UserFragmentShader : public FragmentShader {
   const S& shader_;
 };
 
+/// The clip positions of a shader's vertices, computed on the threads of the innermost `with_threads`.
+template <Shader S>
+std::vector<float4> clip_positions(const S& shader, std::uint32_t vertices) {
+  std::vector<float4> clip(vertices);
+  parallel_ranges(vertices, 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) clip[v] = shader.vertex(Vertex{static_cast<std::uint32_t>(v)}).first;
+  });
+  return clip;
+}
+
 /// Draws indexed triangles with a user shader; returns the linear, premultiplied image without a background.
 ///
 /// Requires  three indices per triangle, each < vertices; the shader is pure.
 template <Shader S>
 LinearImage draw(const S& shader, std::span<const std::uint32_t> indices, std::uint32_t vertices, int width, int height,
                  const DrawOptions& options = {}) {
-  std::vector<float4> clip(vertices);
-  parallel_ranges(vertices, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) clip[v] = shader.vertex(Vertex{static_cast<std::uint32_t>(v)}).first;
-  });
-  return draw_triangles(clip, indices, UserFragmentShader<S>(shader), width, height, options);
+  return draw_triangles(clip_positions(shader, vertices), indices, UserFragmentShader<S>(shader), width, height,
+                        options);
 }
 
 }  // namespace zoneplate

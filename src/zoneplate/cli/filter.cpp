@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
@@ -61,12 +62,13 @@ std::vector<FilterItem> plan(const std::string& operand, const std::string& outp
   const std::vector<std::string> inputs = metrics::list_pictures(operand);
   if (inputs.size() == 1 && inputs.front() == operand) return {{operand, output}};
   std::vector<FilterItem> items;
+  std::map<std::string, std::string> input_of;  // by output
   for (const std::string& input : inputs) {
     items.push_back({input, (fs::path(output) / fs::path(input).stem()).string() + ".png"});
-    for (std::size_t i = 0; i + 1 < items.size(); ++i)
-      if (items[i].output == items.back().output)
-        throw Error(ErrorKind::Usage, fmt::format("--output: {} and {} would both be written to {}", items[i].input,
-                                                  input, items.back().output));
+    const auto [first, is_new] = input_of.emplace(items.back().output, input);
+    if (!is_new)
+      throw Error(ErrorKind::Usage,
+                  fmt::format("--output: {} and {} would both be written to {}", first->second, input, first->first));
   }
   return items;
 }
@@ -78,8 +80,6 @@ void filter_image(const FilterItem& item, Resolver& filter, int bit_depth) {
                 item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)");
   const DisplayImage image = filter.post_process(std::move(picture.display), Frame());
   if (bit_depth == 8) return save_image(item.output, quantize8(image));
-  if (fs::path(item.output).extension() != ".png")
-    throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + item.output);
   save_bytes(item.output, encode_png(quantize16(image)));
 }
 
@@ -129,6 +129,8 @@ void run_filter(std::span<const std::string> arguments) {
     if (error) throw Error(ErrorKind::Output, args.output + ": " + error.message());
   }
   for (const FilterItem& item : items) check_savable(item.output);
+  if (args.bit_depth == 16 && extension_of(items.front().output) != ".png")
+    throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + items.front().output);
   with_threads(args.threads, [&] {
     for (const FilterItem& item : items) filter_image(item, *filter, args.bit_depth);
   });

@@ -86,10 +86,15 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
     EXPECT_EQ(run(std::string("filter a.png -o b.png --aa ") + method), 2) << method;
   EXPECT_EQ(run("filter a.png -o b.png"), 2);
   EXPECT_EQ(run("filter a.png --aa smaa"), 2);
+  ASSERT_EQ(run("triangles -o a.webp --size 16x16"), 0) << output_;
+  EXPECT_EQ(run("filter . -o all --aa smaa"), 2);  // a.png and a.webp
+  EXPECT_NE(output_.find("would both be written to all/a.png"), std::string::npos) << output_;
   EXPECT_EQ(run("filter a.exr -o b.png --aa smaa"), 3);
   EXPECT_EQ(output_,
             "zoneplate: error: a.exr: is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)\n");
   EXPECT_EQ(run("filter a.png -o b.exr --aa smaa"), 2);
+  EXPECT_EQ(run("filter a.png -o b.webp --aa smaa --bit-depth 16"), 2);
+  EXPECT_EQ(run("filter none.png -o b.webp --aa smaa --bit-depth 16"), 2);  // before the input is read
   EXPECT_EQ(run("filter none.png -o b.png --aa smaa"), 3);
   EXPECT_FALSE(exists("b.png"));
   // The model reader names the verb that reads images.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/canvas.h"
 
-#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/draw_image.h"
 
 namespace zoneplate {
 
@@ -55,15 +55,7 @@ LinearImage Canvas::resolve() const {
     draws.push_back(drawn);
     shaders.push_back(mesh.shader.get());
   }
-  LinearImage image(width_, height_, Linear{0, 0, 0, 0});
-  Target target;
-  target.viewport = {width_, height_};
-  target.width = width_, target.height = height_;
-  target.samples = samples_;
-  target.is_per_sample = is_per_sample_;
-  target.color = &image;
-  rasterize(draws, ShaderByMesh(std::move(shaders)), {}, target);
-  return image;
+  return draw_image(draws, ShaderByMesh(std::move(shaders)), width_, height_, samples_, is_per_sample_);
 }
 
 }  // namespace zoneplate

@@ -200,7 +200,6 @@ class CpuBackend : public Backend {
 Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, const Request& request,
                          const RenderOptions& options, RenderCounts* counts) {
   check(options, request);
-  RasterMemory& memory = memory_;
   const Scene& scene = prepared.scene();
   const Stopwatch prepare;
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
@@ -232,7 +231,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
     make_planes(request, crop.width, crop.height, frame, target);
   else
     make_uncoloured(request, crop.width, crop.height, frame, target);
-  if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory));
+  if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory_));
   const double prepare_ms = prepare.ms();
 
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
@@ -241,10 +240,10 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;
   const RasterCounts c = !has_color
-                             ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, memory)
-                         : request.draw ? draw_by(request, draws.draws, points, rules, target, options, memory,
+                             ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, memory_)
+                         : request.draw ? draw_by(request, draws.draws, points, rules, target, options, memory_,
                                                   frame.error.empty() ? nullptr : &frame.error, geometric)
-                                        : rasterize(draws.draws, points, rules, target, &memory);
+                                        : rasterize(draws.draws, points, rules, target, &memory_);
   if (request.content == Content::EdgeDistances)
     frame.edge_distance = edge_distances_of(std::exchange(frame.color, {}));
   if (target.reversed_depth) find_distances(clip_from_camera, frame);

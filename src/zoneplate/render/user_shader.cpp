@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/user_shader.h"
 
-#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/draw_image.h"
 
 namespace zoneplate {
 
@@ -12,16 +12,7 @@ LinearImage draw_triangles(std::span<const float4> clip, std::span<const std::ui
   draw.index = indices;
   draw.alpha_mode = options.alpha_mode;
   draw.culls_back_faces = options.culls_back_faces;
-
-  LinearImage image(width, height, Linear{0, 0, 0, 0});
-  Target target;
-  target.viewport = {width, height};
-  target.width = width, target.height = height;
-  target.samples = options.samples;
-  target.is_per_sample = options.is_per_sample;
-  target.color = &image;
-  rasterize(std::span(&draw, 1), shader, {}, target);
-  return image;
+  return draw_image(std::span(&draw, 1), shader, width, height, options.samples, options.is_per_sample);
 }
 
 }  // namespace zoneplate

@@ -210,6 +210,19 @@ TEST(Texture, HalfFloatsStoreWhatTheyRepresentExactly) {
   EXPECT_TRUE(stores_halves({65536, 1, 1, 1}, TexelMeaning::Values));
 }
 
+/// Channel c of texel t of level l: the mean of the area that it covers of the level before, whose texels are `source`.
+template <class Values>
+double mean_by_area(const TextureView& view, int l, const Values& source, int t, int c) {
+  const int w = view.width[l - 1], h = view.height[l - 1];
+  double sum = 0, total = 0;
+  for (int s = 0; s < w * h; ++s) {
+    const auto area = static_cast<double>(overlap(s % w, w, t % view.width[l], view.width[l]) *
+                                          overlap(s / w, h, t / view.width[l], view.height[l]));
+    sum += area * source[static_cast<std::size_t>(4 * s + c)], total += area;
+  }
+  return sum / total;
+}
+
 TEST(Texture, LevelsOfHalfFloatsAreRoundedMeansByArea) {
   const int sizes[][2] = {{16, 16}, {13, 7}, {1, 9}, {6, 1}, {31, 33}};
   for (const auto& size : sizes) {
@@ -219,16 +232,10 @@ TEST(Texture, LevelsOfHalfFloatsAreRoundedMeansByArea) {
     ASSERT_NE(view.halves, nullptr);
     for (int l = 1; l < view.levels; ++l) {
       const auto source = values_of(view, l - 1), values = values_of(view, l);
-      const int w = view.width[l - 1], h = view.height[l - 1];
       for (int t = 0; t < view.width[l] * view.height[l]; ++t)
         for (int c = 0; c < 4; ++c) {
-          double sum = 0, total = 0;
-          for (int s = 0; s < w * h; ++s) {
-            const auto area = static_cast<double>(overlap(s % w, w, t % view.width[l], view.width[l]) *
-                                                  overlap(s / w, h, t / view.width[l], view.height[l]));
-            sum += area * source[static_cast<std::size_t>(4 * s + c)], total += area;
-          }
-          const float expected = half_value(half_bits(static_cast<float>(sum / total)));
+          const double mean = mean_by_area(view, l, source, t, c);
+          const float expected = half_value(half_bits(static_cast<float>(mean)));
           ASSERT_EQ(values[static_cast<std::size_t>(4 * t + c)], expected)
               << size[0] << "x" << size[1] << " level " << l;
         }
@@ -244,17 +251,11 @@ TEST(Texture, LevelsOfFloatsAreMeansByArea) {
     ASSERT_NE(view.values, nullptr);
     for (int l = 1; l < view.levels; ++l) {
       const auto source = values_of(view, l - 1), values = values_of(view, l);
-      const int w = view.width[l - 1], h = view.height[l - 1];
       for (int t = 0; t < view.width[l] * view.height[l]; ++t)
         for (int c = 0; c < 4; ++c) {
-          double sum = 0, total = 0;
-          for (int s = 0; s < w * h; ++s) {
-            const auto area = static_cast<double>(overlap(s % w, w, t % view.width[l], view.width[l]) *
-                                                  overlap(s / w, h, t / view.width[l], view.height[l]));
-            sum += area * source[static_cast<std::size_t>(4 * s + c)], total += area;
-          }
-          const float mean = values[static_cast<std::size_t>(4 * t + c)];
-          ASSERT_NEAR(mean, sum / total, sum / total * 0x1p-24 * 1.001) << size[0] << "x" << size[1] << " level " << l;
+          const double mean = mean_by_area(view, l, source, t, c);
+          const float value = values[static_cast<std::size_t>(4 * t + c)];
+          ASSERT_NEAR(value, mean, mean * 0x1p-24 * 1.001) << size[0] << "x" << size[1] << " level " << l;
         }
     }
   }
