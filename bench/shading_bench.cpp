@@ -3,12 +3,14 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <string>
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/raster/fragment/interpolate.h"
 #include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
+#include "zoneplate/shade/texture/area_filters.h"
 #include "zoneplate/shade/texture/filtering.h"
 #include "zoneplate/shade/texture/texture.h"
 
@@ -78,6 +80,31 @@ void sample_anisotropic(benchmark::State& state) {
   time_groups(state, [&] { l.kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, points); });
 }
 
+/// A filter with its own kernel, on footprints of 1.3 by 5.2 texels; `isa`: that of the kernel.
+void sample_area(benchmark::State& state, TextureFilter::Kind kind, Isa isa) {
+  Looks l(TexelMeaning::Color, 4);
+  alignas(64) static float random[3][points];
+  for (std::uint32_t n = 0; n < 3; ++n)
+    for (std::uint32_t i = 0; i < points; ++i) random[n][i] = unit_float(hash(i, n));
+  Footprint footprint = l.footprint();
+  for (int n = 0; n < 3; ++n) footprint.random[n] = random[n];
+  const SamplerState filtering = make_filtering({}, 1, {kind, 16});
+  with_isa(isa, [&] { time_groups(state, [&] { sample_area(l.texture, filtering, footprint, l.out, points); }); });
+}
+
+/// The same for filters of FilteringKernels.
+void sample_taps(benchmark::State& state, TextureFilter::Kind kind, Isa isa) {
+  Looks l(TexelMeaning::Color, 4);
+  const SamplerState filtering = make_filtering({}, 1, {kind, 16});
+  const FilteringKernels& kernels = FilteringKernels::of(isa);
+  time_groups(state, [&] {
+    if (filtering.anisotropy > 1)
+      return kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, points);
+    kernels.find_taps(l.texture.view(), filtering, l.footprint(), l.taps, points);
+    kernels.mix_taps(l.texture.view(), l.taps, l.out, points);
+  });
+}
+
 /// A batch of one triangle's rows, or of fragments that each have a triangle of their own.
 struct Surface {
   ScreenVertex screen[3] = {{0, 0, 0.5f, 0.3f}, {200000, 1000, 0.4f, 0.31f}, {1000, 150000, 0.3f, 0.32f}};
@@ -145,6 +172,18 @@ BENCHMARK_CAPTURE(find_weights, points, false);
 BENCHMARK_CAPTURE(interpolate, rows, true);
 BENCHMARK_CAPTURE(interpolate, points, false);
 BENCHMARK(light_phong);
+
+/// Every texture filter, by vectors and by its scalar twin.
+void register_filters() {
+  using Kind = TextureFilter::Kind;
+  for (const TextureFilterEntry& filter : texture_filters())
+    for (const Isa isa : {best_isa(), Isa::Scalar}) {
+      const bool has_taps = make_filtering({}, 1, {filter.kind, 16}).kind == Kind::BySampler;
+      const std::string name = "texture_filter/" + std::string(filter.name) + "/" + std::string(name_of(isa));
+      benchmark::RegisterBenchmark(name.c_str(), has_taps ? sample_taps : sample_area, filter.kind, isa);
+    }
+}
+const bool are_filters_registered = (register_filters(), true);
 
 }  // namespace
 }  // namespace zoneplate

@@ -251,7 +251,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {1,
        {"triangles", "-o", "a.png", "--size", "16384,16384", "--max-memory", "1G"},
        "triangles: an image of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},
-      {2, {"list", "method"}, "'method' is not one of methods, scenes, formats; did you mean methods?"},
+      {2, {"list", "method"}, "'method' is not one of methods, scenes, formats, texture-filters; did you mean methods?"},
       {2, {"info"}, "info takes one input: a model or a built-in scene"},
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
       {3,

@@ -85,7 +85,7 @@ void compare(const Case& c, int samples, double budget_ms, const std::string& pi
   Times theirs{};
   if (is_drawn_by_mesa) theirs = time_frames(budget_ms, [&] { mesa.frame(); });
 
-  Renderer renderer(PreparedScene(scene, true),
+  Renderer renderer(PreparedScene(scene, {.raw_colors = true}),
                     make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples)));
   const RenderSettings settings{
       .options = {.width = work.width,

@@ -18,6 +18,7 @@ struct Planes {
   bool normal = false, albedo = false, uv = false;  ///< as in Frame
   bool object_id = false, material_id = false, primitive_id = false, coverage = false;  ///< as in Frame
   bool position = false, motion = false, flow = false;                                  ///< as in Frame
+  bool mip_level = false, anisotropy = false;                                           ///< as in Frame
   bool error = false;             ///< only of methods that estimate it
   bool samples = false;           ///< colour, depth and triangle id of every sample
   bool sample_triangles = false;  ///< triangle id of every sample alone
@@ -27,8 +28,8 @@ struct Planes {
   bool any_point_plane() const { return position || motion || flow; }
   /// True if a plane by pixel is requested that visibility decides: all but `error`, `samples` and `sample_colors`.
   bool any_pixel_plane() const {
-    return depth || normal || albedo || uv || object_id || material_id || primitive_id || coverage ||
-           any_point_plane() || sample_triangles;
+    return depth || normal || albedo || uv || mip_level || anisotropy || object_id || material_id || primitive_id ||
+           coverage || any_point_plane() || sample_triangles;
   }
   /// True if anything is requested.
   bool any() const { return any_pixel_plane() || error || samples || sample_colors; }
@@ -58,6 +59,8 @@ struct Frame {
   Plane<float3> normal;         ///< world space, unit length, towards the viewer
   Plane<float3> albedo;         ///< linear base colour
   Plane<float2> uv;             ///< texture coordinates of the base colour
+  Plane<float> mip_level;   ///< level of detail in the base colour's texture; FragmentOutputs::no_mip_level without one
+  Plane<float> anisotropy;  ///< longer over shorter axis of the footprint in that texture; 0 without one
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id in empty pixels
   Plane<std::uint32_t> instance;                              ///< index into Scene::instances
   Plane<float3> position;                                     ///< world space
@@ -96,7 +99,8 @@ struct Frame {
   template <class Use>
   static void for_data_planes(Frame& a, Frame& b, Use use) {
     use(a.data_position, b.data_position), use(a.depth, b.depth), use(a.reversed_depth, b.reversed_depth);
-    use(a.normal, b.normal), use(a.albedo, b.albedo), use(a.uv, b.uv), use(a.object_id, b.object_id);
+    use(a.normal, b.normal), use(a.albedo, b.albedo), use(a.uv, b.uv);
+    use(a.mip_level, b.mip_level), use(a.anisotropy, b.anisotropy), use(a.object_id, b.object_id);
     use(a.material_id, b.material_id), use(a.primitive_id, b.primitive_id), use(a.instance, b.instance);
     use(a.position, b.position), use(a.motion, b.motion), use(a.flow, b.flow), use(a.coverage, b.coverage);
     use(a.error, b.error);

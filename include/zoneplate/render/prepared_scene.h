@@ -5,6 +5,7 @@
 
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/scene/texture_filter.h"
 
 namespace zoneplate {
 class TextureSet;
@@ -21,13 +22,12 @@ namespace zoneplate {
 /// Copies share the data, which are immutable. Several threads may use one copy.
 class PreparedScene {
  public:
-  /// Makes texture levels and vertex buffers, on the threads of the innermost `with_threads`. With `raw_colors` the
-  /// values of images are taken as linear, not decoded from sRGB. The images of the scene are freed as soon as their
-  /// levels are made.
+  /// Makes texture levels and vertex buffers, on the threads of the innermost `with_threads`. The images of the scene
+  /// are freed as soon as their levels are made.
   ///
   /// Requires  a scene that meets the requirements of Scene.
   /// Errors    ErrorKind::Input where an image that a material uses is empty; OutOfMemory.
-  explicit PreparedScene(Scene scene, bool raw_colors = false);
+  explicit PreparedScene(Scene scene, const MipOptions& mips = {});
 
   /// The same scene at another moment: it shares the texture levels of `other` and makes its own vertex buffers.
   ///

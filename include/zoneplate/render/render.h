@@ -10,6 +10,7 @@
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/scene/texture_filter.h"
 
 #pragma GCC visibility push(default)
 namespace zoneplate {
@@ -47,6 +48,8 @@ struct RenderOptions {
   Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
   bool cull_back_faces = true;                  ///< of single-sided materials
   int anisotropy = 1;  ///< maximum texture probes along a footprint, for all samplers that blend mip levels; at most 16
+  TextureFilter texture_filter;                                   ///< of all textures; by default that of each sampler
+  SpecularAntialiasing specular_aa = SpecularAntialiasing::None;  ///< of metallic-roughness materials
   bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;  ///< pixels
   RasterCapacity capacity;               ///< trades memory for time; does not change any bit of the image

@@ -36,7 +36,7 @@ class Sequence {
   /// A static scene; only the camera may move.
   Sequence(PreparedScene scene, const SequenceTiming& timing);
   /// An animated scene, which is loaded again for each frame.
-  Sequence(SceneLoader loader, bool raw_colors, const SequenceTiming& timing);
+  Sequence(SceneLoader loader, const MipOptions& mips, const SequenceTiming& timing);
 
   /// Chooses the camera of frame 0, for images of this aspect ratio (width / height). Must be called before functions
   /// that use the camera.
@@ -62,7 +62,7 @@ class Sequence {
   void add_turns(Scene& all) const;
 
   SceneLoader loader_;  ///< empty for a static scene
-  bool raw_colors_ = false;
+  MipOptions mips_;
   SequenceTiming timing_;
   std::optional<PreparedScene> scene_;
   double frame_ = 0;  ///< of `scene_`

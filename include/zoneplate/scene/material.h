@@ -86,8 +86,14 @@ struct Material {
   TextureUse emissive_texture;    ///< multiplies `emissive`
   TextureUse normal_texture;      ///< normals in tangent space: red, green and blue in [0, 1] are x, y and z in [-1, 1]
   float normal_scale = 1;         ///< multiplies x and y of the normal texture
-  TextureUse occlusion_texture;   ///< red channel
-  float occlusion_strength = 1;   ///< 0: no occlusion; 1: as the texture has it
+  /// Heights along the normal, in the red channel: their gradient turns the normal of the shading (bump mapping). It
+  /// counts where there is no normal texture.
+  TextureUse height_texture;
+  float height_scale = 1;   ///< height of the value 1 above the value 0, in world units
+  int parallax_layers = 0;  ///< above 0: the coordinates of all textures move to where the ray meets the heights, which
+                            ///< lie below the surface, found in so many steps (parallax occlusion mapping)
+  TextureUse occlusion_texture;  ///< red channel
+  float occlusion_strength = 1;  ///< 0: no occlusion; 1: as the texture has it
 
   float metallic = 1, roughness = 1;      ///< metallic-roughness only
   TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
@@ -98,14 +104,14 @@ struct Material {
 
 /// A texture slot of a material.
 struct MaterialTextureSlot {
-  std::string_view gltf_name;  ///< the property of a glTF material with this texture
+  std::string_view gltf_name;  ///< the property of a glTF material with this texture; empty: none
   TextureUse Material::*use;   ///< the member of Material that is the slot
   bool is_color;               ///< sRGB-encoded, otherwise linear
   bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
 };
 
 /// The number of texture slots of a material.
-inline constexpr std::size_t texture_slot_count = 5;
+inline constexpr std::size_t texture_slot_count = 6;
 /// Indices into `material_texture_slots`.
 enum class TextureSlotIndex {
   BaseColor,          ///< Material::base_color_texture
@@ -113,6 +119,7 @@ enum class TextureSlotIndex {
   Emissive,           ///< Material::emissive_texture
   Normal,             ///< Material::normal_texture
   Occlusion,          ///< Material::occlusion_texture
+  Height,             ///< Material::height_texture
 };
 /// The texture slots of every material, by TextureSlotIndex.
 inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_texture_slots = {
@@ -120,7 +127,8 @@ inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_te
      {"metallicRoughnessTexture", &Material::metallic_roughness_texture, false, true},
      {"emissiveTexture", &Material::emissive_texture, true, false},
      {"normalTexture", &Material::normal_texture, false, false},
-     {"occlusionTexture", &Material::occlusion_texture, false, false}}};
+     {"occlusionTexture", &Material::occlusion_texture, false, false},
+     {"", &Material::height_texture, false, false}}};
 
 /// The textures of a material, by slot.
 inline std::array<const TextureUse*, texture_slot_count> texture_slots(const Material& material) {

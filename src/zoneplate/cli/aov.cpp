@@ -13,6 +13,8 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/metrics/flip/magma.h"
+#include "zoneplate/raster/types/batch.h"
 #include "zoneplate/render/cryptomatte.h"
 
 namespace zoneplate::cli {
@@ -155,6 +157,20 @@ std::vector<std::uint8_t> motion_picture(const Frame& frame, const Scene&) {
                       [&](float2 m) { return circle_color(atan2(m.y, m.x) / two_pi, length(m) * scale); });
 }
 
+// White where the texture is magnified by two or more, then once around the colour circle in eight levels.
+std::vector<std::uint8_t> mip_level_picture(const Frame& frame, const Scene&) {
+  return data_picture(frame, frame.mip_level, data, [](float level) {
+    if (level == FragmentOutputs::no_mip_level) return nothing;
+    return circle_color(std::clamp(level, 0.0f, 7.5f) / 8, std::clamp(level + 1, 0.0f, 1.0f));
+  });
+}
+
+// By its logarithm: black for footprints as wide as long, pale yellow at a ratio of 16.
+std::vector<std::uint8_t> anisotropy_picture(const Frame& frame, const Scene&) {
+  return data_picture(frame, frame.anisotropy, data,
+                      [](float ratio) { return ratio > 0 ? metrics::magma(log2(ratio) / 4) : nothing; });
+}
+
 std::vector<std::uint8_t> coverage_picture(const Frame& frame, const Scene&) {
   Plane<std::uint16_t> image(frame.coverage.width(), frame.coverage.height());
   for (std::size_t i = 0; i < image.values().size(); ++i)
@@ -192,6 +208,8 @@ constexpr Encoder encoders[] = {{"depth", depth_picture},
                                 {"primitive-id", id_picture<&Frame::primitive_id>},
                                 {"crypto-object", matte_picture<MatteKind::Object>},
                                 {"crypto-material", matte_picture<MatteKind::Material>},
+                                {"mip-level", mip_level_picture},
+                                {"anisotropy", anisotropy_picture},
                                 {"coverage", coverage_picture},
                                 {"error", error_picture}};
 

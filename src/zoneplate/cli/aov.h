@@ -25,6 +25,10 @@ namespace zoneplate::cli {
 /// motion, flow 8-bit: the hue is the direction (red to the right, green-yellow down), the saturation the length, full
 ///              at the maximum of the image, which is in the tEXt chunk "greatest", in pixels. Black where it is
 ///              not finite.
+/// mip-level    white where the base colour's texture is magnified, then a hue for each level: red 0, yellow 1⅓, green
+/// 2⅔,
+///              cyan 4, blue 5⅓, magenta 6⅔; transparent without a texture.
+/// anisotropy   from black (1) to pale yellow (16 and above), by the logarithm; transparent without a texture.
 /// coverage     16-bit grey: fraction of the pixel's samples that a surface owns.
 /// error        16-bit grey: estimated standard error of the colour, white being the maximum of the image; that and
 ///              the root mean square, in linear light, are in the tEXt chunks "greatest" and "rms".

@@ -28,6 +28,8 @@ Frame frame() {
   f.uv = plane(float2{0.5f, 1.25f}, float2{-0.25f, 0}, float2{});
   f.object_id = f.material_id = f.primitive_id = plane(0u, 1u, Frame::no_id);
   f.coverage = plane(1.0f, 0.5f, 0.0f);
+  f.mip_level = plane(4.0f, -2.0f, 0.0f);
+  f.anisotropy = plane(16.0f, 1.0f, 0.0f);
   f.position = plane(float3{1, 2, 3}, float3{2, 0, 3}, float3{});
   f.motion = plane(float2{4, 0}, float2{0, 2}, float2{});
   f.flow = plane(float2{-4, 0}, float2{}, float2{});
@@ -140,6 +142,16 @@ TEST(Aov, MattesMixTheirOwnersColours) {
   EXPECT_NE(png.pixels(0, 0), picture("crypto-material").pixels(0, 0));  // another name
 }
 
+TEST(Aov, LevelsAndAnisotropyAreFalseColours) {
+  const PngImage levels = picture("mip-level"), ratios = picture("anisotropy");
+  EXPECT_EQ(levels.pixels(0, 0), (Rgba8{0, 255, 255, 255}));    // level 4: half around the circle from red
+  EXPECT_EQ(levels.pixels(1, 0), (Rgba8{255, 255, 255, 255}));  // magnified
+  EXPECT_EQ(levels.pixels(2, 0), (Rgba8{0, 0, 0, 0}));          // nothing
+  EXPECT_GT(ratios.pixels(0, 0).g, 240);
+  EXPECT_LT(ratios.pixels(1, 0).g, 10);
+  EXPECT_EQ(ratios.pixels(2, 0).a, 0);
+}
+
 TEST(Aov, ChannelsAreNamedAsPipelinesExpectThem) {
   const Frame f = frame();
   const Scene s = scene();
@@ -155,7 +167,7 @@ TEST(Aov, ChannelsAreNamedAsPipelinesExpectThem) {
             "CryptoObject01.G CryptoObject01.B CryptoObject01.A CryptoObject02.R CryptoObject02.G CryptoObject02.B "
             "CryptoObject02.A CryptoMaterial00.R CryptoMaterial00.G CryptoMaterial00.B CryptoMaterial00.A "
             "CryptoMaterial01.R CryptoMaterial01.G CryptoMaterial01.B CryptoMaterial01.A CryptoMaterial02.R "
-            "CryptoMaterial02.G CryptoMaterial02.B CryptoMaterial02.A coverage error ");
+            "CryptoMaterial02.G CryptoMaterial02.B CryptoMaterial02.A mipLevel anisotropy coverage error ");
 }
 
 TEST(Aov, ChannelsAreTheValuesThemselves) {

@@ -13,6 +13,7 @@
 #include "zoneplate/formats/load.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/scene/texture_filter.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -127,6 +128,24 @@ Json formats_json() {
                       {"aovs", std::move(passes)}};
 }
 
+std::string texture_filters_text() {
+  std::string text = "Texture filters (--texture-filter NAME:PARAMETER=VALUE):\n";
+  for (const TextureFilterEntry& filter : texture_filters()) {
+    text += fmt::format("  {:<16}{}{}\n", filter.name, filter.summary,
+                        filter.source.empty() ? "" : fmt::format(" [{}]", filter.source));
+    for (const Param& param : filter.params)
+      text += fmt::format("  {:<16}  {}  {}\n", "", range_of(param), param.meaning);
+  }
+  return text;
+}
+
+Json texture_filters_json() {
+  Json::Array rows;
+  for (const TextureFilterEntry& filter : texture_filters())
+    rows.emplace_back(Json::Object{{"name", filter.name}, {"summary", filter.summary}, {"source", filter.source}});
+  return rows;
+}
+
 struct Topic {
   std::string_view name;
   std::string (*text)();
@@ -134,16 +153,18 @@ struct Topic {
 };
 constexpr Topic topics[] = {{"methods", methods_text, methods_json},
                             {"scenes", scenes_text, scenes_json},
-                            {"formats", formats_text, formats_json}};
+                            {"formats", formats_text, formats_json},
+                            {"texture-filters", texture_filters_text, texture_filters_json}};
 
 }  // namespace
 
 void run_list(std::span<const std::string> arguments) {
   bool prints_json = false;
-  Syntax syntax{.verb = "list",
-                .summary = "List the antialiasing methods, the built-in scenes and the file formats",
-                .operands = "[methods|scenes|formats]...",
-                .examples = "  zoneplate list methods\n  zoneplate list --json\n"};
+  Syntax syntax{
+      .verb = "list",
+      .summary = "List the antialiasing methods, the built-in scenes, the file formats and the texture filters",
+      .operands = "[methods|scenes|formats|texture-filters]...",
+      .examples = "  zoneplate list methods\n  zoneplate list --json\n"};
   syntax.options = {{"--json", "", "As JSON", "Options", true, [&](auto&) { prints_json = true; }}};
   if (!parse(syntax, arguments)) return;
 
@@ -151,7 +172,7 @@ void run_list(std::span<const std::string> arguments) {
   for (const Topic& topic : topics) names.push_back(topic.name);
   std::vector<std::size_t> chosen;
   for (const std::string& operand : syntax.found_operands) chosen.push_back(parse_choice(operand, names));
-  if (chosen.empty()) chosen = {0, 1, 2};
+  if (chosen.empty()) chosen = {0, 1, 2, 3};
 
   std::string text;
   Json::Object json{{"format", "zoneplate-list"}, {"version", report_version}};

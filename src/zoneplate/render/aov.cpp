@@ -73,6 +73,13 @@ void add_coverage(const Frame& frame, const Scene&, DataChannels& out) {
 }
 void add_error(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::error>(frame, out, "error"); }
 
+void add_mip_level(const Frame& frame, const Scene&, DataChannels& out) {
+  add_value<&Frame::mip_level>(frame, out, "mipLevel");
+}
+void add_anisotropy(const Frame& frame, const Scene&, DataChannels& out) {
+  add_value<&Frame::anisotropy>(frame, out, "anisotropy");
+}
+
 constexpr Aov all[] = {
     {"depth", "distance along the view axis, near black, far white", &Planes::depth, add_depth},
     {"normal", "world-space normal as colour", &Planes::normal, add_normal},
@@ -87,6 +94,9 @@ constexpr Aov all[] = {
     {"primitive-id", "a false colour for each triangle of a mesh", &Planes::primitive_id, add_primitive_id},
     {"crypto-object", "Cryptomatte of objects by name", &Planes::sample_triangles, add_matte<MatteKind::Object>},
     {"crypto-material", "Cryptomatte of materials by name", &Planes::sample_triangles, add_matte<MatteKind::Material>},
+    {"mip-level", "level of detail in the base colour's texture as false colour", &Planes::mip_level, add_mip_level},
+    {"anisotropy", "longer over shorter axis of the footprint in that texture as false colour", &Planes::anisotropy,
+     add_anisotropy},
     {"coverage", "fraction of the pixel that surfaces cover", &Planes::coverage, add_coverage},
     {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, add_error}};
 

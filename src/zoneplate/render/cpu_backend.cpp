@@ -71,6 +71,7 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, co
   s.environment = lighting.environment.constant_radiance();
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
+  s.texture_filter = options.texture_filter, s.specular_aa = options.specular_aa;
   return s;
 }
 
@@ -113,6 +114,8 @@ void make_planes(const Request& request, int w, int h, Frame& frame, Target& tar
   make(planes.normal, frame.normal, target.normal, float3{});
   make(planes.albedo, frame.albedo, target.albedo, float3{});
   make(planes.uv, frame.uv, target.uv, float2{});
+  make(planes.mip_level, frame.mip_level, target.mip_level, FragmentOutputs::no_mip_level);
+  make(planes.anisotropy, frame.anisotropy, target.anisotropy, 0.0f);
   make(planes.object_id, frame.object_id, target.instance, Frame::no_id);
   make(planes.material_id, frame.material_id, target.material, Frame::no_id);
   make(planes.primitive_id, frame.primitive_id, target.primitive, Frame::no_id);

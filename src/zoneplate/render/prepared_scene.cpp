@@ -16,8 +16,8 @@ void free_images(Scene& scene) {
 
 }  // namespace
 
-PreparedScene::PreparedScene(Scene scene, bool raw_colors) {
-  textures_ = std::make_shared<const TextureSet>(TextureSet::take(scene, raw_colors));
+PreparedScene::PreparedScene(Scene scene, const MipOptions& mips) {
+  textures_ = std::make_shared<const TextureSet>(TextureSet::take(scene, mips));
   vertices_ = std::make_shared<const InterleavedVertices>(scene);
   lighting_ = lighting_of(scene);
   scene_ = std::make_shared<const Scene>(std::move(scene));

@@ -15,8 +15,8 @@ constexpr double tau = 6.28318530717958647692;
 
 Sequence::Sequence(PreparedScene scene, const SequenceTiming& timing) : timing_(timing), scene_(std::move(scene)) {}
 
-Sequence::Sequence(SceneLoader loader, bool raw_colors, const SequenceTiming& timing)
-    : loader_(std::move(loader)), raw_colors_(raw_colors), timing_(timing) {}
+Sequence::Sequence(SceneLoader loader, const MipOptions& mips, const SequenceTiming& timing)
+    : loader_(std::move(loader)), mips_(mips), timing_(timing) {}
 
 void Sequence::set_view(const View& view, float aspect) {
   view_ = view, aspect_ = aspect;
@@ -30,7 +30,7 @@ void Sequence::set_view(const View& view, float aspect) {
 const PreparedScene& Sequence::scene(double frame) {
   if (!loader_.load || (scene_ && frame_ == frame)) return *scene_;
   Scene loaded = loader_.load(seconds_of(frame));
-  scene_ = scene_ ? PreparedScene(std::move(loaded), *scene_) : PreparedScene(std::move(loaded), raw_colors_);
+  scene_ = scene_ ? PreparedScene(std::move(loaded), *scene_) : PreparedScene(std::move(loaded), mips_);
   frame_ = frame;
   return *scene_;
 }

@@ -36,7 +36,7 @@ float x_of(const Scene& scene) { return scene.instances.at(0).world_from_object.
 
 TEST(Sequence, AnAnimatedSceneIsLoadedOncePerFrameAndItsTexturesOnce) {
   Loads loads;
-  Sequence sequence(loads.loader(), false, {.rate = 10, .start = 2, .duration = 4});
+  Sequence sequence(loads.loader(), {}, {.rate = 10, .start = 2, .duration = 4});
   const PreparedScene first = sequence.scene(5);
   EXPECT_FLOAT_EQ(x_of(first.scene()), 2.5f);
   EXPECT_EQ(loads.scenes, 1);
@@ -51,7 +51,7 @@ TEST(Sequence, AnAnimatedSceneIsLoadedOncePerFrameAndItsTexturesOnce) {
 
 TEST(Sequence, ItsCameraSeesTheWholeAnimationAndStays) {
   Loads loads;
-  Sequence sequence(loads.loader(), false, {.rate = 10, .duration = 4});
+  Sequence sequence(loads.loader(), {}, {.rate = 10, .duration = 4});
   sequence.set_view({}, 1.5f);
   EXPECT_EQ(loads.scenes, 0);
   const Camera camera = sequence.view(0).camera;
@@ -70,7 +70,7 @@ TEST(Sequence, ItsCameraSeesTheWholeAnimationAndStays) {
 
 TEST(Sequence, AMomentIsTheShapeThenAndLeavesTheSceneAlone) {
   Loads loads;
-  Sequence sequence(loads.loader(), false, {.rate = 10, .duration = 4});
+  Sequence sequence(loads.loader(), {}, {.rate = 10, .duration = 4});
   sequence.set_view({}, 1.5f);
   const SceneView now = sequence.view(10);
   const Moment before = sequence.moment(9);

@@ -80,6 +80,7 @@ const char* flaw_of(const Material& m, const Scene& s) {
   if (!is_amount(m.alpha_cutoff) || !is_amount(m.exponent) || !std::isfinite(m.normal_scale) ||
       !is_share(m.occlusion_strength) || !is_share(m.metallic) || !is_share(m.roughness))
     return "a factor out of range";
+  if (!std::isfinite(m.height_scale) || m.parallax_layers < 0 || m.parallax_layers > 256) return "heights out of range";
   for (const TextureUse* use : texture_slots(m))
     if (const char* flaw = flaw_of(*use, s)) return flaw;
   return nullptr;

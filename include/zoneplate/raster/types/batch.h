@@ -77,6 +77,7 @@ struct FragmentBatch {
 struct OutputMask {
   bool color = true;                                ///< false: materials and lights are not evaluated
   bool normal = false, uv = false, albedo = false;  ///< fills this array of FragmentOutputs
+  bool footprint = false;                           ///< fills `mip_level` and `anisotropy` of FragmentOutputs
 };
 
 /// The results of shading a batch. Colour is linear and premultiplied; the other arrays are filled where OutputMask
@@ -87,6 +88,13 @@ struct FragmentOutputs {
   alignas(64) float normal[3][FragmentBatch::padded_capacity];  ///< world space, unit length, towards the viewer's side
   alignas(64) float uv[2][FragmentBatch::padded_capacity];      ///< the base colour's texture coordinate
   alignas(64) float albedo[3][FragmentBatch::padded_capacity];  ///< linear base colour
+
+  // The footprint of a pixel in the base colour's texture.
+  /// log2 of its longer side, in texels of level 0; no_mip_level without a texture.
+  alignas(64) float mip_level[FragmentBatch::padded_capacity];
+  alignas(
+      64) float anisotropy[FragmentBatch::padded_capacity];  ///< its longer axis over its shorter; 0 without a texture
+  static constexpr float no_mip_level = -128;
 };
 
 }  // namespace zoneplate

@@ -51,9 +51,9 @@ BenchTiming time_frames(const BenchWork& work) {
   const RenderSettings settings{.options = {.width = work.size.x,
                                             .height = work.size.y,
                                             .display = {.background = background_of(work.scene), .raw = true}}};
-  constexpr bool raw_colors = true;
+  constexpr MipOptions mips{.raw_colors = true};
   Renderer renderer(
-      PreparedScene(std::move(*found), raw_colors),
+      PreparedScene(std::move(*found), mips),
       make_resolver(antialias::methods(), work.samples == 1 ? "none" : fmt::format("msaa:n={}", work.samples)));
   Rgba8Image picture;
 

@@ -187,7 +187,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   const Camera camera = choose_camera(
       scene, view, static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height));
   set_look(args.render, scene);
-  const PreparedScene prepared(std::move(scene), args.render.raw_colors);
+  const PreparedScene prepared(std::move(scene), args.render.mips);
   SceneTrials out = run_trials({prepared, camera, settings}, options, progress);
   out.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/spec.h"
 #include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
@@ -87,6 +88,29 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
     at = comma + 1;
   }
   return found;
+}
+
+std::string texture_filter_names() {
+  std::string names;
+  for (const TextureFilterEntry& entry : texture_filters())
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  return names;
+}
+
+struct MipFilterRow {
+  std::string_view name;
+  std::span<const Param> params;
+  MipFilter filter;
+};
+
+void set_mip_filter(const std::string& text, MipOptions& mips) {
+  static constexpr std::string_view alphas[] = {"average", "coverage"};
+  static constexpr Param params[] = {{.name = "alpha", .meaning = "of alpha-tested textures", .names = alphas}};
+  static constexpr MipFilterRow rows[] = {
+      {"box", params, MipFilter::Box}, {"kaiser", params, MipFilter::Kaiser}, {"lanczos", params, MipFilter::Lanczos}};
+  const auto spec = parse_spec<MipFilterRow>("mip filter", rows, text);
+  mips.filter = spec.row.filter;
+  mips.keeps_coverage = spec.settings.chosen("alpha") == "coverage";
 }
 
 std::vector<Option> input_options(RenderArgs& a) {
@@ -185,12 +209,13 @@ std::vector<Option> picture_options(RenderArgs& a) {
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
        "Data passes to write as well: depth, normal, position, albedo, uv, motion, flow, object-id, material-id, "
-       "primitive-id, crypto-object, crypto-material, coverage, error; layers of the image if it is an .exr",
+       "primitive-id, crypto-object, crypto-material, mip-level, anisotropy, coverage, error; layers of the image if "
+       "it is an .exr",
        group, false, [&](auto& text) { a.aovs = parse_aovs(text); }},
       {"--color-management", "MODE",
        "srgb, or raw: neither sRGB decoding of textures nor encoding of the image; default srgb", group, false,
        [&](auto& text) {
-         a.display.raw = a.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
+         a.display.raw = a.mips.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
        }},
   };
 }
@@ -238,6 +263,22 @@ std::vector<Option> scene_options(RenderArgs& a) {
        [&](auto& text) { a.options.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
       {"--anisotropy", "N", "Maximum anisotropy of texture filtering, 1 to 16; default 1, or the scene's own value",
        group, false, [&](auto& text) { a.options.anisotropy = parse_whole(text, 1, 16); }},
+      {"--texture-filter", "FILTER",
+       "Filter of all textures, in place of the scene's own: " + texture_filter_names() +
+           "; for example ewa:anisotropy=16 (zoneplate list texture-filters)",
+       group, false, [&](auto& text) { a.options.texture_filter = parse_texture_filter(text); }},
+      {"--mip-filter", "FILTER",
+       "Filter that makes mip levels: box, kaiser or lanczos; :alpha=coverage keeps the fraction of an alpha-tested "
+       "texture that is opaque; default box",
+       group, false, [&](auto& text) { set_mip_filter(text, a.mips); }},
+      {"--specular-aa", "KIND",
+       "Widen highlights by the normals' variance in a pixel: none, geometric (curvature), toksvig or lean (normal "
+       "maps), or full (geometric and lean); default none",
+       group, false,
+       [&](auto& text) {
+         a.options.specular_aa =
+             static_cast<SpecularAntialiasing>(parse_choice(text, {"none", "geometric", "toksvig", "lean", "full"}));
+       }},
       {"--line-width", "PX", "Width of lines; default 1", group, false,
        [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
   };

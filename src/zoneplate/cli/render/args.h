@@ -50,7 +50,7 @@ struct RenderArgs {
   DisplayOptions display;
   std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one
   View view;
-  bool raw_colors = false;                    ///< images are not decoded from sRGB
+  MipOptions mips;                            ///< how images are decoded and reduced
   std::optional<ShadingModel> shading_model;  ///< for every material
   LightingOptions lighting;
   std::vector<const Aov*> aovs;

@@ -18,10 +18,10 @@ namespace zoneplate::cli {
 std::string model_key(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {}", args.input, args.load.format, c.scene.value_or(-1),
-                     c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds,
-                     fmt::join(l.allowed_paths, "\n"), args.raw_colors,
-                     args.shading_model ? static_cast<int>(*args.shading_model) : -1);
+  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {}", args.input, args.load.format,
+                     c.scene.value_or(-1), c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds,
+                     fmt::join(l.allowed_paths, "\n"), args.mips.raw_colors, static_cast<int>(args.mips.filter),
+                     args.mips.keeps_coverage, args.shading_model ? static_cast<int>(*args.shading_model) : -1);
 }
 
 std::optional<Scene> RenderJobs::read(const RenderArgs& args) {
@@ -55,7 +55,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Stopwatch texture_watch;
   if (read_scene) {
     convert_materials(args, *read_scene);
-    scene_.emplace(std::move(*read_scene), args.raw_colors);
+    scene_.emplace(std::move(*read_scene), args.mips);
   }
   summary.times.emplace_back("textures", texture_watch.ms());
   const Scene& scene = scene_->scene();

@@ -44,7 +44,7 @@ class Plan {
                                 .turntable = args_.sequence.turntable};
     if (still_) {
       set_look(args_, *still_);
-      return Sequence(PreparedScene(std::move(*still_), args_.raw_colors), timing);
+      return Sequence(PreparedScene(std::move(*still_), args_.mips), timing);
     }
     const auto load_scene = [this](double seconds) {
       Scene scene = load(&SceneSource::load, seconds);
@@ -52,7 +52,7 @@ class Plan {
       return scene;
     };
     const auto load_shape = [this](double seconds) { return load(&SceneSource::load_shape, seconds); };
-    return Sequence({load_scene, load_shape}, args_.raw_colors, timing);
+    return Sequence({load_scene, load_shape}, args_.mips, timing);
   }
 
  private:

@@ -107,7 +107,8 @@ TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key
 /// The textures whose properties `owner` holds.
 void MaterialReader::read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m) {
   for (const MaterialTextureSlot& slot : material_texture_slots)
-    if (slot.is_metallic_roughness == is_metallic_roughness) m.*slot.use = texture(owner, std::string(slot.gltf_name));
+    if (!slot.gltf_name.empty() && slot.is_metallic_roughness == is_metallic_roughness)
+      m.*slot.use = texture(owner, std::string(slot.gltf_name));
 }
 
 float MaterialReader::clamp(const JsonView& json, const char* key, float value, float high) {

@@ -176,6 +176,7 @@ void pass(S& s, Material& m) {
   s.value(m.alpha_cutoff), s.choice(m.double_sided);
   s.value(m.base_color), s.value(m.emissive), s.value(m.normal_scale), s.value(m.occlusion_strength);
   s.value(m.metallic), s.value(m.roughness), s.value(m.ambient), s.value(m.specular), s.value(m.exponent);
+  s.value(m.height_scale), s.value(m.parallax_layers);
   for (const MaterialTextureSlot& slot : material_texture_slots) pass(s, m.*slot.use);
 }
 

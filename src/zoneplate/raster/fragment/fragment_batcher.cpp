@@ -334,11 +334,13 @@ void FragmentBatcher::shade_outputs(std::span<const Fragment> fragments, std::ve
   const OutputMask outputs{.color = colors != nullptr,
                            .normal = data && target_.normal,
                            .uv = data && target_.uv,
-                           .albedo = data && target_.albedo};
+                           .albedo = data && target_.albedo,
+                           .footprint = data && target_.stores_footprint()};
   if (outputs.color) colors->resize(fragments.size());
   if (outputs.normal) data->normal.resize(fragments.size());
   if (outputs.uv) data->uv.resize(fragments.size());
   if (outputs.albedo) data->albedo.resize(fragments.size());
+  if (outputs.footprint) data->footprint.resize(fragments.size());
   for_batches(fragments, [&](std::span<const std::uint32_t> numbers) {
     shader_.shade(*batch_, outputs, shaded_batch_);
     const FragmentOutputs& s = shaded_batch_;
@@ -348,6 +350,7 @@ void FragmentBatcher::shade_outputs(std::span<const Fragment> fragments, std::ve
       if (outputs.normal) data->normal[at] = {s.normal[0][i], s.normal[1][i], s.normal[2][i]};
       if (outputs.uv) data->uv[at] = {s.uv[0][i], s.uv[1][i]};
       if (outputs.albedo) data->albedo[at] = {s.albedo[0][i], s.albedo[1][i], s.albedo[2][i]};
+      if (outputs.footprint) data->footprint[at] = {s.mip_level[i], s.anisotropy[i]};
     }
   });
 }

@@ -35,6 +35,7 @@ struct FragmentSpan {
 struct FragmentData {
   std::vector<float3> normal, albedo;
   std::vector<float2> uv;
+  std::vector<float2> footprint;  ///< mip level, anisotropy
 };
 
 /// Shades lists of fragments in batches of one material.

@@ -17,6 +17,7 @@ void keep_data(const Target& target, std::uint32_t pixel, std::size_t f, TileDat
   if (target.normal) keep(data.pixels.normal, data.shaded.normal);
   if (target.uv) keep(data.pixels.uv, data.shaded.uv);
   if (target.albedo) keep(data.pixels.albedo, data.shaded.albedo);
+  if (target.stores_footprint()) keep(data.pixels.footprint, data.shaded.footprint);
 }
 
 /// The depth of the triangle's plane at the fragment: that of the nearest sample if the fragment lies there, as it was
@@ -48,6 +49,8 @@ void write_pixel(const TileJob& job, std::uint32_t pixel, const TileData& data) 
   if (target.normal) store(target.normal, data.pixels.normal[pixel]);
   if (target.uv) store(target.uv, data.pixels.uv[pixel]);
   if (target.albedo) store(target.albedo, data.pixels.albedo[pixel]);
+  if (target.mip_level) store(target.mip_level, data.pixels.footprint[pixel].x);
+  if (target.anisotropy) store(target.anisotropy, data.pixels.footprint[pixel].y);
 }
 
 }  // namespace

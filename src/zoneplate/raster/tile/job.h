@@ -54,7 +54,7 @@ struct TileSetup {
   /// colour.
   bool stores_color() const { return target.color || target.display8 || target.sample_color; }
   /// Whether the target stores results of shading other than colours.
-  bool stores_shaded_data() const { return target.normal || target.uv || target.albedo; }
+  bool stores_shaded_data() const { return target.stores_shaded_data(); }
   /// Whether the target stores nothing but colours, and all samples are drawn in one pass.
   bool stores_color_alone() const;
 

@@ -41,6 +41,7 @@ struct Target {
   Plane<float3>* normal = nullptr;
   Plane<float3>* albedo = nullptr;
   Plane<float2>* uv = nullptr;
+  Plane<float>*mip_level = nullptr, *anisotropy = nullptr;
   Plane<std::uint32_t>* instance = nullptr;
   Plane<std::uint32_t>* material = nullptr;
   Plane<std::uint32_t>* primitive = nullptr;
@@ -53,12 +54,15 @@ struct Target {
 
   /// Whether there are data planes by pixel.
   bool stores_data() const {
-    return data_position || reversed_depth || normal || albedo || uv || instance || material || primitive;
+    return data_position || reversed_depth || stores_shaded_data() || instance || material || primitive;
   }
+  /// Whether the target stores results of shading other than colours.
+  bool stores_shaded_data() const { return normal || albedo || uv || stores_footprint(); }
+  bool stores_footprint() const { return mip_level || anisotropy; }
   bool stores_samples() const { return sample_color || sample_triangle; }
   /// Whether only the triangles and depths of samples are stored: then no fragment is shaded.
   bool stores_visibility_alone() const {
-    return sample_triangle && !(color || display8 || sample_color || reversed_depth || normal || albedo || uv ||
+    return sample_triangle && !(color || display8 || sample_color || reversed_depth || stores_shaded_data() ||
                                 instance || material || primitive || coverage);
   }
 

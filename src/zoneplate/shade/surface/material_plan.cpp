@@ -32,9 +32,9 @@ void for_used_slots(const Material& m, Use use) {
     if (uses_slot(m, static_cast<TextureSlotIndex>(i))) use(i, material_texture_slots[i]);
 }
 
-TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotropy) {
-  TextureSlot slot{texture, make_filtering(use.sampler, anisotropy), coordinate_map(use), false,
-                   use.uv_set == 1 ? 1 : 0};
+TextureSlot make_slot(const TextureUse& use, const Texture* texture, const ViewUniforms& view) {
+  TextureSlot slot{texture, make_filtering(use.sampler, view.anisotropy, view.texture_filter), coordinate_map(use),
+                   false, use.uv_set == 1 ? 1 : 0};
   slot.is_mapped = !(slot.map == CoordinateMap{});
   return slot;
 }
@@ -50,6 +50,7 @@ void copy_factors(const Material& m, MaterialPlan& plan) {
   plan.roughness = std::clamp(m.roughness, 0.0f, 1.0f);
   copy(m.emissive, plan.emissive_factor);
   plan.normal_scale = m.normal_scale;
+  plan.height_scale = m.height_scale;
   plan.occlusion_strength = std::clamp(m.occlusion_strength, 0.0f, 1.0f);
   copy(m.specular, plan.specular);
   plan.exponent = make_exponent(std::clamp(m.exponent, 0.0f, 1e5f));
@@ -71,11 +72,20 @@ void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) 
   }
 }
 
-void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
+void find_slots(const Material& m, const TextureSet& textures, const ViewUniforms& view, MaterialPlan& plan) {
   for_used_slots(m, [&](std::size_t i, const MaterialTextureSlot& slot) {
     const TextureUse& use = m.*slot.use;
-    plan.slots[i] = make_slot(use, textures.find(use, meaning_of(slot)), anisotropy);
+    plan.slots[i] = make_slot(use, textures.find(use, meaning_of(slot)), view);
   });
+}
+
+void plan_specular_aa(SpecularAntialiasing kind, MaterialPlan& plan) {
+  using Kind = SpecularAntialiasing;
+  plan.widens_by_curvature = kind == Kind::Geometric || kind == Kind::Full;
+  plan.has_slope_variance = kind == Kind::Lean || kind == Kind::Full;
+  const Texture* const normals = plan.slot(TextureSlotIndex::Normal).texture;
+  if (normals != nullptr && (kind == Kind::Toksvig || plan.has_slope_variance))
+    plan.normal_spread = &normals->normal_spread();
 }
 
 /// Decides which stages are needed, from the lights and textures that exist.
@@ -89,12 +99,18 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   plan.has_specular = plan.is_lit && !is_metallic && has_lights && !is_black(m.specular);
   plan.has_emissive = plan.is_lit && !is_black(m.emissive);
   plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
-  TextureSlot& normal = plan.slot(TextureSlotIndex::Normal);
+  TextureSlot &normal = plan.slot(TextureSlotIndex::Normal), &height = plan.slot(TextureSlotIndex::Height);
   if (!uses_normal) normal.texture = nullptr;
+  if (height.texture != nullptr) plan.parallax_layers = m.parallax_layers;
+  plan.has_bumps = uses_normal && height.texture != nullptr && normal.texture == nullptr;
+  if (!plan.has_bumps && plan.parallax_layers == 0) height.texture = nullptr;
+  if (plan.parallax_layers > 0) plan.needs_viewer = true;
+  if (uses_normal && is_metallic) plan_specular_aa(s.specular_aa, plan);
 
   Attributes& a = plan.attributes;
   a.position = (plan.needs_viewer && !s.is_orthographic && !s.rays) || (uses_normal && has_places);
   a.normal = uses_normal;
+  a.normal_change = plan.widens_by_curvature;
   a.tangent = normal.texture != nullptr;
   a.tangent_uv_set = normal.uv_set;
   for (const TextureSlot& slot : plan.slots)
@@ -103,23 +119,24 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
 
 }  // namespace
 
-TextureSet::TextureSet(const Scene& scene, bool raw_colors) : TextureSet(raw_colors) {
+TextureSet::TextureSet(const Scene& scene, const MipOptions& mips) : TextureSet(mips) {
   find_uses(scene);
-  for (auto& [key, texture] : textures_)
-    texture = std::make_unique<Texture>(scene.images[static_cast<std::size_t>(key.first)].pixels, key.second);
+  for (auto& [key, entry] : textures_)
+    entry.texture =
+        std::make_unique<Texture>(scene.images[static_cast<std::size_t>(key.first)].pixels, key.second, entry.options);
 }
 
-TextureSet TextureSet::take(Scene& scene, bool raw_colors) {
-  TextureSet set(raw_colors);
+TextureSet TextureSet::take(Scene& scene, const MipOptions& mips) {
+  TextureSet set(mips);
   set.find_uses(scene);
   auto next = set.textures_.begin();
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     TexelImage& pixels = scene.images[i].pixels;
     const auto is_of_this = [&] { return next != set.textures_.end() && next->first.first == static_cast<int>(i); };
     while (is_of_this()) {
-      auto& [key, texture] = *next++;
-      texture = is_of_this() ? std::make_unique<Texture>(pixels, key.second)
-                             : std::make_unique<Texture>(std::move(pixels), key.second);
+      auto& [key, entry] = *next++;
+      entry.texture = is_of_this() ? std::make_unique<Texture>(pixels, key.second, entry.options)
+                                   : std::make_unique<Texture>(std::move(pixels), key.second, entry.options);
     }
     pixels = TexelImage();
   }
@@ -134,19 +151,23 @@ void TextureSet::find_uses(const Scene& scene) {
       if (number < 0) return;
       const TextureImage& image = scene.images.at(static_cast<std::size_t>(number));
       if (image.pixels.empty()) throw Error(ErrorKind::Input, "texture " + image.name + ": has no texels");
-      textures_[key_of(number, meaning_of(slot))] = nullptr;
+      const Sampler& sampler = (material.*slot.use).sampler;
+      LevelOptions options{mips_.filter, sampler.wrap_u, sampler.wrap_v, {}};
+      if (mips_.keeps_coverage && material.alpha_mode == AlphaMode::Mask && slot.use == &Material::base_color_texture)
+        options.kept_cutoff = material.alpha_cutoff;
+      textures_.try_emplace(key_of(number, meaning_of(slot)), Entry{options, nullptr});
     });
 }
 
 TextureSet::Key TextureSet::key_of(int image, TexelMeaning meaning) const {
-  const bool is_raw = raw_colors_ && !is_light_[static_cast<std::size_t>(image)];
+  const bool is_raw = mips_.raw_colors && !is_light_[static_cast<std::size_t>(image)];
   return {image, is_raw ? TexelMeaning::Values : meaning};
 }
 
 const Texture* TextureSet::find(const TextureUse& use, TexelMeaning meaning) const {
   if (use.image < 0) return nullptr;
   const auto found = textures_.find(key_of(use.image, meaning));
-  return found == textures_.end() ? nullptr : found->second.get();
+  return found == textures_.end() ? nullptr : found->second.texture.get();
 }
 
 CoordinateMap coordinate_map(const TextureUse& use) {
@@ -165,7 +186,7 @@ std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& vie
   for (std::size_t i = 0; i < plans.size(); ++i) {
     copy_factors(scene.materials[i], plans[i]);
     plan_ambient(scene.materials[i], view, plans[i]);
-    find_slots(scene.materials[i], textures, view.anisotropy, plans[i]);
+    find_slots(scene.materials[i], textures, view, plans[i]);
     decide(view, scene.materials[i], plans[i]);
   }
 

@@ -21,25 +21,31 @@ namespace zoneplate {
 class TextureSet {
  public:
   /// Makes the mip levels of the images that materials use, one image after the other. With `raw_colors` the encoded
-  /// values of colours are taken as linear; images that are linear already stay as they are.
+  /// values of colours are taken as linear; images that are linear already stay as they are. Borders and the kept
+  /// coverage are those of the first material that uses the image.
   /// Errors    ErrorKind::Input where an image that is used is empty; OutOfMemory("texture levels").
-  TextureSet(const Scene& scene, bool raw_colors);
+  TextureSet(const Scene& scene, const MipOptions& mips);
   /// The same, and frees the images: each as soon as its texels are copied to the levels, unused images at once.
   /// Afterwards all images of the scene are empty, and only this set can texture the scene.
-  static TextureSet take(Scene& scene, bool raw_colors);
+  static TextureSet take(Scene& scene, const MipOptions& mips);
 
   /// Null where the use names no image.
   const Texture* find(const TextureUse& use, TexelMeaning meaning) const;
 
  private:
   using Key = std::pair<int, TexelMeaning>;
-  explicit TextureSet(bool raw_colors) : raw_colors_(raw_colors) {}
+  explicit TextureSet(const MipOptions& mips) : mips_(mips) {}
   void find_uses(const Scene& scene);
   Key key_of(int image, TexelMeaning meaning) const;
 
-  bool raw_colors_;
+  struct Entry {
+    LevelOptions options;
+    std::unique_ptr<Texture> texture;
+  };
+
+  MipOptions mips_;
   std::vector<bool> is_light_;  ///< by image
-  std::map<Key, std::unique_ptr<Texture>> textures_;
+  std::map<Key, Entry> textures_;
 };
 
 /// One texture of a material. `texture` null: absent.
@@ -78,6 +84,17 @@ struct MaterialPlan {
   float ambient_factor[3] = {0, 0, 0};  ///< times the base colour
   float own_ambient[3] = {0, 0, 0};     ///< times the base colour without its factor
   bool has_own_ambient = false;
+
+  // Heights: the normal's tilt, and the coordinates' displacement.
+  float height_scale = 0;
+  int parallax_layers = 0;
+  bool has_bumps = false;
+
+  // Specular antialiasing.
+  bool widens_by_curvature = false;
+  const TextureView* normal_spread = nullptr;  ///< Texture::normal_spread, where the material is widened by it
+  bool has_slope_variance = false;             ///< by the variances of slopes, else by the length of the mean normal
+  bool widens() const { return widens_by_curvature || normal_spread != nullptr; }
 
   bool is_lit = false;        ///< lights or an environment change its colour
   bool has_specular = false;  ///< (Blinn-)Phong

@@ -85,6 +85,19 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// x and y × scale, and B = (N × T) × the sign of tangent.w. Fragments without a tangent keep their normal.
   /// Source: glTF 2.0, 3.9.3.
   void (*bend_normals)(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& state);
+  /// The variance of the interpolated normal within a pixel, added up over both axes: min((|∂n/∂x|² + |∂n/∂y|²) / 12,
+  /// 0.18) for unit normals n in world space. Before find_normals or transform_normals.
+  /// Source    Tokuyoshi and Kaplanyan, Stable Geometric Specular Antialiasing with Projected-Space NDF Filtering, JCGT
+  ///           10(2), 2021, in its isotropic form, but for a box pixel and the mean of both axes: the paper's factor of
+  ///           1 / π bounds each axis and makes lobes of curved metal four times as wide as needed.
+  void (*find_normal_variance)(const FragmentBatch& batch, const TriangleVertices& vertices,
+                               const InstanceTransform* transforms, ShadingState& state);
+  /// roughness = (α² + variance)^¼ with α = roughness², at most 1.
+  void (*widen_roughness)(ShadingState& state);
+  /// Turns normals by the gradient of a height, in world space: n - facing × (gradient - n (n · gradient)), normalised.
+  /// Source    Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978; Mikkelsen, Bump Mapping Unparametrized Surfaces on
+  ///           the GPU, 2010.
+  void (*tilt_normals)(const FragmentBatch& batch, const float* const gradient[3], ShadingState& state);
   /// Fragments without a normal get the direction to the viewer.
   void (*default_normals)(const Viewpoint& viewpoint, const FragmentBatch& batch, ShadingState& state);
 

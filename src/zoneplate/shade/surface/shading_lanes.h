@@ -3,6 +3,7 @@
 
 #include "zoneplate/shade/surface/geometry_lanes.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
+#include "zoneplate/shade/surface/normals_lanes.h"
 
 namespace zoneplate::stages {
 
@@ -21,6 +22,9 @@ constexpr SurfaceKernels all() {
       .transform_tangents = &transform_tangents<F>,
       .find_normals = &find_normals<F>,
       .bend_normals = &bend_normals<F>,
+      .find_normal_variance = &find_normal_variance<F>,
+      .widen_roughness = &widen_roughness<F>,
+      .tilt_normals = &tilt_normals<F>,
       .default_normals = &default_normals<F>,
       .light_phong = &light_phong<Wide>,
       .light_metallic = &light_metallic<Wide>,

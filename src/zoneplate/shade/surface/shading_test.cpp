@@ -156,6 +156,13 @@ std::vector<Stage> stages() {
          const float* const texel[4] = {b.texel[0], b.texel[1], b.texel[2], b.texel[3]};
          k.bend_normals(b.batch, texel, 0.8f, b.points);
        }},
+      {"find_normal_variance", [](K k, B b) { k.find_normal_variance(b.batch, b.vertices, b.transforms, b.points); }},
+      {"widen_roughness", [](K k, B b) { k.widen_roughness(b.points); }},
+      {"tilt_normals",
+       [](K k, B b) {
+         const float* const gradient[3] = {b.texel[0], b.texel[1], b.texel[2]};
+         k.tilt_normals(b.batch, gradient, b.points);
+       }},
       {"default_normals", [](K k, B b) { k.default_normals(b.light.viewpoint, b.batch, b.points); }},
       {"unlit", [](K k, B b) { k.unlit(true, b.points, b.shaded); }},
   };

@@ -5,12 +5,18 @@
 #include <cstddef>
 #include <vector>
 
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/math/lanes.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/shade/surface/brightness.h"
+#include "zoneplate/shade/surface/geometry_lanes.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
+#include "zoneplate/shade/texture/area_filters.h"
 #include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
@@ -45,7 +51,7 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
   copy(plan.ambient_factor, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
-  s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
+  s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr || plan.widens();
   s.metallic = plan.metallic, s.roughness = plan.roughness;
   s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
   s.environment[0] = environment.x, s.environment[1] = environment.y, s.environment[2] = environment.z;
@@ -110,6 +116,7 @@ struct SurfaceShader::Data::BatchShading {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot whose texture look-up made `taps`
+  std::unique_ptr<float[]> random;       ///< for stochastic filtering: three numbers of each fragment
   alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
@@ -120,7 +127,12 @@ struct SurfaceShader::Data::BatchShading {
 
   void interpolate(const Needs& needs);
   Footprint footprint(const TextureSlot& slot);
+  void find_random();
   void sample(const TextureSlot& slot, float* const out[4]);
+  void sample(const TextureSlot& slot, Footprint at, float* const out[4]);
+  void displace_coordinates();
+  void tilt_normals();
+  void widen_roughness();
   void find_base();
   void find_normals();
   void find_emissive();
@@ -158,14 +170,37 @@ Footprint SurfaceShader::Data::BatchShading::footprint(const TextureSlot& slot) 
   return {c.uv[0], c.uv[1], c.dx[0], c.dx[1], c.dy[0], c.dy[1], batch.has_uniform_derivatives};
 }
 
+/// The random numbers of a fragment depend on its position, in 1/256 pixel: all textures of a fragment share them, and
+/// the samples of a pixel, or frames whose samples move, have others.
+void SurfaceShader::Data::BatchShading::find_random() {
+  random = std::make_unique<float[]>(3 * FragmentBatch::padded_capacity);
+  for (int i = 0; i < p.count; ++i) {
+    const std::uint32_t key = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
+    for (std::uint32_t n = 0; n < 3; ++n)
+      random[n * FragmentBatch::padded_capacity + static_cast<std::size_t>(i)] = unit_float(hash(key, n));
+  }
+}
+
 /// Samples the slot's texture at the fragments. Slots with the same size and sampler share their taps.
 void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* const out[4]) {
-  if (slot.filtering.anisotropy > 1)
-    return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, footprint(slot), out, p.count);
-  if (taps_of == nullptr || !share_taps(*taps_of, slot)) {
-    d.filtering.find_taps(slot.texture->view(), slot.filtering, footprint(slot), taps, p.count);
-    taps_of = &slot;
+  const bool has_taps = slot.filtering.kind == TextureFilter::Kind::BySampler && slot.filtering.anisotropy == 1;
+  if (!has_taps || taps_of == nullptr || !share_taps(*taps_of, slot)) return sample(slot, footprint(slot), out);
+  d.filtering.mix_taps(slot.texture->view(), taps, out, p.count);
+}
+
+/// Samples the slot's texture at these coordinates.
+void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, Footprint at, float* const out[4]) {
+  if (slot.filtering.kind != TextureFilter::Kind::BySampler) {
+    if (slot.filtering.kind == TextureFilter::Kind::Stochastic) {
+      if (random == nullptr) find_random();
+      for (int n = 0; n < 3; ++n) at.random[n] = random.get() + n * FragmentBatch::padded_capacity;
+    }
+    return sample_area(*slot.texture, slot.filtering, at, out, p.count);
   }
+  if (slot.filtering.anisotropy > 1)
+    return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, at, out, p.count);
+  d.filtering.find_taps(slot.texture->view(), slot.filtering, at, taps, p.count);
+  taps_of = &slot;
   d.filtering.mix_taps(slot.texture->view(), taps, out, p.count);
 }
 
@@ -188,11 +223,137 @@ void SurfaceShader::Data::BatchShading::find_base() {
 }
 
 void SurfaceShader::Data::BatchShading::find_normals() {
-  if (plan.slot(TextureSlotIndex::Normal).texture == nullptr)
-    return kernels.find_normals(batch, vertices, d.transforms.data(), p);
+  if (plan.widens_by_curvature) kernels.find_normal_variance(batch, vertices, d.transforms.data(), p);
+  if (plan.slot(TextureSlotIndex::Normal).texture == nullptr) {
+    kernels.find_normals(batch, vertices, d.transforms.data(), p);
+    if (plan.has_bumps) tilt_normals();
+    return;
+  }
   kernels.transform_normals(batch, vertices, d.transforms.data(), p);
   sample(plan.slot(TextureSlotIndex::Normal), texel);
   kernels.bend_normals(batch, texel, plan.normal_scale, p);
+}
+
+/// Central differences of the heights over a texel of the mip level that is read on each side. The heights' filter
+/// makes them the gradient of a surface without detail below a pixel.
+void SurfaceShader::Data::BatchShading::tilt_normals() {
+  struct Scratch {
+    SurfaceGradients surface;
+    alignas(64) ShadingState::Array level, ratio, shifted, low, unused[3], gradient[3];
+  };
+  const auto scratch = std::make_unique<Scratch>();
+  const TextureSlot& slot = plan.slot(TextureSlotIndex::Height);
+  const TextureView& view = slot.texture->view();
+  find_surface_gradients(d.scene, batch, slot.uv_set, scratch->surface);
+  const Footprint at = footprint(slot);
+  measure_footprints(view, at, scratch->level, scratch->ratio, p.count);
+  for (auto& axis : scratch->gradient) std::fill_n(axis, p.count, 0.0f);
+  for (int axis = 0; axis < 2; ++axis) {
+    const float* const coordinate = axis == 0 ? at.u : at.v;
+    const float spacing = 1 / static_cast<float>(axis == 0 ? view.width[0] : view.height[0]);
+    const auto step = [&](int i) { return spacing * exp2(std::max(scratch->level[i], 0.0f)); };
+    const auto heights_at = [&](float sign, float* out) {
+      for (int i = 0; i < p.count; ++i) scratch->shifted[i] = coordinate[i] + sign * step(i);
+      Footprint moved = at;
+      (axis == 0 ? moved.u : moved.v) = scratch->shifted;
+      float* const channels[4] = {out, scratch->unused[0], scratch->unused[1], scratch->unused[2]};
+      sample(slot, moved, channels);
+    };
+    heights_at(-1, scratch->low), heights_at(1, texel_values[0]);
+    for (int i = 0; i < p.count; ++i) {
+      const float slope = plan.height_scale * (texel_values[0][i] - scratch->low[i]) / (2 * step(i));
+      const float along_u = slope * slot.map.m[3 * axis], along_v = slope * slot.map.m[3 * axis + 1];
+      for (int c = 0; c < 3; ++c)
+        scratch->gradient[c][i] += along_u * scratch->surface.u[c][i] + along_v * scratch->surface.v[c][i];
+    }
+  }
+  taps_of = nullptr;
+  const float* const gradient[3] = {scratch->gradient[0], scratch->gradient[1], scratch->gradient[2]};
+  kernels.tilt_normals(batch, gradient, p);
+}
+
+/// Moves the texture coordinates to where the ray to the viewer meets the heights: the first of equally deep layers
+/// below the heights, and from there back to where a line between both layers meets them.
+/// Source    Policarpo et al. 2005, Tatarchuk, Dynamic Parallax Occlusion Mapping, I3D 2006.
+void SurfaceShader::Data::BatchShading::displace_coordinates() {
+  struct Scratch {
+    SurfaceGradients surface;
+    alignas(64) ShadingState::Array start[2], slope[2], above, depth, unused[3];
+    bool is_found[FragmentBatch::padded_capacity] = {};
+  };
+  constexpr float least_cosine = 0.05f;  // of the angle at which a ray enters: beyond, it runs along the layers
+  const auto scratch = std::make_unique<Scratch>();
+  Scratch& s = *scratch;
+  const TextureSlot& slot = plan.slot(TextureSlotIndex::Height);
+  float *const u = p.uv[slot.uv_set][0], *const v = p.uv[slot.uv_set][1];
+  find_surface_gradients(d.scene, batch, slot.uv_set, s.surface);
+  const stages::Viewer<scalar::Float> viewer(d.viewpoint);
+  for (int i = 0; i < p.count; ++i) {
+    const auto at = [&](const float(&of)[3][FragmentBatch::padded_capacity]) {
+      return Vector<scalar::Float>{of[0][i], of[1][i], of[2][i]};
+    };
+    const auto to_viewer = viewer.direction(batch, p, i);
+    const float into = -1 / std::max(dot(to_viewer, at(s.surface.normal)).v, least_cosine);
+    s.slope[0][i] = into * dot(to_viewer, at(s.surface.u)).v, s.slope[1][i] = into * dot(to_viewer, at(s.surface.v)).v;
+    s.start[0][i] = u[i], s.start[1][i] = v[i], s.above[i] = s.depth[i] = 0;
+  }
+  const int layers = plan.parallax_layers;
+  const float scale = std::abs(plan.height_scale), layer = scale / static_cast<float>(layers);
+  for (int n = 0; n <= layers; ++n) {
+    const float depth = layer * static_cast<float>(n);
+    for (int i = 0; i < p.count; ++i)
+      u[i] = s.start[0][i] + depth * s.slope[0][i], v[i] = s.start[1][i] + depth * s.slope[1][i];
+    float* const channels[4] = {texel_values[0], s.unused[0], s.unused[1], s.unused[2]};
+    sample(slot, footprint(slot), channels);
+    bool are_all_found = true;
+    for (int i = 0; i < p.count; ++i) {
+      if (s.is_found[i]) continue;
+      // How far the heights lie below the layer; `above` is that of the layer before.
+      const float below = (1 - texel_values[0][i]) * scale - depth;
+      if (below <= 0) {
+        s.is_found[i] = true;
+        const float change = s.above[i] - below;
+        s.depth[i] = n == 0 ? 0.0f : depth - layer * (change > 0 ? -below / change : 0.0f);
+      } else {
+        s.above[i] = below, s.depth[i] = depth;
+        are_all_found = false;
+      }
+    }
+    if (are_all_found) break;
+  }
+  for (int i = 0; i < p.count; ++i) {
+    u[i] = s.start[0][i] + s.depth[i] * s.slope[0][i];
+    v[i] = s.start[1][i] + s.depth[i] * s.slope[1][i];
+  }
+  taps_of = nullptr;
+}
+
+/// Adds the variance of the normals that the pixel covers to the roughness.
+void SurfaceShader::Data::BatchShading::widen_roughness() {
+  if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
+    kernels.fill(p.roughness, plan.roughness, p.count);
+    kernels.fill(p.metallic, plan.metallic, p.count);
+  }
+  if (!plan.widens_by_curvature) kernels.fill(p.normal_variance, 0, p.count);
+  if (plan.normal_spread != nullptr) {
+    const TextureSlot& slot = plan.slot(TextureSlotIndex::Normal);
+    SamplerState filtering = slot.filtering;
+    if (filtering.kind != TextureFilter::Kind::BySampler)
+      filtering.kind = TextureFilter::Kind::BySampler, filtering.anisotropy = 1;
+    if (filtering.anisotropy > 1) {
+      d.filtering.sample_anisotropic(*plan.normal_spread, filtering, footprint(slot), texel, p.count);
+    } else {
+      d.filtering.find_taps(*plan.normal_spread, filtering, footprint(slot), taps, p.count);
+      d.filtering.mix_taps(*plan.normal_spread, taps, texel, p.count);
+      taps_of = nullptr;
+    }
+    const float scale2 = plan.normal_scale * plan.normal_scale;
+    for (int i = 0; i < p.count; ++i) {
+      const float toksvig = 2 * (1 - texel_values[0][i]) / std::max(texel_values[0][i], 0x1p-10f);
+      p.normal_variance[i] += scale2 * (plan.has_slope_variance ? texel_values[1][i] : toksvig);
+    }
+  }
+  kernels.widen_roughness(p);
 }
 
 void SurfaceShader::Data::BatchShading::find_emissive() {
@@ -242,6 +403,7 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
+  if (is_metallic && plan.widens()) widen_roughness();
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic) {
@@ -267,15 +429,18 @@ void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, Fragme
   // Data besides the colour may need more vertex attributes.
   const Data::Needs* needs = &data_->needs_of_color[static_cast<std::size_t>(batch.material)];
   Data::Needs more;
-  if (outputs.normal || outputs.uv) {
+  const TextureSlot& base = plan.slot(TextureSlotIndex::BaseColor);
+  const bool has_footprint = outputs.footprint && base.texture != nullptr;
+  if (outputs.normal || outputs.uv || has_footprint) {
     Attributes attributes = plan.attributes;
     if (outputs.normal) attributes.normal = true;
-    if (outputs.uv) attributes.uv[plan.slot(TextureSlotIndex::BaseColor).uv_set] = true;
+    if (outputs.uv || has_footprint) attributes.uv[base.uv_set] = true;
     more = data_->make_needs(batch.material, attributes, plan.needs_viewer || (outputs.normal && plan.has_bare_meshes));
     needs = &more;
   }
 
   shading.interpolate(*needs);
+  if (plan.parallax_layers > 0) shading.displace_coordinates();
   if (outputs.color || outputs.albedo) shading.find_base();
   if (needs->attributes.normal) shading.find_normals();
   if (outputs.color && plan.is_lit)
@@ -291,14 +456,20 @@ void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, Fragme
   if (outputs.albedo)
     for (int c = 0; c < 3; ++c) copy(p.base[c], out.albedo[c]);
   if (outputs.uv) {
-    const Footprint at = shading.footprint(plan.slot(TextureSlotIndex::BaseColor));
+    const Footprint at = shading.footprint(base);
     copy(at.u, out.uv[0]), copy(at.v, out.uv[1]);
+  }
+  if (has_footprint) {
+    measure_footprints(base.texture->view(), shading.footprint(base), out.mip_level, out.anisotropy, p.count);
+  } else if (outputs.footprint) {
+    std::fill_n(out.mip_level, p.count, FragmentOutputs::no_mip_level);
+    std::fill_n(out.anisotropy, p.count, 0.0f);
   }
 }
 
 bool SurfaceShader::needs_derivatives(int material) const {
   const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
-  return a.uv[0] || a.uv[1];
+  return a.uv[0] || a.uv[1] || a.normal_change;
 }
 
 std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
@@ -312,7 +483,10 @@ void SurfaceShader::alpha(const FragmentBatch& batch, float* out) const {
   attributes.color = shading.plan.attributes.color;
   if (shading.plan.slot(TextureSlotIndex::BaseColor).texture != nullptr)
     attributes.uv[shading.plan.slot(TextureSlotIndex::BaseColor).uv_set] = true;
-  shading.interpolate(data_->make_needs(batch.material, attributes, false));
+  const bool is_displaced = shading.plan.parallax_layers > 0;
+  if (is_displaced) attributes.uv[shading.plan.slot(TextureSlotIndex::Height).uv_set] = true;
+  shading.interpolate(data_->make_needs(batch.material, attributes, is_displaced));
+  if (is_displaced) shading.displace_coordinates();
   shading.find_base();
   std::copy_n(shading.p.base[3], shading.p.count, out);
 }

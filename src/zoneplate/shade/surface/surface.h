@@ -8,6 +8,7 @@
 
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/scene/texture_filter.h"
 
 namespace zoneplate {
 
@@ -30,6 +31,8 @@ struct ViewUniforms {
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
+  TextureFilter texture_filter;   ///< of all textures; by default that of each sampler
+  SpecularAntialiasing specular_aa = SpecularAntialiasing::None;
   int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
 

@@ -80,7 +80,7 @@ struct Surfaces {
   InterleavedVertices vertices;
   SurfaceShader shader;
   Surfaces(const Scene& scene, ViewUniforms view)
-      : textures(scene, view.raw_colors),
+      : textures(scene, {.raw_colors = view.raw_colors}),
         vertices(scene),
         shader(scene, with_lights(view, scene), textures, vertices) {}
   static ViewUniforms& with_lights(ViewUniforms& view, const Scene& scene) {

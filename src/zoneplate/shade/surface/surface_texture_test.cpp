@@ -143,7 +143,7 @@ Scene textured_scene() {
 
 TEST(TextureSet, AnImageIsThereOnceForEachMeaning) {
   const Scene scene = textured_scene();
-  const TextureSet set(scene, false), raw(scene, true);
+  const TextureSet set(scene, {}), raw(scene, {.raw_colors = true});
   const auto find = [](const TextureSet& in, int image, TexelMeaning meaning) {
     return in.find({.image = image}, meaning);
   };
@@ -156,7 +156,7 @@ TEST(TextureSet, AnImageIsThereOnceForEachMeaning) {
 
 TEST(TextureSet, TakesTheImagesWithIt) {
   Scene scene = textured_scene();
-  const TextureSet kept(scene, false), taken = TextureSet::take(scene, false);
+  const TextureSet kept(scene, {}), taken = TextureSet::take(scene, {});
   for (const TextureImage& image : scene.images) EXPECT_TRUE(image.pixels.empty());
   const std::pair<int, TexelMeaning> all[] = {
       {0, TexelMeaning::Color}, {0, TexelMeaning::Values}, {2, TexelMeaning::Color}};
@@ -170,7 +170,7 @@ TEST(TextureSet, TakesTheImagesWithIt) {
       EXPECT_EQ(std::memcmp(view.unorm8 + at, expected.unorm8 + at, 4), 0);
   }
   try {
-    const TextureSet again(scene, false);
+    const TextureSet again(scene, {});
     ADD_FAILURE() << "textures of images that are not there";
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "texture both: has no texels");

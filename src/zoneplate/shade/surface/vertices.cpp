@@ -140,7 +140,12 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
   };
   if (auto* q = quad(attributes.normal || attributes.position, 0)) {
     if (attributes.normal)
-      for (std::size_t c = 0; c < 3; ++c) q->value[c] = array(normal, c);
+      for (std::size_t c = 0; c < 3; ++c) {
+        q->value[c] = array(normal, c);
+        if (!attributes.normal_change) continue;
+        q->dx[c] = array(offsetof(ShadingState, normal_dx), c);
+        q->dy[c] = array(offsetof(ShadingState, normal_dy), c);
+      }
     if (attributes.position) q->value[3] = array(position, 0);
   }
   if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
@@ -163,6 +168,40 @@ void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int u
     const float4 t =
         face_tangent(mesh, {{batch.vertex[0][leader], batch.vertex[1][leader], batch.vertex[2][leader]}}, uv_set);
     p.tangent[0][i] = t.x, p.tangent[1][i] = t.y, p.tangent[2][i] = t.z, p.tangent[3][i] = t.w;
+  }
+}
+
+void find_surface_gradients(const Scene& scene, const FragmentBatch& batch, int uv_set, SurfaceGradients& out) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i) {
+    const std::size_t leader = batch.leader(i);
+    const auto copy = [&](float(&to)[3][FragmentBatch::padded_capacity], float3 v) {
+      to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
+    };
+    if (leader != i) {  // the fragment before it is of the same triangle
+      for (std::size_t c = 0; c < 3; ++c)
+        out.u[c][i] = out.u[c][i - 1], out.v[c][i] = out.v[c][i - 1], out.normal[c][i] = out.normal[c][i - 1];
+      continue;
+    }
+    const Instance& instance = scene.instances[batch.instance[leader]];
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const auto& uv = uv_set == 0 ? mesh.uv0 : mesh.uv1;
+    const std::uint32_t vertex[3] = {batch.vertex[0][leader], batch.vertex[1][leader], batch.vertex[2][leader]};
+    const auto edge = [&](int k) {
+      const float3 e = mesh.position[vertex[k]] - mesh.position[vertex[0]];
+      const float4x4& m = instance.world_from_object;
+      return xyz(m.column[0]) * e.x + xyz(m.column[1]) * e.y + xyz(m.column[2]) * e.z;
+    };
+    const float3 e1 = edge(1), e2 = edge(2), across = cross(e1, e2);
+    const float square = dot(across, across);
+    const bool is_flat = uv.empty() || !(square > 1e-30f);
+    const float2 a = is_flat ? float2{} : uv[vertex[1]] - uv[vertex[0]];
+    const float2 b = is_flat ? float2{} : uv[vertex[2]] - uv[vertex[0]];
+    const float3 first = cross(e2, across) * (is_flat ? 0 : 1 / square);
+    const float3 second = cross(across, e1) * (is_flat ? 0 : 1 / square);
+    copy(out.u, first * a.x + second * b.x), copy(out.v, first * a.y + second * b.y);
+    const bool is_mirrored = determinant3(instance.world_from_object) < 0;
+    const float side = (batch.is_front[leader] > 0) != is_mirrored ? 1.0f : -1.0f;
+    copy(out.normal, normalize(across, {0, 0, 0}) * side);
   }
 }
 

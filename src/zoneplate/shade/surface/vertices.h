@@ -13,7 +13,8 @@ namespace zoneplate {
 /// The attributes that a material needs.
 struct Attributes {
   bool position = false, normal = false, tangent = false, uv[2] = {false, false}, color = false;
-  int tangent_uv_set = 0;  ///< the coordinates from which tangents are made where a mesh has none
+  bool normal_change = false;  ///< the derivatives of the normal; with `normal`
+  int tangent_uv_set = 0;      ///< the coordinates from which tangents are made where a mesh has none
 };
 
 /// The offsets of the attributes in a vertex record. Records hold only attributes that some mesh of the material has.
@@ -52,6 +53,15 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
 /// Sets the tangents of fragments of meshes without tangents: the direction in which u grows over the triangle (zero
 /// where the triangle has no area in u, v); w: the sign of that area.
 void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& points);
+
+/// Of each fragment's triangle, in world space: the gradients of its texture coordinates along the surface, which are
+/// the changes of u and of v per world unit, and its unit normal, on the side that is seen. Zero where the triangle has
+/// no area.
+struct SurfaceGradients {
+  float u[3][FragmentBatch::padded_capacity], v[3][FragmentBatch::padded_capacity];
+  float normal[3][FragmentBatch::padded_capacity];
+};
+void find_surface_gradients(const Scene& scene, const FragmentBatch& batch, int uv_set, SurfaceGradients& out);
 
 /// Sets `is_lit` to 1 for the fragments of meshes that have normals, else to 0.
 void mark_lit(const Scene& scene, const FragmentBatch& batch, float* is_lit);

@@ -12,9 +12,35 @@
 
 namespace zoneplate {
 
-SamplerState make_filtering(const Sampler& sampler, int anisotropy) {
+namespace {
+
+/// The sampler that a filter stands for, with the wrap modes of another; filters of other kernels leave it as it is.
+Sampler replaced(Sampler sampler, const TextureFilter& filter) {
+  using Kind = TextureFilter::Kind;
+  const auto set = [&](TexelFilter texels, LevelFilter levels, int anisotropy) {
+    sampler.magnify = sampler.minify = texels, sampler.level = levels, sampler.anisotropy = anisotropy;
+  };
+  if (filter.kind == Kind::Nearest) set(TexelFilter::Nearest, LevelFilter::None, 1);
+  if (filter.kind == Kind::Bilinear) set(TexelFilter::Linear, LevelFilter::None, 1);
+  if (filter.kind == Kind::Trilinear) set(TexelFilter::Linear, LevelFilter::Linear, 1);
+  if (filter.kind == Kind::Probes) set(TexelFilter::Linear, LevelFilter::Linear, filter.anisotropy);
+  return sampler;
+}
+
+/// True for filters that FilteringKernels evaluate.
+bool is_by_taps(TextureFilter::Kind kind) {
+  using Kind = TextureFilter::Kind;
+  return kind == Kind::BySampler || kind == Kind::Nearest || kind == Kind::Bilinear || kind == Kind::Trilinear ||
+         kind == Kind::Probes;
+}
+
+}  // namespace
+
+SamplerState make_filtering(const Sampler& of, int anisotropy, const TextureFilter& filter) {
+  if (filter.kind != TextureFilter::Kind::BySampler) anisotropy = 1;
+  const Sampler sampler = replaced(of, filter);
   const bool blends = sampler.level == LevelFilter::Linear && sampler.minify == TexelFilter::Linear;
-  return {
+  SamplerState state = {
       .mirror_u = sampler.wrap_u == Wrap::Mirror,
       .clamp_u = sampler.wrap_u == Wrap::Clamp,
       .mirror_v = sampler.wrap_v == Wrap::Mirror,
@@ -24,6 +50,10 @@ SamplerState make_filtering(const Sampler& sampler, int anisotropy) {
       .has_mips = sampler.level != LevelFilter::None,
       .blends_mips = sampler.level == LevelFilter::Linear,
       .anisotropy = blends ? std::clamp(std::max(anisotropy, sampler.anisotropy), 1, SamplerState::max_anisotropy) : 1};
+  if (is_by_taps(filter.kind)) return state;
+  state.kind = filter.kind;
+  state.anisotropy = filter.anisotropy;
+  return state;
 }
 
 namespace scalar {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/scene/texture_filter.h"
 
 namespace zoneplate {
 
@@ -18,11 +19,14 @@ struct SamplerState {
   bool has_mips = true, blends_mips = true;
   std::int32_t anisotropy = 1;  ///< maximum number of probes along a footprint, in [1, max_anisotropy]; 1: isotropic
   static constexpr std::int32_t max_anisotropy = 16;
+  /// BySampler: FilteringKernels, by the members above. Otherwise AreaFilterKernels, which read the wrap modes only,
+  /// and Ewa the anisotropy.
+  TextureFilter::Kind kind = TextureFilter::Kind::BySampler;
   bool operator==(const SamplerState&) const = default;
 };
 /// The state of a sampler. The greater of `anisotropy` and the sampler's own value applies, but only to samplers that
-/// blend mip levels.
-SamplerState make_filtering(const Sampler& sampler, int anisotropy = 1);
+/// blend mip levels. A filter other than BySampler replaces all but the wrap modes.
+SamplerState make_filtering(const Sampler& sampler, int anisotropy = 1, const TextureFilter& filter = {});
 
 /// The texture coordinates of fragments, and their screen-space derivatives per pixel.
 struct Footprint {
@@ -32,6 +36,9 @@ struct Footprint {
   /// One flag for each group of eight fragments, or null. A flag that is set means that all fragments of the group have
   /// the derivatives of the fragment before it; those entries of the arrays are undefined.
   const bool* repeats = nullptr;
+
+  /// For TextureFilter::Kind::Stochastic: three numbers in [0, 1) of each fragment, in three arrays.
+  const float* random[3] = {};
 };
 
 /// The texels that fragments read, and their weights: of each of two mip levels, the indices of the upper left and the

@@ -3,11 +3,17 @@
 
 #include <algorithm>
 
+#include "zoneplate/shade/texture/area_filters.h"
 #include "zoneplate/shade/texture/filtering.h"
 
 namespace zoneplate {
 
 float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 dx, float2 dy) {
+  return sample(texture, sampler, {}, uv, dx, dy);
+}
+
+float4 sample(const Texture& texture, const Sampler& sampler, const TextureFilter& filter, float2 uv, float2 dx,
+              float2 dy, float3 random) {
   // Kernels process groups of eight fragments and may read up to the next multiple of 16.
   constexpr int count = 8, padded = 16;
   struct Array {
@@ -15,12 +21,16 @@ float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 
     explicit Array(float v) { std::fill_n(value, padded, v); }
   };
   const Array u(uv.x), v(uv.y), dudx(dx.x), dvdx(dx.y), dudy(dy.x), dvdy(dy.y);
-  const Footprint footprint{u.value, v.value, dudx.value, dvdx.value, dudy.value, dvdy.value};
+  const Array numbers[3] = {Array(random.x), Array(random.y), Array(random.z)};
+  const Footprint footprint{u.value,    v.value,    dudx.value, dvdx.value,
+                            dudy.value, dvdy.value, nullptr,    {numbers[0].value, numbers[1].value, numbers[2].value}};
   Array red(0), green(0), blue(0), alpha(0);
   float* const out[4] = {red.value, green.value, blue.value, alpha.value};
-  const SamplerState state = make_filtering(sampler);
+  const SamplerState state = make_filtering(sampler, 1, filter);
   const FilteringKernels& kernels = FilteringKernels::of();
-  if (state.anisotropy > 1) {
+  if (state.kind != TextureFilter::Kind::BySampler) {
+    sample_area(texture, state, footprint, out, count);
+  } else if (state.anisotropy > 1) {
     kernels.sample_anisotropic(texture.view(), state, footprint, out, count);
   } else {
     Taps taps;

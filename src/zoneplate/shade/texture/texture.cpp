@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cassert>
+#include <mutex>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "zoneplate/scene/material.h"
 #include "zoneplate/shade/texture/growing_memory.h"
 #include "zoneplate/shade/texture/texture_view.h"
+#include "zoneplate/signal/filter/resample.h"
 
 namespace zoneplate {
 namespace {
@@ -215,19 +217,129 @@ bool are_halves(const Plane<float4>& image, float most) {
   return all;
 }
 
+/// The value of a texel, and the texel of a value, clamped to the texture's range.
+template <class Code>
+constexpr float unit_of = std::is_same_v<Code, std::uint8_t>    ? 1.0f / 255.0f
+                          : std::is_same_v<Code, std::uint16_t> ? 1.0f / 32767.0f
+                                                                : 1.0f;
+template <class Code>
+Code code_of(float value, float most) {
+  const float inside = clamped(value, most);
+  if constexpr (std::is_same_v<Code, std::uint8_t>)
+    return static_cast<Code>(inside * 255.0f + 0.5f);
+  else if constexpr (std::is_same_v<Code, std::uint16_t>)
+    return static_cast<Code>(inside * 32767.0f + 0.5f);
+  else if constexpr (std::is_same_v<Code, Half>)
+    return {half_bits(std::min(inside, 65504.0f))};
+  else
+    return inside;
+}
+
+Border border_of(Wrap wrap) {
+  return wrap == Wrap::Repeat ? Border::Wrap : wrap == Wrap::Mirror ? Border::Reflect : Border::Clamp;
+}
+
+/// Makes level l from the level before it, by a kernel with negative lobes.
+template <class Code>
+void filter_level(Code* codes, const TextureView& view, std::int32_t l, const LevelOptions& options) {
+  static const Kernel kaiser = make_kernel("kaiser"), lanczos = make_kernel("lanczos3");
+  const Kernel& kernel = options.filter == MipFilter::Kaiser ? kaiser : lanczos;
+  const Size from{view.width[l - 1], view.height[l - 1]}, to{view.width[l], view.height[l]};
+  LinearImage image(from.width, from.height);
+  for (std::int32_t y = 0; y < from.height; ++y) {
+    const Code* texel = row_of(codes, view, l - 1, y);
+    for (Linear& p : image.row(y)) {
+      const auto value = [&](int c) { return static_cast<float>(term(texel[c])) * unit_of<Code>; };
+      p = {value(0), value(1), value(2), value(3)};
+      texel += 4;
+    }
+  }
+  // One direction after the other, since the borders may differ.
+  const LinearImage wide = resample(image, to.width, from.height, kernel, {.border = border_of(options.wrap_u)});
+  const LinearImage small = resample(wide, to.width, to.height, kernel, {.border = border_of(options.wrap_v)});
+  for (std::int32_t y = 0; y < to.height; ++y) {
+    Code* const row = row_of(codes, view, l, y);
+    Code* texel = row;
+    for (const Linear& p : small.row(y)) {
+      texel[0] = code_of<Code>(p.r, view.most), texel[1] = code_of<Code>(p.g, view.most);
+      texel[2] = code_of<Code>(p.b, view.most), texel[3] = code_of<Code>(p.a, 1);
+      texel += 4;
+    }
+    close_row(row, to.width);
+  }
+}
+
+/// The alphas of a level's texels, ascending.
+template <class Code>
+std::vector<float> sorted_alphas(const Code* codes, const TextureView& view, std::int32_t l) {
+  std::vector<float> alphas;
+  for (std::int32_t y = 0; y < view.height[l]; ++y) {
+    const Code* const row = row_of(const_cast<Code*>(codes), view, l, y);
+    for (std::int32_t x = 0; x < view.width[l]; ++x)
+      alphas.push_back(static_cast<float>(term(row[std::ptrdiff_t{4} * x + 3])) * unit_of<Code>);
+  }
+  std::ranges::sort(alphas);
+  return alphas;
+}
+
+/// Multiplies the alpha of each level but the first by the number with which as many texels reach the cutoff as the
+/// fraction in level 0 asks for, to the nearest.
+template <class Code>
+void keep_coverage(Code* codes, const TextureView& view, float cutoff) {
+  if (!(cutoff > 0 && cutoff <= 1)) return;
+  const std::vector<float> first = sorted_alphas(codes, view, 0);
+  const auto passing = static_cast<double>(first.end() - std::ranges::lower_bound(first, cutoff));
+  const double coverage = passing / static_cast<double>(first.size());
+  for (std::int32_t l = 1; l < view.levels; ++l) {
+    const std::vector<float> alphas = sorted_alphas(codes, view, l);
+    const auto wanted = static_cast<std::size_t>(coverage * static_cast<double>(alphas.size()) + 0.5);
+    // The alpha that comes to lie on the cutoff: that of the last texel that is to pass, or, if it has many equals and
+    // the coverage without them is nearer, the next greater one.
+    const float last = wanted > 0 ? alphas[alphas.size() - wanted] : alphas.back();
+    const auto from = std::ranges::lower_bound(alphas, last), to = std::ranges::upper_bound(alphas, last);
+    const auto with = static_cast<std::size_t>(alphas.end() - from),
+               without = static_cast<std::size_t>(alphas.end() - to);
+    const bool includes = wanted > without && with - wanted <= wanted - without;
+    const float pivot = includes ? last : to != alphas.end() ? *to : last * 1.01f;
+    if (!(pivot > 0)) continue;
+    const float scale = cutoff / pivot;
+    for (std::int32_t y = 0; y < view.height[l]; ++y) {
+      Code* const row = row_of(codes, view, l, y);
+      for (std::int32_t x = 0; x < view.width[l]; ++x) {
+        Code& alpha = row[std::ptrdiff_t{4} * x + 3];
+        alpha = code_of<Code>(static_cast<float>(term(alpha)) * unit_of<Code> * scale, 1);
+      }
+      close_row(row, view.width[l]);
+    }
+    close_level(codes, view, l);
+  }
+}
+
 }  // namespace
 
 struct Texture::Levels {
   void make_first_level(const TexelImage& image, TexelMeaning meaning);
-  void make_other_levels();
+  void make_other_levels(const LevelOptions& options);
   template <class Code, class Pixel, class Decode>
   void fill(const Plane<Pixel>& image, const Code* TextureView::*texels, const Decode& decode);
   template <class Code>
-  void make_levels(const Code* TextureView::*texels);
+  void make_levels(const Code* TextureView::*texels, const LevelOptions& options);
+  template <class Code>
+  void halve_level(Code* codes, std::int32_t l);
+  void make_ripmap();
+  void make_sums();
+  void make_normal_spread();
 
   GrowingMemory memory;
   std::size_t count = 0;  ///< of the texels of all levels, with what may be read after them
   TextureView view;
+
+  // Made at first use.
+  std::once_flag has_ripmap, has_sums, has_normal_spread;
+  GrowingMemory ripmap_memory, sums_memory, spread_memory;
+  RipmapView ripmap;
+  SumsView sums;
+  TextureView normal_spread;
 };
 
 template <class Code, class Pixel, class Decode>
@@ -270,29 +382,197 @@ void Texture::Levels::fill(const Plane<Pixel>& image, const Code* TextureView::*
   close_level(target, view, 0);
 }
 
+/// Makes level l from the level before it, by means.
+template <class Code>
+void Texture::Levels::halve_level(Code* codes, std::int32_t l) {
+  const Size from{view.width[l - 1], view.height[l - 1]}, to{view.width[l], view.height[l]};
+  const bool is_even = from.width % 2 == 0 && from.height % 2 == 0;
+  parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
+    for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
+      Code* const out = row_of(codes, view, l, y);
+      const Cover rows = cover(from.height, to.height, y);
+      const auto source =
+          covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t) { return row_of(codes, view, l - 1, at); });
+      if (is_even)
+        halve_row(source[0], source[1], to.width, out);
+      else
+        shrink_row(source, rows, from, to, out);
+      close_row(out, to.width);
+    }
+  });
+}
+
 /// Makes all levels from level 0, each from the level before it.
 template <class Code>
-void Texture::Levels::make_levels(const Code* TextureView::*texels) {
+void Texture::Levels::make_levels(const Code* TextureView::*texels, const LevelOptions& options) {
   if (view.*texels == nullptr) return;
   memory.grow(count * 4 * sizeof(Code));
   auto* const codes = reinterpret_cast<Code*>(memory.data());
   for (std::int32_t l = 1; l < view.levels; ++l) {
-    const Size from{view.width[l - 1], view.height[l - 1]}, to{view.width[l], view.height[l]};
-    const bool is_even = from.width % 2 == 0 && from.height % 2 == 0;
-    parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
-      for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
-        Code* const out = row_of(codes, view, l, y);
-        const Cover rows = cover(from.height, to.height, y);
-        const auto source =
-            covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t) { return row_of(codes, view, l - 1, at); });
-        if (is_even)
-          halve_row(source[0], source[1], to.width, out);
-        else
-          shrink_row(source, rows, from, to, out);
-        close_row(out, to.width);
-      }
-    });
+    if (options.filter == MipFilter::Box)
+      halve_level(codes, l);
+    else
+      filter_level(codes, view, l, options);
     close_level(codes, view, l);
+  }
+  if (options.kept_cutoff) keep_coverage(codes, view, *options.kept_cutoff);
+}
+
+void Texture::Levels::make_ripmap() {
+  ripmap.texels = view;
+  const auto halves = [](std::int32_t size, std::int32_t(&sizes)[TextureView::max_levels]) {
+    std::int32_t levels = 0;
+    for (; levels == 0 || sizes[levels - 1] > 1; ++levels) sizes[levels] = levels == 0 ? size : sizes[levels - 1] / 2;
+    return levels;
+  };
+  ripmap.columns = halves(view.width[0], ripmap.width), ripmap.rows = halves(view.height[0], ripmap.height);
+  std::int64_t texels = 0;
+  for (std::int32_t l = 0; l < ripmap.rows; ++l)
+    for (std::int32_t k = 0; k < ripmap.columns; ++k) {
+      ripmap.offset[TextureView::max_levels * l + k] = static_cast<std::int32_t>(texels);
+      texels += (std::int64_t{ripmap.width[k]} + 2) * (ripmap.height[l] + 2);
+    }
+  texels += 2;
+  if (texels >= std::int64_t{1} << 31) throw std::bad_alloc();
+  const auto make = [&](auto TextureView::*texel_pointer) {
+    using Code = std::remove_cvref_t<decltype(*(view.*texel_pointer))>;
+    const Code* const source = view.*texel_pointer;
+    if (source == nullptr) return;
+    const std::size_t bytes = static_cast<std::size_t>(texels) * 4 * sizeof(Code);
+    ripmap_memory = GrowingMemory(bytes);
+    ripmap_memory.grow(bytes);
+    auto* const codes = reinterpret_cast<Code*>(ripmap_memory.data());
+    ripmap.texels.*texel_pointer = codes;
+    const auto row = [&](std::int32_t k, std::int32_t l, std::int32_t y) {
+      return codes +
+             std::ptrdiff_t{4} * (ripmap.offset[TextureView::max_levels * l + k] + (y + 1) * (ripmap.width[k] + 2) + 1);
+    };
+    for (std::int32_t l = 0; l < ripmap.rows; ++l)
+      for (std::int32_t k = 0; k < ripmap.columns; ++k) {
+        const Size to{ripmap.width[k], ripmap.height[l]};
+        // From the level before it along u; those of column 0, from the level before it along v.
+        const std::int32_t from_k = std::max(k - 1, 0), from_l = k > 0 ? l : std::max(l - 1, 0);
+        const Size from{ripmap.width[from_k], ripmap.height[from_l]};
+        const bool is_first = k == 0 && l == 0;
+        parallel_ranges(static_cast<std::size_t>(to.height), rows_per_range, [&](std::size_t begin, std::size_t end) {
+          for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
+            Code* const out = row(k, l, y);
+            if (is_first) {
+              std::copy_n(source + std::ptrdiff_t{4} * view.texel(0, 0, y), std::ptrdiff_t{4} * to.width, out);
+            } else {
+              const Cover rows = cover(from.height, to.height, y);
+              shrink_row(
+                  covered_rows<Code>(rows, [&](std::int32_t at, std::int32_t) { return row(from_k, from_l, at); }),
+                  rows, from, to, out);
+            }
+            close_row(out, to.width);
+          }
+        });
+        const std::ptrdiff_t pitch = std::ptrdiff_t{4} * (to.width + 2);
+        std::copy_n(row(k, l, to.height - 1) - 4, pitch, row(k, l, -1) - 4);
+        std::copy_n(row(k, l, 0) - 4, pitch, row(k, l, to.height) - 4);
+      }
+  };
+  make(&TextureView::unorm8), make(&TextureView::unorm15), make(&TextureView::halves), make(&TextureView::values);
+}
+
+void Texture::Levels::make_sums() {
+  const std::int32_t w = sums.width = view.width[0], h = sums.height = view.height[0];
+  const std::size_t bytes = (static_cast<std::size_t>(w) + 1) * (static_cast<std::size_t>(h) + 1) * 4 * 8;
+  sums_memory = GrowingMemory(bytes);
+  sums_memory.grow(bytes);
+  const auto make = [&](const auto* source, auto* table) {
+    const std::ptrdiff_t pitch = std::ptrdiff_t{4} * (w + 1);
+    for (std::int32_t y = 0; y < h; ++y) {
+      const auto* from = source + std::ptrdiff_t{4} * view.texel(0, 0, y);
+      auto* const out = table + pitch * (y + 1);
+      std::remove_cvref_t<decltype(*table)> sum[4] = {};
+      for (std::int32_t x = 0; x < w; ++x)
+        for (int c = 0; c < 4; ++c) {
+          sum[c] += term(from[std::ptrdiff_t{4} * x + c]);
+          const std::ptrdiff_t at = std::ptrdiff_t{4} * (x + 1) + c;
+          out[at] = out[at - pitch] + sum[c];
+        }
+    }
+  };
+  auto* const codes = reinterpret_cast<std::uint64_t*>(sums_memory.data());
+  auto* const values = reinterpret_cast<double*>(sums_memory.data());
+  if (view.unorm8 != nullptr) make(view.unorm8, codes);
+  if (view.unorm15 != nullptr) make(view.unorm15, codes);
+  if (view.halves != nullptr) make(view.halves, values);
+  if (view.values != nullptr) make(view.values, values);
+  if (view.unorm8 != nullptr || view.unorm15 != nullptr)
+    sums.codes = codes;
+  else
+    sums.values = values;
+  sums.unit = view.unorm8 != nullptr ? 1.0f / 255.0f : view.unorm15 != nullptr ? 1.0f / 32767.0f : 1.0f;
+}
+
+/// The moments of the unit normals and of their slopes are averaged exactly from level 0, level by level.
+void Texture::Levels::make_normal_spread() {
+  struct Moments {
+    double x = 0, y = 0, z = 0;           ///< of unit normals
+    double p = 0, q = 0, pp = 0, qq = 0;  ///< of slopes x / z and y / z, and of their squares
+  };
+  constexpr double least_z = 1.0 / 64;  // steeper slopes count as 64
+  const auto value = [&](std::int32_t x, std::int32_t y, int c) {
+    const std::ptrdiff_t at = std::ptrdiff_t{4} * view.texel(0, x, y) + c;
+    if (view.unorm8 != nullptr) return static_cast<double>(view.unorm8[at]) / 255;
+    if (view.unorm15 != nullptr) return static_cast<double>(view.unorm15[at]) / 32767;
+    return static_cast<double>(view.halves != nullptr ? term(view.halves[at]) : view.values[at]);
+  };
+  normal_spread = view;
+  normal_spread.unorm8 = nullptr, normal_spread.unorm15 = nullptr, normal_spread.halves = nullptr;
+  spread_memory = GrowingMemory(count * 4 * sizeof(float));
+  spread_memory.grow(count * 4 * sizeof(float));
+  auto* const out = reinterpret_cast<float*>(spread_memory.data());
+  normal_spread.values = out;
+
+  Size size{view.width[0], view.height[0]};
+  std::vector<Moments> moments(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  for (std::int32_t y = 0; y < size.height; ++y)
+    for (std::int32_t x = 0; x < size.width; ++x) {
+      double n[3] = {2 * value(x, y, 0) - 1, 2 * value(x, y, 1) - 1, 2 * value(x, y, 2) - 1};
+      const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], unit = square > 1e-12 ? 1 / std::sqrt(square) : 0;
+      for (double& v : n) v *= unit;
+      const double z = std::max(n[2], least_z), p = n[0] / z, q = n[1] / z;
+      moments[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)] = {
+          n[0], n[1], unit > 0 ? n[2] : 1, p, q, p * p, q * q};
+    }
+  for (std::int32_t l = 0;; ++l) {
+    for (std::int32_t y = 0; y < size.height; ++y) {
+      float* const row = row_of(out, view, l, y);
+      for (std::int32_t x = 0; x < size.width; ++x) {
+        const Moments& m =
+            moments[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)];
+        const double length = l == 0 ? 1 : std::min(std::sqrt(m.x * m.x + m.y * m.y + m.z * m.z), 1.0);
+        const double variance = l == 0 ? 0 : std::max(m.pp - m.p * m.p, 0.0) + std::max(m.qq - m.q * m.q, 0.0);
+        row[4 * x] = static_cast<float>(length), row[4 * x + 1] = static_cast<float>(variance);
+      }
+      close_row(row, size.width);
+    }
+    close_level(out, view, l);
+    if (l + 1 == view.levels) break;
+    const Size to{view.width[l + 1], view.height[l + 1]};
+    const double total = static_cast<double>(total_weight(size.width, to.width)) *
+                         static_cast<double>(total_weight(size.height, to.height));
+    std::vector<Moments> next;
+    next.reserve(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
+    for (std::int32_t y = 0; y < to.height; ++y)
+      for (std::int32_t x = 0; x < to.width; ++x) {
+        const Cover rows = cover(size.height, to.height, y), columns = cover(size.width, to.width, x);
+        Moments sum;
+        for (std::int32_t j = 0; j < rows.count; ++j)
+          for (std::int32_t i = 0; i < columns.count; ++i) {
+            const double weight = static_cast<double>(rows.weight[j] * columns.weight[i]) / total;
+            const Moments& m = moments[static_cast<std::size_t>(rows.first + j) * static_cast<std::size_t>(size.width) +
+                                       static_cast<std::size_t>(columns.first + i)];
+            sum.x += weight * m.x, sum.y += weight * m.y, sum.z += weight * m.z;
+            sum.p += weight * m.p, sum.q += weight * m.q, sum.pp += weight * m.pp, sum.qq += weight * m.qq;
+          }
+        next.push_back(sum);
+      }
+    moments = std::move(next), size = to;
   }
 }
 
@@ -306,7 +586,7 @@ void Texture::Levels::make_first_level(const TexelImage& image, TexelMeaning mea
     });
   }
   if (image.kind() == TexelKind::Light && !image.empty()) {
-    const float most = is_color ? 1e9f : 1.0f;
+    const float most = view.most = is_color ? 1e9f : 1.0f;
     const Plane<float4>& light = image.as<float4>();
     if (are_halves(light, most))
       return fill(light, &TextureView::halves, [&](const float4& p, Half* out) {
@@ -331,25 +611,27 @@ void Texture::Levels::make_first_level(const TexelImage& image, TexelMeaning mea
 }
 
 /// Exactly one of the four is present.
-void Texture::Levels::make_other_levels() {
-  make_levels(&TextureView::unorm8);
-  make_levels(&TextureView::unorm15);
-  make_levels(&TextureView::halves);
-  make_levels(&TextureView::values);
+void Texture::Levels::make_other_levels(const LevelOptions& options) {
+  make_levels(&TextureView::unorm8, options);
+  make_levels(&TextureView::unorm15, options);
+  make_levels(&TextureView::halves, options);
+  make_levels(&TextureView::values, options);
 }
 
-Texture::Texture(const TexelImage& image, TexelMeaning meaning) : levels_(std::make_unique<Levels>()) {
+Texture::Texture(const TexelImage& image, TexelMeaning meaning, const LevelOptions& options)
+    : levels_(std::make_unique<Levels>()) {
   growing("texture levels", [&] {
     levels_->make_first_level(image, meaning);
-    levels_->make_other_levels();
+    levels_->make_other_levels(options);
   });
 }
 
-Texture::Texture(TexelImage&& image, TexelMeaning meaning) : levels_(std::make_unique<Levels>()) {
+Texture::Texture(TexelImage&& image, TexelMeaning meaning, const LevelOptions& options)
+    : levels_(std::make_unique<Levels>()) {
   growing("texture levels", [&] {
     levels_->make_first_level(image, meaning);
     image = TexelImage();
-    levels_->make_other_levels();
+    levels_->make_other_levels(options);
   });
 }
 
@@ -358,5 +640,21 @@ Texture::Texture(Texture&& other) noexcept = default;
 Texture& Texture::operator=(Texture&& other) noexcept = default;
 
 const TextureView& Texture::view() const { return levels_->view; }
+
+const RipmapView& Texture::ripmap() const {
+  std::call_once(levels_->has_ripmap, [&] { growing("ripmap levels", [&] { levels_->make_ripmap(); }); });
+  return levels_->ripmap;
+}
+
+const SumsView& Texture::sums() const {
+  std::call_once(levels_->has_sums, [&] { growing("summed-area tables", [&] { levels_->make_sums(); }); });
+  return levels_->sums;
+}
+
+const TextureView& Texture::normal_spread() const {
+  std::call_once(levels_->has_normal_spread,
+                 [&] { growing("normal variances", [&] { levels_->make_normal_spread(); }); });
+  return levels_->normal_spread;
+}
 
 }  // namespace zoneplate

@@ -300,5 +300,73 @@ TEST(Texture, ThreadsDoNotMatter) {
   }
 }
 
+TEST(Texture, SharperFiltersKeepWavesThatFitAndRemoveOthers) {
+  const auto swing = [&](int period, MipFilter filter) {
+    Plane<float4> wave(72, 72);
+    for (int y = 0; y < 72; ++y)
+      for (int x = 0; x < 72; ++x) {
+        const float v = 0.5f + 0.4f * std::sin(6.2831853f * static_cast<float>(x) / static_cast<float>(period));
+        wave(x, y) = {v, v, v, 1};
+      }
+    const Texture texture(wave, TexelMeaning::Color, {.filter = filter});
+    const TextureView& view = texture.view();
+    float low = 1, high = 0;
+    for (int x = 0; x < view.width[1]; ++x) {
+      const float v = view.values[std::ptrdiff_t{4} * view.texel(1, x, 7)];
+      low = std::min(low, v), high = std::max(high, v);
+    }
+    return high - low;
+  };
+  for (const MipFilter filter : {MipFilter::Kaiser, MipFilter::Lanczos}) {
+    EXPECT_GT(swing(8, filter), 1.05f * swing(8, MipFilter::Box));  // 4 texels of level 1
+    EXPECT_LT(swing(3, filter), 0.3f * swing(3, MipFilter::Box));   // 1.5 texels of level 1, beyond its limit
+  }
+
+  const Texture even(Rgba8Image(24, 13, Rgba8{99, 5, 250, 17}), TexelMeaning::Values, {.filter = MipFilter::Kaiser});
+  for (int l = 0; l < even.view().levels; ++l) {
+    const auto codes = codes_of(even.view(), l);
+    for (std::size_t i = 0; i < codes.size(); i += 4)
+      ASSERT_TRUE(codes[i] == 99 && codes[i + 1] == 5 && codes[i + 2] == 250 && codes[i + 3] == 17) << l;
+  }
+}
+
+TEST(Texture, KeepsTheCoverageOfAnAlphaTest) {
+  Rgba8Image image = noise(64, 64, 7);
+  for (Rgba8& p : image.values()) p.a = p.a > 200 ? 255 : p.a / 4;  // a fifth passes, scattered
+  const auto coverage = [&](const Texture& texture, int level) {
+    const TextureView& view = texture.view();
+    int passing = 0;
+    for (int y = 0; y < view.height[level]; ++y)
+      for (int x = 0; x < view.width[level]; ++x)
+        if (view.unorm15[std::ptrdiff_t{4} * view.texel(level, x, y) + 3] >= 16384) ++passing;
+    return static_cast<double>(passing) / (view.width[level] * view.height[level]);
+  };
+  const Texture averaged(image, TexelMeaning::Color), kept(image, TexelMeaning::Color, {.kept_cutoff = 0.5f});
+  const double wanted = coverage(kept, 0);
+  EXPECT_EQ(coverage(averaged, 0), wanted);
+  EXPECT_LT(coverage(averaged, 3), 0.3 * wanted);
+  for (int l = 1; l < 5; ++l)
+    EXPECT_NEAR(coverage(kept, l), wanted, 0.02 + 1.0 / (kept.view().width[l] * kept.view().width[l]));
+}
+
+TEST(Texture, TheSpreadOfNormalsIsThatOfTheTexelsBelow) {
+  // Slopes 1 and -1 by columns, 0.5 everywhere along y.
+  Plane<float4> map(8, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      const float p = x % 2 == 0 ? 1.0f : -1.0f, q = 0.5f, length = std::sqrt(p * p + q * q + 1);
+      map(x, y) = {0.5f + p / length / 2, 0.5f + q / length / 2, 0.5f + 1 / length / 2, 1};
+    }
+  const Texture texture(map, TexelMeaning::Values);
+  const TextureView& spread = texture.normal_spread();
+  for (int l = 0; l < spread.levels; ++l)
+    for (int y = -1; y <= spread.height[l]; ++y)
+      for (int x = -1; x <= spread.width[l]; ++x) {
+        const float* const texel = spread.values + std::ptrdiff_t{4} * spread.texel(l, x, y);
+        EXPECT_NEAR(texel[0], l == 0 ? 1 : std::sqrt(1.25f / 2.25f), 1e-6) << l;
+        EXPECT_NEAR(texel[1], l == 0 ? 0 : 1, 1e-6);
+      }
+}
+
 }  // namespace
 }  // namespace zoneplate

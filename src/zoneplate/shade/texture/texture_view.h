@@ -21,6 +21,7 @@ struct TextureView {
   const std::uint16_t* unorm15 = nullptr;  ///< a value is unorm15 / 32767
   const Half* halves = nullptr;            ///< half floats
   const float* values = nullptr;           ///< floats
+  float most = 1;                          ///< the greatest red, green or blue
   std::int32_t levels = 0;                 ///< of the mip pyramid; level 0 is the largest
   std::int32_t width[max_levels] = {}, height[max_levels] = {};  ///< of each level, without its border
   std::int32_t offset[max_levels] = {};                          ///< where each level begins, in texels
@@ -31,6 +32,30 @@ struct TextureView {
   std::int32_t texel(int level, std::int32_t x, std::int32_t y) const {
     return offset[level] + (y + 1) * pitch(level) + x + 1;
   }
+};
+
+/// A ripmap: the image reduced k times along u and l times along v, for all k and l.
+///
+/// Shape     texel (x, y) of level (k, l) has the index offset[max_levels l + k] + (y + 1) (width[k] + 2) + x + 1, with
+///           a border as in TextureView.
+/// Source    Larson and Shah, Method for generating addresses to textured graphics primitives stored in RIP maps, US
+///           patent 5222205, 1990.
+struct RipmapView {
+  TextureView texels;                  ///< its pointers, and the pyramid from which the ripmap was made
+  std::int32_t columns = 0, rows = 0;  ///< numbers of levels along u, and along v
+  std::int32_t width[TextureView::max_levels] = {}, height[TextureView::max_levels] = {};  ///< by level along an axis
+  std::int32_t offset[TextureView::max_levels * TextureView::max_levels] = {};
+};
+
+/// A summed-area table: entry (x, y) is the sum of the texels of level 0 in the first x columns and the first y rows.
+///
+/// Shape     (width + 1) × (height + 1) entries of four channels, row by row; exactly one pointer is set.
+/// Source    Crow, Summed-Area Tables for Texture Mapping, SIGGRAPH 1984.
+struct SumsView {
+  const std::uint64_t* codes = nullptr;  ///< of unorm8 or unorm15 texels
+  const double* values = nullptr;        ///< of floats or half floats
+  float unit = 1;                        ///< the value of a code
+  std::int32_t width = 0, height = 0;
 };
 
 }  // namespace zoneplate
