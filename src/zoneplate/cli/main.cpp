@@ -32,7 +32,8 @@ constexpr Verb verbs[] = {
     {"compare", "compare antialiasing methods on scenes against a reference", run_compare},
     {"bench", "measure frame times, stage by stage", run_bench},
     {"demo", "make captioned images that explain aliasing and antialiasing", run_demo},
-    {"signal", "analyse and filter images: spectra, convolution, resampling", run_signal}};
+    {"signal", "analyse and filter images: spectra, convolution, resampling", run_signal},
+    {"texture", "make mip levels and normal maps of images", run_texture}};
 
 const Verb* find_verb(std::string_view name) {
   for (const Verb& verb : verbs)

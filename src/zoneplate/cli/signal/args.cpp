@@ -103,7 +103,7 @@ void save_plots(const std::string& path, const std::vector<Plot>& plots, int col
 }
 
 void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json) {
-  Json::Object report{{"format", "zoneplate-signal"}, {"version", report_version}};
+  Json::Object report{{"format", args.report}, {"version", report_version}};
   report.insert(report.end(), json.begin(), json.end());
   const std::string line = args.prints_json ? Json(std::move(report)).text() + '\n' : text;
   if (args.output != "-") return print(line);

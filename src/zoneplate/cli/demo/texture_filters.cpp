@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Texture filters where a texture is reduced, on boards to the horizon, and where it is enlarged.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "zoneplate/cli/demo/demo.h"
+#include "zoneplate/cli/demo/picture.h"
+#include "zoneplate/math/transform.h"
+#include "zoneplate/shade/texture/sample.h"
+#include "zoneplate/signal/filter/kernel.h"
+#include "zoneplate/signal/filter/resample.h"
+#include "zoneplate/signal/pattern/pattern.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr int factor = 4;                   // enlargement of the crops
+constexpr float eighth_turn = 0.78539816f;  // the footprints' long axes lie between the axes of the texture
+
+/// The board, turned by 45°, with another texture.
+Scene board(const Rgba8Image* texture) {
+  Scene scene = scene_of("checkerboard");
+  scene.instances.at(0).world_from_object = rotation({0, 1, 0}, eighth_turn);
+  if (texture != nullptr) scene.images.at(0).pixels = *texture;
+  return scene;
+}
+
+struct Row {
+  const char* filter;
+  const char* meaning;
+};
+constexpr std::array<Row, 7> reduced = {
+    {{"nearest", "One texel: false patterns far away, jagged squares near by."},
+     {"bilinear", "Four texels of the full image: far away each pixel still misses nearly all texels under it."},
+     {"trilinear", "Mip levels by the longer side of the footprint: no aliasing, but blur towards the horizon."},
+     {"ripmap", "Levels reduced along u and v separately: helps along the axes only, and this board lies across them."},
+     {"sat", "The mean over the bounding box of the footprint: the same limit."},
+     {"probes:anisotropy=16", "Up to 16 trilinear probes along the footprint, as GPUs do."},
+     {"ewa:anisotropy=16", "The Gaussian mean over the footprint's ellipse."}}};
+
+struct Measured {
+  Rgba8Image picture;
+  double error;  // root mean square in linear light, below the horizon
+};
+
+std::array<Measured, 8> shoot_all(const Scene& scene, int side) {
+  const auto of = [&](const std::string& method, const std::string& filter) {
+    return shoot(scene, method,
+                 RenderOptions{.width = side, .height = side, .texture_filter = parse_texture_filter(filter)});
+  };
+  const LinearImage reference = of("ssaa:samples=1024", "bilinear");
+  const int first = side * 2 / 5;
+  const auto below = [&](const LinearImage& image) {
+    return cropped(luminance_of(image), 0, first, side, side - first);
+  };
+  std::array<Measured, 8> all;
+  for (std::size_t i = 0; i < reduced.size(); ++i) {
+    const LinearImage image = of("none", reduced[i].filter);
+    all[i] = {shown(image), rms_difference(below(image), below(reference))};
+  }
+  all[7] = {shown(reference), 0};
+  return all;
+}
+
+void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>& errors, Figure& figure) {
+  const auto all = shoot_all(scene, side);
+  for (std::size_t half = 0; half < 2; ++half) {
+    std::vector<Panel> pictures, crops;
+    for (std::size_t i = 4 * half; i < 4 * half + 4; ++i) {
+      const std::string caption = i == 7 ? "1024 samples a pixel\nThe reference."
+                                         : fmt::format("{}\n{} Error {} %.", reduced[i].filter, reduced[i].meaning,
+                                                       number(100 * all[i].error, 1));
+      const int x = side / 2, y = crop_y;
+      pictures.push_back({marked(all[i].picture, x, y, factor, side / 2), caption});
+      crops.push_back({crop_of(all[i].picture, x, y, factor, side), ""});
+      errors[i] = all[i].error;
+    }
+    figure.rows.push_back(std::move(pictures)), figure.rows.push_back(std::move(crops));
+  }
+}
+
+constexpr std::array<Row, 4> enlarged_by = {{{"bilinear", "Continuous, with creases along the rows of texels."},
+                                             {"catmull-rom", "Smooth and sharp; slight dark and light seams at edges."},
+                                             {"b-spline", "Smoothest, without seams, but blurred."},
+                                             {"mitchell", "Between both."}}};
+
+/// A small image enlarged by each filter, against the image that it was reduced from.
+std::array<double, 4> add_enlarged(int side, Figure& figure) {
+  const int small = side / 9;
+  const LinearImage original = shoot(scene_of("teapot"), "ssaa:n=8", side, side);
+  const Texture texture(shown(resample(original, small, small, make_kernel("lanczos3"))), TexelMeaning::Color);
+  std::array<double, 4> errors{};
+  std::vector<Panel> row;
+  for (std::size_t i = 0; i < enlarged_by.size(); ++i) {
+    const TextureFilter filter = parse_texture_filter(enlarged_by[i].filter);
+    const float step = 1 / static_cast<float>(side);
+    LinearImage image(side, side);
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const float2 uv{(static_cast<float>(x) + 0.5f) * step, (static_cast<float>(y) + 0.5f) * step};
+        const float4 c = sample(texture, {}, filter, uv, {step, 0}, {0, step});
+        image(x, y) = {c.x, c.y, c.z, 1};
+      }
+    errors[i] = rms_difference(luminance_of(image), luminance_of(original));
+    row.push_back({shown(image), fmt::format("{}, enlarged 9 times\n{} Error {} %.", enlarged_by[i].filter,
+                                             enlarged_by[i].meaning, number(100 * errors[i], 2))});
+  }
+  figure.rows.push_back(std::move(row));
+  return errors;
+}
+
+Lesson make(const DemoSize& size) {
+  const int side = size.panel;
+  Figure figure{.title = "Texture filters: what a pixel takes of the texture under it"};
+  std::array<double, 8> checks{}, bricks{};
+  add_boards(board(nullptr), side, side * 45 / 100, checks, figure);
+  const Rgba8Image wall = shown(make_pattern("bricks"));
+  add_boards(board(&wall), side, side * 56 / 100, bricks, figure);
+  const auto enlarged_errors = add_enlarged(side, figure);
+
+  Table table{{"filter", "checkerboard", "bricks", "enlarged"}, {}};
+  const auto percent = [](double error) { return number(100 * error, 2) + " %"; };
+  for (std::size_t i = 0; i < reduced.size(); ++i)
+    table.rows.push_back({reduced[i].filter, percent(checks[i]), percent(bricks[i]),
+                          i == 1 ? percent(enlarged_errors[0]) : std::string("")});
+  for (std::size_t i = 1; i < enlarged_by.size(); ++i)
+    table.rows.push_back({enlarged_by[i].filter, "", "", percent(enlarged_errors[i])});
+  figure.text = fmt::format(
+      "Boards of {0} × {0} pixels, turned by 45°, one sample a pixel; the frames mark the regions that are enlarged "
+      "{1} "
+      "times. Errors: root mean square of the difference from 1024 samples a pixel in linear light, in percent of "
+      "white, "
+      "below the horizon; enlarged: from the image before it was reduced to a ninth.",
+      side, factor);
+  return {.frames = {figure}, .tables = {table}};
+}
+
+}  // namespace
+
+Demo demo_texture_filters() {
+  return {"texture-filters", "every texture filter on boards to the horizon, with its error", make};
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// zoneplate texture levels: the pyramid of an image, with its memory.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/show.h"
+#include "zoneplate/cli/texture/texture.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/codec/pfm.h"
+#include "zoneplate/formats/import/image_file.h"
+#include "zoneplate/image/half.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/shade/texture/texture.h"
+#include "zoneplate/shade/texture/texture_view.h"
+#include "zoneplate/signal/pattern/pattern.h"
+
+namespace zoneplate::cli {
+namespace {
+
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+
+struct LevelsArgs : SignalArgs {
+  LevelOptions options;
+  TexelMeaning meaning = TexelMeaning::Color;
+  bool shows_ripmap = false;
+};
+
+TexelImage load_texels(const std::string& operand) {
+  if (is_pattern(operand)) return shown(make_pattern(operand), false);
+  const MappedFileWatch watch;
+  const FileBytes file(operand);
+  TexelImage image;
+  if (is_pfm(file.bytes())) {
+    const LinearImage light = decode_pfm(file.bytes(), operand, most_pixels);
+    Plane<float4> texels(light.width(), light.height());
+    std::ranges::transform(light.values(), texels.values().begin(), [](const Linear& c) {
+      return float4{c.r, c.g, c.b, c.a};
+    });
+    image = std::move(texels);
+  } else {
+    image = decode_image(file.bytes(), operand, most_pixels);
+  }
+  watch.check(operand);
+  return image;
+}
+
+/// Texels of any format as display codes.
+struct TexelCodes {
+  const TextureView& texels;
+  bool is_color;
+
+  float value(std::int32_t index, int c) const {
+    const std::ptrdiff_t at = std::ptrdiff_t{4} * index + c;
+    if (texels.unorm8 != nullptr) return static_cast<float>(texels.unorm8[at]) / 255.0f;
+    if (texels.unorm15 != nullptr) return static_cast<float>(texels.unorm15[at]) / 32767.0f;
+    return texels.halves != nullptr ? half_value(texels.halves[at].bits) : texels.values[at];
+  }
+  Rgba8 operator()(std::int32_t index) const {
+    const auto linear = [](float v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); };
+    const auto code = [&](int c) { return is_color ? encode_srgb8(value(index, c)) : linear(value(index, c)); };
+    return {code(0), code(1), code(2), linear(value(index, 3))};
+  }
+  std::int64_t bytes() const { return texels.unorm8 != nullptr ? 4 : texels.values != nullptr ? 16 : 8; }
+  const char* kind() const {
+    return texels.unorm8 != nullptr    ? "8-bit"
+           : texels.unorm15 != nullptr ? "15-bit"
+           : texels.halves != nullptr  ? "half"
+                                       : "float";
+  }
+};
+
+/// Copies a level to the image at (left, top); its texel (0, 0) has the index `first`.
+void paint(const TexelCodes& codes, std::int32_t first, std::int32_t width, std::int32_t height, int left, int top,
+           Rgba8Image& image) {
+  for (std::int32_t y = 0; y < height; ++y)
+    for (std::int32_t x = 0; x < width; ++x) image(left + x, top + y) = codes(first + y * (width + 2) + x);
+}
+
+/// Level 0 on the left, the others one below the other on its right.
+Rgba8Image pyramid_of(const TextureView& view, bool is_color) {
+  int right = view.levels > 1 ? view.width[1] : 0, below = 0;
+  for (int l = 1; l < view.levels; ++l) below += view.height[l];
+  Rgba8Image image(view.width[0] + right, std::max(view.height[0], below), Rgba8{0, 0, 0, 0});
+  const TexelCodes codes{view, is_color};
+  paint(codes, view.texel(0, 0, 0), view.width[0], view.height[0], 0, 0, image);
+  int top = 0;
+  for (int l = 1; l < view.levels; top += view.height[l++])
+    paint(codes, view.texel(l, 0, 0), view.width[l], view.height[l], view.width[0], top, image);
+  return image;
+}
+
+/// All pairs of reductions: along u to the right, along v downwards.
+Rgba8Image ripmap_of(const RipmapView& r, bool is_color) {
+  int width = 0, height = 0;
+  for (int k = 0; k < r.columns; ++k) width += r.width[k];
+  for (int l = 0; l < r.rows; ++l) height += r.height[l];
+  Rgba8Image image(width, height);
+  const TexelCodes codes{r.texels, is_color};
+  int top = 0;
+  for (int l = 0; l < r.rows; top += r.height[l++]) {
+    int left = 0;
+    for (int k = 0; k < r.columns; left += r.width[k++])
+      paint(codes, r.offset[TextureView::max_levels * l + k] + r.width[k] + 3, r.width[k], r.height[l], left, top,
+            image);
+  }
+  return image;
+}
+
+std::string bytes_text(std::int64_t bytes) {
+  return bytes < 10'000 ? fmt::format("{} B", bytes) : fmt::format("{:.1f} KiB", static_cast<double>(bytes) / 1024);
+}
+
+/// Bytes of the texels, without their borders.
+struct Memory {
+  std::int64_t first = 0, mips = 0, ripmap = 0, sums = 0;
+};
+Memory memory_of(const TextureView& view, std::int64_t texel_bytes) {
+  const auto all = [](std::int32_t size) {
+    std::int64_t sum = 0;
+    for (;; size /= 2) {
+      sum += size;
+      if (size == 1) return sum;
+    }
+  };
+  Memory m;
+  for (int l = 0; l < view.levels; ++l) m.mips += std::int64_t{view.width[l]} * view.height[l] * texel_bytes;
+  m.first = std::int64_t{view.width[0]} * view.height[0] * texel_bytes;
+  m.ripmap = all(view.width[0]) * all(view.height[0]) * texel_bytes;
+  m.sums = (std::int64_t{view.width[0]} + 1) * (view.height[0] + 1) * 32;
+  return m;
+}
+
+/// The fraction of a level's texels whose alpha reaches the cutoff.
+double coverage_of(const TextureView& view, int l, float cutoff) {
+  const TexelCodes codes{view, false};
+  std::int64_t passing = 0;
+  for (std::int32_t y = 0; y < view.height[l]; ++y)
+    for (std::int32_t x = 0; x < view.width[l]; ++x)
+      if (codes.value(view.texel(l, x, y), 3) >= cutoff) ++passing;
+  return static_cast<double>(passing) / (static_cast<double>(view.width[l]) * view.height[l]);
+}
+
+void print_levels(const LevelsArgs& args, const std::string& input, const TextureView& view) {
+  const TexelCodes codes{view, false};
+  const Memory m = memory_of(view, codes.bytes());
+  const auto ratio = [&](std::int64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(m.first); };
+  std::string text = fmt::format("{}, {} texels of four channels\n", input, codes.kind());
+  Json::Array levels;
+  for (int l = 0; l < view.levels; ++l) {
+    const std::int64_t bytes = std::int64_t{view.width[l]} * view.height[l] * codes.bytes();
+    Json::Object row{{"width", view.width[l]}, {"height", view.height[l]}, {"bytes", static_cast<double>(bytes)}};
+    text += fmt::format("  level {:<3}{:>12}{:>14}", l, fmt::format("{} × {}", view.width[l], view.height[l]),
+                        bytes_text(bytes));
+    if (args.options.kept_cutoff) {
+      const double coverage = coverage_of(view, l, *args.options.kept_cutoff);
+      text += fmt::format("   coverage {:.4f}", coverage);
+      row.emplace_back("coverage", coverage);
+    }
+    text += '\n';
+    levels.emplace_back(std::move(row));
+  }
+  text += fmt::format("mip levels {} ({:.3f} × level 0), ripmap {} ({:.3f} ×), summed-area table {} ({:.3f} ×)\n",
+                      bytes_text(m.mips), ratio(m.mips), bytes_text(m.ripmap), ratio(m.ripmap), bytes_text(m.sums),
+                      ratio(m.sums));
+  print_result(args, text,
+               {{"input", input},
+                {"output", args.output},
+                {"texels", codes.kind()},
+                {"levels", std::move(levels)},
+                {"mip_bytes", static_cast<double>(m.mips)},
+                {"ripmap_bytes", static_cast<double>(m.ripmap)},
+                {"summed_area_bytes", static_cast<double>(m.sums)}});
+}
+
+Syntax make_syntax(LevelsArgs& args) {
+  Syntax syntax{.verb = "texture levels",
+                .summary = "Make the mip levels of an image, and print their sizes and memory",
+                .operands = "IMAGE",
+                .examples =
+                    "  zoneplate texture levels photo.jpg -o levels.png\n"
+                    "  zoneplate texture levels bricks --ripmap -o ripmap.png\n"
+                    "  zoneplate texture levels leaf.png --alpha-cutoff 0.5\n",
+                .notes =
+                    "Level l + 1 is half as wide and high as level l. Mip levels take a third more memory than the\n"
+                    "image; a ripmap, which is reduced along each axis separately, takes three times more. Bytes\n"
+                    "are those of the texels as the renderer stores them.\n\n" +
+                    image_notes()};
+  const std::string group = "Options";
+  syntax.options = {
+      {"--mip-filter", "FILTER", "Filter between levels: box, kaiser or lanczos; default box", group, true,
+       [&](auto& text) {
+         constexpr MipFilter filters[] = {MipFilter::Box, MipFilter::Kaiser, MipFilter::Lanczos};
+         args.options.filter = filters[parse_choice(text, {"box", "kaiser", "lanczos"})];
+       }},
+      {"--wrap", "MODE", "Texels beyond the border: repeat, mirror or clamp; default repeat", group, false,
+       [&](auto& text) {
+         constexpr Wrap modes[] = {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp};
+         args.options.wrap_u = args.options.wrap_v = modes[parse_choice(text, {"repeat", "mirror", "clamp"})];
+       }},
+      {"--alpha-cutoff", "A", "Keep the fraction of texels whose alpha is at least A", group, false,
+       [&](auto& text) { args.options.kept_cutoff = static_cast<float>(parse_number(text, 0.001, 1)); }},
+      {"--values", "", "The image holds data, not sRGB colours", group, false,
+       [&](auto&) { args.meaning = TexelMeaning::Values; }},
+      {"--ripmap", "", "Show the ripmap", group, true, [&](auto&) { args.shows_ripmap = true; }}};
+  for (Option& option : signal_options(args, "The image of all levels to write: a .png file, or - for stdout"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+}  // namespace
+
+void run_texture_levels(std::span<const std::string> arguments) {
+  LevelsArgs args;
+  args.report = "zoneplate-texture";
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  const std::string& input = only_operand(syntax, "one IMAGE");
+  check_picture_name(args.output);
+  with_threads(args.threads, [&] {
+    const Texture texture(load_texels(input), args.meaning, args.options);
+    const bool is_color = args.meaning == TexelMeaning::Color;
+    if (!args.output.empty())
+      save_picture(args.output,
+                   args.shows_ripmap ? ripmap_of(texture.ripmap(), is_color) : pyramid_of(texture.view(), is_color));
+    print_levels(args, input, texture.view());
+  });
+}
+
+}  // namespace zoneplate::cli
