@@ -17,6 +17,7 @@
 #include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {
@@ -59,8 +60,8 @@ PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const 
           up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
 }
 
-ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
-                              const RenderOptions& options) {
+ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera& camera,
+                              const float4x4& clip_from_camera, const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
   ViewUniforms s;
   s.eye = xyz(world_from_camera.column[3]);
@@ -68,7 +69,11 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, co
   s.is_orthographic = camera.is_orthographic;
   if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
   for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
-  s.environment = lighting.environment.constant_radiance();
+  s.environment = lighting.environment.factor();
+  if (const PreparedEnvironment* map = lighting.environment.map.get()) {
+    s.map = map->view(lighting.environment, up, world_from_camera);
+    s.environment = s.environment * map->greatest();
+  }
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   s.texture_filter = options.texture_filter, s.specular_aa = options.specular_aa;
@@ -210,7 +215,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   SceneDraws draws = growing(
       "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
-  const SceneFragmentShader points(prepared, view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options));
+  const SceneFragmentShader points(prepared,
+                                   view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options));
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;

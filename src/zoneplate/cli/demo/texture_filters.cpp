@@ -73,7 +73,7 @@ void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>&
                                          : fmt::format("{}\n{} Error {} %.", reduced[i].filter, reduced[i].meaning,
                                                        number(100 * all[i].error, 1));
       const int x = side / 2, y = crop_y;
-      pictures.push_back({marked(all[i].picture, x, y, factor, side / 2), caption});
+      pictures.push_back({marked(all[i].picture, x, y, factor, side), caption});
       crops.push_back({crop_of(all[i].picture, x, y, factor, side), ""});
       errors[i] = all[i].error;
     }
@@ -90,7 +90,7 @@ constexpr std::array<Row, 4> enlarged_by = {{{"bilinear", "Continuous, with crea
 std::array<double, 4> add_enlarged(int side, Figure& figure) {
   const int small = side / 9;
   const LinearImage original = shoot(scene_of("teapot"), "ssaa:n=8", side, side);
-  const Texture texture(shown(resample(original, small, small, make_kernel("lanczos3"))), TexelMeaning::Color);
+  const Texture texture(shown(resample(original, small, small, make_kernel("mitchell"))), TexelMeaning::Color);
   std::array<double, 4> errors{};
   std::vector<Panel> row;
   for (std::size_t i = 0; i < enlarged_by.size(); ++i) {

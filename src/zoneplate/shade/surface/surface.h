@@ -9,6 +9,7 @@
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/scene/texture_filter.h"
+#include "zoneplate/shade/environment/environment_view.h"
 
 namespace zoneplate {
 
@@ -27,11 +28,12 @@ struct ViewUniforms {
   bool is_orthographic = false;
   std::optional<PixelRays>
       rays;  ///< of a perspective camera; without rays, the vectors to the viewer follow from positions
-  std::vector<Light> lights;      ///< in world space
-  float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
-  float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
-  bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
-  TextureFilter texture_filter;   ///< of all textures; by default that of each sampler
+  std::vector<Light> lights;           ///< in world space
+  float3 environment{0, 0, 0};         ///< radiance of a constant environment; of a map, the greatest in each channel
+  std::optional<EnvironmentView> map;  ///< none: the environment is constant
+  float3 ambient_light{0, 0, 0};       ///< (Blinn-)Phong's ambient term
+  bool raw_colors = false;       ///< the values of images are linear, not decoded from sRGB (--color-management raw)
+  TextureFilter texture_filter;  ///< of all textures; by default that of each sampler
   SpecularAntialiasing specular_aa = SpecularAntialiasing::None;
   int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
