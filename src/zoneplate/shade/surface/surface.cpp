@@ -8,6 +8,7 @@
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
+#include "zoneplate/shade/surface/receivers.h"
 #include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/filtering.h"
@@ -32,12 +33,12 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
 
 /// The constants of a material under the scene's lights; `lights` must outlive them.
 ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
-                                      const Viewpoint& viewpoint, float3 environment) {
+                                      const Viewpoint& viewpoint, float3 environment, bool has_traced_occlusion) {
   const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
   ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
   s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
-  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
+  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr || has_traced_occlusion;
   s.has_emissive_texture = plan.slot(TextureSlotIndex::Emissive).texture != nullptr || plan.has_own_ambient;
   s.has_emissive = plan.has_emissive || plan.has_own_ambient;
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
@@ -67,7 +68,8 @@ struct SurfaceShader::Data {
         kernels(SurfaceKernels::of()),
         filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
-      shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view.environment));
+      shading_uniforms.push_back(
+          make_shading_uniforms(plans[m], lights, viewpoint, view.environment, has_traced_occlusion()));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
     }
   }
@@ -77,6 +79,8 @@ struct SurfaceShader::Data {
     Attributes attributes;
     Interpolation interpolation;
   };
+
+  bool has_traced_occlusion() const { return view.visibility != nullptr && view.visibility->has_occlusion(); }
 
   /// The direction to the viewer may require the fragments' positions.
   Needs make_needs(int material, Attributes attributes, bool needs_viewer) const {
@@ -110,6 +114,7 @@ struct SurfaceShader::Data::BatchShading {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot whose texture look-up made `taps`
+  std::unique_ptr<float[]> light_visibility;
   alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
@@ -127,6 +132,7 @@ struct SurfaceShader::Data::BatchShading {
   void add_own_ambient();
   void find_occlusion();
   void find_metallic();
+  void find_visibility();
   void light(FragmentOutputs& out);
 };
 
@@ -205,7 +211,7 @@ void SurfaceShader::Data::BatchShading::find_emissive() {
 void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
   const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
-             is_occluded = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
+             is_occluded = d.shading_uniforms[static_cast<std::size_t>(batch.material)].has_occlusion;
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), texel);
   for (int c = 0; c < 3; ++c) {
     if (plan.slot(TextureSlotIndex::Emissive).texture == nullptr)
@@ -234,9 +240,28 @@ void SurfaceShader::Data::BatchShading::find_metallic() {
   kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
 }
 
+/// The part of each light, and of the environment, that reaches the fragments.
+void SurfaceShader::Data::BatchShading::find_visibility() {
+  const LightVisibility& visibility = *d.view.visibility;
+  Receivers receivers;
+  make_receivers(d.scene, batch, vertices, d.viewpoint, receivers);
+  constexpr std::size_t stride = FragmentBatch::padded_capacity;
+  light_visibility = std::make_unique<float[]>(d.lights.size() * stride);
+  for (std::size_t k = 0; k < d.lights.size(); ++k)
+    visibility.of_light(static_cast<int>(k), receivers, &light_visibility[k * stride]);
+  if (!d.lights.empty()) p.light_visibility = light_visibility.get();
+  if (!visibility.has_occlusion()) return;
+  visibility.of_environment(receivers, texel[0]);
+  if (plan.slot(TextureSlotIndex::Occlusion).texture == nullptr)
+    std::copy_n(texel[0], p.count, p.occlusion);
+  else
+    kernels.multiply(p.occlusion, texel[0], p.count);
+}
+
 /// From base colour and normal to the fragment's colour.
 void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   find_occlusion();
+  if (d.view.visibility != nullptr) find_visibility();
   find_emissive();
   add_own_ambient();
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);

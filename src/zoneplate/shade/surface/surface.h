@@ -13,6 +13,7 @@ namespace zoneplate {
 
 class TextureSet;
 class InterleavedVertices;
+class LightVisibility;
 
 /// The vector from pixel (x, y) to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
 struct PixelRays {
@@ -30,6 +31,7 @@ struct ViewUniforms {
   float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
   float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
   bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
+  const LightVisibility* visibility = nullptr;  ///< of `lights`, in their order; null: nothing casts shadows
   int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
 
