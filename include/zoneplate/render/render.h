@@ -34,6 +34,11 @@ enum class Visibility {
   Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
 };
 
+/// The environment behind a scene's surfaces.
+struct EnvironmentBackground {
+  float blur = 0;  ///< 0: sharp; up to 1: as the surface of that roughness reflects it
+};
+
 /// A scene and its camera at one point in time. Only the scene's meshes and instances are used.
 struct Moment {
   std::shared_ptr<const Scene> scene;  ///< its meshes and instances correspond to those of the rendered scene
@@ -53,11 +58,12 @@ struct RenderOptions {
   /// Shadow requires shadows or occlusion. It moves the near and far planes, which may change data passes by rounding.
   GroundKind ground = GroundKind::None;
   bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's
-  float point_size = 1, line_width = 1;  ///< pixels
-  RasterCapacity capacity;               ///< trades memory for time; does not change any bit of the image
-  DisplayOptions display;                ///< from linear light to display-referred colour
-  std::optional<Moment> last;            ///< the moment from which Frame::motion is measured; none: no motion
-  std::optional<Moment> next;            ///< the moment to which Frame::flow leads
+  float point_size = 1, line_width = 1;             ///< pixels
+  RasterCapacity capacity;                          ///< trades memory for time; does not change any bit of the image
+  std::optional<EnvironmentBackground> background;  ///< none: that of `display`
+  DisplayOptions display;                           ///< from linear light to display-referred colour
+  std::optional<Moment> last;  ///< the moment from which Frame::motion is measured; none: no motion
+  std::optional<Moment> next;  ///< the moment to which Frame::flow leads
 };
 
 /// Whether rays to the lights or to the environment are traced.

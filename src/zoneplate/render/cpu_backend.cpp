@@ -19,6 +19,7 @@
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/scene_shadows.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {
@@ -68,8 +69,8 @@ PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const 
           up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
 }
 
-ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
-                              const RenderOptions& options) {
+ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera& camera,
+                              const float4x4& clip_from_camera, const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
   ViewUniforms s;
   s.eye = xyz(world_from_camera.column[3]);
@@ -77,7 +78,11 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, co
   s.is_orthographic = camera.is_orthographic;
   if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
   for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
-  s.environment = lighting.environment.constant_radiance();
+  s.environment = lighting.environment.factor();
+  if (const PreparedEnvironment* map = lighting.environment.map.get()) {
+    s.map = map->view(lighting.environment, up, world_from_camera);
+    s.environment = s.environment * map->greatest();
+  }
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   return s;
@@ -220,8 +225,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
-  ViewUniforms view = view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options);
-  if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view.lights, options);
+  ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
+  if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
   std::optional<Ground> ground;
   if (options.ground == GroundKind::Shadow && view.visibility != nullptr) {
     ground.emplace(scene, view);

@@ -7,6 +7,7 @@
 
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
 
@@ -48,6 +49,11 @@ Camera GroundSquare::enclosing(Camera camera) const {
 
 Ground::Ground(const Scene& scene, const ViewUniforms& view)
     : visibility_(*view.visibility), environment_(luminance(view.environment)), square_(scene), margin_(0) {
+  if (view.map) {
+    using F = scalar::Float;
+    const auto light = diffuse_light(*view.map, Vector<F>{F(square_.up.x), F(square_.up.y), F(square_.up.z)});
+    environment_ = luminance({light.x.v, light.y.v, light.z.v});
+  }
   // A white surface reflects 1/π of the illuminance; the diffuse term of (Blinn-)Phong, whose environment is the
   // ambient light, lacks this factor.
   if (environment_ == 0) environment_ = luminance(view.ambient_light), reflectance_ = 1;

@@ -115,7 +115,7 @@ std::vector<std::vector<ShadowMap>> make_shadow_maps(const PreparedScene& prepar
   return maps;
 }
 
-const LightVisibility* SceneShadows::of_frame(const PreparedScene& prepared, const std::vector<Light>& lights,
+const LightVisibility* SceneShadows::of_frame(const PreparedScene& prepared, const ViewUniforms& view,
                                               const RenderOptions& options) {
   if (!has_visibility(options)) return nullptr;
   const bool has_maps = options.shadows.method == ShadowMethod::Map;
@@ -129,11 +129,12 @@ const LightVisibility* SceneShadows::of_frame(const PreparedScene& prepared, con
     OcclusionOptions occlusion = options.occlusion;
     if (occlusion.distance == 0) occlusion.distance = default_distance(*scene_);
     opacity_.emplace(*scene_, prepared.textures());
-    traced = &traced_.emplace(*bvh_, opacity_->of_hits(), lights, options.shadows, occlusion);
+    traced = &traced_.emplace(*bvh_, opacity_->of_hits(), view.lights, options.shadows, occlusion,
+                              view.map ? &*view.map : nullptr);
   }
   if (!has_maps) return traced;
-  return &mapped_.emplace(lights, make_shadow_maps(prepared, lights, options.shadows.map.size), options.shadows,
-                          traced);
+  return &mapped_.emplace(view.lights, make_shadow_maps(prepared, view.lights, options.shadows.map.size),
+                          options.shadows, traced);
 }
 
 }  // namespace zoneplate

@@ -9,15 +9,16 @@
 #include "zoneplate/shade/shadow/shadow_map.h"
 #include "zoneplate/shade/shadow/traced_visibility.h"
 #include "zoneplate/shade/surface/casters.h"
+#include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {
 
 /// The shadow casters of a scene: their tree, which lasts as long as the scene's geometry, or the maps of a frame.
 class SceneShadows {
  public:
-  /// The visibility of a frame's lights, given in world space; null where the options need none. It is valid until the
-  /// next call.
-  const LightVisibility* of_frame(const PreparedScene& prepared, const std::vector<Light>& lights,
+  /// The visibility of a frame's lights; null where the options need none. It is valid until the next call, and as long
+  /// as `view`.
+  const LightVisibility* of_frame(const PreparedScene& prepared, const ViewUniforms& view,
                                   const RenderOptions& options);
 
  private:

@@ -5,6 +5,7 @@
 
 #include "zoneplate/ray/trace.h"
 #include "zoneplate/scene/light.h"
+#include "zoneplate/shade/environment/environment_view.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/shadows.h"
 
@@ -19,10 +20,13 @@ namespace zoneplate {
 ///           in the image, the light and the options only.
 class TracedVisibility : public LightVisibility {
  public:
-  /// `lights` in world space. Requires: the tree and the context of `opacity` outlive this object;
-  /// `occlusion.distance` > 0 where there are samples.
+  /// `lights` in world space. `environment` weights what is occluded by its light; null: all directions count alike.
+  ///
+  /// Requires  the tree, the environment and the context of `opacity` outlive this object; `occlusion.distance` > 0
+  ///           where there are samples.
   TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity, std::vector<Light> lights,
-                   const ShadowOptions& shadows, const OcclusionOptions& occlusion);
+                   const ShadowOptions& shadows, const OcclusionOptions& occlusion,
+                   const EnvironmentView* environment = nullptr);
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
   bool has_occlusion() const override { return occlusion_.samples > 0; }
@@ -30,13 +34,15 @@ class TracedVisibility : public LightVisibility {
 
  private:
   template <class MakeRay>
-  float mean_visibility(int probes, int samples, const MakeRay& ray) const;
+  float mean_visibility(const MakeRay& ray) const;
+  float light_from(float3 direction) const;
 
   BvhView bvh_;
   OpacityOfHits opacity_;
   std::vector<Light> lights_;
   ShadowOptions shadows_;
   OcclusionOptions occlusion_;
+  const EnvironmentView* environment_;
   const RayKernels& kernels_;
 };
 

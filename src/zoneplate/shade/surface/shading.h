@@ -8,6 +8,8 @@
 
 namespace zoneplate {
 
+struct EnvironmentView;
+
 /// The position or direction of the viewer.
 struct Viewpoint {
   float eye[3] = {0, 0, 0};
@@ -36,7 +38,8 @@ struct ShadingUniforms {
   // Metallic-roughness.
   bool has_material_texture = false, has_environment = false;
   float metallic = 1, roughness = 1;
-  float environment[3] = {0, 0, 0};  ///< radiance from all sides
+  float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null
+  const EnvironmentView* map = nullptr;
 };
 
 /// A linear map of texture coordinates: u' = (u m[0] + v m[1]) + m[2], v' = (u m[3] + v m[4]) + m[5].
@@ -95,6 +98,9 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.
   void (*light_metallic)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                          FragmentOutputs& out);
+  /// The same with an environment map.
+  void (*light_metallic_in_map)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
+                                FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& state, FragmentOutputs& out);
 };
 

@@ -31,14 +31,18 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
   return prepared;
 }
 
-/// The constants of a material under the scene's lights; `lights` must outlive them.
+bool has_traced_occlusion(const ViewUniforms& view) {
+  return view.visibility != nullptr && view.visibility->has_occlusion();
+}
+
+/// The constants of a material under the scene's lights; `lights` and `view` must outlive them.
 ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
-                                      const Viewpoint& viewpoint, float3 environment, bool has_traced_occlusion) {
+                                      const Viewpoint& viewpoint, const ViewUniforms& view) {
   const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
   ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
   s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
-  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr || has_traced_occlusion;
+  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr || has_traced_occlusion(view);
   s.has_emissive_texture = plan.slot(TextureSlotIndex::Emissive).texture != nullptr || plan.has_own_ambient;
   s.has_emissive = plan.has_emissive || plan.has_own_ambient;
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
@@ -48,6 +52,8 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.exponent = plan.exponent;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   s.metallic = plan.metallic, s.roughness = plan.roughness;
+  const float3 environment = view.environment;
+  s.map = view.map ? &*view.map : nullptr;
   s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
   s.environment[0] = environment.x, s.environment[1] = environment.y, s.environment[2] = environment.z;
   return s;
@@ -68,8 +74,7 @@ struct SurfaceShader::Data {
         kernels(SurfaceKernels::of()),
         filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
-      shading_uniforms.push_back(
-          make_shading_uniforms(plans[m], lights, viewpoint, view.environment, has_traced_occlusion()));
+      shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
     }
   }
@@ -79,8 +84,6 @@ struct SurfaceShader::Data {
     Attributes attributes;
     Interpolation interpolation;
   };
-
-  bool has_traced_occlusion() const { return view.visibility != nullptr && view.visibility->has_occlusion(); }
 
   /// The direction to the viewer may require the fragments' positions.
   Needs make_needs(int material, Attributes attributes, bool needs_viewer) const {
@@ -269,7 +272,9 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   if (is_metallic) find_metallic();
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
-  if (is_metallic) {
+  if (is_metallic && uniforms.map != nullptr) {
+    kernels.light_metallic_in_map(uniforms, batch, p, out);
+  } else if (is_metallic) {
     kernels.light_metallic(uniforms, batch, p, out);
   } else {
     kernels.light_phong(uniforms, batch, p, out);

@@ -8,6 +8,7 @@
 
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/environment/environment_view.h"
 
 namespace zoneplate {
 
@@ -27,10 +28,11 @@ struct ViewUniforms {
   bool is_orthographic = false;
   std::optional<PixelRays>
       rays;  ///< of a perspective camera; without rays, the vectors to the viewer follow from positions
-  std::vector<Light> lights;      ///< in world space
-  float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
-  float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
-  bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
+  std::vector<Light> lights;           ///< in world space
+  float3 environment{0, 0, 0};         ///< radiance of a constant environment; of a map, the greatest in each channel
+  std::optional<EnvironmentView> map;  ///< none: the environment is constant
+  float3 ambient_light{0, 0, 0};       ///< (Blinn-)Phong's ambient term
+  bool raw_colors = false;  ///< the values of images are linear, not decoded from sRGB (--color-management raw)
   const LightVisibility* visibility = nullptr;  ///< of `lights`, in their order; null: nothing casts shadows
   int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
