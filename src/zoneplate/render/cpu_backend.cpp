@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -11,13 +12,16 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/backdrop.h"
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
 #include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
+#include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
 namespace {
@@ -72,6 +76,31 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, co
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   return s;
+}
+
+/// The image of the opaque and alpha-tested scene that transmissive surfaces refract; none where no draw transmits.
+///
+/// The whole image is drawn, with four samples a pixel, so that a crop shows the same and silhouettes behind glass are
+/// smooth under every method.
+std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewUniforms& view,
+                                      std::span<const Draw> draws, const float4x4& clip_from_world,
+                                      const RasterRules& rules, const RenderOptions& options, RasterMemory& memory) {
+  const std::vector<Material>& materials = prepared.scene().materials;
+  const auto transmits = [&](const Draw& draw) {
+    return is_transmissive(materials[static_cast<std::size_t>(draw.material)]);
+  };
+  if (std::none_of(draws.begin(), draws.end(), transmits)) return std::nullopt;
+  std::vector<Draw> behind;
+  std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind),
+               [&](const Draw& draw) { return draw.alpha_mode != AlphaMode::Blend && !transmits(draw); });
+  LinearImage image(options.width, options.height, Linear{0, 0, 0, 0});
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.width = options.width, target.height = options.height;
+  target.samples = standard_pattern(4);
+  target.color = &image;
+  rasterize(behind, SceneFragmentShader(prepared, view), rules, target, &memory);
+  return Backdrop(image, clip_from_world);
 }
 
 /// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.
@@ -205,9 +234,17 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
-  SceneDraws draws = growing(
-      "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
-  const SceneFragmentShader points(prepared, view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options));
+  const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
+  SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
+  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
+                          .is_painter = options.visibility == Visibility::Painter,
+                          .capacity = options.capacity};
+  ViewUniforms view = view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options);
+  std::optional<Backdrop> backdrop;
+  if (request.content == Content::Colour)
+    backdrop = make_backdrop(prepared, view, draws.draws, clip_from_world, rules, options, memory_);
+  if (backdrop) view.backdrop = backdrop->view();
+  const SceneFragmentShader points(prepared, view);
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;
@@ -234,9 +271,6 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory_));
   const double prepare_ms = prepare.ms();
 
-  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
-                          .is_painter = options.visibility == Visibility::Painter,
-                          .capacity = options.capacity};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;
   const RasterCounts c = !has_color

@@ -3,10 +3,13 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/surface/layered.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/shading_state.h"
 
 namespace zoneplate {
+
+struct BackdropView;
 
 /// The position or direction of the viewer.
 struct Viewpoint {
@@ -30,13 +33,15 @@ struct ShadingUniforms {
 
   // (Blinn-)Phong.
   bool has_specular = false, is_phong = false;
+  bool has_specular_texture = false, has_exponent_texture = false;
   float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
   Exponent exponent;
 
   // Metallic-roughness.
   bool has_material_texture = false, has_environment = false;
   float metallic = 1, roughness = 1;
-  float environment[3] = {0, 0, 0};  ///< radiance from all sides
+  float environment[3] = {0, 0, 0};        ///< radiance from all sides
+  const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
 };
 
 /// A linear map of texture coordinates: u' = (u m[0] + v m[1]) + m[2], v' = (u m[3] + v m[4]) + m[5].
@@ -95,6 +100,9 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.
   void (*light_metallic)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                          FragmentOutputs& out);
+  /// The same for a surface with layers.
+  void (*light_layered)(const ShadingUniforms& uniforms, const LayeredUniforms& layers, const FragmentBatch& batch,
+                        const ShadingState& state, const LayerState& layer_state, FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& state, FragmentOutputs& out);
 };
 

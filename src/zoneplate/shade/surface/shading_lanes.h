@@ -2,6 +2,7 @@
 #pragma once
 
 #include "zoneplate/shade/surface/geometry_lanes.h"
+#include "zoneplate/shade/surface/layered_lanes.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
 
 namespace zoneplate::stages {
@@ -24,6 +25,7 @@ constexpr SurfaceKernels all() {
       .default_normals = &default_normals<F>,
       .light_phong = &light_phong<Wide>,
       .light_metallic = &light_metallic<Wide>,
+      .light_layered = &light_layered<F>,
       .unlit = &unlit<Wide>,
   };
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zoneplate/shade/surface/brightness.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/surface/shading.h"
@@ -43,6 +44,8 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
   copy(plan.emissive_factor, s.emissive);
   s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
+  s.has_specular_texture = plan.has_specular && plan.slot(TextureSlotIndex::Specular).texture != nullptr;
+  s.has_exponent_texture = plan.has_specular && plan.slot(TextureSlotIndex::Exponent).texture != nullptr;
   copy(plan.ambient_factor, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
@@ -68,6 +71,7 @@ struct SurfaceShader::Data {
         filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
       shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view.environment));
+      if (view.backdrop) shading_uniforms.back().backdrop = &*view.backdrop;
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
     }
   }
@@ -110,6 +114,9 @@ struct SurfaceShader::Data::BatchShading {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot whose texture look-up made `taps`
+  LayerState q;
+  bool is_corner =
+      false;  ///< shaded at a corner of a triangle: the texture of the base colour is left to its fragments
   alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
@@ -127,7 +134,14 @@ struct SurfaceShader::Data::BatchShading {
   void add_own_ambient();
   void find_occlusion();
   void find_metallic();
+  void find_highlight();
+  void find_thickness();
+  void light_layered(FragmentOutputs& out);
   void light(FragmentOutputs& out);
+
+ private:
+  void find_normals(const TextureSlot& normal_map, float scale);
+  void find_coat_normals();
 };
 
 /// From vertices to fragments: positions and tangents in world space, normals in the mesh's space.
@@ -187,12 +201,25 @@ void SurfaceShader::Data::BatchShading::find_base() {
   if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
-void SurfaceShader::Data::BatchShading::find_normals() {
-  if (plan.slot(TextureSlotIndex::Normal).texture == nullptr)
-    return kernels.find_normals(batch, vertices, d.transforms.data(), p);
+void SurfaceShader::Data::BatchShading::find_normals(const TextureSlot& normal_map, float scale) {
+  if (normal_map.texture == nullptr) return kernels.find_normals(batch, vertices, d.transforms.data(), p);
   kernels.transform_normals(batch, vertices, d.transforms.data(), p);
-  sample(plan.slot(TextureSlotIndex::Normal), texel);
-  kernels.bend_normals(batch, texel, plan.normal_scale, p);
+  sample(normal_map, texel);
+  kernels.bend_normals(batch, texel, scale, p);
+}
+
+/// The clear coat has its own normal map, or none. The interpolated normals stay in `p` for the surface's own.
+void SurfaceShader::Data::BatchShading::find_coat_normals() {
+  alignas(64) ShadingState::Array interpolated[3];
+  const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
+  for (int c = 0; c < 3; ++c) copy(p.normal[c], interpolated[c]);
+  find_normals(plan.layers->slot(LayerSlotIndex::ClearcoatNormal), plan.layers->layers.clearcoat_normal_scale);
+  for (int c = 0; c < 3; ++c) copy(p.normal[c], q.clearcoat_normal[c]), copy(interpolated[c], p.normal[c]);
+}
+
+void SurfaceShader::Data::BatchShading::find_normals() {
+  if (plan.layers != nullptr && plan.layers->uniforms.has_clearcoat) find_coat_normals();
+  find_normals(plan.slot(TextureSlotIndex::Normal), plan.normal_scale);
 }
 
 void SurfaceShader::Data::BatchShading::find_emissive() {
@@ -234,6 +261,50 @@ void SurfaceShader::Data::BatchShading::find_metallic() {
   kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
 }
 
+/// specular = factor × texture, exponent = factor × texture, at least 1.
+void SurfaceShader::Data::BatchShading::find_highlight() {
+  if (!plan.has_specular) return;
+  if (plan.slot(TextureSlotIndex::Specular).texture != nullptr) {
+    sample(plan.slot(TextureSlotIndex::Specular), texel);
+    for (int c = 0; c < 3; ++c) kernels.scale(p.specular[c], texel[c], plan.specular[c], 0, p.count);
+  }
+  if (plan.slot(TextureSlotIndex::Exponent).texture == nullptr) return;
+  sample(plan.slot(TextureSlotIndex::Exponent), texel);
+  for (int i = 0; i < p.count; ++i) p.exponent[i] = std::max(texel[0][i] * plan.exponent.value, 1.0f);
+}
+
+/// The thickness of the volume in the world: scaled as its instance is.
+void SurfaceShader::Data::BatchShading::find_thickness() {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+    const std::size_t group = i / FragmentBatch::group;
+    const std::size_t at = vertices.one_instance[group] ? batch.leader(group * FragmentBatch::group) : i;
+    q.thickness[i] *= d.transforms[batch.instance[at]].scale;
+  }
+}
+
+void SurfaceShader::Data::BatchShading::light_layered(FragmentOutputs& out) {
+  const LayeredPlan& layered = *plan.layers;
+  const auto values = [&](const TextureSlot& slot) {
+    sample(slot, texel);
+    return texel;
+  };
+  find_layers(layered, kernels, p.count, values, q);
+  if (layered.uniforms.has_volume) find_thickness();
+  if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
+    kernels.fill(p.metallic, plan.metallic, p.count);
+    kernels.fill(p.roughness, plan.roughness, p.count);
+  }
+  if (const std::optional<float> glossiness = layered.layers.glossiness) {
+    const bool is_textured = layered.has(LayerSlotIndex::SpecularColor);
+    if (is_textured)
+      kernels.scale(p.roughness, values(layered.slot(LayerSlotIndex::SpecularColor))[3], -*glossiness, 1, p.count);
+    else
+      kernels.fill(p.roughness, 1 - *glossiness, p.count);
+  }
+  kernels.light_layered(d.shading_uniforms[static_cast<std::size_t>(batch.material)], layered.uniforms, batch, p, q,
+                        out);
+}
+
 /// From base colour and normal to the fragment's colour.
 void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   find_occlusion();
@@ -242,11 +313,13 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
+  if (plan.layers != nullptr) return light_layered(out);
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic) {
     kernels.light_metallic(uniforms, batch, p, out);
   } else {
+    find_highlight();
     kernels.light_phong(uniforms, batch, p, out);
   }
 }

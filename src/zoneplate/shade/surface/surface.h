@@ -8,6 +8,7 @@
 
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/surface/backdrop.h"
 
 namespace zoneplate {
 
@@ -26,11 +27,12 @@ struct ViewUniforms {
   bool is_orthographic = false;
   std::optional<PixelRays>
       rays;  ///< of a perspective camera; without rays, the vectors to the viewer follow from positions
-  std::vector<Light> lights;      ///< in world space
-  float3 environment{0, 0, 0};    ///< radiance of a constant environment, from all sides
-  float3 ambient_light{0, 0, 0};  ///< (Blinn-)Phong's ambient term
-  bool raw_colors = false;        ///< the values of images are linear, not decoded from sRGB (--color-management raw)
-  int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
+  std::vector<Light> lights;             ///< in world space
+  float3 environment{0, 0, 0};           ///< radiance of a constant environment, from all sides
+  float3 ambient_light{0, 0, 0};         ///< (Blinn-)Phong's ambient term
+  std::optional<BackdropView> backdrop;  ///< what transmissive surfaces refract; none: the environment alone
+  bool raw_colors = false;  ///< the values of images are linear, not decoded from sRGB (--color-management raw)
+  int anisotropy = 1;       ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.
