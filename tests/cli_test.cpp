@@ -190,6 +190,7 @@ TEST_F(Cli, ListAndInfoSpeakTextAndJson) {
   EXPECT_NE(run({"list"}).out.find("msaa"), std::string::npos);
   EXPECT_EQ(run({"list", "scenes"}).out.find("msaa"), std::string::npos);
   const auto list = zoneplate::parsed_json(run({"list", "--json"}).out);
+  EXPECT_EQ(list["format"], "zoneplate-list");
   EXPECT_EQ(list["methods"][0]["name"], "none");
   EXPECT_GE(list["scenes"].size(), 6u);
   EXPECT_EQ(list["formats"]["models"][0]["extension"], ".gltf");

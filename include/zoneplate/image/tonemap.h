@@ -12,12 +12,19 @@ enum class ToneMapping {
   None,     ///< clamped to [0, 1]
   Aces,     ///< Stephen Hill's fit of the ACES RRT and ODT, of color / 0.6, as three.js does it
   Neutral,  ///< Khronos PBR Neutral
+  Agx,      ///< Troy Sobotka's AgX with its base look, as three.js does it
+  Filmic,   ///< John Hable's curve of Uncharted 2, of 2 × color, with white at 11.2
 };
 
 /// Maps one linear colour (not premultiplied) to linear display light in [0, 1].
 ///
 /// Edges     negative values and NaN count as 0, values above 2^24 as 2^24.
 float3 tone_map(float3 color, ToneMapping mapping);
+
+/// The colour that the Neutral curve maps to `mapped`. Each channel of `mapped` counts as at most 1 - 2^-20.
+///
+/// Source    Khronos Group, PBR Neutral Tone Mapper specification, "Inverse".
+float3 invert_neutral(float3 mapped);
 
 /// The default background: dark grey, as in F3D.
 inline constexpr float4 default_background{0.2f, 0.2f, 0.2f, 1};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,15 +13,17 @@ namespace zoneplate {
 
 /// The lights and the environment of a scene.
 struct Lighting {
-  std::vector<Light> lights;      ///< in world space or camera space
-  Environment environment;        ///< without an image: constant radiance
+  std::vector<Light> lights;  ///< in world space or camera space
+  Environment environment;
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
 };
 
 /// Changes to the lighting of a scene.
 struct LightingOptions {
-  float intensity = 1;                ///< multiplies every light
-  std::optional<float3> environment;  ///< linear radiance of a constant environment in place of the scene's own
+  float intensity = 1;                     ///< multiplies every light
+  std::optional<Environment> environment;  ///< in place of the scene's own
+  /// Makes the studio of the default light (scene/default_lights.h), for callers that keep it; empty: it is made anew.
+  std::function<std::shared_ptr<const PreparedEnvironment>()> studio;
 };
 
 /// The scene's own lighting, changed by the options.
@@ -28,7 +32,6 @@ struct LightingOptions {
 /// give an environment; in a scene of (Blinn-)Phong materials alone the default lights are divided by π, which the
 /// diffuse term of these models lacks. The environment's radiance is also the ambient light of (Blinn-)Phong materials
 /// where the scene has none.
-/// Errors    ErrorKind::Input for a scene with an environment image.
 Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});
 
 /// Lights the scene by make_lighting without options: a scene that has lights keeps them, any other gets the default

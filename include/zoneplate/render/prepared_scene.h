@@ -34,7 +34,10 @@ class PreparedScene {
   /// Requires  the materials use the same images as those of `other`.
   PreparedScene(Scene scene, const PreparedScene& other);
 
-  /// The same scene under other lights.
+  /// The same scene under other lights. An environment with an image and without a map gets the map of the scene's own
+  /// environment, and its mean radiance as ambient light where there is none.
+  ///
+  /// Requires  such an image is that of the scene's own environment.
   PreparedScene lit(Lighting lighting) const;
 
   /// The scene without the texels of its images. Its lighting is `lighting()`.

@@ -6,6 +6,7 @@
 
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
@@ -33,6 +34,11 @@ enum class Visibility {
   Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
 };
 
+/// The environment behind a scene's surfaces.
+struct EnvironmentBackground {
+  float blur = 0;  ///< 0: sharp; up to 1: as the surface of that roughness reflects it
+};
+
 /// A scene and its camera at one point in time. Only the scene's meshes and instances are used.
 struct Moment {
   std::shared_ptr<const Scene> scene;  ///< its meshes and instances correspond to those of the rendered scene
@@ -45,14 +51,16 @@ struct RenderOptions {
   std::optional<Crop> crop;                     ///< the frame has the crop's size and the bits of the whole image
   EdgeRule edge_rule = EdgeRule::TopLeft;       ///< TopLeft, except for teaching
   Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
-  bool cull_back_faces = true;                  ///< of single-sided materials
+  ShadingFrequency shading_frequency = ShadingFrequency::Fragment;  ///< Fragment, except for teaching
+  bool cull_back_faces = true;                                      ///< of single-sided materials
   int anisotropy = 1;  ///< maximum texture probes along a footprint, for all samplers that blend mip levels; at most 16
   bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's
-  float point_size = 1, line_width = 1;  ///< pixels
-  RasterCapacity capacity;               ///< trades memory for time; does not change any bit of the image
-  DisplayOptions display;                ///< from linear light to display-referred colour
-  std::optional<Moment> last;            ///< the moment from which Frame::motion is measured; none: no motion
-  std::optional<Moment> next;            ///< the moment to which Frame::flow leads
+  float point_size = 1, line_width = 1;             ///< pixels
+  RasterCapacity capacity;                          ///< trades memory for time; does not change any bit of the image
+  std::optional<EnvironmentBackground> background;  ///< none: that of `display`
+  DisplayOptions display;                           ///< from linear light to display-referred colour
+  std::optional<Moment> last;  ///< the moment from which Frame::motion is measured; none: no motion
+  std::optional<Moment> next;  ///< the moment to which Frame::flow leads
 };
 
 /// Times and counts of the work of a frame.

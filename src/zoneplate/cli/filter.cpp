@@ -4,12 +4,14 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 struct FilterArgs {
   std::string output, method;
   int bit_depth = 8, threads = 0;
+  std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 };
 
 /// True for a method that reads nothing of a frame but its display-referred image.
@@ -108,7 +111,9 @@ Syntax make_syntax(FilterArgs& args) {
          args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
        }},
       {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota",
-       "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+       "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
+      {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json (one line per image) or none",
+       "Options", false, [&](auto& text) { args.progress = parse_progress(text); }}};
   return syntax;
 }
 
@@ -132,7 +137,12 @@ void run_filter(std::span<const std::string> arguments) {
   if (args.bit_depth == 16 && extension_of(items.front().output) != ".png")
     throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + items.front().output);
   with_threads(args.threads, [&] {
-    for (const FilterItem& item : items) filter_image(item, *filter, args.bit_depth);
+    Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+    double done = 0;
+    for (const FilterItem& item : items) {
+      progress.begin(item.input, done++ / static_cast<double>(items.size()));
+      filter_image(item, *filter, args.bit_depth);
+    }
   });
 }
 

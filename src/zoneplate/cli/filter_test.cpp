@@ -39,6 +39,7 @@ class FilterVerb : public testing::Test {
   void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
     save_bytes((folder_ / name).string(), bytes);
   }
+  const fs::path& folder() const { return folder_; }
   bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
 
   std::string output_;
@@ -72,6 +73,14 @@ TEST_F(FilterVerb, SequencesAndFoldersAreWrittenToAFolder) {
     EXPECT_EQ(png(std::string("sequence/") + name).pixels, png(std::string("folder/") + name).pixels);
     EXPECT_NE(png(std::string("sequence/") + name).pixels, png(name).pixels);
   }
+}
+
+TEST_F(FilterVerb, ProgressIsOneLinePerImage) {
+  ASSERT_EQ(run("teapot -o a.png --size 48x36 --aa none"), 0) << output_;
+  fs::create_directories(folder() / "shots");
+  for (const char* const name : {"shots/1.png", "shots/2.png"}) fs::copy_file(folder() / "a.png", folder() / name);
+  ASSERT_EQ(run("filter shots -o out --aa fxaa --progress json"), 0);
+  EXPECT_EQ(output_, "{\"stage\":\"shots/1.png\",\"done\":0.0}\n{\"stage\":\"shots/2.png\",\"done\":0.5}\n");
 }
 
 TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {

@@ -6,6 +6,7 @@
 #include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/assimp/assimp.h"
@@ -153,7 +154,7 @@ void run_list(std::span<const std::string> arguments) {
   if (chosen.empty()) chosen = {0, 1, 2};
 
   std::string text;
-  Json::Object json;
+  Json::Object json{{"format", "zoneplate-list"}, {"version", report_version}};
   for (const std::size_t i : chosen) {
     text += (text.empty() ? "" : "\n") + topics[i].text();
     json.emplace_back(topics[i].name, topics[i].json());

@@ -30,6 +30,7 @@ constexpr Verb verbs[] = {
     {"metrics", "measure the difference between images and a reference", run_metrics},
     {"filter", "antialias existing images by a post-process filter", run_filter},
     {"compare", "compare antialiasing methods on scenes against a reference", run_compare},
+    {"fidelity", "compare renderings with those of other renderers", run_fidelity},
     {"bench", "measure frame times, stage by stage", run_bench},
     {"demo", "make captioned images that explain aliasing and antialiasing", run_demo},
     {"signal", "analyse and filter images: spectra, convolution, resampling", run_signal}};

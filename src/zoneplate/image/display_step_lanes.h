@@ -31,6 +31,30 @@ inline constexpr float neutral_f90 = 0.04f;
 inline constexpr float neutral_start = 0.8f - neutral_f90;
 inline constexpr float neutral_desaturation = 0.15f;
 
+/// AgX: linear sRGB to linear Rec.2020, the inset of the primaries, a logarithm over this range of stops, a polynomial
+/// fit of the contrast curve with coefficients of x, x² ... x⁶, and the way back; the curve's result is a code of gamma
+/// 2.2. Source: Troy Sobotka, AgX; Benjamin Wrensch, Minimal AgX Implementation (the polynomial); three.js r185,
+/// tonemapping_pars_fragment (the matrices).
+inline constexpr float agx_in[3][3] = {
+    {0.6274f, 0.3293f, 0.0433f}, {0.0691f, 0.9195f, 0.0113f}, {0.0164f, 0.0880f, 0.8956f}};
+inline constexpr float agx_inset[3][3] = {{0.856627153315983f, 0.0951212405381588f, 0.0482516061458583f},
+                                          {0.137318972929847f, 0.761241990602591f, 0.101439036467562f},
+                                          {0.11189821299995f, 0.0767994186031903f, 0.811302368396859f}};
+inline constexpr float agx_outset[3][3] = {{1.1271005818144368f, -0.11060664309660323f, -0.016493938717834573f},
+                                           {-0.1413297634984383f, 1.157823702216272f, -0.016493938717834257f},
+                                           {-0.14132976349843826f, -0.11060664309660294f, 1.2519364065950405f}};
+inline constexpr float agx_out[3][3] = {
+    {1.6605f, -0.5876f, -0.0728f}, {-0.1246f, 1.1329f, -0.0083f}, {-0.0182f, -0.1006f, 1.1187f}};
+inline constexpr float agx_low = -12.47393f, agx_high = 4.026069f, agx_least = 1e-10f, agx_gamma = 2.2f;
+inline constexpr float agx_offset = -0.00232f;
+inline constexpr float agx_curve[6] = {0.1191f, 0.4298f, -6.868f, 31.96f, -40.14f, 15.5f};
+
+/// (x (a x + c b) + d e) / (x (a x + b) + d f) - e / f.
+/// Source: John Hable, Filmic Tonemapping Operators, 2010 (Uncharted 2).
+inline constexpr float filmic_a = 0.15f, filmic_b = 0.50f, filmic_c = 0.10f, filmic_d = 0.20f;
+inline constexpr float filmic_e = 0.02f, filmic_f = 0.30f;
+inline constexpr float filmic_exposure = 2, filmic_white = 11.2f;
+
 }  // namespace tone
 
 /// A colour in each lane.
@@ -78,6 +102,33 @@ template <class F>
   return each(low, [&](F x) { return select(peak < start, x, x * ratio * rest + tint); });
 }
 
+template <class F>
+[[gnu::always_inline]] inline ColorLanes<F> map_agx(const ColorLanes<F>& color) {
+  const auto curve = [](F v) {
+    const F stops = log2(max(v, F(tone::agx_least)));
+    const F x = clamp_unit((stops - F(tone::agx_low)) / F(tone::agx_high - tone::agx_low));
+    F sum(tone::agx_curve[5]);
+    for (int k = 4; k >= 0; --k) sum = sum * x + F(tone::agx_curve[k]);
+    return sum * x + F(tone::agx_offset);
+  };
+  const ColorLanes<F> codes = times(tone::agx_outset, each(times(tone::agx_inset, times(tone::agx_in, color)), curve));
+  return times(tone::agx_out, each(codes, [](F x) { return pow(max(x, F(0.0f)), F(tone::agx_gamma)); }));
+}
+
+template <class F>
+[[gnu::always_inline]] inline F filmic_curve(F x) {
+  const F rising =
+      x * (F(tone::filmic_a) * x + F(tone::filmic_c * tone::filmic_b)) + F(tone::filmic_d * tone::filmic_e);
+  const F falling = x * (F(tone::filmic_a) * x + F(tone::filmic_b)) + F(tone::filmic_d * tone::filmic_f);
+  return rising / falling - F(tone::filmic_e / tone::filmic_f);
+}
+
+template <class F>
+[[gnu::always_inline]] inline ColorLanes<F> map_filmic(const ColorLanes<F>& color) {
+  const F white = filmic_curve(F(tone::filmic_white));
+  return each(color, [&](F x) { return filmic_curve(x * F(tone::filmic_exposure)) / white; });
+}
+
 /// See tone_map in image/tonemap.h.
 template <ToneMapping mapping, class F>
 [[gnu::always_inline]] inline ColorLanes<F> tone_map(ColorLanes<F> color) {
@@ -86,6 +137,8 @@ template <ToneMapping mapping, class F>
   color = each(color, [](F x) { return min(max(x, F(0.0f)), F(tone::greatest)); });
   if constexpr (mapping == ToneMapping::Aces) color = map_aces(color);
   if constexpr (mapping == ToneMapping::Neutral) color = map_neutral(color);
+  if constexpr (mapping == ToneMapping::Agx) color = map_agx(color);
+  if constexpr (mapping == ToneMapping::Filmic) color = map_filmic(color);
   return each(color, unit);
 }
 
@@ -161,6 +214,10 @@ template <class Full, class One>
       return display_pixels<ToneMapping::Aces, Full, One>(step, linear, display, n);
     case ToneMapping::Neutral:
       return display_pixels<ToneMapping::Neutral, Full, One>(step, linear, display, n);
+    case ToneMapping::Agx:
+      return display_pixels<ToneMapping::Agx, Full, One>(step, linear, display, n);
+    case ToneMapping::Filmic:
+      return display_pixels<ToneMapping::Filmic, Full, One>(step, linear, display, n);
   }
 }
 
@@ -173,6 +230,10 @@ template <class F>
       return show_pixels<ToneMapping::Aces, F>(step, linear, shown, n);
     case ToneMapping::Neutral:
       return show_pixels<ToneMapping::Neutral, F>(step, linear, shown, n);
+    case ToneMapping::Agx:
+      return show_pixels<ToneMapping::Agx, F>(step, linear, shown, n);
+    case ToneMapping::Filmic:
+      return show_pixels<ToneMapping::Filmic, F>(step, linear, shown, n);
   }
 }
 

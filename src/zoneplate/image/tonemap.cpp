@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/image/tonemap.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/display_step_lanes.h"
 #include "zoneplate/image/display_transform.h"
@@ -46,8 +49,29 @@ float3 tone_map(float3 color, ToneMapping mapping) {
       return mapped<ToneMapping::Aces>(color);
     case ToneMapping::Neutral:
       return mapped<ToneMapping::Neutral>(color);
+    case ToneMapping::Agx:
+      return mapped<ToneMapping::Agx>(color);
+    case ToneMapping::Filmic:
+      return mapped<ToneMapping::Filmic>(color);
   }
   return {};
+}
+
+float3 invert_neutral(float3 mapped) {
+  constexpr double start = tone::neutral_start, width = 1 - start, most = 1 - 0x1p-20;
+  double c[3] = {mapped.x, mapped.y, mapped.z};
+  for (double& x : c) x = std::min(std::max(x, 0.0), most);
+  const double new_peak = std::max({c[0], c[1], c[2]});
+  if (new_peak >= start) {
+    const double peak = width * width / (1 - new_peak) - width + start;
+    const double rest = 1 / (tone::neutral_desaturation * (peak - new_peak) + 1);
+    for (double& x : c) x = (x - new_peak * (1 - rest)) / rest * (peak / new_peak);
+  }
+  // The least channel is 6.25 x² below 2 f90, and x - f90 above.
+  const double least = std::min({c[0], c[1], c[2]});
+  constexpr double f90 = tone::neutral_f90;
+  const double offset = least < f90 ? std::sqrt(std::max(least, 0.0) * (4 * f90)) - least : f90;
+  return {static_cast<float>(c[0] + offset), static_cast<float>(c[1] + offset), static_cast<float>(c[2] + offset)};
 }
 
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options) {

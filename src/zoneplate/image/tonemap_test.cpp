@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -16,6 +17,9 @@
 
 namespace zoneplate {
 namespace {
+
+constexpr ToneMapping every_curve[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral, ToneMapping::Agx,
+                                       ToneMapping::Filmic};
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -70,8 +74,75 @@ TEST(Tonemap, NeutralKeepsBaseColorAndCompressesTheRest) {
   expect_near(tone_map({1e6f, 1e6f, 1e6f}, ToneMapping::Neutral), {1, 1, 1}, 1e-6f);
 }
 
+TEST(Tonemap, NeutralHasAnInverse) {
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    const auto channel = [&](std::uint32_t c) { return unit_float(hash(i, c)) * (i % 2 == 0 ? 1.0f : 3.0f); };
+    const float3 color{channel(1), channel(2), channel(3)};
+    // Near white the mapped colour in floats determines the colour less exactly.
+    const float peak = std::max({color.x, color.y, color.z});
+    expect_near(invert_neutral(tone_map(color, ToneMapping::Neutral)), color,
+                peak <= 1 ? 1e-5f : 1e-5f * peak * peak * peak);
+  }
+  expect_near(invert_neutral({0, 0, 0}), {0, 0, 0}, 0);
+  EXPECT_TRUE(std::isfinite(invert_neutral({1, 1, 1}).x));
+}
+
+using Double3 = std::array<double, 3>;
+
+/// Columns, as in GLSL.
+Double3 times(const std::array<Double3, 3>& columns, const Double3& v) {
+  Double3 out{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) out[r] += columns[c][r] * v[c];
+  return out;
+}
+
+/// The published formula, in double. Source: three.js, AgXToneMapping.
+Double3 published_agx(Double3 color) {
+  color = times({{{0.6274, 0.0691, 0.0164}, {0.3293, 0.9195, 0.0880}, {0.0433, 0.0113, 0.8956}}}, color);
+  color = times({{{0.856627153315983, 0.137318972929847, 0.11189821299995},
+                  {0.0951212405381588, 0.761241990602591, 0.0767994186031903},
+                  {0.0482516061458583, 0.101439036467562, 0.811302368396859}}},
+                color);
+  for (double& v : color) {
+    const double x = std::clamp((std::log2(std::max(v, 1e-10)) + 12.47393) / (4.026069 + 12.47393), 0.0, 1.0);
+    v = 15.5 * std::pow(x, 6) - 40.14 * std::pow(x, 5) + 31.96 * std::pow(x, 4) - 6.868 * std::pow(x, 3) +
+        0.4298 * x * x + 0.1191 * x - 0.00232;
+  }
+  color = times({{{1.1271005818144368, -0.1413297634984383, -0.14132976349843826},
+                  {-0.11060664309660323, 1.157823702216272, -0.11060664309660294},
+                  {-0.016493938717834573, -0.016493938717834257, 1.2519364065950405}}},
+                color);
+  for (double& v : color) v = std::pow(std::max(0.0, v), 2.2);
+  color = times({{{1.6605, -0.1246, -0.0182}, {-0.5876, 1.1329, -0.1006}, {-0.0728, -0.0083, 1.1187}}}, color);
+  for (double& v : color) v = std::clamp(v, 0.0, 1.0);
+  return color;
+}
+
+/// Source: Hable 2010.
+double published_filmic(double x) {
+  const auto curve = [](double v) {
+    return (v * (0.15 * v + 0.1 * 0.5) + 0.2 * 0.02) / (v * (0.15 * v + 0.5) + 0.2 * 0.3) - 0.02 / 0.3;
+  };
+  return std::clamp(curve(2 * x) / curve(11.2), 0.0, 1.0);
+}
+
+TEST(Tonemap, AgxAndFilmicAreThePublishedCurves) {
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    const auto channel = [&](std::uint32_t c) { return std::exp2(16 * unit_float(hash(i, c)) - 11); };
+    const float3 color{channel(1), channel(2), channel(3)};
+    const Double3 agx = published_agx({color.x, color.y, color.z});
+    const auto narrow = [](double x) { return static_cast<float>(x); };
+    expect_near(tone_map(color, ToneMapping::Agx), {narrow(agx[0]), narrow(agx[1]), narrow(agx[2])}, 1e-5f);
+    expect_near(
+        tone_map(color, ToneMapping::Filmic),
+        {narrow(published_filmic(color.x)), narrow(published_filmic(color.y)), narrow(published_filmic(color.z))},
+        2e-6f);
+  }
+}
+
 TEST(Tonemap, MapsStayInRangeAndRise) {
-  for (const ToneMapping mapping : {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral}) {
+  for (const ToneMapping mapping : every_curve) {
     float last = 0;
     for (float x = 0.001f; x < 1e6f; x *= 1.05f) {
       const float y = tone_map({x, x, x}, mapping).y;
@@ -144,7 +215,7 @@ std::vector<float> pixels(std::uint32_t n, std::uint32_t seed) {
 
 TEST(MakeDisplay, EveryInstructionSetGivesTheSameBits) {
   std::vector<DisplayStep> steps;
-  for (const ToneMapping mapping : {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral}) {
+  for (const ToneMapping mapping : every_curve) {
     for (const bool is_transparent : {false, true}) {
       for (const float alpha : {0.0f, 0.3f, 1.0f}) {
         DisplayStep step = {.mapping = mapping, .exposure = 1.3f, .is_transparent = is_transparent};
@@ -192,7 +263,7 @@ TEST(DisplayTransform, ShowsWhatMakeDisplayDoesQuantized) {
   }
   Linear8 groups[4];
   for (std::size_t i = 0; i < 32; ++i) groups[i / 8].set(i % 8, image(static_cast<int>(i), 0));
-  for (const ToneMapping mapping : {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral})
+  for (const ToneMapping mapping : every_curve)
     for (int bits = 0; bits < 4; ++bits) {
       const DisplayOptions options{.mapping = mapping,
                                    .exposure = 1.3f,

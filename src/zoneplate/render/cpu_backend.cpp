@@ -19,6 +19,7 @@
 #include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
 #include "zoneplate/signal/samples.h"
@@ -63,16 +64,22 @@ PixelRays rays_of(const Camera& camera, const float4x4& clip_from_camera, const 
           up * (2 * tan_y / (256 * static_cast<float>(options.height)))};
 }
 
-ViewUniforms view_uniforms_of(const Lighting& lighting, const Camera& camera, const float4x4& clip_from_camera,
-                              const RenderOptions& options) {
+ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera& camera,
+                              const float4x4& clip_from_camera, const RenderOptions& options) {
   const float4x4& world_from_camera = camera.world_from_camera;
   ViewUniforms s;
   s.eye = xyz(world_from_camera.column[3]);
   s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
   s.is_orthographic = camera.is_orthographic;
-  if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
+  s.shading_frequency = options.shading_frequency;
+  const bool is_by_fragment = options.shading_frequency == ShadingFrequency::Fragment;
+  if (!camera.is_orthographic && is_by_fragment) s.rays = rays_of(camera, clip_from_camera, options);
   for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
-  s.environment = lighting.environment.constant_radiance();
+  s.environment = lighting.environment.factor();
+  if (const PreparedEnvironment* map = lighting.environment.map.get()) {
+    s.map = map->view(lighting.environment, up, world_from_camera);
+    s.environment = s.environment * map->greatest();
+  }
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   return s;
@@ -239,7 +246,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
                           .is_painter = options.visibility == Visibility::Painter,
                           .capacity = options.capacity};
-  ViewUniforms view = view_uniforms_of(prepared.lighting(), camera, clip_from_camera, options);
+  ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
   std::optional<Backdrop> backdrop;
   if (request.content == Content::Colour)
     backdrop = make_backdrop(prepared, view, draws.draws, clip_from_world, rules, options, memory_);

@@ -6,11 +6,18 @@
 #include <utility>
 
 #include "zoneplate/scene/default_lights.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 
 namespace zoneplate {
 namespace {
 
 bool is_phong(ShadingModel model) { return model == ShadingModel::BlinnPhong || model == ShadingModel::Phong; }
+
+/// Zero where the environment's image is not filtered yet.
+float3 mean_radiance(const Environment& environment) {
+  if (environment.map) return environment.factor() * environment.map->mean();
+  return environment.image < 0 ? environment.factor() : float3{0, 0, 0};
+}
 
 }  // namespace
 
@@ -37,7 +44,7 @@ void convert_material(Material& material, ShadingModel model) {
 Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
   Lighting lighting{scene.lights, scene.environment, scene.ambient_light};
   if (options.environment) {
-    lighting.environment = {.color = *options.environment};
+    lighting.environment = *options.environment;
   } else if (scene.lights.empty() && scene.environment == Environment{}) {
     lighting.lights = default_lights();
     // (Blinn-)Phong's diffuse term lacks the factor 1 / π: dividing the lights by π gives a white surface the same
@@ -49,7 +56,7 @@ Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
     lighting.environment = {.color = {default_environment, default_environment, default_environment}};
   }
   for (Light& light : lighting.lights) light.intensity *= options.intensity;
-  if (lighting.ambient_light == float3{}) lighting.ambient_light = lighting.environment.constant_radiance();
+  if (lighting.ambient_light == float3{}) lighting.ambient_light = mean_radiance(lighting.environment);
   return lighting;
 }
 

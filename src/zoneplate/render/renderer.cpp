@@ -8,6 +8,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/render/environment_background.h"
 
 namespace zoneplate {
 namespace {
@@ -90,7 +91,8 @@ Request Renderer::request_for(const RenderSettings& settings) {
   request.planes = request.planes | settings.planes;
   if (settings.planes.error && !request.estimates_error)
     throw Error(ErrorKind::Usage, "the method has no estimate of its error");
-  request.writes_display8 = request.resolves_per_pixel && settings.form == ImageForm::Display8;
+  request.writes_display8 =
+      request.resolves_per_pixel && settings.form == ImageForm::Display8 && !settings.options.background;
   return request;
 }
 
@@ -148,6 +150,8 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   const Request request = request_for(settings);
   RenderOptions options = settings.options;
   options.crop = padded_crop(settings.options, request.halo);
+  // The environment is composited behind what the method resolves, which so needs its alpha.
+  if (options.background) options.display.is_transparent = true;
   if (!options.last) options.last = moment_;
 
   RenderedImage out;
@@ -158,6 +162,7 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   } else {
     const Stopwatch watch;
     LinearImage linear = method_->resolve(frame);
+    if (options.background) draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, linear);
     out.counts.resolve_ms = watch.ms();
     finish(std::move(linear), frame, settings.form, out);
   }
@@ -176,6 +181,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   request.writes_display8 = false;
   RenderOptions options = settings.options;
   options.crop = padded_crop(settings.options, request.halo);
+  // The environment is composited behind what the method resolves, which so needs its alpha.
+  if (options.background) options.display.is_transparent = true;
   if (!options.last) options.last = moment_;
 
   RenderedImage out;
@@ -188,6 +195,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
     LinearImage picture = method_->resolve(rounds.frame);
+    if (options.background)
+      draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, picture);
     if (i == 0) {
       sum = std::move(picture);
     } else {

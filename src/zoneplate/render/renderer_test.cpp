@@ -349,11 +349,34 @@ TEST(PreparedScene, CopiesShareWhatWasMade) {
   EXPECT_EQ(render(later, camera_of(scene), {}, options).color, render(scene, camera_of(scene), {}, options).color);
 }
 
-TEST(PreparedScene, AnEnvironmentImageIsRefusedNotLeftOut) {
-  Scene scene = *make_builtin_scene("checkerboard");
-  scene.environment.image = 0;
+/// A metal sphere of this roughness in an environment of one colour, given as a colour or as an image.
+LinearImage sphere_in_light(float3 light, bool is_image) {
+  Scene scene = *make_builtin_scene("sphere:triangles=2000");
+  scene.materials[0] = {.model = ShadingModel::MetallicRoughness, .metallic = 0.5f, .roughness = 0.4f};
+  scene.environment.color = light;
+  if (is_image) {
+    scene.environment.color = light * 0.5f;
+    scene.environment.image = static_cast<int>(scene.images.size());
+    scene.images.push_back({.name = "grey", .pixels = Plane<float4>(8, 4, {2, 2, 2, 1})});
+  }
   const PreparedScene prepared(std::move(scene));
-  EXPECT_THROW(render(prepared, camera_of(prepared), {}, {.width = 8, .height = 8}), Error);
+  return render(prepared, camera_of(prepared), {}, {.width = width, .height = height}).color;
+}
+
+TEST(PreparedScene, AnEnvironmentImageOfOneColourLightsAsThatColour) {
+  const LinearImage plain = sphere_in_light({0.5f, 1, 0.25f}, false), image = sphere_in_light({0.5f, 1, 0.25f}, true);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      ASSERT_NEAR(image(x, y).g, plain(x, y).g, 2e-4f) << x << ' ' << y;
+      ASSERT_NEAR(image(x, y).b, plain(x, y).b, 1e-4f) << x << ' ' << y;
+    }
+}
+
+TEST(PreparedScene, AnEnvironmentImageWithoutTexelsIsAnError) {
+  Scene scene = *make_builtin_scene("sphere:triangles=100");
+  scene.environment.image = static_cast<int>(scene.images.size());
+  scene.images.push_back({.name = "sky"});
+  EXPECT_THROW(PreparedScene(std::move(scene)), Error);
 }
 
 TEST(Lights, InCameraSpaceTurnWithTheCamera) {

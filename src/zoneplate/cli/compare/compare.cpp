@@ -12,6 +12,7 @@
 #include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/render/args.h"
+#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
@@ -266,12 +267,19 @@ void run_compare(std::span<const std::string> arguments) {
   args.scenes = scenes_of(syntax.found_operands);
   if (args.scenes.empty())
     throw Error(ErrorKind::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
+  check_environment(args.render);
   const TrialOptions options = trial_options(args);
   check_output_folder(args.render.output);
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   Comparison made;
-  with_isa(args.render.isa, [&] { with_threads(args.render.threads, [&] { made = compare_all(args, options); }); });
+  Environments environments;
+  with_isa(args.render.isa, [&] {
+    with_threads(args.render.threads, [&] {
+      environments.complete(args.render);
+      made = compare_all(args, options);
+    });
+  });
   save_folder(args.render.output, made.files);  // without other threads, as it requires
   if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
     print(args.render.prints_json ? made.json : made.text);

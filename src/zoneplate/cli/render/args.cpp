@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
@@ -165,13 +166,22 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--anti-aliasing,--aa", "METHOD",
        "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
        [&](auto& text) { a.method = text; }},
-      {"--background-color,--background", "COLOR", "Background colour; default #333333", group, true,
-       [&](auto& text) { a.background = parse_color(text); }},
-      {"--no-background", "", "Transparent background", group, true, [&](auto&) { a.display.is_transparent = true; }},
-      {"--tone-mapping", "CURVE", "Tone-mapping curve: none, aces or neutral; default none", group, false,
+      {"--background-color,--background", "COLOR",
+       "Background colour, or environment: the light's image; default #333333", group, true,
        [&](auto& text) {
-         constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral};
-         a.display.mapping = curves[parse_choice(text, {"none", "aces", "neutral"})];
+         if (text == "environment")
+           a.options.background.emplace();
+         else
+           a.background = parse_color(text);
+       }},
+      {"--background-blur", "AMOUNT", "Blur of --background environment, from 0 to 1; default 0", group, false,
+       [&](auto& text) { a.background_blur = static_cast<float>(parse_number(text, 0, 1)); }},
+      {"--no-background", "", "Transparent background", group, true, [&](auto&) { a.display.is_transparent = true; }},
+      {"--tone-mapping", "CURVE", "Tone-mapping curve: none, aces, neutral, agx or filmic; default none", group, false,
+       [&](auto& text) {
+         constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral, ToneMapping::Agx,
+                                           ToneMapping::Filmic};
+         a.display.mapping = curves[parse_choice(text, {"none", "aces", "neutral", "agx", "filmic"})];
        }},
       {"--exposure", "STOPS", "Exposure in stops: each stop doubles the brightness, negative ones halve it; default 0",
        group, false, [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
@@ -231,7 +241,14 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--environment", "COLOR", "Constant environment light of this colour, instead of the default lights", group,
-       false, [&](auto& text) { a.lighting.environment = linear_color(text); }},
+       false, [&](auto& text) { a.environment_color = linear_color(text); }},
+      {"--hdri-file", "FILE",
+       "Image-based light, instead of the default lights: an equirectangular image, .hdr, .exr, .png, .jpg or .webp",
+       group, false, [&](auto& text) { a.hdri_file = text; }},
+      {"--hdri-rotation", "DEG", "Turn of the image about the up axis, counter-clockwise from above; default 0", group,
+       false, [&](auto& text) { a.hdri_rotation = radians(text, -360, 360); }},
+      {"--hdri-intensity", "FACTOR", "Factor of the image's light; default 1", group, false,
+       [&](auto& text) { a.hdri_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--no-cull", "", "Draw back faces of single-sided materials", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
       {"--point-size", "PX", "Size of points, which are drawn as squares; default 1", group, false,
@@ -257,6 +274,15 @@ std::vector<Option> teaching_options(RenderArgs& a) {
        [&](auto& text) {
          a.options.visibility =
              parse_choice(text, {"z-buffer", "painter"}) == 0 ? Visibility::ZBuffer : Visibility::Painter;
+       }},
+      {"--shading-frequency", "RULE",
+       "Where lights are evaluated: flat: once for each triangle; gouraud: at vertices, and interpolated; phong: at "
+       "every fragment; default phong",
+       group, false,
+       [&](auto& text) {
+         constexpr ShadingFrequency rules[] = {ShadingFrequency::Triangle, ShadingFrequency::Vertex,
+                                               ShadingFrequency::Fragment};
+         a.options.shading_frequency = rules[parse_choice(text, {"flat", "gouraud", "phong"})];
        }},
   };
 }
@@ -289,6 +315,9 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto&) { a.is_sandboxed = true; }},
       {"--no-sandbox", "", "Read and render without a sandbox, with all rights of the user: for trusted models", group,
        false, [&](auto&) { a.is_sandboxed = false; }},
+      {"--no-cache", "",
+       "Neither read nor write filtered environments in $XDG_CACHE_HOME/zoneplate or ~/.cache/zoneplate", group, false,
+       [&](auto&) { a.cache.clear(); }},
       {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated", group,
        false, [&](auto& text) { a.load.limits.allowed_paths.push_back(text); }},
   };
@@ -317,6 +346,7 @@ void check_output(RenderArgs& args) {
 }  // namespace
 
 Syntax render_syntax(RenderArgs& args) {
+  args.cache = environment_cache();
   Syntax syntax{.verb = "render",
                 .summary = "Render a model or a built-in scene to an image",
                 .operands = "IN -o OUT",
@@ -335,6 +365,26 @@ void check_picture_ending(const std::string& output) {
         fmt::format("--output: {} is not a format that can be written (.png, .jpg, .webp, .exr, .pfm, .rgba)", output));
 }
 
+void check_environment(RenderArgs& args) {
+  if (args.options.background) {
+    if (args.display.is_transparent)
+      throw Error(ErrorKind::Usage, "--background environment is opaque: it does not go with --no-background");
+    args.options.background->blur = args.background_blur;
+  } else if (args.background_blur > 0) {
+    throw Error(ErrorKind::Usage, "--background-blur requires --background environment");
+  }
+  if (args.environment_color) args.lighting.environment = Environment{.color = *args.environment_color};
+  if (args.hdri_file.empty()) {
+    if (args.hdri_rotation != 0 || args.hdri_intensity != 1)
+      throw Error(ErrorKind::Usage, "--hdri-rotation and --hdri-intensity require --hdri-file");
+    return;
+  }
+  if (args.environment_color)
+    throw Error(ErrorKind::Usage, "--environment is a colour and --hdri-file an image: give one of them");
+  args.lighting.environment =
+      Environment{.color = {1, 1, 1}, .rotation = args.hdri_rotation, .strength = args.hdri_intensity};
+}
+
 bool exists(const std::string& path) {
   std::error_code ignored;
   return path != "-" && std::filesystem::exists(path, ignored);
@@ -342,6 +392,7 @@ bool exists(const std::string& path) {
 
 void check_args(RenderArgs& args) {
   check_output(args);
+  check_environment(args);
   const std::string ending = extension_of(args.named_output());
   if (args.output != "-" && args.stdout_format != "png")
     throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");

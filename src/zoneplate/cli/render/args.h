@@ -49,10 +49,15 @@ struct RenderArgs {
   RenderOptions options;
   DisplayOptions display;
   std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one
+  float background_blur = 0;
   View view;
   bool raw_colors = false;                    ///< images are not decoded from sRGB
   std::optional<ShadingModel> shading_model;  ///< for every material
   LightingOptions lighting;
+  std::optional<float3> environment_color;  ///< linear radiance of --environment
+  std::string cache;                        ///< folder of prepared environments; empty: none is kept
+  std::string hdri_file;                    ///< the image of `lighting.environment`; empty: none
+  float hdri_rotation = 0, hdri_intensity = 1;
   std::vector<const Aov*> aovs;
   LoadOptions load;
   std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
@@ -79,6 +84,11 @@ Syntax render_syntax(RenderArgs& args);
 ///
 /// Errors    ErrorKind::Usage.
 void check_args(RenderArgs& args);
+
+/// Checks the options of the environment, and completes `args.lighting` and `args.options` by them. Part of check_args.
+///
+/// Errors    ErrorKind::Usage.
+void check_environment(RenderArgs& args);
 
 /// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);

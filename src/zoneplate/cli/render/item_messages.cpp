@@ -5,7 +5,16 @@
 
 namespace zoneplate::cli {
 
-enum class ItemSender::Kind : std::uint8_t { Progress, HasRead, File, FilmFrame, Result, Failure, NeedsLibrary };
+enum class ItemSender::Kind : std::uint8_t {
+  Progress,
+  HasRead,
+  File,
+  FilmFrame,
+  Environment,
+  Result,
+  Failure,
+  NeedsLibrary
+};
 
 struct ItemSender::Header {
   Kind kind;
@@ -86,6 +95,10 @@ void ItemSender::film_frame(const Rgba8Image& image) {
   const auto* first = reinterpret_cast<const std::uint8_t*>(image.values().data());
   send(Kind::FilmFrame, 0, 0, {first, image.values().size_bytes()});
 }
+void ItemSender::environment(std::uint64_t key, std::span<const std::uint8_t> bytes) {
+  const auto half = [&](int shift) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(key >> shift)); };
+  send(Kind::Environment, half(0), half(32), bytes);
+}
 void ItemSender::result(std::span<const std::uint8_t> bytes) { send(Kind::Result, 0, 0, bytes); }
 void ItemSender::failure(ErrorKind kind, const std::string& message) {
   send(Kind::Failure, static_cast<int>(kind), 0, bytes_of(message));
@@ -115,6 +128,9 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
     events.file(header.first, header.second, header.size, read);
   } else if (header.kind == Kind::FilmFrame && events.film_frame) {
     events.film_frame(header.size, read);
+  } else if (header.kind == Kind::Environment && events.environment) {
+    const auto half = [](std::int32_t bits) { return std::uint64_t{static_cast<std::uint32_t>(bits)}; };
+    events.environment(half(header.first) | half(header.second) << 32, header.size, read);
   } else if (header.kind == Kind::NeedsLibrary && events.needs_library && header.first >= 0 &&
              header.first <= static_cast<int>(Library::OpenExr)) {
     events.needs_library(static_cast<Library>(header.first), body.text());

@@ -35,6 +35,8 @@ class ItemSender {
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
   /// A frame of a film that the receiver encodes.
   void film_frame(const Rgba8Image& image);
+  /// A prepared environment for the cache, by its key (environment_file.h).
+  void environment(std::uint64_t key, std::span<const std::uint8_t> bytes);
   /// The end of a job: its result, an error, or the library without which it cannot go on.
   void result(std::span<const std::uint8_t> bytes);
   void failure(ErrorKind kind, const std::string& message);
@@ -63,6 +65,7 @@ struct ItemEvents {
   std::function<void(std::string_view stage, double done)> progress;
   std::function<void(int frame, int layer, std::uint64_t size, const Read& read)> file;
   std::function<void(std::uint64_t size, const Read& read)> film_frame;
+  std::function<void(std::uint64_t key, std::uint64_t size, const Read& read)> environment;
   std::function<void()> has_read;
   std::function<void(Library library, const std::string& message)> needs_library;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/cli/render/film.h"
@@ -13,12 +14,18 @@
 namespace zoneplate::cli {
 namespace {
 
-ItemLimits limits_of(const RenderArgs& args) {
+/// The limits of several items with one model.
+ItemLimits limits_of(const std::vector<RenderArgs>& items) {
+  const RenderArgs& args = items.front();
+  std::vector<std::string> readable = readable_paths(args.input, args.load);
+  for (const RenderArgs& item : items)
+    for (const std::string& path : {item.hdri_file, item.cache})
+      if (!path.empty()) readable.push_back(path);
   return {.name = args.input == "-" ? "standard input" : args.input,
           .load = args.load.limits,
           .seconds = args.max_seconds,
           .is_sandboxed = uses_sandbox(args.is_sandboxed),
-          .readable = readable_paths(args.input, args.load)};
+          .readable = std::move(readable)};
 }
 
 // Passes `size` bytes on in parts, so that a large file is never whole in memory here.
@@ -38,7 +45,7 @@ void for_parts(std::uint64_t size, const ItemEvents::Read& read, Take take) {
 
 RenderItems::RenderItems(std::vector<RenderArgs> items)
     : items_(std::move(items)),
-      process_(limits_of(items_.front()), items_.size(),
+      process_(limits_of(items_), items_.size(),
                [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
                  return pack_summary(jobs->run(items_[i], sender));
                }) {}
@@ -67,6 +74,11 @@ Summary RenderItems::next() {
       throw Error(ErrorKind::Failed, args.input + ": a frame of another size than the film's");
     if (!film) film.emplace(args.output, width, height, film_of(args.sequence.rate));
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
+  };
+
+  events.environment = [&](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
+    if (args.cache.empty()) throw Error(ErrorKind::Failed, args.input + ": an environment without a cache");
+    store_environment(environment_path(args.cache, key), size, read);
   };
 
   Summary summary = unpack_summary(process_.next(std::move(events)));

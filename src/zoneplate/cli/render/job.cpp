@@ -41,6 +41,8 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   Summary summary;
   summary.threads = thread_limit();
   out.progress("read", 0);
+  const Environments::Store store = [&](std::uint64_t key, auto bytes) { out.environment(key, bytes); };
+  within_import_time(args.input, args.load.limits, [&] { environments_.complete(args, store); });
   if (args.sequence.is_sequence()) {
     render_sequence(args, std::move(method), out, summary);
     summary.times = {{"total", total_watch.ms()}};

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/render/prepared_scene.h"
@@ -22,7 +23,8 @@ class RenderJobs {
   /// The model of the arguments; nothing where it is `scene_` already.
   std::optional<Scene> read(const RenderArgs& args);
 
-  std::string key_;                     ///< of the model that is loaded
+  std::string key_;  ///< of the model that is loaded
+  Environments environments_;
   std::optional<PreparedScene> scene_;  ///< the model, with the lights of its file
 };
 

@@ -12,7 +12,7 @@
 namespace zoneplate::cli {
 namespace {
 
-void tell(const RenderArgs& args, const Summary& summary) {
+void print_summary(const RenderArgs& args, const Summary& summary) {
   if (args.verbosity == Verbosity::Verbose) {
     std::string times;
     for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
@@ -46,7 +46,7 @@ void run_render(std::span<const std::string> arguments) {
   with_isa(args.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
   if (args.verbosity != Verbosity::Quiet)
     for (const std::string& warning : summary.warnings) say_warning(warning);
-  tell(args, summary);
+  print_summary(args, summary);
 }
 
 }  // namespace zoneplate::cli

@@ -7,6 +7,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/pfm.h"
@@ -101,8 +102,10 @@ void save_plots(const std::string& path, const std::vector<Plot>& plots, int col
   save_bytes(path, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
 }
 
-void tell(const SignalArgs& args, const std::string& text, const Json::Object& json) {
-  const std::string line = args.prints_json ? Json(json).text() + '\n' : text;
+void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json) {
+  Json::Object report{{"format", "zoneplate-signal"}, {"version", report_version}};
+  report.insert(report.end(), json.begin(), json.end());
+  const std::string line = args.prints_json ? Json(std::move(report)).text() + '\n' : text;
   if (args.output != "-") return print(line);
   if (args.prints_json) std::fwrite(line.data(), 1, line.size(), stderr);
 }

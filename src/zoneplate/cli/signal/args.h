@@ -57,8 +57,9 @@ inline constexpr const char* result_meaning =
 /// The plots in the format of the output's extension.
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
 
-/// The results on stdout, for people or as a line of JSON. Where the image takes stdout JSON goes to stderr instead.
-void tell(const SignalArgs& args, const std::string& text, const Json::Object& json);
+/// Prints the results to stdout, as text or as one line of JSON with "format" and "version" before the members of
+/// `json`. Where the image is written to stdout, JSON goes to stderr instead and text is omitted.
+void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json);
 
 /// "1,3,5": whole numbers in [low, high], at least one.
 std::vector<int> parse_whole_list(const std::string& text, int low, int high);

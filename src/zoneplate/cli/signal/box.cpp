@@ -91,7 +91,7 @@ void run_signal_box(std::span<const std::string> arguments) {
     rows.emplace_back(Json::Object{
         {"width", width}, {"first_zero", zero}, {"half_power", half}, {"response_at_nyquist", at_nyquist}});
   }
-  tell(args, text, {{"output", args.output}, {"boxes", std::move(rows)}});
+  print_result(args, text, {{"output", args.output}, {"boxes", std::move(rows)}});
 }
 
 }  // namespace zoneplate::cli

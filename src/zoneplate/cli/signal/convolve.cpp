@@ -193,7 +193,7 @@ void run_image(const ConvolveArgs& args, const std::string& input) {
       return args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
                                   : picture_of(args, kernel, results.image);
     });
-  tell(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results));
+  print_result(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results));
 }
 
 Plane<double> parse_values(const std::string& text) {

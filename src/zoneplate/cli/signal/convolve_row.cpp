@@ -77,7 +77,7 @@ void convolve_row(const ConvolveArgs& args) {
                     {"result", std::move(result)}};
   if (row.apart) json.emplace_back("difference", *row.apart);
   if (!args.output.empty()) save_plots(args.output, {row_plot(args, row)}, 1, {});
-  tell(args, text, json);
+  print_result(args, text, json);
 }
 
 }  // namespace zoneplate::cli

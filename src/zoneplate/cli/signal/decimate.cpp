@@ -186,7 +186,7 @@ void run_signal_decimate(std::span<const std::string> arguments) {
     if (!args.filtered_path.empty())
       save_result(args.filtered_path, pair.filtered, [&] { return shown(pair.filtered, args.uses_codes); });
     const std::vector<Figures> rows = measure(args, pair);
-    tell(args, text_of(input, pair, rows), json_of(input, args, pair, rows));
+    print_result(args, text_of(input, pair, rows), json_of(input, args, pair, rows));
   });
 }
 

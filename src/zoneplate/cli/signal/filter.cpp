@@ -177,20 +177,20 @@ void tell_result(const std::string& input, const FilterArgs& args, const LinearI
   const double was = variance(luminance(before)), is = variance(luminance(after));
   const double kept = was > 0 ? is / was : 1;
   const bool has_low = args.filter.pass != Pass::Low, has_high = args.filter.pass != Pass::High;
-  tell(args,
-       fmt::format("{}, {} × {}: {}, border {}\n  {:.2f} % of the variance of the luminance remains\n", input,
-                   before.width(), before.height(), name_of(args), name_of(args.border), 100 * kept),
-       {{"input", input},
-        {"output", args.output},
-        {"width", before.width()},
-        {"height", before.height()},
-        {"filter", name_of(args)},
-        {"shape", args.shape},
-        {"low", has_low ? Json(args.filter.low) : Json()},
-        {"high", has_high ? Json(args.filter.high) : Json()},
-        {"border", name_of(args.border)},
-        {"variance_before", was},
-        {"variance_after", is}});
+  print_result(args,
+               fmt::format("{}, {} × {}: {}, border {}\n  {:.2f} % of the variance of the luminance remains\n", input,
+                           before.width(), before.height(), name_of(args), name_of(args.border), 100 * kept),
+               {{"input", input},
+                {"output", args.output},
+                {"width", before.width()},
+                {"height", before.height()},
+                {"filter", name_of(args)},
+                {"shape", args.shape},
+                {"low", has_low ? Json(args.filter.low) : Json()},
+                {"high", has_high ? Json(args.filter.high) : Json()},
+                {"border", name_of(args.border)},
+                {"variance_before", was},
+                {"variance_after", is}});
 }
 
 }  // namespace

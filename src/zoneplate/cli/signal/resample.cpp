@@ -108,17 +108,17 @@ void run_signal_resample(std::span<const std::string> arguments) {
     save_result(args.output, result, [&] {
       return args.is_side_by_side ? figure_of(input, args, image, result) : shown(result, args.uses_codes);
     });
-    tell(args,
-         fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", input, image.width(), image.height(), size.x, size.y,
-                     args.kernel, name_of(args.border)),
-         {{"input", input},
-          {"output", args.output},
-          {"width", size.x},
-          {"height", size.y},
-          {"from_width", image.width()},
-          {"from_height", image.height()},
-          {"kernel", args.kernel},
-          {"border", name_of(args.border)}});
+    print_result(args,
+                 fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", input, image.width(), image.height(), size.x,
+                             size.y, args.kernel, name_of(args.border)),
+                 {{"input", input},
+                  {"output", args.output},
+                  {"width", size.x},
+                  {"height", size.y},
+                  {"from_width", image.width()},
+                  {"from_height", image.height()},
+                  {"kernel", args.kernel},
+                  {"border", name_of(args.border)}});
   });
 }
 

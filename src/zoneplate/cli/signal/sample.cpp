@@ -172,7 +172,7 @@ void run_signal_sample(std::span<const std::string> arguments) {
   check_plot_name(args.output);
   if (!args.output.empty())
     save_plots(args.output, {waves_plot(args), copies_plot(args)}, 1, {.width = 1000, .height = 380});
-  tell(args, text_of(args), json_of(args));
+  print_result(args, text_of(args), json_of(args));
 }
 
 }  // namespace zoneplate::cli

@@ -150,7 +150,7 @@ void run_signal_series(std::span<const std::string> arguments) {
   std::vector<Sum> sums;
   for (const int n : args.terms) sums.push_back(summarize(wave, n));
   if (!args.output.empty()) save_plots(args.output, {sums_plot(wave, args), harmonics_plot(wave, args)}, 2, {});
-  tell(args, text_of(wave, sums), json_of(wave, args, sums));
+  print_result(args, text_of(wave, sums), json_of(wave, args, sums));
 }
 
 }  // namespace zoneplate::cli

@@ -269,7 +269,7 @@ void run_signal_spectrum(std::span<const std::string> arguments) {
   with_threads(args.threads, [&] {
     const Analysis analysis = analyse(args, load_signal(input, args.uses_codes));
     if (!args.output.empty()) save(input, args, analysis);
-    tell(args, text_of(input, args, analysis), json_of(input, args, analysis));
+    print_result(args, text_of(input, args, analysis), json_of(input, args, analysis));
   });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
 #include "zoneplate/cli/verbs.h"
@@ -24,6 +25,8 @@ TEST_F(SignalSpectrum, FindsTheWaveOfASine) {
     EXPECT_NEAR(json["strongest"]["degrees"].get<double>(), angle, 1e-6);
   }
   const auto plain = json(run_signal_spectrum, {spec});
+  EXPECT_EQ(plain["format"], "zoneplate-signal");
+  EXPECT_EQ(plain["version"], report_version);
   EXPECT_NEAR(plain["mean"].get<double>(), 0.5, 1e-6);
   EXPECT_NEAR(plain["standard_deviation"].get<double>(), std::sqrt(0.125), 1e-5);
   EXPECT_NEAR(plain["variance_shares"]["to_1_2"].get<double>(), 1, 1e-4);

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "zoneplate/formats/gltf/meshopt.h"
+#include "zoneplate/formats/meshopt/meshopt.h"
 #include "zoneplate/formats/import/model_path.h"
 
 namespace zoneplate {

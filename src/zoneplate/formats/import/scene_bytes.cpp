@@ -240,7 +240,7 @@ void pass(S& s, Camera& c) {
 
 template <class S>
 void pass(S& s, Environment& e) {
-  s.value(e.color), s.value(e.image), s.value(e.rotation), s.value(e.strength);
+  s.value(e.color), s.value(e.image), s.value(e.rotation), s.choice(e.is_in_camera_space), s.value(e.strength);
 }
 
 template <class S>

@@ -160,6 +160,8 @@ class MtlReader {
                          : key == "norm"   ? &m.normal_map
                          : key == "map_ks" ? &m.specular_map
                          : key == "map_ns" ? &m.exponent_map
+                         : key == "map_pr" ? &m.roughness_map
+                         : key == "map_pm" ? &m.metallic_map
                                            : nullptr;
     if (target != nullptr) {
       *target = read_texture(words);

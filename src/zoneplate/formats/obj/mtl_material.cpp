@@ -15,6 +15,7 @@
 #include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/scene/channel_image.h"
 #include "zoneplate/scene/material_layers.h"
 #include "zoneplate/scene/opacity_map.h"
 
@@ -67,6 +68,23 @@ void add_opacity(const MtlMaterial& mtl, const std::string& within, ModelFolder&
   material.alpha_mode = AlphaMode::Blend;
 }
 
+/// Joins the maps of roughness and metalness in one image, a new one.
+void add_metallic_roughness(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder, Material& m) {
+  const auto find = [&](const MtlTexture& texture) {
+    return texture.file.empty() ? -1 : folder.image(within, texture.file);
+  };
+  const int roughness = find(mtl.roughness_map), metallic = find(mtl.metallic_map);
+  if (roughness < 0 && metallic < 0) return;
+  std::vector<TextureImage>& images = folder.scene().images;
+  const auto pixels = [&](int i) { return i < 0 ? nullptr : &images[static_cast<std::size_t>(i)].pixels; };
+  folder.budget().take(with_metallic_roughness_memory(pixels(roughness), pixels(metallic)));
+  TextureImage both{images[static_cast<std::size_t>(std::max(roughness, metallic))].name,
+                    with_metallic_roughness(pixels(roughness), pixels(metallic))};
+  m.metallic_roughness_texture =
+      use_of(roughness >= 0 ? mtl.roughness_map : mtl.metallic_map, static_cast<int>(images.size()));
+  images.push_back(std::move(both));
+}
+
 void warn_of_maps(const MtlMaterial& mtl, ModelFolder& folder) {
   if (mtl.unsupported.empty()) return;
   std::string keys;
@@ -115,10 +133,12 @@ Material make_material(const MtlMaterial& mtl, const std::string& within, ModelF
   }
   m.exponent = std::clamp(mtl.exponent.value_or(32), 1.0f, 1e5f);
   if (illumination == 0) m.model = ShadingModel::Unlit;
-  if (mtl.roughness || mtl.metallic) {
+  const bool has_roughness_map = !mtl.roughness_map.file.empty(), has_metallic_map = !mtl.metallic_map.file.empty();
+  if (mtl.roughness || mtl.metallic || has_roughness_map || has_metallic_map) {
     m.model = ShadingModel::MetallicRoughness;
     m.roughness = std::clamp(mtl.roughness.value_or(1), 0.0f, 1.0f);
-    m.metallic = std::clamp(mtl.metallic.value_or(0), 0.0f, 1.0f);
+    m.metallic = std::clamp(mtl.metallic.value_or(has_metallic_map ? 1.0f : 0.0f), 0.0f, 1.0f);
+    add_metallic_roughness(mtl, within, folder, m);
     add_layers(mtl, m);
   }
   add_opacity(mtl, within, folder, m);

@@ -52,7 +52,7 @@ TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   EXPECT_EQ(m.opacity_map.file, "mask.png");
   EXPECT_EQ(m.normal_map.strength, 0.5f);
   EXPECT_EQ(m.emissive_map.file, "7");
-  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"map_bump", "map_pr"}));
+  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"map_bump"}));
   EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
 }
 
@@ -68,6 +68,7 @@ TEST(ParseMtl, ReadsTheKeysOfLayers) {
   EXPECT_EQ(m.index_of_refraction, 1.33f);
   EXPECT_EQ(m.specular_map.file, "s.png");
   EXPECT_EQ(m.exponent_map.file, "n.png");
+  EXPECT_EQ(m.roughness_map.file, "");
   EXPECT_TRUE(p.warnings.empty());
   EXPECT_TRUE(m.unsupported.empty());
 }

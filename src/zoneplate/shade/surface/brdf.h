@@ -199,6 +199,36 @@ template <class F>
   return once + once * (mean * lost / (one - mean * lost));
 }
 
+/// The light of an environment that a metallic-roughness surface reflects: a part of the light from about the mirror
+/// direction, filtered by the lobe, and a part of the irradiance over π.
+template <class F>
+struct EnvironmentShares {
+  Vector<F> mirrored;   ///< of the light that the microfacets reflect once
+  Vector<F> scattered;  ///< of diffuse light, and of light that the microfacets reflect several times
+};
+
+/// The shares of metallic_environment. Their sum is its result, to rounding.
+///
+/// Source    as metallic_environment; light of several reflections arrives from all sides (Fdez-Agüera 2019).
+template <class F>
+[[gnu::always_inline]] inline EnvironmentShares<F> metallic_shares(Vector<F> base, F metallic,
+                                                                   SpecularWeights<F> weights) {
+  const F one(1.0f), f0_coat(0.04f);
+  const F coat_once = f0_coat * weights.scale + weights.bias, coat = specular_albedo(weights, f0_coat);
+  const auto mirrored = [&](F color) {
+    const F once = min(color, one) * weights.scale + weights.bias;
+    return coat_once + (once - coat_once) * metallic;
+  };
+  const auto scattered = [&](F color) {
+    const F c = min(color, one);
+    const F metal = specular_albedo(weights, c) - (c * weights.scale + weights.bias);
+    const F dielectric = (coat - coat_once) + c * (one - coat);
+    return dielectric + (metal - dielectric) * metallic;
+  };
+  return {{mirrored(base.x), mirrored(base.y), mirrored(base.z)},
+          {scattered(base.x), scattered(base.y), scattered(base.z)}};
+}
+
 /// The fraction of a constant environment that a metallic-roughness surface reflects, specular and diffuse.
 ///
 /// The surface is a mixture of a metal and a dielectric, whose diffuse layer receives the light that the specular layer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/surface/backdrop_lanes.h"
 #include "zoneplate/shade/surface/layered.h"
 #include "zoneplate/shade/surface/layers.h"
@@ -20,6 +21,17 @@ struct ConstantRadiance {
   explicit ConstantRadiance(const ShadingUniforms& s) : radiance(Vector<F>::all(s.environment)) {}
   [[gnu::always_inline]] Vector<F> specular(Vector<F> /*direction*/, F /*roughness*/) const { return radiance; }
   [[gnu::always_inline]] Vector<F> diffuse(Vector<F> /*normal*/) const { return radiance; }
+};
+
+/// The radiance of an environment map, filtered by the lobe of a roughness, and the irradiance over π.
+template <class F>
+struct MappedRadiance {
+  const EnvironmentView& map;
+  explicit MappedRadiance(const ShadingUniforms& s) : map(*s.map) {}
+  [[gnu::always_inline]] Vector<F> specular(Vector<F> direction, F roughness) const {
+    return specular_light(map, direction, roughness);
+  }
+  [[gnu::always_inline]] Vector<F> diffuse(Vector<F> normal) const { return diffuse_light(map, normal); }
 };
 
 /// The surface at fragments i and on, prepared for its lights.
@@ -232,9 +244,11 @@ template <class F, class Radiance>
     return seen.color + around.specular(direction, roughness) * (one - seen.alpha);
   };
   if (!u.has_volume) {
+    const Vector<F> direction{-surface.v.x, -surface.v.y, -surface.v.z};
+    if (s.backdrop != nullptr && !s.has_pixels)
+      return behind(direction, image_place(*s.backdrop, Vector<F>::load(p.position, i)));
     const F pixel(1.0f / 256);
-    return behind(Vector<F>{-surface.v.x, -surface.v.y, -surface.v.z},
-                  {F::from(Int::load(batch.x + i)) * pixel, F::from(Int::load(batch.y + i)) * pixel});
+    return behind(direction, {F::from(Int::load(batch.x + i)) * pixel, F::from(Int::load(batch.y + i)) * pixel});
   }
   const auto along = [&](float ior) {
     const Vector<F> direction = refracted(surface.n, surface.v, surface.nv, F(1 / ior));
@@ -292,6 +306,7 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
 template <class F>
 void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const FragmentBatch& batch,
                    const ShadingState& p, const LayerState& q, FragmentOutputs& out) {
+  if (s.map != nullptr) return light_layered<F, MappedRadiance<F>>(s, u, batch, p, q, out);
   light_layered<F, ConstantRadiance<F>>(s, u, batch, p, q, out);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/surface/brdf.h"
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
@@ -255,12 +256,50 @@ void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const Sha
   light_phong<F, Highlight::BlinnPhong>(s, batch, p, out);
 }
 
-template <class F, bool has_texture>
+/// The reflection of an environment of one colour.
+template <class F>
+struct ConstantEnvironment {
+  Vector<F> radiance;
+  SpecularFit<F> one_fit;
+
+  explicit ConstantEnvironment(const ShadingUniforms& s)
+      : radiance(Vector<F>::all(s.environment)), one_fit(F(s.roughness)) {}
+
+  template <bool has_texture, class Kind>
+  [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
+                                             Vector<F> base, F metallic, F roughness, int i) const {
+    const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
+    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
+    return unoccluded(kind, p, radiance, i) * metallic_environment(base, metallic, fit, nv);
+  }
+};
+
+/// The reflection of an environment map.
+template <class F>
+struct MappedEnvironment {
+  const EnvironmentView& map;
+  SpecularFit<F> one_fit;
+
+  explicit MappedEnvironment(const ShadingUniforms& s) : map(*s.map), one_fit(F(s.roughness)) {}
+
+  template <bool has_texture, class Kind>
+  [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
+                                             Vector<F> base, F metallic, F roughness, int i) const {
+    const F along = dot(n, v), nv = min(max(along, F(0.0f)), F(1.0f));
+    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
+    const EnvironmentShares<F> shares = metallic_shares(base, metallic, fit.at(nv));
+    const Vector<F> mirror = n * (along + along) - v;
+    const Vector<F> sum =
+        shares.mirrored * specular_light(map, mirror, roughness) + shares.scattered * diffuse_light(map, n);
+    return unoccluded(kind, p, sum, i);
+  }
+};
+
+template <class F, bool has_texture, class Environment>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
-  const auto environment = Vector<F>::all(s.environment);
+  const Environment environment(s);
   const AnyUniforms kind(s);
   const Viewer<F> viewer(s.viewpoint);
-  const SpecularFit<F> one_fit{F(s.roughness)};
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
@@ -272,19 +311,23 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
     }
-    if (s.has_environment) {
-      const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
-      const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
-      sum = sum + unoccluded(kind, p, environment, i) * metallic_environment(base, metallic, fit, nv);
-    }
+    if (s.has_environment)
+      sum = sum + environment.template reflected<has_texture>(kind, p, n, v, base, metallic, roughness, i);
     finish(s, kind, p, sum, base, out, i);
   }
 }
 
 template <class F>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
-  if (s.has_material_texture) return light_metallic<F, true>(s, batch, p, out);
-  light_metallic<F, false>(s, batch, p, out);
+  if (s.has_material_texture) return light_metallic<F, true, ConstantEnvironment<F>>(s, batch, p, out);
+  light_metallic<F, false, ConstantEnvironment<F>>(s, batch, p, out);
+}
+
+template <class F>
+void light_metallic_in_map(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p,
+                           FragmentOutputs& out) {
+  if (s.has_material_texture) return light_metallic<F, true, MappedEnvironment<F>>(s, batch, p, out);
+  light_metallic<F, false, MappedEnvironment<F>>(s, batch, p, out);
 }
 
 template <class F>

@@ -124,7 +124,8 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   if (plan.layers == nullptr) return;
   for (const TextureSlot& slot : plan.layers->slots) use_coordinates(slot);
   // Where light leaves a volume depends on where it enters.
-  if (s.backdrop && plan.layers->uniforms.has_volume) a.position = true;
+  const bool has_pixels = s.shading_frequency == ShadingFrequency::Fragment;
+  if (s.backdrop && (plan.layers->uniforms.has_volume || !has_pixels)) a.position = true;
   if (plan.layers->uniforms.has_anisotropy || plan.layers->has(LayerSlotIndex::ClearcoatNormal)) a.tangent = true;
 }
 

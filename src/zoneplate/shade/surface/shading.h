@@ -10,6 +10,7 @@
 namespace zoneplate {
 
 struct BackdropView;
+struct EnvironmentView;
 
 /// The position or direction of the viewer.
 struct Viewpoint {
@@ -40,7 +41,9 @@ struct ShadingUniforms {
   // Metallic-roughness.
   bool has_material_texture = false, has_environment = false;
   float metallic = 1, roughness = 1;
-  float environment[3] = {0, 0, 0};        ///< radiance from all sides
+  float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null
+  const EnvironmentView* map = nullptr;
+  bool has_pixels = true;                  ///< FragmentBatch::x and y are set; else the positions are
   const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
 };
 
@@ -100,6 +103,9 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.
   void (*light_metallic)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                          FragmentOutputs& out);
+  /// The same with an environment map.
+  void (*light_metallic_in_map)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
+                                FragmentOutputs& out);
   /// The same for a surface with layers.
   void (*light_layered)(const ShadingUniforms& uniforms, const LayeredUniforms& layers, const FragmentBatch& batch,
                         const ShadingState& state, const LayerState& layer_state, FragmentOutputs& out);

@@ -25,6 +25,7 @@ constexpr SurfaceKernels all() {
       .default_normals = &default_normals<F>,
       .light_phong = &light_phong<Wide>,
       .light_metallic = &light_metallic<Wide>,
+      .light_metallic_in_map = &light_metallic_in_map<Wide>,
       .light_layered = &light_layered<F>,
       .unlit = &unlit<Wide>,
   };

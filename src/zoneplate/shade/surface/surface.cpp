@@ -2,10 +2,13 @@
 #include "zoneplate/shade/surface/surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "zoneplate/shade/surface/brightness.h"
+#include "zoneplate/shade/surface/corners.h"
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
@@ -31,9 +34,9 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
   return prepared;
 }
 
-/// The constants of a material under the scene's lights; `lights` must outlive them.
+/// The constants of a material under the scene's lights; `lights` and `view` must outlive them.
 ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
-                                      const Viewpoint& viewpoint, float3 environment) {
+                                      const Viewpoint& viewpoint, const ViewUniforms& view) {
   const auto copy = [](const float(&from)[3], float(&to)[3]) { std::copy_n(from, 3, to); };
   ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
@@ -50,6 +53,10 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.exponent = plan.exponent;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   s.metallic = plan.metallic, s.roughness = plan.roughness;
+  s.backdrop = view.backdrop ? &*view.backdrop : nullptr;
+  s.has_pixels = view.shading_frequency == ShadingFrequency::Fragment;
+  const float3 environment = view.environment;
+  s.map = view.map ? &*view.map : nullptr;
   s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
   s.environment[0] = environment.x, s.environment[1] = environment.y, s.environment[2] = environment.z;
   return s;
@@ -70,8 +77,7 @@ struct SurfaceShader::Data {
         kernels(SurfaceKernels::of()),
         filtering(FilteringKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
-      shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view.environment));
-      if (view.backdrop) shading_uniforms.back().backdrop = &*view.backdrop;
+      shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
     }
   }
@@ -128,6 +134,7 @@ struct SurfaceShader::Data::BatchShading {
   void interpolate(const Needs& needs);
   Footprint footprint(const TextureSlot& slot);
   void sample(const TextureSlot& slot, float* const out[4]);
+  void shade_color(FragmentOutputs& out);
   void find_base();
   void find_normals();
   void find_emissive();
@@ -142,6 +149,7 @@ struct SurfaceShader::Data::BatchShading {
  private:
   void find_normals(const TextureSlot& normal_map, float scale);
   void find_coat_normals();
+  void flatten_normals();
 };
 
 /// From vertices to fragments: positions and tangents in world space, normals in the mesh's space.
@@ -185,7 +193,7 @@ void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* c
 
 /// base = factor × texture × vertex colour.
 void SurfaceShader::Data::BatchShading::find_base() {
-  const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
+  const bool is_textured = !is_corner && plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
   float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), base);
   for (int c = 0; c < 4; ++c) {
@@ -217,7 +225,25 @@ void SurfaceShader::Data::BatchShading::find_coat_normals() {
   for (int c = 0; c < 3; ++c) copy(p.normal[c], q.clearcoat_normal[c]), copy(interpolated[c], p.normal[c]);
 }
 
+/// The normals of the triangles' planes, in the mesh's space; those of lines and points stay.
+void SurfaceShader::Data::BatchShading::flatten_normals() {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+    float3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* const record =
+          vertices.first != nullptr ? vertices.first + vertices.stride * batch.vertex[k][i] : vertices.record[k][i];
+      corner[k] = {record[3], record[4], record[5]};
+    }
+    const float3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    // Of any scale: the normals of tiny and huge triangles stay in range.
+    const float greatest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    if (!(greatest > 0 && greatest <= std::numeric_limits<float>::max())) continue;
+    p.normal[0][i] = normal.x / greatest, p.normal[1][i] = normal.y / greatest, p.normal[2][i] = normal.z / greatest;
+  }
+}
+
 void SurfaceShader::Data::BatchShading::find_normals() {
+  if (is_corner && d.view.shading_frequency == ShadingFrequency::Triangle) flatten_normals();
   if (plan.layers != nullptr && plan.layers->uniforms.has_clearcoat) find_coat_normals();
   find_normals(plan.slot(TextureSlotIndex::Normal), plan.normal_scale);
 }
@@ -231,7 +257,7 @@ void SurfaceShader::Data::BatchShading::find_emissive() {
 /// Adds the ambient term of channels whose base colour factor is too small to divide by: it counts as emission.
 void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
-  const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
+  const bool is_textured = !is_corner && plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
              is_occluded = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), texel);
   for (int c = 0; c < 3; ++c) {
@@ -316,12 +342,21 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   if (plan.layers != nullptr) return light_layered(out);
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
-  if (is_metallic) {
+  if (is_metallic && uniforms.map != nullptr) {
+    kernels.light_metallic_in_map(uniforms, batch, p, out);
+  } else if (is_metallic) {
     kernels.light_metallic(uniforms, batch, p, out);
   } else {
     find_highlight();
     kernels.light_phong(uniforms, batch, p, out);
   }
+}
+
+void SurfaceShader::Data::BatchShading::shade_color(FragmentOutputs& out) {
+  interpolate(d.needs_of_color[static_cast<std::size_t>(batch.material)]);
+  find_base();
+  if (plan.attributes.normal) find_normals();
+  light(out);
 }
 
 SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& view, const TextureSet& textures,
@@ -333,6 +368,47 @@ SurfaceShader::~SurfaceShader() = default;
 
 void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const {
   if (batch.count == 0) return;
+  const bool is_lit = data_->plans[static_cast<std::size_t>(batch.material)].is_lit;
+  if (data_->view.shading_frequency == ShadingFrequency::Fragment || !is_lit || !outputs.color)
+    return shade_fragments(batch, outputs, out);
+  shade_triangles(batch, out);
+  outputs.color = false;
+  if (outputs.normal || outputs.uv || outputs.albedo) shade_fragments(batch, outputs, out);
+}
+
+/// Shades the triangles of a batch at their vertices or middles, interpolates their colours, and multiplies them by the
+/// texture of the base colour.
+void SurfaceShader::shade_triangles(const FragmentBatch& batch, FragmentOutputs& out) const {
+  const bool is_flat = data_->view.shading_frequency == ShadingFrequency::Triangle;
+  TriangleCorners corners(is_flat ? 1 : 3);
+  FragmentOutputs colors;
+  for (int begin = 0, end = 0; begin < batch.count; begin = end) {
+    end = corners.collect(batch, begin);
+    Data::BatchShading shading(*data_, corners.batch());
+    shading.is_corner = true;
+    shading.shade_color(colors);
+    for (int i = begin; i < end; ++i) {
+      out.r[i] = corners.at(batch, i, colors.r), out.g[i] = corners.at(batch, i, colors.g);
+      out.b[i] = corners.at(batch, i, colors.b), out.a[i] = corners.at(batch, i, colors.a);
+    }
+  }
+  Data::BatchShading whole(*data_, batch);
+  const MaterialPlan& plan = whole.plan;
+  const TextureSlot& slot = plan.slot(TextureSlotIndex::BaseColor);
+  if (slot.texture == nullptr) return;
+  Attributes attributes;
+  attributes.uv[slot.uv_set] = true;
+  whole.interpolate(data_->make_needs(batch.material, attributes, false));
+  whole.sample(slot, whole.texel);
+  const bool is_blended = plan.alpha_mode == AlphaMode::Blend;
+  for (int i = 0; i < batch.count; ++i) {
+    const float alpha = is_blended ? whole.texel[3][i] : 1;
+    out.r[i] *= whole.texel[0][i] * alpha, out.g[i] *= whole.texel[1][i] * alpha;
+    out.b[i] *= whole.texel[2][i] * alpha, out.a[i] *= alpha;
+  }
+}
+
+void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const {
   Data::BatchShading shading(*data_, batch);
   const MaterialPlan& plan = shading.plan;
   ShadingState& p = shading.p;

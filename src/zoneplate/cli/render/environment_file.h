@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "zoneplate/cli/render/args.h"
+
+namespace zoneplate::cli {
+
+/// The folder of prepared environments: zoneplate in $XDG_CACHE_HOME, or else in $HOME/.cache; empty where neither is
+/// an absolute path.
+std::string environment_cache();
+
+/// The file of a prepared environment in the folder.
+std::string environment_path(const std::string& cache, std::uint64_t key);
+
+/// Stores an environment that the item's process has prepared, whole or not at all, so that several processes may store
+/// the same one at once. The cache is an optimisation: nothing happens where it cannot be written.
+void store_environment(const std::string& path, std::uint64_t size,
+                       const std::function<void(std::span<std::uint8_t>)>& read);
+
+/// The environments of an item's process.
+class Environments {
+ public:
+  /// Takes the bytes of an environment that was not in the cache, by its key.
+  using Store = std::function<void(std::uint64_t key, std::span<const std::uint8_t> bytes)>;
+
+  /// Reads and filters the image of --hdri-file, if it is given, into the environment of `args.lighting`, and lets the
+  /// default light take its studio from here. Both are taken from the cache of `args`, or else prepared and given to
+  /// `store`, if it is not empty.
+  ///
+  /// Requires  this object and `store` outlive the use of `args`.
+  /// Errors    ErrorKind::Input naming the file: missing, no image, or too large for --max-memory or --max-pixels.
+  void complete(RenderArgs& args, const Store& store = {});
+
+ private:
+  using Map = std::shared_ptr<const PreparedEnvironment>;
+  Map load(const RenderArgs& args, const Store& store) const;
+
+  std::string file_;  ///< of `map_`
+  Map map_, studio_;
+};
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/scene/texel_image.h"
+#include "zoneplate/shade/environment/cube.h"
+
+namespace zoneplate {
+
+/// The side of the cube map that has the angular resolution of an equirectangular image of this width: a power of two
+/// from 32 to 512.
+int cube_side(int equirectangular_width);
+
+/// An equirectangular image as a cube map.
+///
+/// The column u in [0, 1] and the row v in [0, 1], from the top, have the direction (-cos 2πu sin πv, cos πv,
+/// -sin 2πu sin πv): the middle of the image is +x, and v = 0 is +y. A texel is the mean of the image, bilinear between
+/// its pixels, over the texel's solid angle. Codes are decoded from sRGB.
+///
+/// Edges     radiance that is negative or not a number counts as 0, above 1e9 as 1e9; alpha is ignored.
+/// Requires  the image is not empty.
+CubeImage cube_of_equirectangular(const TexelImage& image, int side);
+
+}  // namespace zoneplate

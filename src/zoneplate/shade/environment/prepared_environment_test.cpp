@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/shade/environment/prepared_environment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/math/lanes.h"
+#include "zoneplate/math/random.h"
+#include "zoneplate/scene/environment.h"
+#include "zoneplate/shade/environment/equirectangular.h"
+#include "zoneplate/shade/environment/light_tree.h"
+#include "zoneplate/shade/environment/lookup.h"
+#include "zoneplate/shade/environment/lookup_lanes.h"
+#include "zoneplate/shade/environment/prefilter.h"
+
+namespace zoneplate {
+namespace {
+
+using F = scalar::Float;
+constexpr double pi = std::numbers::pi;
+
+/// A room with a gradient, a window and a lamp that is a few hundred times brighter than the walls.
+float4 room_light(double u, double v) {
+  const auto in = [&](double u0, double u1, double v0, double v1) { return u > u0 && u < u1 && v > v0 && v < v1; };
+  if (in(0.61, 0.63, 0.25, 0.29)) return {120, 90, 60, 1};
+  if (in(0.2, 0.35, 0.3, 0.5)) return {4, 6, 9, 1};
+  return {static_cast<float>(0.2 + 0.3 * v), 0.3f, static_cast<float>(0.5 - 0.3 * v), 1};
+}
+
+TexelImage room(int width) {
+  Plane<float4> image(width, width / 2);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < width; ++x) image(x, y) = room_light((x + 0.5) / width, (y + 0.5) / (width / 2));
+  return image;
+}
+
+/// The mean of the image over the lobe, by the sum over parts of every pixel: 2^20 directions for a width of 512.
+struct Mean {
+  double r, g, b;
+};
+Mean brute_force(const Plane<float4>& image, float3 n, double alpha) {
+  constexpr int parts = 3;
+  double sum[4] = {};
+  const int columns = image.width() * parts, rows = image.height() * parts;
+  for (int y = 0; y < rows; ++y) {
+    const double v = (y + 0.5) / rows, sine = std::sin(pi * v), up = std::cos(pi * v);
+    for (int x = 0; x < columns; ++x) {
+      const double phi = 2 * pi * (x + 0.5) / columns;
+      const double c = -std::cos(phi) * sine * n.x + up * n.y - std::sin(phi) * sine * n.z;
+      if (c <= 0) continue;
+      const double u = (1 - c) / 2, d = u + alpha * alpha * (1 - u), weight = c / (d * d) * sine;
+      const float4 light = image(x / parts, y / parts);
+      sum[0] += weight * light.x, sum[1] += weight * light.y, sum[2] += weight * light.z, sum[3] += weight;
+    }
+  }
+  return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]};
+}
+
+EnvironmentView plain_view(const PreparedEnvironment& e) { return e.view({.color = {1, 1, 1}}, {0, 1, 0}); }
+
+float3 value(Vector<F> v) { return {v.x.v, v.y.v, v.z.v}; }
+Vector<F> lanes(float3 v) { return {F(v.x), F(v.y), F(v.z)}; }
+
+TEST(Prefilter, IsTheIntegralOfTheLobe) {
+  const TexelImage image = room(512);
+  const LightTree tree = make_light_tree(cube_of_equirectangular(image, 256));
+  const struct {
+    float roughness;
+    double bound;
+  } cases[] = {{0.2f, 0.005}, {0.4f, 0.005}, {0.7f, 0.005}, {1, 0.005}};
+  for (const auto& [roughness, bound] : cases)
+    for (int k = 0; k < 6; ++k) {
+      DirectionBlock block;
+      const float3 n = normalize({static_cast<float>(std::cos(k * 2.4)), 0.3f * static_cast<float>(k - 3),
+                                  static_cast<float>(std::sin(k * 2.4))});
+      for (int i = 0; i < DirectionBlock::size; ++i) block.x[i] = n.x, block.y[i] = n.y, block.z[i] = n.z;
+      RadianceBlock light;
+      PrefilterKernels::of().filter(tree, {.alpha = roughness * roughness}, block, light);
+      const Mean mean = brute_force(image.as<float4>(), n, static_cast<double>(roughness) * roughness);
+      EXPECT_NEAR(light.r[0] / mean.r, 1, bound) << roughness << ' ' << k;
+      EXPECT_NEAR(light.b[15] / mean.b, 1, bound) << roughness << ' ' << k;
+    }
+}
+
+TEST(Prefilter, EveryInstructionSetGivesTheSameBits) {
+  const LightTree tree = make_light_tree(cube_of_equirectangular(room(64), 32));
+  for (const float alpha : {0.01f, 0.3f, 1.0f}) {
+    DirectionBlock block;
+    for (std::uint32_t i = 0; i < DirectionBlock::size; ++i) {
+      const float3 n = normalize({unit_float(hash(i, 1)) - 0.5f, unit_float(hash(i, 2)) - 0.2f, 0.7f});
+      block.x[i] = n.x, block.y[i] = n.y, block.z[i] = n.z;
+    }
+    RadianceBlock expected;
+    PrefilterKernels::scalar.filter(tree, {.alpha = alpha}, block, expected);
+    for (const Isa isa : supported_isas()) {
+      RadianceBlock light;
+      PrefilterKernels::of(isa).filter(tree, {.alpha = alpha}, block, light);
+      for (int i = 0; i < DirectionBlock::size; ++i) {
+        EXPECT_EQ(light.r[i], expected.r[i]) << name_of(isa) << i;
+        EXPECT_EQ(light.b[i], expected.b[i]) << name_of(isa) << i;
+      }
+    }
+  }
+}
+
+TEST(LookUp, EveryInstructionSetGivesTheSameBits) {
+  const PreparedEnvironment environment = prepare_equirectangular(room(128));
+  const EnvironmentView view = plain_view(environment);
+  constexpr int count = 512;
+  std::vector<float> d[3], expected[3], found[3];
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    for (std::uint32_t i = 0; i < count; ++i) d[c].push_back(unit_float(hash(i, c)) - 0.5f);
+    // Directions along axes, of no length, and that are not numbers have a look-up too.
+    d[c][c] = 0, d[c][3] = 0, d[c][4 + c] = std::numeric_limits<float>::quiet_NaN();
+    expected[c].resize(count), found[c].resize(count);
+  }
+  const float* const from[3] = {d[0].data(), d[1].data(), d[2].data()};
+  float* const to[3] = {expected[0].data(), expected[1].data(), expected[2].data()};
+  float* const to_found[3] = {found[0].data(), found[1].data(), found[2].data()};
+  for (const float roughness : {0.0f, 0.03f, 0.5f, 0.99f, 1.0f}) {
+    LookupKernels::scalar.specular(view, from, roughness, to, count);
+    for (const Isa isa : supported_isas()) {
+      LookupKernels::of(isa).specular(view, from, roughness, to_found, count);
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(found[c], expected[c]) << name_of(isa) << ' ' << roughness;
+    }
+  }
+}
+
+TEST(PreparedEnvironment, DoesNotDependOnThreads) {
+  const TexelImage image = room(128);
+  std::vector<float3> found[2];
+  for (const int threads : {1, 5})
+    with_threads(threads, [&] {
+      const PreparedEnvironment environment = prepare_equirectangular(image);
+      const EnvironmentView view = plain_view(environment);
+      for (std::uint32_t i = 0; i < 400; ++i)
+        found[threads == 5].push_back(value(specular_light(
+            view, lanes({unit_float(hash(i, 1)) - 0.5f, unit_float(hash(i, 2)) - 0.5f, unit_float(hash(i, 3)) - 0.5f}),
+            F(unit_float(hash(i, 4))))));
+    });
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST(PreparedEnvironment, ConstantLightStaysConstant) {
+  const TexelImage image = Plane<float4>(64, 32, {0.5f, 1, 2, 1});
+  const PreparedEnvironment environment = prepare_equirectangular(image);
+  const EnvironmentView view = plain_view(environment);
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const float3 d{unit_float(hash(i, 1)) - 0.5f, unit_float(hash(i, 2)) - 0.5f, unit_float(hash(i, 3)) - 0.5f};
+    const float3 light = value(specular_light(view, lanes(d), F(unit_float(hash(i, 4)))));
+    EXPECT_NEAR(light.x, 0.5f, 1e-5f);
+    EXPECT_NEAR(light.z, 2, 4e-5f);
+    EXPECT_NEAR(value(diffuse_light(view, lanes(d))).y, 1, 2e-5f);
+  }
+  EXPECT_NEAR(environment.mean().y, 1, 1e-5f);
+}
+
+TEST(PreparedEnvironment, HasNoSeamsBetweenFaces) {
+  const PreparedEnvironment environment = prepare_equirectangular(room(128));
+  const EnvironmentView view = plain_view(environment);
+  // Two directions on either side of an edge of the cube, for every edge direction and roughness.
+  for (const float roughness : {0.1f, 0.3f, 0.8f})
+    for (int k = -20; k <= 20; ++k) {
+      const float t = static_cast<float>(k) / 20.5f;
+      const float3 a = value(specular_light(view, lanes({1, 0.9999f, t}), F(roughness)));
+      const float3 b = value(specular_light(view, lanes({0.9999f, 1, t}), F(roughness)));
+      EXPECT_NEAR(a.x / b.x, 1, 0.02) << roughness << ' ' << k;
+    }
+}
+
+TEST(PreparedEnvironment, DirectionsFollowTheImage) {
+  // The pixel in the middle of the right half, a little above the horizon.
+  Plane<float4> image(64, 32, {0, 0, 0, 1});
+  image(48, 15) = image(47, 15) = {100, 100, 100, 1};
+  const PreparedEnvironment environment = prepare_equirectangular(TexelImage(image));
+  const auto light = [&](const Environment& e, float3 up, float3 d) {
+    return value(specular_light(environment.view(e, up), lanes(d), F(0.0f))).x;
+  };
+  const Environment plain{.color = {1, 1, 1}};
+  EXPECT_GT(light(plain, {0, 1, 0}, {0, 0.05f, 1}), 10);
+  EXPECT_EQ(light(plain, {0, 1, 0}, {0, 0.05f, -1}), 0);
+  // A quarter turn to the left as seen from above takes +z to +x.
+  EXPECT_GT(light({.color = {1, 1, 1}, .rotation = 1.57079633f}, {0, 1, 0}, {1, 0.05f, 0}), 10);
+  // Where +z is up, the front is -y.
+  EXPECT_GT(light(plain, {0, 0, 1}, {0, -1, 0.05f}), 10);
+  EXPECT_FLOAT_EQ(light({.color = {1, 1, 1}, .strength = 2}, {0, 1, 0}, {0, 0.05f, 1}),
+                  2 * light(plain, {0, 1, 0}, {0, 0.05f, 1}));
+}
+
+}  // namespace
+}  // namespace zoneplate

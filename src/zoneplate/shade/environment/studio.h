@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "zoneplate/shade/environment/cube.h"
+
+namespace zoneplate {
+
+class PreparedEnvironment;
+
+/// The direction of the brightest soft box of the studio, of unit length, in the studio's space.
+float3 studio_key();
+
+/// The radiance of a photographer's studio, neutral grey: a large soft box above on the left in front, a panel
+/// overhead, a white card on the right, two strips behind that draw outlines, and a floor that glows.
+///
+/// Space     that of the camera: x right, y up, z towards the viewer.
+CubeImage studio_cube(int side);
+
+/// The studio, filtered for reflection.
+PreparedEnvironment prepare_studio();
+
+/// A number for the studio's bytes (see content_hash): a change of the studio changes it.
+std::uint64_t studio_key_number();
+
+}  // namespace zoneplate
