@@ -293,6 +293,15 @@ std::vector<Option> teaching_options(RenderArgs& a) {
          a.options.visibility =
              parse_choice(text, {"z-buffer", "painter"}) == 0 ? Visibility::ZBuffer : Visibility::Painter;
        }},
+      {"--shading-frequency", "RULE",
+       "Where lights are evaluated: flat: once for each triangle; gouraud: at vertices, and interpolated; phong: at "
+       "every fragment; default phong",
+       group, false,
+       [&](auto& text) {
+         constexpr ShadingFrequency rules[] = {ShadingFrequency::Triangle, ShadingFrequency::Vertex,
+                                               ShadingFrequency::Fragment};
+         a.options.shading_frequency = rules[parse_choice(text, {"flat", "gouraud", "phong"})];
+       }},
   };
 }
 
