@@ -9,6 +9,7 @@
 
 #include "zoneplate/math/vec.h"
 #include "zoneplate/scene/alpha_mode.h"
+#include "zoneplate/scene/solid_texture.h"
 #include "zoneplate/scene/texel_image.h"
 
 #pragma GCC visibility push(default)
@@ -85,6 +86,7 @@ struct Material {
 
   float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
   TextureUse base_color_texture;  ///< multiplies `base_color`
+  SolidTexture solid_texture;     ///< multiplies red, green and blue of `base_color`
   float3 emissive{0, 0, 0};       ///< radiance that the surface emits, unbounded
   TextureUse emissive_texture;    ///< multiplies `emissive`
   TextureUse normal_texture;      ///< normals in tangent space: red, green and blue in [0, 1] are x, y and z in [-1, 1]

@@ -92,12 +92,21 @@ const char* flaw_of(const MaterialLayers& l) {
   return all_finite({l.clearcoat_normal_scale, l.anisotropy_rotation}) ? nullptr : "a layer's factor is not finite";
 }
 
+const char* flaw_of(const SolidTexture& t) {
+  if (t.pattern == SolidPattern::None) return nullptr;
+  if (!is_amount(t.scale) || !is_amount(t.distortion) || !is_share(t.gain) || t.octaves < 1 || t.octaves > 12)
+    return "a solid texture with a factor out of range";
+  const auto is_color = [](float3 c) { return is_share(c.x) && is_share(c.y) && is_share(c.z); };
+  return is_color(t.low) && is_color(t.high) ? nullptr : "a solid texture with a colour out of range";
+}
+
 const char* flaw_of(const Material& m, const Scene& s) {
   if (!are_amounts(xyz(m.base_color)) || !is_share(m.base_color.w)) return "a base colour out of range";
   if (!are_amounts(m.emissive) || !are_amounts(m.ambient) || !are_amounts(m.specular)) return "a colour out of range";
   if (!is_amount(m.alpha_cutoff) || !is_amount(m.exponent) || !std::isfinite(m.normal_scale) ||
       !is_share(m.occlusion_strength) || !is_share(m.metallic) || !is_share(m.roughness))
     return "a factor out of range";
+  if (const char* flaw = flaw_of(m.solid_texture)) return flaw;
   if (!std::isfinite(m.height_scale) || m.parallax_layers < 0 || m.parallax_layers > 256) return "heights out of range";
   if (m.layers != nullptr)
     if (const char* flaw = flaw_of(*m.layers)) return flaw;

@@ -13,6 +13,7 @@
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/cli/render/shadow_args.h"
+#include "zoneplate/cli/render/solid_texture.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
@@ -265,6 +266,13 @@ std::vector<Option> scene_options(RenderArgs& a) {
                                             ShadingModel::MetallicRoughness, ShadingModel::Unlit};
          a.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
        }},
+      {"--displacement", "TOLERANCE",
+       "Turn height textures into geometry instead of bumps: refine meshes until they are this near to the heights,\n"
+       "relative to their longest side, for example 0.001",
+       group, false, [&](auto& text) { a.displacement = static_cast<float>(parse_number(text, 1e-6, 1)); }},
+      {"--solid-texture", "PATTERN",
+       "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
+       [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--environment", "COLOR",

@@ -54,6 +54,8 @@ struct RenderArgs {
   View view;
   MipOptions mips;                            ///< how images are decoded and reduced
   std::optional<ShadingModel> shading_model;  ///< for every material
+  std::optional<float> displacement;          ///< DisplacementOptions::tolerance; none: height textures are bumps
+  std::string solid_texture;                  ///< of every material, in the form of cli/render/solid_texture.h
   LightingOptions lighting;
   std::optional<float3> environment_color;       ///< linear radiance of --environment
   std::string cache;                             ///< folder of prepared environments; empty: none is kept

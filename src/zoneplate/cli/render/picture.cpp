@@ -12,12 +12,14 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/render/solid_texture.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/scene/displacement.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -122,8 +124,10 @@ void check_passes(const RenderArgs& args, const Request& request) {
 }
 
 void convert_materials(const RenderArgs& args, Scene& scene) {
-  if (!args.shading_model) return;
-  for (Material& material : scene.materials) convert_material(material, *args.shading_model);
+  if (args.shading_model)
+    for (Material& material : scene.materials) convert_material(material, *args.shading_model);
+  if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
+  if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);
 }
 
 void set_look(const RenderArgs& args, Scene& scene) {

@@ -215,12 +215,20 @@ void pass(S& s, MaterialLayers& l) {
 }
 
 template <class S>
+void pass(S& s, SolidTexture& t) {
+  s.choice(t.pattern, SolidPattern::Rock);
+  s.value(t.scale), s.value(t.octaves), s.value(t.gain), s.value(t.distortion), s.choice(t.is_filtered), s.value(t.low),
+      s.value(t.high);
+}
+
+template <class S>
 void pass(S& s, Material& m) {
   s.text(m.name), s.choice(m.model, ShadingModel::Unlit), s.choice(m.alpha_mode, AlphaMode::Blend);
   s.value(m.alpha_cutoff), s.choice(m.double_sided);
   s.value(m.base_color), s.value(m.emissive), s.value(m.normal_scale), s.value(m.occlusion_strength);
   s.value(m.metallic), s.value(m.roughness), s.value(m.ambient), s.value(m.specular), s.value(m.exponent);
   s.value(m.height_scale), s.value(m.parallax_layers);
+  pass(s, m.solid_texture);
   for (const MaterialTextureSlot& slot : material_texture_slots) pass(s, m.*slot.use);
   s.shared(m.layers, [&](MaterialLayers& layers) { pass(s, layers); });
 }

@@ -54,6 +54,7 @@ Scene full_scene() {
                         .diffuse_transmission = 0.5f};
   layers.sheen_roughness_texture.image = 0;
   s.materials[0].layers = std::make_shared<const MaterialLayers>(layers);
+  s.materials[0].solid_texture = {SolidPattern::Wood, 3, 4, 0.25f, 2, false, {0.1f, 0.2f, 0.3f}, {0.5f, 0.6f, 0.7f}};
   s.images.push_back({"deep", Rgba16Image(2, 3, {1, 2, 3, 4})});
   s.images.push_back({"bright", Plane<float4>(1, 2, float4{1e5f, 0.25f, 0, 1})});
   return s;
@@ -73,6 +74,7 @@ TEST(SceneBytes, BringWholeScenesOver) {
   for (std::size_t i = 0; i < scene.images.size(); ++i) EXPECT_EQ(other.images[i].pixels, scene.images[i].pixels);
   EXPECT_EQ(other.materials[0].double_sided, scene.materials[0].double_sided);
   EXPECT_EQ(other.materials[0].base_color_texture.sampler, scene.materials[0].base_color_texture.sampler);
+  EXPECT_EQ(other.materials[0].solid_texture, scene.materials[0].solid_texture);
   EXPECT_EQ(other.lights[0].kind, LightKind::Spot);
   EXPECT_TRUE(other.lights[0].is_in_camera_space);
   EXPECT_EQ(other.environment, scene.environment);

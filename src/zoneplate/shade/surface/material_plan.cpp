@@ -57,6 +57,7 @@ void copy(float3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] =
 void copy_factors(const Material& m, MaterialPlan& plan) {
   plan.model = m.model;
   plan.alpha_mode = m.alpha_mode;
+  plan.solid_texture = m.solid_texture;
   plan.factor[0] = m.base_color.x, plan.factor[1] = m.base_color.y;
   plan.factor[2] = m.base_color.z, plan.factor[3] = m.base_color.w;
   plan.metallic = std::clamp(m.metallic, 0.0f, 1.0f);
@@ -131,6 +132,7 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   a.position = (plan.needs_viewer && !s.is_orthographic && !s.rays) || (uses_normal && has_places);
   a.normal = uses_normal;
   a.normal_change = plan.widens_by_curvature;
+  a.object_position = m.solid_texture.pattern != SolidPattern::None;
   a.tangent = normal.texture != nullptr;
   a.tangent_uv_set = tangent_uv_set(m);
   const auto use_coordinates = [&](const TextureSlot& slot) {

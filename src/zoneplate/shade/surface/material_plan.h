@@ -75,6 +75,7 @@ struct MaterialPlan {
   TextureSlot& slot(TextureSlotIndex index) { return slots[static_cast<std::size_t>(index)]; }
 
   std::shared_ptr<const LayeredPlan> layers;  ///< null: none
+  SolidTexture solid_texture;
   float factor[4] = {1, 1, 1, 1};
   float metallic = 1, roughness = 1;
   float emissive_factor[3] = {0, 0, 0};

@@ -35,6 +35,10 @@ struct ShadingState {
   alignas(64) Array normal_variance;  ///< for specular antialiasing: is added to the square of GGX's α
   alignas(64) Array emissive[3];
   alignas(64) Array specular[3], exponent;  ///< of (Blinn-)Phong, where they are textured
+
+  // Of materials with a solid texture: the position in object space, and its derivatives per pixel, which are unset
+  // where the batch repeats them.
+  alignas(64) Array object_position[3], object_dx[3], object_dy[3];
 };
 
 /// The vertex records (shade/surface/vertices.h) of a batch's triangles. A group of one triangle has them at the leader

@@ -21,6 +21,7 @@
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/area_filters.h"
 #include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/solid_texture.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
@@ -86,7 +87,8 @@ struct SurfaceShader::Data {
         lights(prepare_all(view_in.lights)),
         viewpoint(make_viewpoint(view_in)),
         kernels(SurfaceKernels::of()),
-        filtering(FilteringKernels::of()) {
+        filtering(FilteringKernels::of()),
+        solid(SolidTextureKernels::of()) {
     for (std::size_t m = 0; m < plans.size(); ++m) {
       shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view));
       needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
@@ -114,6 +116,7 @@ struct SurfaceShader::Data {
   const Viewpoint viewpoint;
   const SurfaceKernels& kernels;
   const FilteringKernels& filtering;
+  const SolidTextureKernels& solid;
   std::vector<ShadingUniforms> shading_uniforms;  ///< by material
   std::vector<Needs> needs_of_color;              ///< by material
 
@@ -154,6 +157,7 @@ struct SurfaceShader::Data::BatchShading {
   void widen_roughness();
   void shade_color(FragmentOutputs& out);
   void find_base();
+  void apply_solid_texture();
   void find_normals();
   void find_emissive();
   void add_own_ambient();
@@ -176,6 +180,8 @@ void SurfaceShader::Data::BatchShading::interpolate(const Needs& needs) {
   const Attributes& attributes = needs.attributes;
   find_vertex_records(d.records, batch, vertices);
   if (needs.interpolation.quads > 0) kernels.interpolate(batch, vertices, needs.interpolation, p);
+  if (attributes.object_position)
+    for (int c = 0; c < 3; ++c) std::copy_n(p.position[c], p.count, p.object_position[c]);
   if (attributes.position) kernels.transform_positions(batch, vertices, d.transforms.data(), p);
   if (!attributes.tangent) return;
   if (plan.has_meshes_without_tangents) make_missing_tangents(d.scene, batch, attributes.tangent_uv_set, p);
@@ -249,6 +255,26 @@ void SurfaceShader::Data::BatchShading::find_base() {
   // The alpha of a texture lies in [0, 1] already.
   const bool may_leave = plan.attributes.color || !(plan.factor[3] >= 0 && plan.factor[3] <= 1);
   if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
+}
+
+/// Multiplies the base colour by the solid texture at the fragments' positions in object space.
+void SurfaceShader::Data::BatchShading::apply_solid_texture() {
+  if (is_corner)
+    for (auto* const derivatives : {p.object_dx, p.object_dy})
+      for (int c = 0; c < 3; ++c) std::fill_n(derivatives[c], p.count, 0.0f);
+  // A group that repeats the derivatives of the fragment before it gets copies of them.
+  for (int g = 1; g < p.count / FragmentBatch::group; ++g)
+    if (const int first = g * FragmentBatch::group; batch.has_uniform_derivatives[g])
+      for (auto* const derivatives : {p.object_dx, p.object_dy})
+        for (int c = 0; c < 3; ++c)
+          std::fill_n(derivatives[c] + first, FragmentBatch::group, derivatives[c][first - 1]);
+  SolidPoints points;
+  for (int c = 0; c < 3; ++c) {
+    points.position[c] = p.object_position[c];
+    points.dx[c] = p.object_dx[c], points.dy[c] = p.object_dy[c];
+  }
+  d.solid.evaluate(plan.solid_texture, points, texel, p.count);
+  for (int c = 0; c < 3; ++c) kernels.multiply(p.base[c], texel[c], p.count);
 }
 
 void SurfaceShader::Data::BatchShading::find_normals(const TextureSlot& normal_map, float scale) {
@@ -541,6 +567,7 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
 void SurfaceShader::Data::BatchShading::shade_color(FragmentOutputs& out) {
   interpolate(d.needs_of_color[static_cast<std::size_t>(batch.material)]);
   find_base();
+  if (plan.attributes.object_position) apply_solid_texture();
   if (plan.attributes.normal) find_normals();
   light(out);
 }
@@ -614,7 +641,10 @@ void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outpu
 
   shading.interpolate(*needs);
   if (plan.parallax_layers > 0) shading.displace_coordinates();
-  if (outputs.color || outputs.albedo) shading.find_base();
+  if (outputs.color || outputs.albedo) {
+    shading.find_base();
+    if (needs->attributes.object_position) shading.apply_solid_texture();
+  }
   if (needs->attributes.normal) shading.find_normals();
   if (outputs.color && plan.is_lit)
     shading.light(out);
@@ -642,7 +672,7 @@ void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outpu
 
 bool SurfaceShader::needs_derivatives(int material) const {
   const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
-  return a.uv[0] || a.uv[1] || a.normal_change;
+  return a.uv[0] || a.uv[1] || a.normal_change || a.object_position;
 }
 
 std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {

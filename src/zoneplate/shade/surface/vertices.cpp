@@ -140,7 +140,14 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
       q.dy[first + c] = array(offsetof(ShadingState, uv_dy), 2 * set + c);
     }
   };
-  if (auto* q = quad(attributes.normal || attributes.position, 0)) {
+  const bool has_position = attributes.position || attributes.object_position;
+  const auto store_position = [&](Interpolation::Quad& q, std::size_t at, std::size_t c) {
+    q.value[at] = array(position, c);
+    if (!attributes.object_position) return;
+    q.dx[at] = array(offsetof(ShadingState, object_dx), c);
+    q.dy[at] = array(offsetof(ShadingState, object_dy), c);
+  };
+  if (auto* q = quad(attributes.normal || has_position, 0)) {
     if (attributes.normal)
       for (std::size_t c = 0; c < 3; ++c) {
         q->value[c] = array(normal, c);
@@ -148,10 +155,10 @@ Interpolation interpolation(const RecordLayout& layout, const Attributes& attrib
         q->dx[c] = array(offsetof(ShadingState, normal_dx), c);
         q->dy[c] = array(offsetof(ShadingState, normal_dy), c);
       }
-    if (attributes.position) q->value[3] = array(position, 0);
+    if (has_position) store_position(*q, 3, 0);
   }
-  if (auto* q = quad(attributes.position || attributes.uv[0], 4)) {
-    if (attributes.position) q->value[0] = array(position, 1), q->value[1] = array(position, 2);
+  if (auto* q = quad(has_position || attributes.uv[0], 4)) {
+    if (has_position) store_position(*q, 0, 1), store_position(*q, 1, 2);
     if (attributes.uv[0]) store_coordinates(*q, 2, 0);
   }
   if (auto* q = quad(attributes.tangent, layout.tangent))

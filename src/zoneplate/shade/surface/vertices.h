@@ -13,8 +13,9 @@ namespace zoneplate {
 /// The attributes that a material needs.
 struct Attributes {
   bool position = false, normal = false, tangent = false, uv[2] = {false, false}, color = false;
-  bool normal_change = false;  ///< the derivatives of the normal; with `normal`
-  int tangent_uv_set = 0;      ///< the coordinates from which tangents are made where a mesh has none
+  bool normal_change = false;    ///< the derivatives of the normal; with `normal`
+  bool object_position = false;  ///< with its derivatives
+  int tangent_uv_set = 0;        ///< the coordinates from which tangents are made where a mesh has none
 };
 
 /// The offsets of the attributes in a vertex record. Records hold only attributes that some mesh of the material has.

@@ -7,9 +7,11 @@
 #include <string>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/signal/filter/aliasing.h"
 #include "zoneplate/signal/functions.h"
+#include "zoneplate/signal/pattern/gradient_noise.h"
 
 namespace zoneplate {
 namespace {
@@ -99,6 +101,16 @@ LinearImage make_impulse(Params p) {
   return filled(p, [&](int x, int y) { return grey(x == middle && y == middle ? 1 : 0); });
 }
 
+LinearImage make_perlin(Params p) {
+  using F = scalar::Float;
+  const float step = 1 / static_cast<float>(p[1]), slice = static_cast<float>(p[4]);
+  const Octaves octaves{static_cast<int>(p[2]), static_cast<float>(p[3])};
+  return filled(p, [&](int x, int y) {
+    const Vector<F> at{F((static_cast<float>(x) + 0.5f) * step), F((static_cast<float>(y) + 0.5f) * step), F(slice)};
+    return grey(0.5 + 0.5 * static_cast<double>(fractal_noise<F>(at, F(0.0f), octaves, false).value.v));
+  });
+}
+
 LinearImage make_noise(Params p) {
   const auto seed = static_cast<std::uint32_t>(p[1]), width = static_cast<std::uint32_t>(p[0]);
   return filled(p, [&](int x, int y) {
@@ -136,6 +148,14 @@ std::span<const PatternEntry> patterns() {
        {size_param, real_param("angle", "of its normal", 5, -360, 360)},
        make_edge},
       {"impulse", "one white pixel in the middle", {size_param}, make_impulse},
+      {"perlin",
+       "a fractal sum of Perlin noise, as 0.5 + 0.5 sum",
+       {size_param,
+        real_param("cell", "side of a lattice cell, pixels", 32, 1, 8192),
+        {"octaves", "each with twice the frequency", 1, 1, 12},
+        real_param("gain", "amplitude of an octave over the octave before", 0.5, 0, 1),
+        real_param("slice", "third coordinate, in cells", 0.5, -1e6, 1e6)},
+       make_perlin},
       {"noise",
        "every pixel on its own, evenly from 0 to 1",
        {size_param, real_param("seed", "random seed", 1, 0, 4294967295.0)},

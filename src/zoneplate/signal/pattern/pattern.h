@@ -18,7 +18,7 @@ struct PatternEntry {
   LinearImage (*make)(std::span<const double> params);
 };
 
-/// zone-plate, sweep, sine, checkerboard, bricks, star, edge, impulse, noise.
+/// zone-plate, sweep, sine, checkerboard, bricks, star, edge, impulse, perlin, noise.
 std::span<const PatternEntry> patterns();
 
 /// True where the text before a colon is the name of a pattern.
