@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -11,25 +12,31 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/backdrop.h"
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
 #include "zoneplate/render/geometry_fragments.h"
+#include "zoneplate/render/ground.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/scene_shadows.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
+#include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
 namespace {
 
-/// Adapts the scene's materials to FragmentShader.
+/// Adapts the scene's materials to FragmentShader. The material after them is that of the ground.
 class SceneFragmentShader : public FragmentShader {
  public:
-  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view)
-      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()) {}
+  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view, const Ground* ground)
+      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()), ground_(ground) {}
 
   void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    if (is_ground(batch.material)) return ground_->shade(batch, out);
     surfaces_.shade(batch, outputs, out);
   }
   float alpha(const FragmentBatch& batch, float* out) const override {
@@ -37,15 +44,21 @@ class SceneFragmentShader : public FragmentShader {
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
   float brightest() const override { return surfaces_.brightest(); }
-  bool needs_derivatives(int material) const override { return surfaces_.needs_derivatives(material); }
+  bool needs_derivatives(int material) const override {
+    return !is_ground(material) && surfaces_.needs_derivatives(material);
+  }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
+    if (is_ground(material)) return {};
     const std::span<const float> record = surfaces_.vertex_record(instance, material);
     return {reinterpret_cast<const std::byte*>(record.data()), record.size_bytes()};
   }
 
  private:
+  bool is_ground(int material) const { return static_cast<std::size_t>(material) == scene_.materials.size(); }
+
   const Scene& scene_;
   SurfaceShader surfaces_;
+  const Ground* ground_;
 };
 
 /// Clip space looks x = m00 X + m02 Z, w = -Z: through the pixel's (x, y) goes the direction ((x + m02) / m00, ...,
@@ -67,7 +80,9 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
   s.eye = xyz(world_from_camera.column[3]);
   s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
   s.is_orthographic = camera.is_orthographic;
-  if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
+  s.shading_frequency = options.shading_frequency;
+  const bool is_by_fragment = options.shading_frequency == ShadingFrequency::Fragment;
+  if (!camera.is_orthographic && is_by_fragment) s.rays = rays_of(camera, clip_from_camera, options);
   for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
   s.environment = lighting.environment.factor();
   if (const PreparedEnvironment* map = lighting.environment.map.get()) {
@@ -77,6 +92,31 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   return s;
+}
+
+/// The image of the opaque and alpha-tested scene that transmissive surfaces refract; none where no draw transmits.
+///
+/// The whole image is drawn, with four samples a pixel, so that a crop shows the same and silhouettes behind glass are
+/// smooth under every method.
+std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewUniforms& view,
+                                      std::span<const Draw> draws, const float4x4& clip_from_world,
+                                      const RasterRules& rules, const RenderOptions& options, RasterMemory& memory) {
+  const std::vector<Material>& materials = prepared.scene().materials;
+  const auto transmits = [&](const Draw& draw) {
+    return is_transmissive(materials[static_cast<std::size_t>(draw.material)]);
+  };
+  if (std::none_of(draws.begin(), draws.end(), transmits)) return std::nullopt;
+  std::vector<Draw> behind;
+  std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind),
+               [&](const Draw& draw) { return draw.alpha_mode != AlphaMode::Blend && !transmits(draw); });
+  LinearImage image(options.width, options.height, Linear{0, 0, 0, 0});
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.width = options.width, target.height = options.height;
+  target.samples = standard_pattern(4);
+  target.color = &image;
+  rasterize(behind, SceneFragmentShader(prepared, view, nullptr), rules, target, &memory);
+  return Backdrop(image, clip_from_world);
 }
 
 /// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.
@@ -154,6 +194,7 @@ void check(const RenderOptions& o, const Request& request) {
   if (const Crop c = o.crop.value_or(Crop{0, 0, o.width, o.height});
       c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > o.width - c.width || c.y > o.height - c.height)
     reject("the crop must lie within the image of " + std::to_string(o.width) + " × " + std::to_string(o.height));
+  if (o.ground == GroundKind::Shadow && !has_visibility(o)) reject("a ground of shadows requires shadows or occlusion");
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
   if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))
@@ -200,20 +241,37 @@ class CpuBackend : public Backend {
 
  private:
   RasterMemory memory_;
+  SceneShadows shadows_;
 };
 
-Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, const Request& request,
+Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_camera, const Request& request,
                          const RenderOptions& options, RenderCounts* counts) {
   check(options, request);
   const Scene& scene = prepared.scene();
+  const Camera camera =
+      options.ground == GroundKind::Shadow ? GroundSquare(scene).enclosing(scene_camera) : scene_camera;
   const Stopwatch prepare;
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
-  SceneDraws draws = growing(
-      "draws", [&] { return make_draws(scene, clip_from_camera * inverse(camera.world_from_camera), options); });
-  const SceneFragmentShader points(prepared,
-                                   view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options));
+  const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
+  SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
+  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
+                          .is_painter = options.visibility == Visibility::Painter,
+                          .capacity = options.capacity};
+  ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
+  if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
+  std::optional<Backdrop> backdrop;
+  if (request.content == Content::Colour)
+    backdrop = make_backdrop(prepared, view, draws.draws, clip_from_world, rules, options, memory_);
+  if (backdrop) view.backdrop = backdrop->view();
+  std::optional<Ground> ground;
+  if (options.ground == GroundKind::Shadow && view.visibility != nullptr) {
+    ground.emplace(scene, view);
+    draws.draws.push_back(ground->draw(clip_from_world, static_cast<std::uint32_t>(scene.instances.size()),
+                                       static_cast<int>(scene.materials.size())));
+  }
+  const SceneFragmentShader points(prepared, view, ground ? &*ground : nullptr);
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;
@@ -240,9 +298,6 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
   if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory_));
   const double prepare_ms = prepare.ms();
 
-  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
-                          .is_painter = options.visibility == Visibility::Painter,
-                          .capacity = options.capacity};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;
   const RasterCounts c = !has_color

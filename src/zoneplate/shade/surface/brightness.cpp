@@ -42,8 +42,8 @@ bool is_unbounded(const TextureSlot& slot) {
 
 /// Diffuse weights, cosines and their powers are at most 1.
 float brightest(const MaterialPlan& plan, float light, float environment) {
-  if (plan.attributes.color || is_unbounded(plan.slot(TextureSlotIndex::BaseColor)) ||
-      is_unbounded(plan.slot(TextureSlotIndex::Emissive)))
+  if (plan.layers != nullptr || plan.attributes.color || is_unbounded(plan.slot(TextureSlotIndex::BaseColor)) ||
+      is_unbounded(plan.slot(TextureSlotIndex::Specular)) || is_unbounded(plan.slot(TextureSlotIndex::Emissive)))
     return brightest_color;
   const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
   if (!plan.is_lit) return base;

@@ -24,6 +24,7 @@ struct PlainUniforms {
   static constexpr bool has_sun_only = true;
   static constexpr bool has_occlusion = false, has_emissive = false, has_emissive_texture = false;
   static constexpr bool has_bare_meshes = false, is_blended = false;
+  static constexpr bool has_specular_texture = false, has_exponent_texture = false;
 };
 
 /// The general case, read at run time.
@@ -31,18 +32,22 @@ struct AnyUniforms {
   int lights;
   static constexpr bool has_sun_only = false;
   bool has_occlusion, has_emissive, has_emissive_texture, has_bare_meshes, is_blended;
+  bool has_specular_texture, has_exponent_texture;
   explicit AnyUniforms(const ShadingUniforms& s)
       : lights(s.lights),
         has_occlusion(s.has_occlusion),
         has_emissive(s.has_emissive),
         has_emissive_texture(s.has_emissive_texture),
         has_bare_meshes(s.has_bare_meshes),
-        is_blended(s.is_blended) {}
+        is_blended(s.is_blended),
+        has_specular_texture(s.has_specular_texture),
+        has_exponent_texture(s.has_exponent_texture) {}
 };
 
 inline bool is_plain(const ShadingUniforms& s, const ShadingState& p) {
   return p.light_visibility == nullptr && s.lights == 1 && s.light[0].is_directional && !s.has_occlusion &&
-         !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended;
+         !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended && !s.has_specular_texture &&
+         !s.has_exponent_texture;
 }
 
 /// The irradiance of a light at fragments, perpendicular to its direction.
@@ -168,6 +173,14 @@ template <class F, Highlight highlight>
   }
 }
 
+/// The same with the exponents of a texture.
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline void raise_cosines(const ShadingState& p, Cosines& cosines) {
+  const F factor(highlight == Highlight::Phong ? 1.0f : 0.5f);
+  for (int i = 0; i < p.count; i += F::lanes)
+    pow(F::load(cosines.highlight + i), F::load(p.exponent + i) * factor).store(cosines.highlight + i);
+}
+
 /// The light accumulated at fragments, for base colour and highlight.
 template <class F>
 struct Gathered {
@@ -189,7 +202,9 @@ template <class F, Highlight highlight, class Kind>
                                                   const Gathered<F>& light, FragmentOutputs& out, int i) {
   const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
   Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
-  if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * light.specular;
+  if constexpr (highlight != Highlight::None)
+    sum = sum +
+          (kind.has_specular_texture ? Vector<F>::load(p.specular, i) : Vector<F>::all(s.specular)) * light.specular;
   finish(s, kind, p, sum, base, out, i);
 }
 
@@ -207,7 +222,12 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
   for (int k = 0; k < kind.lights; ++k) {
     const PreparedLight light = s.light[k];
     find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
-    if constexpr (highlight != Highlight::None) raise_cosines<F, highlight>(s.exponent, cosines, p.count);
+    if constexpr (highlight != Highlight::None) {
+      if (kind.has_exponent_texture)
+        raise_cosines<F, highlight>(p, cosines);
+      else
+        raise_cosines<F, highlight>(s.exponent, cosines, p.count);
+    }
     for (int i = 0; i < p.count; i += F::lanes) {
       Gathered<F> all = gather<F, highlight>(light, k, kind.has_sun_only, p, cosines, i);
       if (k > 0) {
