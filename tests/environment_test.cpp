@@ -132,5 +132,23 @@ TEST_F(EnvironmentImages, NameWhatIsWrong) {
   EXPECT_TRUE(contains(complaint("--hdri-file 'sky_{face}.png'"), "3 zoneplate: error: sky_px.png"));
 }
 
+TEST_F(EnvironmentImages, FidelityComparesWithOtherRenderers) {
+  std::ofstream(place / "one.stl") << "solid one\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0\nvertex 1 -1 0\n"
+                                      "vertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+  std::ofstream(place / "scenarios.json")
+      << R"([{"name": "one", "model": "one.stl", "environment": "sky.exr", "orbit": {"theta": 20, "phi": 80, "radius": 4},
+             "target": {"x": 0, "y": 0, "z": 0}, "verticalFoV": 45, "renderSkybox": false}])";
+  fs::create_directories(place / "images/one");
+  const Rgba8Image blank(48, 32, {0, 0, 0, 255});
+  save_bytes((place / "images/one/filament.png").string(), encode_png(blank, {.has_alpha = true}));
+  const ProgramAnswer differs = ProgramTest::run("fidelity scenarios.json -o made");
+  EXPECT_EQ(differs.code, 1) << differs.out;
+  EXPECT_TRUE(contains(differs.out, "1 of 1 scenarios miss their bounds")) << differs.out;
+  fs::copy_file(place / "made/one.png", place / "images/one/filament.png", fs::copy_options::overwrite_existing);
+  const ProgramAnswer same = ProgramTest::run("fidelity scenarios.json -o made");
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_TRUE(contains(same.out, "pass")) << same.out;
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -8,6 +8,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/values.h"
@@ -53,6 +54,16 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   const Rgba8Image picture = renderer.render(camera, settings_of(render, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());
   return {first, first + picture.values().size_bytes()};
+}
+
+// The studio is prepared here, once for the processes of all models.
+void use_studio(RenderArgs& render) {
+  render.cache = environment_cache();
+  Environments environments;
+  environments.complete(render, [&](std::uint64_t key, std::span<const std::uint8_t> bytes) {
+    store_environment(environment_path(render.cache, key), bytes);
+  });
+  render.lighting.studio = [studio = render.lighting.studio()] { return studio; };
 }
 
 // A model's image with its name, or an empty image with the error message.
@@ -158,6 +169,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   std::vector<Panel> panels;
   Rendered sheet;
   with_threads(args.render.threads, [&] {
+    use_studio(args.render);
     for (std::size_t i = 0; i < names.size(); ++i) panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
     sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
   });

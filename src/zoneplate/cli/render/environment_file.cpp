@@ -26,9 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using Map = std::shared_ptr<const PreparedEnvironment>;
 
-/// A prepared environment of the largest side takes 45 MB.
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 26;
-
 std::string absolute_variable(const char* name) {
   const char* const value = std::getenv(name);
   return value != nullptr && value[0] == '/' ? value : "";
@@ -39,7 +36,7 @@ Map read_cached(const std::string& path) {
   std::error_code ignored;
   if (path.empty() || !fs::is_regular_file(path, ignored)) return nullptr;
   try {
-    const FileBytes file(path, most_bytes);
+    const FileBytes file(path, most_environment_bytes);
     std::optional<PreparedEnvironment> found = PreparedEnvironment::from_bytes(file.bytes());
     return found ? std::make_shared<const PreparedEnvironment>(std::move(*found)) : nullptr;
   } catch (const Error&) {
@@ -69,11 +66,7 @@ std::string environment_path(const std::string& cache, std::uint64_t key) {
   return fmt::format("{}/{:016x}.env", cache, key);
 }
 
-void store_environment(const std::string& path, std::uint64_t size,
-                       const std::function<void(std::span<std::uint8_t>)>& read) {
-  if (size > most_bytes) throw Error(ErrorKind::Failed, path + ": larger than any prepared environment");
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  read(bytes);
+void store_environment(const std::string& path, std::span<const std::uint8_t> bytes) {
   std::error_code failure;
   fs::create_directories(fs::path(path).parent_path(), failure);
   if (failure) return;

@@ -24,8 +24,10 @@ std::vector<std::string> environment_files(const RenderArgs& args);
 
 /// Stores an environment that the item's process has prepared, whole or not at all, so that several processes may store
 /// the same one at once. The cache is an optimisation: nothing happens where it cannot be written.
-void store_environment(const std::string& path, std::uint64_t size,
-                       const std::function<void(std::span<std::uint8_t>)>& read);
+void store_environment(const std::string& path, std::span<const std::uint8_t> bytes);
+
+/// The greatest number of bytes of a prepared environment.
+inline constexpr std::uint64_t most_environment_bytes = std::uint64_t{1} << 26;
 
 /// The environments of an item's process.
 class Environments {

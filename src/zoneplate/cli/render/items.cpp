@@ -78,8 +78,11 @@ Summary RenderItems::next() {
   };
 
   events.environment = [&](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
-    if (args.cache.empty()) throw Error(ErrorKind::Failed, args.input + ": an environment without a cache");
-    store_environment(environment_path(args.cache, key), size, read);
+    if (args.cache.empty() || size > most_environment_bytes)
+      throw Error(ErrorKind::Failed, args.input + ": an environment that no cache takes");
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    read(bytes);
+    store_environment(environment_path(args.cache, key), bytes);
   };
 
   Summary summary = unpack_summary(process_.next(std::move(events)));

@@ -21,10 +21,17 @@ struct EnvironmentView {
   float image_from_world[9] = {};        ///< a rotation, by rows
   float tint[3] = {1, 1, 1};             ///< multiplies the radiance
 
-  /// The level of a roughness: levels × r (1.5 - 0.5 r), denser where lobes are narrow.
+  /// The roughness of level 1; that of the others rises by equal factors to 1.
+  static constexpr float first_roughness = 0.075f;
+  static constexpr float octaves = 3.736966f;  ///< log2(1 / first_roughness)
+
+  /// The level of a roughness in [0, 1], with the fraction towards the next one.
   template <class F>
   [[gnu::always_inline]] F level(F roughness) const {
-    return F(static_cast<float>(levels - 1)) * roughness * (F(1.5f) - F(0.5f) * roughness);
+    const F above =
+        (log2(max(roughness, F(first_roughness))) + F(octaves)) * F(static_cast<float>(levels - 2) / octaves);
+    return min(min(roughness * F(1 / first_roughness), F(1.0f)) + max(above, F(0.0f)),
+               F(static_cast<float>(levels - 1)));
   }
 };
 

@@ -17,17 +17,19 @@
 namespace zoneplate {
 namespace {
 
-constexpr int levels = 12;
+constexpr int levels = EnvironmentView::max_levels;
 
 /// The inverse of EnvironmentView::level.
 float roughness_of(int level) {
-  return 1.5f - std::sqrt(2.25f - 2 * static_cast<float>(level) / static_cast<float>(levels - 1));
+  if (level == 0) return 0;
+  const float share = static_cast<float>(level - 1) / static_cast<float>(levels - 2);
+  return level == levels - 1 ? 1.0f : exp2((share - 1) * EnvironmentView::octaves);
 }
 
-/// Texels as wide as two thirds of alpha, which is about half the width of the lobe.
+/// Texels as wide as alpha, which is somewhat less than the width of the lobe.
 int side_of(float alpha, int greatest) {
   int side = 32;
-  while (side < greatest && static_cast<float>(side) * alpha < 1.5f) side *= 2;
+  while (side < greatest && static_cast<float>(side) * alpha < 2) side *= 2;
   return side;
 }
 
@@ -91,7 +93,7 @@ void copy_level(const CubeImage& cube, const Level& level) {
 void filter_level(const LightTree& tree, float alpha, const Level& level) {
   const PrefilterKernels& kernels = PrefilterKernels::of();
   const int side = level.side, blocks = side / 4;
-  const Lobe lobe{.alpha = alpha, .detail = alpha < 0.03f ? 0.33f : alpha < 0.2f ? 0.25f : 0.2f};
+  const Lobe lobe{.alpha = alpha, .detail = alpha < 0.02f ? 0.4f : alpha < 0.2f ? 0.25f : 0.2f};
   parallel_for(static_cast<std::size_t>(cube::faces * blocks), [&](std::size_t row) {
     const int face = static_cast<int>(row) / blocks, first_y = static_cast<int>(row) % blocks * 4;
     for (int first_x = 0; first_x < side; first_x += 4) {
@@ -111,7 +113,7 @@ void filter_level(const LightTree& tree, float alpha, const Level& level) {
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '3'};
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '4'};
 
 /// The levels of an environment whose unfiltered level has this side; returns the number of texels.
 std::size_t lay_out(int side, EnvironmentView& view) {
@@ -143,7 +145,7 @@ PreparedEnvironment::PreparedEnvironment(const CubeImage& cube) {
   copy_level(cube, level_of(0));
   const LightTree tree = make_light_tree(cube);
   for (int level = 1; level < levels; ++level) {
-    const float roughness = level == levels - 1 ? 1 : roughness_of(level);
+    const float roughness = roughness_of(level);
     filter_level(tree, roughness * roughness, level_of(level));
   }
   mean_ = tree.mean();
