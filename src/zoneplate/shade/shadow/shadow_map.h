@@ -6,6 +6,7 @@
 
 #include "zoneplate/image/plane.h"
 #include "zoneplate/scene/light.h"
+#include "zoneplate/shade/shadow/disc_samples.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/shadows.h"
 
@@ -53,6 +54,7 @@ class MappedVisibility : public LightVisibility {
   std::vector<std::vector<Plane<WarpedMoments>>> moments_;  ///< the same, for ShadowFilter::Evsm
   ShadowOptions options_;
   const LightVisibility* environment_;
+  DiscLattice search_;  ///< where PCSS looks for blockers
 };
 
 }  // namespace zoneplate

@@ -6,6 +6,7 @@
 #include "zoneplate/ray/trace.h"
 #include "zoneplate/scene/light.h"
 #include "zoneplate/shade/environment/environment_view.h"
+#include "zoneplate/shade/shadow/disc_samples.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/shadows.h"
 
@@ -38,11 +39,13 @@ class TracedVisibility : public LightVisibility {
   float light_from(float3 direction) const;
 
   BvhView bvh_;
+  Box bounds_;  ///< of all casters
   OpacityOfHits opacity_;
   std::vector<Light> lights_;
   ShadowOptions shadows_;
   OcclusionOptions occlusion_;
   const EnvironmentView* environment_;
+  DiscLattice lattice_;
   const RayKernels& kernels_;
 };
 
