@@ -11,22 +11,24 @@
 
 namespace zoneplate {
 
-/// Points of a disc by polar coordinates: the square of the radius in [0, 1), and a turn. They are a lattice, of which
-/// the first 2^k points are a lattice too for every k.
+/// Points of a disc, by the square of the radius and a turn, each with a point of a square. They are a lattice of four
+/// dimensions, of which the first 2^k points are a lattice too for every k.
 ///
 /// Source    extensible lattices: Hickernell, Hong, L'Ecuyer and Lemieux, SIAM J. Sci. Comput. 22, 2000. The generator
-///           (1, 39) has the least error of occlusion by a sphere, over 16, 32, 64 and 256 points, of those tried.
+///           (1, 39) has the least error of occlusion by a sphere, over 16, 32, 64 and 256 points, of those tried; the
+///           other two dimensions are the third and fourth of Cools, Kuo and Nuyens, SIAM J. Sci. Comput. 28, 2006.
 class DiscLattice {
  public:
   struct Point {
     std::uint32_t square;  ///< of the radius, in units of 2^-32
     float cosine, sine;    ///< of the turn
+    std::uint32_t x, y;    ///< in the square, in units of 2^-32
   };
 
   explicit DiscLattice(int count) {
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
       const float turn = 6.28318531f * unit_float(reversed(i) * 39u);
-      points_.push_back({reversed(i), cos(turn), sin(turn)});
+      points_.push_back({reversed(i), cos(turn), sin(turn), reversed(i) * 245389u, reversed(i) * 97823u});
     }
   }
   const Point& operator[](std::uint32_t i) const { return points_[i]; }
@@ -51,22 +53,27 @@ class ShiftedDisc {
   struct Point {
     float square;        ///< of the radius, in [0, 1)
     float cosine, sine;  ///< of the turn
+    float x, y;          ///< in [-1, 1)
   };
 
   /// `dimension`: which of the independent lattices of a receiver.
   ShiftedDisc(const DiscLattice& lattice, std::uint32_t seed, std::uint32_t dimension)
-      : lattice_(lattice), square_(hash(seed, dimension, 1)) {
+      : lattice_(lattice),
+        square_(hash(seed, dimension, 1)),
+        x_(hash(seed, dimension, 3)),
+        y_(hash(seed, dimension, 4)) {
     const float turn = 6.28318531f * unit_float(hash(seed, dimension, 2));
     cosine_ = cos(turn), sine_ = sin(turn);
   }
   Point operator()(std::uint32_t i) const {
     const DiscLattice::Point& p = lattice_[i];
-    return {unit_float(p.square + square_), p.cosine * cosine_ - p.sine * sine_, p.sine * cosine_ + p.cosine * sine_};
+    return {unit_float(p.square + square_), p.cosine * cosine_ - p.sine * sine_, p.sine * cosine_ + p.cosine * sine_,
+            2 * unit_float(p.x + x_) - 1, 2 * unit_float(p.y + y_) - 1};
   }
 
  private:
   const DiscLattice& lattice_;
-  std::uint32_t square_;
+  std::uint32_t square_, x_, y_;
   float cosine_, sine_;
 };
 

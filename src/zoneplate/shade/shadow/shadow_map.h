@@ -39,6 +39,7 @@ class MappedVisibility : public LightVisibility {
                    const LightVisibility* environment);
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
+  bool needs_footprint() const override { return false; }
   bool has_occlusion() const override { return environment_ != nullptr && environment_->has_occlusion(); }
   void of_environment(const Receivers& receivers, float* visible) const override {
     environment_->of_environment(receivers, visible);

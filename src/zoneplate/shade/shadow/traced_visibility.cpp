@@ -114,8 +114,11 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
     }
     const ShiftedDisc disc(lattice_, receivers.seed[i], static_cast<std::uint32_t>(k) + 1);
     const DirectionsAbout directions(seen.direction);
-    visible[i] = mean_visibility(
-        [&](std::uint32_t s) { return make_ray(origin, directions.of_cone(disc(s), seen.height), seen.distance); });
+    const float3 dx = at(receivers.dx, i), dy = at(receivers.dy, i);
+    visible[i] = mean_visibility([&](std::uint32_t s) {
+      const ShiftedDisc::Point p = disc(s);
+      return make_ray(origin + dx * p.x + dy * p.y, directions.of_cone(p, seen.height), seen.distance);
+    });
   }
   float seen[Receivers::capacity];
   kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);

@@ -16,7 +16,8 @@ namespace zoneplate {
 ///
 /// A light with an extent is a sphere (point, spot) or a distant disc (directional), seen from the receiver as a cone
 /// of directions; its part that is visible is the mean over rays of a uniform density in solid angle. The first quarter
-/// of the rays to a light decides alone where none or all of them are blocked.
+/// of the rays to a light decides alone where none or all of them are blocked. The rays begin all over the part of the
+/// pixel that the triangle covers, which filters the edge of a shadow that is sharper than a pixel.
 /// Exact     the same bits for any number of threads and any instruction set: the rays depend on the receiver's position
 ///           in the image, the light and the options only.
 class TracedVisibility : public LightVisibility {
@@ -30,6 +31,7 @@ class TracedVisibility : public LightVisibility {
                    const EnvironmentView* environment = nullptr);
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
+  bool needs_footprint() const override { return shadows_.method == ShadowMethod::Soft; }
   bool has_occlusion() const override { return occlusion_.samples > 0; }
   void of_environment(const Receivers& receivers, float* visible) const override;
 
