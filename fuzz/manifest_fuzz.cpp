@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/formats/json/json.h"
 
 namespace zoneplate {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the seeds of the fuzz targets, a folder a format: small files that between them use what a format has.
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "zoneplate/codec/exr_encode.h"
@@ -14,6 +15,7 @@
 #include "zoneplate/formats/import/scene_bytes.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/scene/material_layers.h"
 
 namespace {
 
@@ -60,6 +62,30 @@ GltfMaker packed() {
       "byteLength":64,"byteStride":12,"count":4,"mode":"ATTRIBUTES","filter":"NONE"}}})";
   m.mesh(R"("POSITION":)" + m.accessor(R"({"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"})"));
   m.rest = R"(,"extensionsUsed":["EXT_meshopt_compression"])";
+  return m;
+}
+
+/// A triangle whose material has every layer, and an animation of its base colour by a pointer.
+GltfMaker layered() {
+  GltfMaker m;
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}), R"(,"material":0)");
+  const std::string times = m.floats("SCALAR", {0, 1}), colors = m.floats("VEC4", {0, 0, 0, 1, 1, 1, 1, 1});
+  m.nodes = R"({"mesh":0,"extensions":{"KHR_node_visibility":{"visible":true}}})";
+  m.materials = R"({"pbrMetallicRoughness":{},"extensions":{"KHR_materials_ior":{"ior":1.4},
+      "KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[1,1,1],"specularTexture":{"index":0}},
+      "KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":0,"scale":2}},
+      "KHR_materials_sheen":{"sheenColorFactor":[1,1,1],"sheenRoughnessTexture":{"index":0}},
+      "KHR_materials_anisotropy":{"anisotropyStrength":1,"anisotropyTexture":{"index":0}},
+      "KHR_materials_iridescence":{"iridescenceFactor":1,"iridescenceThicknessTexture":{"index":0}},
+      "KHR_materials_transmission":{"transmissionFactor":1},
+      "KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[1,0.5,0]},
+      "KHR_materials_dispersion":{"dispersion":1},
+      "KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":1},
+      "KHR_materials_pbrSpecularGlossiness":{"glossinessFactor":1,"specularGlossinessTexture":{"index":0}}}})";
+  m.rest = R"(,"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}],
+      "animations":[{"channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":
+      {"pointer":"/materials/0/pbrMetallicRoughness/baseColorFactor"}}}}],"samplers":[{"input":)" +
+           times + R"(,"output":)" + colors + "}]}]";
   return m;
 }
 
@@ -128,6 +154,7 @@ void write_answers(const std::string& root) {
   scene.instances.push_back({0, 1, {}});
   scene.images.push_back({"image", Rgba8Image(2, 2)});
   scene.materials.emplace_back().base_color_texture.image = 0;
+  scene.materials.back().layers = std::make_shared<const MaterialLayers>();
   scene.lights.push_back({.name = "lamp", .kind = LightKind::Spot});
   scene.cameras.push_back({.name = "eye", .is_orthographic = true});
   scene.animations.push_back({"turn", 0, 1});
@@ -154,6 +181,7 @@ int main(int, char** argv) {
   write(root + "/gltf", "everything", parts_of(everything()));
   write(root + "/gltf", "extended", parts_of(extended()));
   write(root + "/gltf", "packed", parts_of(packed()));
+  write(root + "/gltf", "layered", parts_of(layered()));
   write(root + "/gltf", "triangle.glb", triangle_maker().glb());
   write(root + "/obj", "all.obj", bytes_of(obj));
   write(root + "/mtl", "all.mtl", bytes_of(mtl));

@@ -6,6 +6,7 @@
 
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
@@ -51,7 +52,8 @@ struct RenderOptions {
   std::optional<Crop> crop;                     ///< the frame has the crop's size and the bits of the whole image
   EdgeRule edge_rule = EdgeRule::TopLeft;       ///< TopLeft, except for teaching
   Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
-  bool cull_back_faces = true;                  ///< of single-sided materials
+  ShadingFrequency shading_frequency = ShadingFrequency::Fragment;  ///< Fragment, except for teaching
+  bool cull_back_faces = true;                                      ///< of single-sided materials
   int anisotropy = 1;  ///< maximum texture probes along a footprint, for all samplers that blend mip levels; at most 16
   ShadowOptions shadows;       ///< of the lights; none by default
   OcclusionOptions occlusion;  ///< of the environment's light; none by default

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -71,6 +72,8 @@ enum class ShadingModel {
   Unlit,              ///< the base colour, without lights
 };
 
+struct MaterialLayers;
+
 /// The parameters of a surface. Factors are linear; base colour and emissive images are sRGB-encoded, the others
 /// linear.
 struct Material {
@@ -93,19 +96,25 @@ struct Material {
   TextureUse metallic_roughness_texture;  ///< green: roughness, blue: metallic
   float3 ambient{0, 0, 0};                ///< (Blinn-)Phong only: Ka; times the base colour's texture, as Kd is
   float3 specular{0, 0, 0};               ///< (Blinn-)Phong only: Ks
+  TextureUse specular_texture;            ///< (Blinn-)Phong only: multiplies `specular`
   float exponent = 32;                    ///< (Blinn-)Phong only: Ns
+  TextureUse exponent_texture;            ///< (Blinn-)Phong only: red multiplies `exponent`
+
+  /// Metallic-roughness only: further layers of the surface (scene/material_layers.h), which copies of a material
+  /// share; null: none.
+  std::shared_ptr<const MaterialLayers> layers;
 };
 
 /// A texture slot of a material.
 struct MaterialTextureSlot {
-  std::string_view gltf_name;  ///< the property of a glTF material with this texture
+  std::string_view gltf_name;  ///< the property of a glTF material with this texture; empty: glTF has none
   TextureUse Material::*use;   ///< the member of Material that is the slot
   bool is_color;               ///< sRGB-encoded, otherwise linear
   bool is_metallic_roughness;  ///< its property is in glTF's pbrMetallicRoughness
 };
 
 /// The number of texture slots of a material.
-inline constexpr std::size_t texture_slot_count = 5;
+inline constexpr std::size_t texture_slot_count = 7;
 /// Indices into `material_texture_slots`.
 enum class TextureSlotIndex {
   BaseColor,          ///< Material::base_color_texture
@@ -113,6 +122,8 @@ enum class TextureSlotIndex {
   Emissive,           ///< Material::emissive_texture
   Normal,             ///< Material::normal_texture
   Occlusion,          ///< Material::occlusion_texture
+  Specular,           ///< Material::specular_texture
+  Exponent,           ///< Material::exponent_texture
 };
 /// The texture slots of every material, by TextureSlotIndex.
 inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_texture_slots = {
@@ -120,15 +131,9 @@ inline constexpr std::array<MaterialTextureSlot, texture_slot_count> material_te
      {"metallicRoughnessTexture", &Material::metallic_roughness_texture, false, true},
      {"emissiveTexture", &Material::emissive_texture, true, false},
      {"normalTexture", &Material::normal_texture, false, false},
-     {"occlusionTexture", &Material::occlusion_texture, false, false}}};
-
-/// The textures of a material, by slot.
-inline std::array<const TextureUse*, texture_slot_count> texture_slots(const Material& material) {
-  std::array<const TextureUse*, texture_slot_count> uses{};
-  for (std::size_t slot = 0; slot < texture_slot_count; ++slot)
-    uses[slot] = &(material.*material_texture_slots[slot].use);
-  return uses;
-}
+     {"occlusionTexture", &Material::occlusion_texture, false, false},
+     {"", &Material::specular_texture, true, false},
+     {"", &Material::exponent_texture, false, false}}};
 
 }  // namespace zoneplate
 #pragma GCC visibility pop

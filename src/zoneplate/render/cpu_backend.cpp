@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/backdrop.h"
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
@@ -20,7 +22,9 @@
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/scene_shadows.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
+#include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
 namespace {
@@ -76,7 +80,9 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
   s.eye = xyz(world_from_camera.column[3]);
   s.view_direction = normalize(-xyz(world_from_camera.column[2]), {0, 0, -1});
   s.is_orthographic = camera.is_orthographic;
-  if (!camera.is_orthographic) s.rays = rays_of(camera, clip_from_camera, options);
+  s.shading_frequency = options.shading_frequency;
+  const bool is_by_fragment = options.shading_frequency == ShadingFrequency::Fragment;
+  if (!camera.is_orthographic && is_by_fragment) s.rays = rays_of(camera, clip_from_camera, options);
   for (const Light& light : lighting.lights) s.lights.push_back(in_world_space(light, world_from_camera));
   s.environment = lighting.environment.factor();
   if (const PreparedEnvironment* map = lighting.environment.map.get()) {
@@ -86,6 +92,31 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   return s;
+}
+
+/// The image of the opaque and alpha-tested scene that transmissive surfaces refract; none where no draw transmits.
+///
+/// The whole image is drawn, with four samples a pixel, so that a crop shows the same and silhouettes behind glass are
+/// smooth under every method.
+std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewUniforms& view,
+                                      std::span<const Draw> draws, const float4x4& clip_from_world,
+                                      const RasterRules& rules, const RenderOptions& options, RasterMemory& memory) {
+  const std::vector<Material>& materials = prepared.scene().materials;
+  const auto transmits = [&](const Draw& draw) {
+    return is_transmissive(materials[static_cast<std::size_t>(draw.material)]);
+  };
+  if (std::none_of(draws.begin(), draws.end(), transmits)) return std::nullopt;
+  std::vector<Draw> behind;
+  std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind),
+               [&](const Draw& draw) { return draw.alpha_mode != AlphaMode::Blend && !transmits(draw); });
+  LinearImage image(options.width, options.height, Linear{0, 0, 0, 0});
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.width = options.width, target.height = options.height;
+  target.samples = standard_pattern(4);
+  target.color = &image;
+  rasterize(behind, SceneFragmentShader(prepared, view, nullptr), rules, target, &memory);
+  return Backdrop(image, clip_from_world);
 }
 
 /// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.
@@ -229,8 +260,15 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
+  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
+                          .is_painter = options.visibility == Visibility::Painter,
+                          .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
   if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
+  std::optional<Backdrop> backdrop;
+  if (request.content == Content::Colour)
+    backdrop = make_backdrop(prepared, view, draws.draws, clip_from_world, rules, options, memory_);
+  if (backdrop) view.backdrop = backdrop->view();
   std::optional<Ground> ground;
   if (options.ground == GroundKind::Shadow && view.visibility != nullptr) {
     ground.emplace(scene, view);
@@ -264,9 +302,6 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   if (target.display_transform) target.display8 = &(frame.display8 = make_shown(crop.width, crop.height, memory_));
   const double prepare_ms = prepare.ms();
 
-  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
-                          .is_painter = options.visibility == Visibility::Painter,
-                          .capacity = options.capacity};
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;
   const RasterCounts c = !has_color

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "zoneplate/scene/material_layers.h"
 #include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
@@ -74,15 +75,34 @@ const char* flaw_of(const TextureUse& use, const Scene& s) {
   return s.images[static_cast<std::size_t>(use.image)].pixels.empty() ? "an image of nothing" : nullptr;
 }
 
+bool is_refractive_index(float x) { return x >= 1 && is_amount(x); }
+
+const char* flaw_of(const MaterialLayers& l) {
+  for (const float share : {l.specular, l.clearcoat, l.clearcoat_roughness, l.sheen_roughness, l.anisotropy,
+                            l.iridescence, l.transmission, l.diffuse_transmission, l.glossiness.value_or(0)})
+    if (!is_share(share)) return "a layer's factor out of range";
+  if (!are_amounts(l.specular_color) || !are_amounts(l.sheen_color) || !are_amounts(l.attenuation_color) ||
+      !are_amounts(l.diffuse_transmission_color))
+    return "a layer's colour out of range";
+  if ((l.ior != 0 && !is_refractive_index(l.ior)) || !is_refractive_index(l.iridescence_ior))
+    return "an index of refraction below 1";
+  if (!is_amount(l.iridescence_thickness_minimum) || !is_amount(l.iridescence_thickness_maximum) ||
+      !is_amount(l.thickness) || !(l.attenuation_distance > 0) || !is_amount(l.dispersion))
+    return "a thickness, distance or dispersion out of range";
+  return all_finite({l.clearcoat_normal_scale, l.anisotropy_rotation}) ? nullptr : "a layer's factor is not finite";
+}
+
 const char* flaw_of(const Material& m, const Scene& s) {
   if (!are_amounts(xyz(m.base_color)) || !is_share(m.base_color.w)) return "a base colour out of range";
   if (!are_amounts(m.emissive) || !are_amounts(m.ambient) || !are_amounts(m.specular)) return "a colour out of range";
   if (!is_amount(m.alpha_cutoff) || !is_amount(m.exponent) || !std::isfinite(m.normal_scale) ||
       !is_share(m.occlusion_strength) || !is_share(m.metallic) || !is_share(m.roughness))
     return "a factor out of range";
-  for (const TextureUse* use : texture_slots(m))
-    if (const char* flaw = flaw_of(*use, s)) return flaw;
-  return nullptr;
+  if (m.layers != nullptr)
+    if (const char* flaw = flaw_of(*m.layers)) return flaw;
+  const char* flaw = nullptr;
+  for_texture_uses(m, [&](const TextureUse& use) { flaw = flaw != nullptr ? flaw : flaw_of(use, s); });
+  return flaw;
 }
 
 const char* flaw_of(const Light& l, const Scene&) {

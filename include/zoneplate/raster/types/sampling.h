@@ -20,5 +20,12 @@ enum class Centroid {
   Centre,  ///< at the pixel's centre, even if it lies outside the triangle: the weights are clamped
 };
 
+/// How often lights and materials are evaluated.
+enum class ShadingFrequency {
+  Triangle,  ///< once for a triangle, at its middle, with the normal of its plane (flat shading)
+  Vertex,    ///< at the vertices, and interpolated over the triangle (Gouraud shading)
+  Fragment,  ///< at every fragment, with the interpolated normal (Phong shading)
+};
+
 }  // namespace zoneplate
 #pragma GCC visibility pop

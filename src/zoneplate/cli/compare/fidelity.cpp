@@ -15,7 +15,7 @@
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/formats/json/json.h"
 #include "zoneplate/math/angle.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/metrics.h"

@@ -52,7 +52,8 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png", "black-edge.png", "jaggies.png", "moire.png",
                                           "prefilter.png", "convolution-theorem.png", "sampling.png", "aliases.png",
-                                          "exact-coverage.png", "wagon-wheel.png", "wagon-wheel.webp", "shadows.png"}));
+                                          "exact-coverage.png", "wagon-wheel.png", "wagon-wheel.webp",
+                                          "shading-frequency.png", "blinn-phong.png", "shadows.png"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {

@@ -40,8 +40,9 @@ Camera camera_of(const Scene& scene, int width, int height) {
   return choose_camera(scene, view, static_cast<float>(width) / static_cast<float>(height));
 }
 
-LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts) {
-  return shoot(scene, method, {.width = width, .height = height}, counts);
+LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts,
+                  ShadingFrequency frequency) {
+  return shoot(scene, method, {.width = width, .height = height, .shading_frequency = frequency}, counts);
 }
 
 LinearImage shoot(const Scene& scene, const std::string& method, const RenderOptions& options, RenderCounts* counts) {

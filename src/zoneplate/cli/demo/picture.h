@@ -14,7 +14,8 @@ namespace zoneplate::cli {
 // Functions with which lessons make their images.
 
 /// Renders the scene with its own camera (or the whole-scene view), opaque, in linear light over the default dark grey.
-LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts = nullptr);
+LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts = nullptr,
+                  ShadingFrequency frequency = ShadingFrequency::Fragment);
 
 /// The same with any options.
 LinearImage shoot(const Scene& scene, const std::string& method, const RenderOptions& options,

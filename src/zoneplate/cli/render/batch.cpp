@@ -14,7 +14,7 @@
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/formats/json/json.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate::cli {

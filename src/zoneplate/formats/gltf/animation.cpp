@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "zoneplate/formats/gltf/accessor.h"
@@ -15,6 +17,20 @@ namespace zoneplate {
 namespace {
 
 enum class Path { Translation, Rotation, Scale, Weights };
+
+/// The kind of value that a channel animates.
+struct ValueShape {
+  std::size_t width = 1;     ///< floats of one value
+  bool is_list = false;      ///< a key has as many values as the output has elements for it
+  bool is_rotation = false;  ///< interpolated along great circles
+  auto operator<=>(const ValueShape&) const = default;
+};
+
+ValueShape shape_of(Path path) {
+  if (path == Path::Weights) return {.is_list = true};
+  return {.width = path == Path::Rotation ? 4u : 3u, .is_rotation = path == Path::Rotation};
+}
+
 enum class Interpolation { Step, Linear, CubicSpline };
 
 /// Where a moment lies among the keys: at `first`, or the share `t` of the way to the next, `span` seconds long.
@@ -43,15 +59,16 @@ std::vector<float> read_times(GltfFile& file, const JsonView& sampler) {
   return times;
 }
 
-/// A channel's values as lists of floats, `width` to a value.
-std::vector<float> read_values(GltfFile& file, const JsonView& sampler, Path path, ElementRange range) {
+/// A channel's values as a list of floats, `width` to a value.
+std::vector<float> read_values(GltfFile& file, const JsonView& sampler, std::size_t width, ElementRange range) {
   std::vector<float> out;
-  if (path == Path::Weights) return read_float(file, sampler, "output", range);
-  if (path == Path::Rotation) {
-    for (const float4 v : read_float4(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y, v.z, v.w});
-  } else {
+  if (width == 1) return read_float(file, sampler, "output", range);
+  if (width == 2)
+    for (const float2 v : read_float2(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y});
+  if (width == 3)
     for (const float3 v : read_float3(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y, v.z});
-  }
+  if (width == 4)
+    for (const float4 v : read_float4(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y, v.z, v.w});
   return out;
 }
 
@@ -106,19 +123,19 @@ Keys find_keys(GltfFile& file, const JsonView& sampler, double time) {
   return {find_moment(times, time), times.size()};
 }
 
-/// The value of a sampler; `width` floats, or for weights as many as a key has.
-std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, const Keys& of_input) {
+/// The value of a sampler; `width` floats, or for a list as many as a key has.
+std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, const ValueShape& shape, const Keys& of_input) {
   const Interpolation kind = read_interpolation(sampler);
   const std::uint64_t parts = kind == Interpolation::CubicSpline ? 3 : 1, keys = of_input.count * parts;
   const std::uint64_t elements = count_elements(file, sampler, "output");
-  const std::uint64_t per_key = path == Path::Weights ? elements / keys : 1;
+  const std::uint64_t per_key = shape.is_list ? elements / keys : 1;
   if (elements < keys || per_key == 0)
     sampler.fail("output has " + std::to_string(elements) + " elements, expected " + std::to_string(keys));
 
   const Moment m = of_input.moment;
   const std::uint64_t used = (m.t > 0 ? 2 : 1) * parts * per_key;
-  const std::vector<float> v = read_values(file, sampler, path, {m.first * parts * per_key, used});
-  const std::size_t width = path == Path::Weights ? static_cast<std::size_t>(per_key) : path == Path::Rotation ? 4 : 3;
+  const std::vector<float> v = read_values(file, sampler, shape.width, {m.first * parts * per_key, used});
+  const std::size_t width = shape.is_list ? static_cast<std::size_t>(per_key) : shape.width;
   if (v.size() < (m.t > 0 ? 2 : 1) * parts * width) sampler.fail("output ends too early");
 
   const float* const key = v.data();
@@ -127,7 +144,7 @@ std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, 
     std::copy_n(key + (kind == Interpolation::CubicSpline ? width : 0), width, out.begin());
   } else if (kind == Interpolation::CubicSpline) {
     mix_cubic(key, width, m, out);
-  } else if (path == Path::Rotation) {
+  } else if (shape.is_rotation) {
     mix_rotations(key, key + width, m.t, out);
   } else {
     mix_linear(key, key + width, m.t, out);
@@ -150,6 +167,64 @@ void set(GltfNodePose& pose, Path path, std::vector<float> v) {
   if (path == Path::Scale) pose.scale = float3{v[0], v[1], v[2]};
   if (path == Path::Rotation) pose.rotation = Quaternion{v[0], v[1], v[2], v[3]};
   if (path == Path::Weights) pose.weights = std::move(v);
+}
+
+/// The last name of a JSON pointer; numbers, which are indices of elements, do not count.
+std::string_view property_of(std::string_view pointer) {
+  for (;;) {
+    const std::size_t slash = pointer.rfind('/');
+    if (slash == pointer.npos) return {};
+    const std::string_view last = pointer.substr(slash + 1);
+    if (last.find_first_not_of("0123456789") != last.npos) return last;
+    pointer = pointer.substr(0, slash);
+  }
+}
+
+/// The properties that glTF's object model and the extensions that are read declare mutable.
+constexpr std::string_view mutable_properties[] = {
+    "translation", "rotation", "scale", "weights", "visible",
+    // cameras and lights
+    "xmag", "ymag", "yfov", "aspectRatio", "znear", "zfar", "color", "intensity", "range", "innerConeAngle",
+    "outerConeAngle",
+    // materials and the transforms of their textures
+    "offset", "strength", "alphaCutoff", "emissiveFactor", "baseColorFactor", "metallicFactor", "roughnessFactor",
+    "emissiveStrength", "ior", "specularFactor", "specularColorFactor", "clearcoatFactor", "clearcoatRoughnessFactor",
+    "sheenColorFactor", "sheenRoughnessFactor", "anisotropyStrength", "anisotropyRotation", "iridescenceFactor",
+    "iridescenceIor", "iridescenceThicknessMinimum", "iridescenceThicknessMaximum", "transmissionFactor",
+    "thicknessFactor", "attenuationDistance", "attenuationColor", "dispersion", "diffuseTransmissionFactor",
+    "diffuseTransmissionColorFactor"};
+
+bool is_mutable(std::string_view pointer) {
+  constexpr std::string_view owners[] = {"/nodes/", "/meshes/", "/materials/", "/cameras/",
+                                         "/extensions/KHR_lights_punctual/lights/"};
+  const std::string_view property = property_of(pointer);
+  return std::any_of(std::begin(owners), std::end(owners), [&](auto owner) { return pointer.starts_with(owner); }) &&
+         std::find(std::begin(mutable_properties), std::end(mutable_properties), property) !=
+             std::end(mutable_properties);
+}
+
+/// The shape of the values that a pointer's channel has: its accessor's, unless the property is a list of numbers.
+ValueShape shape_of(GltfFile& file, const JsonView& sampler, std::string_view pointer) {
+  const std::size_t number = sampler.index("output", file.count("accessors"));
+  const std::string type = file.root().element("accessors", number, "accessor").text("type");
+  if (type == "SCALAR") return {.is_list = pointer.ends_with("/weights")};
+  if (type != "VEC2" && type != "VEC3" && type != "VEC4")
+    sampler.fail("output is of type " + quoted(type) + ", expected SCALAR, VEC2, VEC3 or VEC4");
+  const auto width = static_cast<std::size_t>(type[3] - '0');
+  const bool is_node = pointer.starts_with("/nodes/");
+  return {.width = width, .is_rotation = width == 4 && is_node && pointer.ends_with("/rotation")};
+}
+
+/// A property's value in the file.
+JsonValue json_of(const std::vector<float>& values, const ValueShape& shape, std::string_view pointer) {
+  const auto number = [](float x) {
+    return JsonValue{.kind = JsonValue::Kind::Number, .number = static_cast<double>(x)};
+  };
+  if (pointer.ends_with("/visible")) return {.kind = JsonValue::Kind::Boolean, .boolean = values[0] != 0};
+  if (shape.width == 1 && !shape.is_list) return number(values[0]);
+  JsonValue list{.kind = JsonValue::Kind::List};
+  for (const float x : values) list.items.push_back(number(x));
+  return list;
 }
 
 /// The accessor's stated extent, which the specification requires for times; read where it is missing.
@@ -187,28 +262,76 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
   return out;
 }
 
-void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses) {
+namespace {
+
+/// The samplers of one animation at one time. Many channels may share the times of their keys, and a sampler: each is
+/// evaluated once.
+class Samplers {
+ public:
+  Samplers(GltfFile& file, const JsonView& animation, double time) : file_(file), animation_(animation), time_(time) {}
+
+  JsonView of(const JsonView& channel) const { return animation_.element("samplers", number_of(channel), "sampler"); }
+  const std::vector<float>& value(const JsonView& channel, const ValueShape& shape) {
+    const auto [value, is_new] = values_.try_emplace({number_of(channel), shape});
+    if (is_new) {
+      const JsonView sampler = of(channel);
+      const std::size_t input = sampler.index("input", file_.count("accessors"));
+      if (!keys_.contains(input)) keys_[input] = find_keys(file_, sampler, time_);
+      value->second = evaluate(file_, sampler, shape, keys_[input]);
+    }
+    file_.budget().take(sizeof(GltfNodePose) + value->second.size() * sizeof(float));
+    return value->second;
+  }
+
+ private:
+  std::size_t number_of(const JsonView& channel) const {
+    return channel.index("sampler", animation_.count("samplers"));
+  }
+
+  GltfFile& file_;
+  const JsonView& animation_;
+  double time_;
+  std::map<std::size_t, Keys> keys_;                                         // by accessor
+  std::map<std::pair<std::size_t, ValueShape>, std::vector<float>> values_;  // by sampler
+};
+
+/// KHR_animation_pointer: the property that a channel names takes its value in the file's JSON, from which all readers
+/// take it.
+void edit_property(GltfFile& file, const JsonView& channel, const JsonView& target, Samplers& samplers) {
+  const auto extension = target.extension("KHR_animation_pointer");
+  if (!extension) return;
+  const std::string pointer = extension->text("pointer");
+  const auto ignore = [&](const char* cause) {
+    file.warn(target.place() + ": pointer " + quoted(pointer) + " " + cause + ", ignored");
+  };
+  if (!is_mutable(pointer)) return ignore("is no property that can be animated");
+  // An index of refraction of 0 is a mode of the material, which animations leave as it is.
+  const JsonValue* const before = file.edits().find(pointer);
+  if (pointer.ends_with("/ior") && before != nullptr && before->number == 0) return;
+  const ValueShape shape = shape_of(file, samplers.of(channel), pointer);
+  JsonValue value = json_of(samplers.value(channel, shape), shape, pointer);
+  if (before != nullptr && before->kind != value.kind) return ignore("has values of another kind");
+  file.budget().take(sizeof(JsonValue) * (2 + value.items.size()) + 2 * pointer.size());
+  if (!file.edits().set(pointer, std::move(value))) ignore("leads to nothing");
+}
+
+}  // namespace
+
+void animate(GltfFile& file, std::size_t animation, double time, GltfPoses& poses) {
   const JsonView json = file.root().element("animations", animation, "animation");
-  // Many channels may share the times of their keys, and a sampler: each is looked through once.
-  std::map<std::size_t, Keys> keys;                                   // by accessor
-  std::map<std::pair<std::size_t, Path>, std::vector<float>> values;  // by sampler
+  Samplers samplers(file, json, time);
   for (std::size_t c = 0; c < json.count("channels"); ++c) {
     file.budget().check_time();
     const JsonView channel = json.element("channels", c, "channel"), target = channel.object("target");
-    const auto node = target.find_index("node", file.count("nodes"));
-    const std::optional<Path> path = find_path_kind(target.text("path"));
-    if (!path) file.warn(target.place() + ": path " + quoted(target.text("path")) + " is not supported, ignored");
-    if (!node || !path) continue;
-    const std::size_t number = channel.index("sampler", json.count("samplers"));
-    const JsonView sampler = json.element("samplers", number, "sampler");
-    const auto [value, is_new] = values.try_emplace({number, *path});
-    if (is_new) {
-      const std::size_t input = sampler.index("input", file.count("accessors"));
-      if (!keys.contains(input)) keys[input] = find_keys(file, sampler, time);
-      value->second = evaluate(file, sampler, *path, keys[input]);
+    const std::string word = target.text("path");
+    if (word == "pointer") {
+      edit_property(file, channel, target, samplers);
+      continue;
     }
-    file.budget().take(sizeof(GltfNodePose) + value->second.size() * sizeof(float));
-    set(poses[*node], *path, value->second);
+    const auto node = target.find_index("node", file.count("nodes"));
+    const std::optional<Path> path = find_path_kind(word);
+    if (!path) file.warn(target.place() + ": path " + quoted(word) + " is not supported, ignored");
+    if (node && path) set(poses[*node], *path, samplers.value(channel, shape_of(*path)));
   }
 }
 

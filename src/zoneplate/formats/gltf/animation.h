@@ -24,12 +24,13 @@ using GltfPoses = std::map<std::size_t, GltfNodePose>;
 /// Names and extents in time of the file's animations.
 std::vector<AnimationSpan> list_animations(GltfFile& file);
 
-/// Evaluates an animation, over what `poses` has already: STEP, LINEAR (rotations along the shorter great circle) and
-/// CUBICSPLINE.
+/// Evaluates an animation: adds the properties of nodes to `poses`, and sets those that KHR_animation_pointer names in
+/// the file's JSON (GltfFile::edits). Values replace those of animations before. Interpolation is STEP, LINEAR
+/// (rotations along the shorter great circle) or CUBICSPLINE.
 ///
 /// Units     seconds; before the first key of a channel and after its last one the value of that key holds.
 /// Exact     + - × / √ and math/elementary.h only, in float.
 /// Errors    ErrorKind::Input naming animation and sampler: times that do not grow, too few values, unknown words.
-void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses);
+void animate(GltfFile& file, std::size_t animation, double time, GltfPoses& poses);
 
 }  // namespace zoneplate

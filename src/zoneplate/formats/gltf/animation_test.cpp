@@ -9,6 +9,7 @@
 #include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/scene/material_layers.h"
 
 namespace zoneplate {
 namespace {
@@ -271,6 +272,86 @@ TEST_P(SharedSuzanne, IsNearThePlainModel) {
   EXPECT_EQ(s.meshes[0].primitives(), 3936u);
   expect_near(s.bounds().low, wanted.low, 2e-3f);
   expect_near(s.bounds().high, wanted.high, 2e-3f);
+}
+
+/// Node 0 with mesh 0, a camera and a light, a material, and one animation of a property, with keys at 1 s and 3 s.
+GltfMaker pointing(const std::string& pointer, const std::string& type, const std::vector<float>& values,
+                   const std::string& interpolation = "LINEAR") {
+  GltfMaker m;
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}), R"(,"material":0)");
+  const std::string input = m.floats("SCALAR", {1, 3}), output = m.floats(type, values);
+  m.nodes = R"({"mesh":0,"camera":0,"extensions":{"KHR_lights_punctual":{"light":0}}})";
+  m.materials = R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]},"emissiveFactor":[0.5,0.5,0.5],
+      "extensions":{"KHR_materials_clearcoat":{},"KHR_materials_ior":{"ior":0}}})";
+  m.rest = R"(,"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
+      "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":2}]}},
+      "animations":[{"channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":
+      {"pointer":")" +
+           pointer + R"("}}}}],"samplers":[{"input":)" + input + R"(,"output":)" + output + R"(,"interpolation":")" +
+           interpolation + "\"}]}]";
+  return m;
+}
+
+TEST(GltfAnimation, PointersAnimateProperties) {
+  const GltfMaker move = pointing("/nodes/0/translation", "VEC3", {0, 0, 0, 4, 8, -2});
+  expect_near(moved(move, 1.5), {1, 2, -0.5f});
+  const float s = std::sin(1.0471975512f), c = std::cos(1.0471975512f);
+  const GltfMaker turn = pointing("/nodes/0/rotation", "VEC4", {0, 0, 0, 1, 0, 0, -s, -c});
+  expect_near(moved(turn, 1 + 2.0 / 3, {1, 0, 0}), {std::cos(0.6981317f), std::sin(0.6981317f), 0});
+
+  const GltfMaker base =
+      pointing("/materials/0/pbrMetallicRoughness/baseColorFactor", "VEC4", {0, 0, 0, 1, 1, 0, 0.5f, 0});
+  EXPECT_EQ(at(base, 2).materials.at(0).base_color, (float4{0.5f, 0, 0.25f, 0.5f}));
+  // A property that the file leaves at its default.
+  const GltfMaker rough = pointing("/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", {0, 1});
+  EXPECT_EQ(at(rough, 1.5).materials.at(0).roughness, 0.25f);
+  const GltfMaker coat = pointing("/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", "SCALAR", {0, 1});
+  EXPECT_EQ(at(coat, 2).materials.at(0).layers->clearcoat, 0.5f);
+  EXPECT_EQ(at(pointing("/cameras/0/perspective/yfov", "SCALAR", {1, 2}), 2).cameras.at(0).vertical_fov, 1.5f);
+  EXPECT_EQ(
+      at(pointing("/extensions/KHR_lights_punctual/lights/0/intensity", "SCALAR", {2, 4}), 2).lights.at(0).intensity,
+      3);
+}
+
+TEST(GltfAnimation, PointersToOtherThingsAreIgnored) {
+  for (const char* pointer : {"/nodes/0/mesh", "/nodes/9/translation", "/materials/0", "translation", "",
+                              "/materials/0/normalTexture/scale", "/asset/version", "/nodes/0/translation/0"}) {
+    const Scene s = at(pointing(pointer, "SCALAR", {0, 1}), 2);
+    EXPECT_EQ(s.instances.size(), 1u) << pointer;
+    EXPECT_EQ(s.warnings.size(), 1u) << pointer;
+  }
+  const Scene s = at(pointing("/materials/0/extensions/KHR_materials_ior/ior", "SCALAR", {1, 2}), 2);
+  EXPECT_EQ(s.materials.at(0).layers->ior, 0);  // a mode that animations leave as it is
+}
+
+TEST(GltfAnimation, APointersValueEndsWithItsFrame) {
+  const TestFolder folder;
+  GltfModel model(folder.write("a.glb", pointing("/materials/0/emissiveFactor", "VEC3", {0, 0, 0, 1, 1, 1}).glb()));
+  EXPECT_EQ(model.scene({.animation = 0, .time = 2.5}).materials.at(0).emissive, (float3{0.75f, 0.75f, 0.75f}));
+  EXPECT_EQ(model.scene({.animation = 0, .time = 1}).materials.at(0).emissive, float3{});
+  EXPECT_EQ(model.scene({}).materials.at(0).emissive, (float3{0.5f, 0.5f, 0.5f}));
+}
+
+TEST(GltfNodes, InvisibleNodesHideTheirChildren) {
+  GltfMaker m = triangle_maker();
+  m.nodes = R"({"children":[1,2],"extensions":{"KHR_node_visibility":{"visible":false}}},
+      {"mesh":0,"extensions":{"KHR_node_visibility":{"visible":true}}},
+      {"camera":0,"extensions":{"KHR_lights_punctual":{"light":0}}},{"mesh":0}, {"mesh":0,"extensions":{"KHR_node_visibility":{}}})";
+  m.scene_nodes = "0,3,4";
+  m.rest = R"(,"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
+      "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}})";
+  const TestFolder folder;
+  const Scene s = load_gltf(folder.write("a.glb", m.glb()));
+  EXPECT_EQ(s.instances.size(), 2u);
+  EXPECT_TRUE(s.lights.empty());
+  EXPECT_EQ(s.cameras.size(), 1u);  // cameras are not subject to visibility
+}
+
+TEST(GltfNodes, VisibilityIsAnimated) {
+  GltfMaker m = pointing("/nodes/0/extensions/KHR_node_visibility/visible", "SCALAR", {1, 0}, "STEP");
+  m.nodes = R"({"mesh":0,"extensions":{"KHR_node_visibility":{}}})";
+  EXPECT_EQ(at(m, 2).instances.size(), 1u);
+  EXPECT_EQ(at(m, 3).instances.size(), 0u);
 }
 
 }  // namespace

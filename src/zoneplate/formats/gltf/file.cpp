@@ -4,7 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "zoneplate/formats/gltf/meshopt.h"
+#include "zoneplate/formats/meshopt/meshopt.h"
 #include "zoneplate/formats/import/model_path.h"
 
 namespace zoneplate {
@@ -109,7 +109,8 @@ std::span<const std::uint8_t> GltfFile::part_of_buffer(const JsonView& json) {
 
 std::span<const std::uint8_t> GltfFile::view(std::size_t i) {
   const JsonView json = root_->element("bufferViews", i, "bufferView");
-  const auto packed = json.extension("EXT_meshopt_compression");
+  auto packed = json.extension("KHR_meshopt_compression");
+  if (!packed) packed = json.extension("EXT_meshopt_compression");
   if (!packed) return part_of_buffer(json);
   if (const auto found = unpacked_.find(i); found != unpacked_.end()) return found->second;
   return unpacked_[i] = decode_meshopt(*packed, part_of_buffer(*packed), budget_);

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/formats/gltf/json.h"
 #include "zoneplate/formats/import/load_options.h"
+#include "zoneplate/formats/json/json.h"
+#include "zoneplate/formats/json/json_edits.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {
@@ -35,7 +36,10 @@ class GltfFile {
 
   std::size_t count(const char* list) const { return root_->count(list); }
 
-  /// The bytes of a buffer view; unpacked, where EXT_meshopt_compression packs them.
+  /// The changes that animations made to the properties of the file.
+  JsonEdits& edits() { return edits_; }
+
+  /// The bytes of a buffer view; unpacked, where KHR_meshopt_compression or EXT_meshopt_compression packs them.
   std::span<const std::uint8_t> view(std::size_t i);
   /// The byte stride that a buffer view states, 0 where it states none.
   std::uint64_t view_stride(std::size_t i) const;
@@ -74,6 +78,7 @@ class GltfFile {
   std::span<const std::uint8_t> json_bytes_, binary_;
   bool has_binary_ = false;
   JsonValue json_;
+  JsonEdits edits_{json_};
   std::optional<JsonView> root_;
   std::map<std::size_t, GltfBytes> buffers_;
   std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< of compressed buffer views

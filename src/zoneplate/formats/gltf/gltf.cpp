@@ -20,29 +20,38 @@
 namespace zoneplate {
 namespace {
 
-constexpr const char* supported_extensions[] = {
-    "KHR_texture_transform",           "KHR_materials_unlit",       "KHR_lights_punctual",    "KHR_mesh_quantization",
-    "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",   "KHR_materials_variants", "EXT_texture_webp",
-    "EXT_meshopt_compression",         "KHR_draco_mesh_compression"};
-
-/// Extensions that only refine a look which the core material has too: a file that requires one is drawn without it.
-constexpr const char* refining_extensions[] = {
-    "KHR_materials_clearcoat",   "KHR_materials_sheen",      "KHR_materials_transmission",
-    "KHR_materials_volume",      "KHR_materials_ior",        "KHR_materials_specular",
-    "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion"};
+constexpr const char* supported_extensions[] = {"EXT_mesh_gpu_instancing",
+                                                "EXT_meshopt_compression",
+                                                "EXT_texture_webp",
+                                                "KHR_animation_pointer",
+                                                "KHR_draco_mesh_compression",
+                                                "KHR_lights_punctual",
+                                                "KHR_materials_anisotropy",
+                                                "KHR_materials_clearcoat",
+                                                "KHR_materials_diffuse_transmission",
+                                                "KHR_materials_dispersion",
+                                                "KHR_materials_emissive_strength",
+                                                "KHR_materials_ior",
+                                                "KHR_materials_iridescence",
+                                                "KHR_materials_pbrSpecularGlossiness",
+                                                "KHR_materials_sheen",
+                                                "KHR_materials_specular",
+                                                "KHR_materials_transmission",
+                                                "KHR_materials_unlit",
+                                                "KHR_materials_variants",
+                                                "KHR_materials_volume",
+                                                "KHR_mesh_quantization",
+                                                "KHR_meshopt_compression",
+                                                "KHR_node_visibility",
+                                                "KHR_texture_transform"};
 
 void check_extensions(GltfFile& file) {
   const auto is_supported = [](const std::string& name) {
     return std::any_of(std::begin(supported_extensions), std::end(supported_extensions),
                        [&](const char* s) { return name == s; });
   };
-  const auto is_refining = [](const std::string& name) {
-    return std::any_of(std::begin(refining_extensions), std::end(refining_extensions),
-                       [&](const char* r) { return name == r; });
-  };
   for (const std::string& name : file.root().texts("extensionsRequired"))
-    if (!is_supported(name) && !is_refining(name))
-      file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
+    if (!is_supported(name)) file.root().fail("requires the extension " + quoted(name) + ", which is not supported");
   for (const std::string& name : file.root().texts("extensionsUsed"))
     if (!is_supported(name))
       file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, ignored");
@@ -321,6 +330,7 @@ void SceneReader::add_node(const GltfNode& node) {
     }
     file_.budget().take(2 * sizeof(Camera) + scene_.cameras.back().name.size());
   }
+  if (!node.is_visible) return;
   if (const auto use = node.json.extension("KHR_lights_punctual")) {
     const auto all = file_.root().extension("KHR_lights_punctual");
     const std::size_t count = all ? all->count("lights") : 0;
@@ -337,7 +347,7 @@ void SceneReader::add_node(const GltfNode& node) {
 }
 
 Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
-  scene_.materials = look.materials;
+  scene_.materials = file_.edits().touch("/materials/") ? read_materials(file_).materials : look.materials;
   if (images == GltfModel::Images::With) scene_.images = look.images;
   for (const GltfNode& node : nodes_.in_scene()) add_node(node);
 
@@ -372,6 +382,7 @@ GltfModel::~GltfModel() = default;
 
 Scene GltfModel::scene(const SceneChoice& choice, Images images) {
   open_->file.budget().restart(open_->left);
+  open_->file.edits().undo();
   open_->file.forget_zeros();
   return SceneReader(open_->file, choice).read(open_->look, images);
 }

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/gltf/factors.h"
+#include "zoneplate/formats/gltf/layers.h"
 #include "zoneplate/formats/import/image_file.h"
 
 namespace zoneplate {
@@ -71,10 +73,9 @@ class MaterialReader {
  private:
   TextureUse texture(const JsonView& owner, const std::string& key);
   void read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m);
-  float factor(const JsonView& json, const char* key, float otherwise, float high);
-  float clamp(const JsonView& json, const char* key, float value, float high);
-  float3 color(const JsonView& json, const char* key, float3 otherwise);
+  void read_base(const JsonView& json, const char* key, Material& m);
   void read_metallic_roughness(const JsonView& json, Material& m);
+  void read_specular_glossiness(const JsonView& json, Material& m);
   void read_alpha(const JsonView& json, Material& m);
 
   GltfFile& file_;
@@ -107,32 +108,31 @@ TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key
 /// The textures whose properties `owner` holds.
 void MaterialReader::read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m) {
   for (const MaterialTextureSlot& slot : material_texture_slots)
-    if (slot.is_metallic_roughness == is_metallic_roughness) m.*slot.use = texture(owner, std::string(slot.gltf_name));
+    if (slot.is_metallic_roughness == is_metallic_roughness && !slot.gltf_name.empty())
+      m.*slot.use = texture(owner, std::string(slot.gltf_name));
 }
 
-float MaterialReader::clamp(const JsonView& json, const char* key, float value, float high) {
-  const float inside = std::clamp(value, 0.0f, high);
-  if (inside != value) file_.warn(json.place() + ": " + key + " is out of range, clamped");
-  return inside;
-}
-
-float MaterialReader::factor(const JsonView& json, const char* key, float otherwise, float high) {
-  return clamp(json, key, json.number(key, otherwise), high);
-}
-
-float3 MaterialReader::color(const JsonView& json, const char* key, float3 otherwise) {
-  const std::vector<float> v = json.numbers(key, 3);
-  if (v.empty()) return otherwise;
-  return {clamp(json, key, v[0], 1), clamp(json, key, v[1], 1), clamp(json, key, v[2], 1)};
+void MaterialReader::read_base(const JsonView& json, const char* key, Material& m) {
+  const std::vector<float> v = json.numbers(key, 4);
+  if (v.empty()) return;
+  const auto channel = [&](float x) { return clamped(file_, json, key, x, 0, 1); };
+  m.base_color = {channel(v[0]), channel(v[1]), channel(v[2]), channel(v[3])};
 }
 
 void MaterialReader::read_metallic_roughness(const JsonView& json, Material& m) {
-  if (const std::vector<float> v = json.numbers("baseColorFactor", 4); !v.empty())
-    m.base_color = {clamp(json, "baseColorFactor", v[0], 1), clamp(json, "baseColorFactor", v[1], 1),
-                    clamp(json, "baseColorFactor", v[2], 1), clamp(json, "baseColorFactor", v[3], 1)};
-  m.metallic = factor(json, "metallicFactor", 1, 1);
-  m.roughness = factor(json, "roughnessFactor", 1, 1);
+  read_base(json, "baseColorFactor", m);
+  m.metallic = read_factor(file_, json, "metallicFactor", 1);
+  m.roughness = read_factor(file_, json, "roughnessFactor", 1);
   read_textures(json, true, m);
+}
+
+/// The parameters that replace the core's; read_layers reads the specular ones.
+void MaterialReader::read_specular_glossiness(const JsonView& json, Material& m) {
+  m.base_color = {1, 1, 1, 1};
+  read_base(json, "diffuseFactor", m);
+  m.base_color_texture = texture(json, "diffuseTexture");
+  m.metallic_roughness_texture = {};
+  m.metallic = 0;
 }
 
 void MaterialReader::read_alpha(const JsonView& json, Material& m) {
@@ -140,7 +140,7 @@ void MaterialReader::read_alpha(const JsonView& json, Material& m) {
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
     json.fail("alphaMode is " + quoted(mode) + ", expected OPAQUE, MASK or BLEND");
   m.alpha_mode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
-  m.alpha_cutoff = factor(json, "alphaCutoff", 0.5f, std::numeric_limits<float>::max());
+  m.alpha_cutoff = read_factor(file_, json, "alphaCutoff", 0.5f, std::numeric_limits<float>::max());
 }
 
 Material MaterialReader::read(std::size_t i) {
@@ -151,13 +151,20 @@ Material MaterialReader::read(std::size_t i) {
   read_alpha(json, m);
   read_metallic_roughness(json.object("pbrMetallicRoughness"), m);
 
-  m.emissive = color(json, "emissiveFactor", {0, 0, 0});
+  const auto specular_glossiness = json.extension("KHR_materials_pbrSpecularGlossiness");
+  if (specular_glossiness) read_specular_glossiness(*specular_glossiness, m);
+
+  m.emissive = read_color_factor(file_, json, "emissiveFactor", {0, 0, 0});
   if (const auto strength = json.extension("KHR_materials_emissive_strength"))
-    m.emissive = m.emissive * factor(*strength, "emissiveStrength", 1, 1e9f);
+    m.emissive = m.emissive * read_factor(file_, *strength, "emissiveStrength", 1, 1e9f);
   read_textures(json, false, m);
   m.normal_scale = json.object("normalTexture").number("scale", 1.0f);
-  m.occlusion_strength = factor(json.object("occlusionTexture"), "strength", 1, 1);
-  if (json.extension("KHR_materials_unlit")) m.model = ShadingModel::Unlit;
+  m.occlusion_strength = read_factor(file_, json.object("occlusionTexture"), "strength", 1);
+  if (json.extension("KHR_materials_unlit"))
+    m.model = ShadingModel::Unlit;
+  else
+    m.layers =
+        read_layers(file_, json, [&](const JsonView& owner, const std::string& key) { return texture(owner, key); });
   return m;
 }
 
@@ -197,15 +204,21 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
 
 }  // namespace
 
-GltfMaterials load_materials(GltfFile& file) {
+GltfMaterials read_materials(GltfFile& file) {
   GltfMaterials out;
   MaterialReader reader(file);
   for (std::size_t i = 0; i < file.count("materials"); ++i) {
     file.budget().take(sizeof(Material));
     out.materials.push_back(reader.read(i));
   }
+  out.used_images = reader.used_images();
+  return out;
+}
+
+GltfMaterials load_materials(GltfFile& file) {
+  GltfMaterials out = read_materials(file);
   std::vector<EncodedImage> encoded;
-  for (const std::size_t i : reader.used_images()) encoded.push_back(read_image(file, i));
+  for (const std::size_t i : out.used_images) encoded.push_back(read_image(file, i));
   out.images.resize(encoded.size());
   std::vector<std::string> trouble(encoded.size());
   // Images are decoded in waves of this size, so that the accounting of their memory does not depend on the number of

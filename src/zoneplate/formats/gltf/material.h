@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "zoneplate/formats/gltf/file.h"
@@ -9,9 +10,15 @@
 namespace zoneplate {
 
 struct GltfMaterials {
-  std::vector<Material> materials;   ///< the file's, in its order
-  std::vector<TextureImage> images;  ///< those that a material uses
+  std::vector<Material> materials;       ///< the file's, in its order
+  std::vector<std::size_t> used_images;  ///< those of the file's images that a material uses
+  std::vector<TextureImage> images;      ///< the same, decoded
 };
+
+/// Reads all materials without their images.
+///
+/// Errors    as load_materials, but for the images.
+GltfMaterials read_materials(GltfFile& file);
 
 /// Reads all materials and decodes the images that they use, the images in parallel.
 ///

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "zoneplate/formats/gltf/topology.h"
 #include "zoneplate/scene/geometry/flat_normals.h"
 #include "zoneplate/scene/geometry/tangent.h"
+#include "zoneplate/scene/material_layers.h"
 #include "zoneplate/scene/sanitize.h"
 #include "zoneplate/scene/serial_ranges.h"
 
@@ -205,7 +207,7 @@ std::uint64_t vertex_size(const Mesh& m) {
 }
 
 /// Generates the attributes that the specification requires where the file lacks them.
-void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
+void complete(const Primitive& p, std::optional<int> tangent_uv_set, Mesh& m) {
   ImportBudget& budget = p.file.budget();
   if (m.topology != Topology::Triangles) m.tangent.clear();
   if (m.topology == Topology::Triangles && m.normal.empty()) {
@@ -216,9 +218,9 @@ void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   }
   normalize_normals(m);
   normalize_tangents(m);
-  if (!normal_texture || m.topology != Topology::Triangles || !m.tangent.empty()) return;
-  if ((normal_texture->uv_set == 0 ? m.uv0 : m.uv1).size() != m.position.size()) {
-    p.file.warn(p.json.place() + ": has a normal texture, but not TEXCOORD_" + std::to_string(normal_texture->uv_set));
+  if (!tangent_uv_set || m.topology != Topology::Triangles || !m.tangent.empty()) return;
+  if ((*tangent_uv_set == 0 ? m.uv0 : m.uv1).size() != m.position.size()) {
+    p.file.warn(p.json.place() + ": needs tangents, but has no TEXCOORD_" + std::to_string(*tangent_uv_set));
     return;
   }
   // The working memory of make_tangents: faces, edges, tables and tangents, 60 bytes for each corner at most.
@@ -227,7 +229,7 @@ void complete(const Primitive& p, const TextureUse* normal_texture, Mesh& m) {
   budget.take(working + m.index.size() * (vertex_size(m) + sizeof(float4)));
   const std::uint64_t most = m.index.size() * (vertex_size(m) + sizeof(float4));
   const std::uint64_t before = m.position.size() * vertex_size(m);
-  make_tangents(m, normal_texture->uv_set);
+  make_tangents(m, *tangent_uv_set);
   budget.give_back(working + most + before - m.position.size() * vertex_size(m));
 }
 
@@ -256,8 +258,8 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
     file.warn(json.place() + ": has no POSITION, draws nothing");
     return m;
   }
-  const TextureUse* normal_texture = material ? &materials[*material].normal_texture : nullptr;
-  if (normal_texture && normal_texture->image < 0) normal_texture = nullptr;
+  std::optional<int> uv_set_of_tangents;
+  if (material && needs_tangents(materials[*material])) uv_set_of_tangents = tangent_uv_set(materials[*material]);
 
   std::vector<std::uint32_t> order = read_order(p);
   const std::size_t count = order.size();
@@ -266,7 +268,7 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   file.budget().give_back((count * 4 - m.index.size()) * sizeof(std::uint32_t));
   m.position = read_attribute(p, "POSITION", read_float3);
   m.normal = read_attribute(p, "NORMAL", read_float3);
-  if (normal_texture) m.tangent = read_attribute(p, "TANGENT", read_float4);
+  if (uv_set_of_tangents) m.tangent = read_attribute(p, "TANGENT", read_float4);
   if (m.normal.empty()) m.tangent.clear();  // as the specification requires
   m.uv0 = read_attribute(p, "TEXCOORD_0", read_float2);
   m.uv1 = read_attribute(p, "TEXCOORD_1", read_float2);
@@ -275,7 +277,7 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   if (!pose.joints.empty()) apply_joints(p, pose.joints, m);
   if (const std::uint64_t dropped = drop_not_finite(m))
     p.file.warn(p.json.place() + ": vertices that are not finite, " + std::to_string(dropped) + " primitives dropped");
-  complete(p, normal_texture, m);
+  complete(p, uv_set_of_tangents, m);
   return m;
 }
 

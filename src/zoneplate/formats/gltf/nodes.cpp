@@ -59,17 +59,20 @@ GltfNodes::GltfNodes(GltfFile& file, const SceneChoice& choice) : file_(file), p
   const bool are_all = choice.animation == SceneChoice::all_animations && animations > 0;
   if (!are_all) check_number(choice.animation, animations, "animation", "--animation-index");
   for (std::size_t i = 0; choice.animation && i < animations; ++i)
-    if (are_all || *choice.animation == static_cast<int>(i)) pose_nodes(file, i, choice.time, poses_);
+    if (are_all || *choice.animation == static_cast<int>(i)) animate(file, i, choice.time, poses_);
   struct Pending {
     std::size_t number;
     int depth;
     float4x4 world_from_parent;
+    bool is_visible;
   };
   std::vector<Pending> pending;
-  const auto push = [&](const std::vector<std::size_t>& numbers, int depth, const float4x4& world_from_parent) {
-    for (std::size_t i = numbers.size(); i-- > 0;) pending.push_back({numbers[i], depth, world_from_parent});
+  const auto push = [&](const std::vector<std::size_t>& numbers, int depth, const float4x4& world_from_parent,
+                        bool is_visible) {
+    for (std::size_t i = numbers.size(); i-- > 0;)
+      pending.push_back({numbers[i], depth, world_from_parent, is_visible});
   };
-  push(roots(choice.scene), 1, {});
+  push(roots(choice.scene), 1, {}, true);
   while (!pending.empty()) {
     const Pending next = pending.back();
     pending.pop_back();
@@ -81,9 +84,12 @@ GltfNodes::GltfNodes(GltfFile& file, const SceneChoice& choice) : file_(file), p
     file.budget().take(2 * sizeof(GltfNode) + json.place().size());
     place_[next.number] = nodes_.size();
     const auto pose = poses_.find(next.number);
+    const auto visibility = json.extension("KHR_node_visibility");
     nodes_.push_back({next.number, json,
-                      next.world_from_parent * read_transform(json, pose == poses_.end() ? nullptr : &pose->second)});
-    push(json.indices("children", place_.size()), next.depth + 1, nodes_.back().world_from_node);
+                      next.world_from_parent * read_transform(json, pose == poses_.end() ? nullptr : &pose->second),
+                      next.is_visible && (!visibility || visibility->flag("visible", true))});
+    push(json.indices("children", place_.size()), next.depth + 1, nodes_.back().world_from_node,
+         nodes_.back().is_visible);
   }
 }
 

@@ -16,6 +16,7 @@ struct GltfNode {
   std::size_t number;  ///< in the file
   JsonView json;
   float4x4 world_from_node;
+  bool is_visible = true;  ///< and all its ancestors (KHR_node_visibility)
 };
 
 /// The nodes of one of a file's scenes, each after its parent, in the order of a walk depth first.

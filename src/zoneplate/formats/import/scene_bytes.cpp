@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/import/scene_bytes.h"
 
+#include <memory>
+#include <optional>
 #include <type_traits>
 
 #include "zoneplate/base/large_array.h"
+#include "zoneplate/scene/material_layers.h"
 #include "zoneplate/scene/validate.h"
 
 namespace zoneplate {
@@ -47,6 +50,19 @@ class Writer {
       value(size);
       sink_(plane.values().data(), plane.values().size_bytes());
     });
+  }
+  void optional(std::optional<float>& number) {
+    bool is_given = number.has_value();
+    choice(is_given);
+    if (is_given) value(*number);
+  }
+  template <class T, class Each>
+  void shared(std::shared_ptr<const T>& item, Each each) {
+    bool is_given = item != nullptr;
+    choice(is_given);
+    if (!is_given) return;
+    T copy = *item;
+    each(copy);
   }
   template <class T, class Each>
   void list(std::vector<T>& items, Each each) {
@@ -104,6 +120,21 @@ class Reader {
       pixels = plane<Rgba16>();
     else
       pixels = plane<float4>();
+  }
+  void optional(std::optional<float>& number) {
+    bool is_given = false;
+    choice(is_given);
+    if (is_given) value(number.emplace());
+  }
+  template <class T, class Each>
+  void shared(std::shared_ptr<const T>& item, Each each) {
+    bool is_given = false;
+    choice(is_given);
+    if (!is_given) return;
+    budget_.take(sizeof(T));
+    T read;
+    each(read);
+    item = std::make_shared<const T>(read);
   }
   template <class T, class Each>
   void list(std::vector<T>& items, Each each) {
@@ -171,12 +202,26 @@ void pass(S& s, TextureUse& t) {
 }
 
 template <class S>
+void pass(S& s, MaterialLayers& l) {
+  s.value(l.ior), s.value(l.specular), s.value(l.specular_color);
+  s.value(l.clearcoat), s.value(l.clearcoat_roughness), s.value(l.clearcoat_normal_scale);
+  s.value(l.sheen_color), s.value(l.sheen_roughness), s.value(l.anisotropy), s.value(l.anisotropy_rotation);
+  s.value(l.iridescence), s.value(l.iridescence_ior), s.value(l.iridescence_thickness_minimum);
+  s.value(l.iridescence_thickness_maximum), s.value(l.transmission), s.value(l.thickness);
+  s.value(l.attenuation_distance), s.value(l.attenuation_color), s.value(l.dispersion);
+  s.value(l.diffuse_transmission), s.value(l.diffuse_transmission_color);
+  s.optional(l.glossiness);
+  for (const LayerTextureSlot& slot : layer_texture_slots) pass(s, l.*slot.use);
+}
+
+template <class S>
 void pass(S& s, Material& m) {
   s.text(m.name), s.choice(m.model, ShadingModel::Unlit), s.choice(m.alpha_mode, AlphaMode::Blend);
   s.value(m.alpha_cutoff), s.choice(m.double_sided);
   s.value(m.base_color), s.value(m.emissive), s.value(m.normal_scale), s.value(m.occlusion_strength);
   s.value(m.metallic), s.value(m.roughness), s.value(m.ambient), s.value(m.specular), s.value(m.exponent);
   for (const MaterialTextureSlot& slot : material_texture_slots) pass(s, m.*slot.use);
+  s.shared(m.layers, [&](MaterialLayers& layers) { pass(s, layers); });
 }
 
 template <class S>

@@ -10,6 +10,7 @@
 #include "zoneplate/formats/gltf/sample_for_test.h"
 #include "zoneplate/formats/import/damage_for_test.h"
 #include "zoneplate/formats/import/scene_bytes_for_test.h"
+#include "zoneplate/scene/material_layers.h"
 
 namespace zoneplate {
 namespace {
@@ -40,6 +41,19 @@ Scene full_scene() {
   s.cameras.push_back({.name = "eye", .is_orthographic = true, .half_height = 3, .aspect = 2});
   s.materials[0].double_sided = !s.materials[0].double_sided;
   s.materials[0].exponent = 77;
+  MaterialLayers layers{.ior = 2,
+                        .specular = 0.5f,
+                        .glossiness = 0.25f,
+                        .clearcoat = 0.75f,
+                        .anisotropy_rotation = -3,
+                        .iridescence_thickness_maximum = 500,
+                        .thickness = 4,
+                        .attenuation_distance = 2,
+                        .attenuation_color = {0.5f, 0.25f, 1},
+                        .dispersion = 3,
+                        .diffuse_transmission = 0.5f};
+  layers.sheen_roughness_texture.image = 0;
+  s.materials[0].layers = std::make_shared<const MaterialLayers>(layers);
   s.images.push_back({"deep", Rgba16Image(2, 3, {1, 2, 3, 4})});
   s.images.push_back({"bright", Plane<float4>(1, 2, float4{1e5f, 0.25f, 0, 1})});
   return s;
@@ -64,6 +78,14 @@ TEST(SceneBytes, BringWholeScenesOver) {
   EXPECT_EQ(other.environment, scene.environment);
   for (const MaterialTextureSlot& slot : material_texture_slots)
     EXPECT_EQ((other.materials[0].*slot.use).image, (scene.materials[0].*slot.use).image) << slot.gltf_name;
+  ASSERT_NE(other.materials[0].layers, nullptr);
+  const MaterialLayers &l = *other.materials[0].layers, &expected = *scene.materials[0].layers;
+  EXPECT_EQ(l.glossiness, expected.glossiness);
+  EXPECT_EQ(l.attenuation_color, expected.attenuation_color);
+  EXPECT_EQ(l.dispersion, expected.dispersion);
+  for (const LayerTextureSlot& slot : layer_texture_slots)
+    EXPECT_EQ((l.*slot.use).image, (expected.*slot.use).image) << slot.gltf_name;
+  EXPECT_EQ(other.materials.back().layers, nullptr);
   EXPECT_EQ(other.cameras.back().name, "eye");
   EXPECT_EQ(other.animations.size(), scene.animations.size());
   EXPECT_EQ(other.variants, scene.variants);

@@ -128,12 +128,18 @@ class MtlReader {
 
   bool read_value(const std::string& key, LineWords words) {
     MtlMaterial& m = *open_;
-    std::optional<float>* target = key == "ns"   ? &m.exponent
-                                   : key == "d"  ? &m.opacity
-                                   : key == "tr" ? &m.transparency
-                                   : key == "pr" ? &m.roughness
-                                   : key == "pm" ? &m.metallic
-                                                 : nullptr;
+    std::optional<float>* target = key == "ns"       ? &m.exponent
+                                   : key == "d"      ? &m.opacity
+                                   : key == "tr"     ? &m.transparency
+                                   : key == "pr"     ? &m.roughness
+                                   : key == "pm"     ? &m.metallic
+                                   : key == "ps"     ? &m.sheen
+                                   : key == "pc"     ? &m.clearcoat
+                                   : key == "pcr"    ? &m.clearcoat_roughness
+                                   : key == "aniso"  ? &m.anisotropy
+                                   : key == "anisor" ? &m.anisotropy_rotation
+                                   : key == "ni"     ? &m.index_of_refraction
+                                                     : nullptr;
     if (target == nullptr && key != "illum") return false;
     std::string_view word = words.next();
     if (word == "-halo") word = words.next();
@@ -152,6 +158,10 @@ class MtlReader {
                          : key == "map_ke" ? &m.emissive_map
                          : key == "map_d"  ? &m.opacity_map
                          : key == "norm"   ? &m.normal_map
+                         : key == "map_ks" ? &m.specular_map
+                         : key == "map_ns" ? &m.exponent_map
+                         : key == "map_pr" ? &m.roughness_map
+                         : key == "map_pm" ? &m.metallic_map
                                            : nullptr;
     if (target != nullptr) {
       *target = read_texture(words);
@@ -166,8 +176,7 @@ class MtlReader {
       if (is_new && m.unsupported.size() < most_keys) m.unsupported.push_back(key);
       return;
     }
-    constexpr std::array known = {"ni",    "tf",     "sharpness", "km",      "ps",     "pc",      "pcr",
-                                  "aniso", "anisor", "map_ka",    "map_aat", "xalpha", "spectral"};
+    constexpr std::array known = {"tf", "sharpness", "km", "map_ka", "map_aat", "xalpha", "spectral"};
     if (std::find(known.begin(), known.end(), key) == known.end())
       warn(fmt::format("'{}' is unknown and ignored", key.substr(0, 40)));
   }

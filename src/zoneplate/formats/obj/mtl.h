@@ -24,9 +24,14 @@ struct MtlMaterial {
   std::string name;
   std::optional<float3> diffuse, ambient, specular, emissive;     ///< Kd Ka Ks Ke
   std::optional<float> exponent, opacity, transparency;           ///< Ns d Tr
-  std::optional<float> roughness, metallic;                       ///< Pr Pm
+  std::optional<float> roughness, metallic, sheen;                ///< Pr Pm Ps
+  std::optional<float> clearcoat, clearcoat_roughness;            ///< Pc Pcr
+  std::optional<float> anisotropy, anisotropy_rotation;           ///< aniso anisor, the latter in turns
+  std::optional<float> index_of_refraction;                       ///< Ni
   std::optional<int> illumination;                                ///< illum
   MtlTexture diffuse_map, emissive_map, opacity_map, normal_map;  ///< map_Kd map_Ke map_d norm
+  MtlTexture specular_map, exponent_map;                          ///< map_Ks map_Ns
+  MtlTexture roughness_map, metallic_map;                         ///< map_Pr map_Pm
   std::vector<std::string> unsupported;                           ///< keys of maps that are not drawn, each once
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/scene/channel_image.h"
+#include "zoneplate/scene/material_layers.h"
 #include "zoneplate/scene/opacity_map.h"
 
 namespace zoneplate {
@@ -65,11 +68,45 @@ void add_opacity(const MtlMaterial& mtl, const std::string& within, ModelFolder&
   material.alpha_mode = AlphaMode::Blend;
 }
 
+/// Joins the maps of roughness and metalness in one image, a new one.
+void add_metallic_roughness(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder, Material& m) {
+  const auto find = [&](const MtlTexture& texture) {
+    return texture.file.empty() ? -1 : folder.image(within, texture.file);
+  };
+  const int roughness = find(mtl.roughness_map), metallic = find(mtl.metallic_map);
+  if (roughness < 0 && metallic < 0) return;
+  std::vector<TextureImage>& images = folder.scene().images;
+  const auto pixels = [&](int i) { return i < 0 ? nullptr : &images[static_cast<std::size_t>(i)].pixels; };
+  folder.budget().take(with_metallic_roughness_memory(pixels(roughness), pixels(metallic)));
+  TextureImage both{images[static_cast<std::size_t>(std::max(roughness, metallic))].name,
+                    with_metallic_roughness(pixels(roughness), pixels(metallic))};
+  m.metallic_roughness_texture =
+      use_of(roughness >= 0 ? mtl.roughness_map : mtl.metallic_map, static_cast<int>(images.size()));
+  images.push_back(std::move(both));
+}
+
 void warn_of_maps(const MtlMaterial& mtl, ModelFolder& folder) {
   if (mtl.unsupported.empty()) return;
   std::string keys;
   for (const std::string& key : mtl.unsupported) keys += (keys.empty() ? "" : ", ") + key;
   folder.warn(fmt::format("{}: material {}: not drawn: {}", folder.budget().file(), mtl.name, keys));
+}
+
+/// The layers of a metallic-roughness material, with the index of refraction of its dielectric part.
+void add_layers(const MtlMaterial& mtl, Material& m) {
+  const auto share = [](const std::optional<float>& value) { return std::clamp(value.value_or(0), 0.0f, 1.0f); };
+  constexpr float full_turn = 6.2831853f;
+  constexpr float sheen_roughness = 0.5f;  // MTL has no key for it
+  MaterialLayers layers;
+  layers.ior = std::clamp(mtl.index_of_refraction.value_or(1.5f), 1.0f, 10.0f);
+  layers.sheen_color = float3{1, 1, 1} * share(mtl.sheen);
+  layers.sheen_roughness = sheen_roughness;
+  layers.clearcoat = share(mtl.clearcoat);
+  layers.clearcoat_roughness = share(mtl.clearcoat_roughness);
+  layers.anisotropy = share(mtl.anisotropy);
+  layers.anisotropy_rotation = std::clamp(mtl.anisotropy_rotation.value_or(0), -1.0f, 1.0f) * full_turn;
+  if (layers.ior != 1.5f || mtl.sheen || mtl.clearcoat || mtl.anisotropy)
+    m.layers = std::make_shared<const MaterialLayers>(layers);
 }
 
 }  // namespace
@@ -89,13 +126,20 @@ Material make_material(const MtlMaterial& mtl, const std::string& within, ModelF
   m.ambient = mtl.ambient ? linear(*mtl.ambient) : base;
 
   const int illumination = mtl.illumination.value_or(2);
-  if (illumination > 1) m.specular = linear(mtl.specular.value_or(float3{0, 0, 0}));
+  if (illumination > 1) {
+    m.specular_texture = load_texture(mtl.specular_map, within, folder);
+    m.specular = factor(mtl.specular, m.specular_texture.image >= 0, {0, 0, 0}, mtl, "Ks", folder);
+    m.exponent_texture = load_texture(mtl.exponent_map, within, folder);
+  }
   m.exponent = std::clamp(mtl.exponent.value_or(32), 1.0f, 1e5f);
   if (illumination == 0) m.model = ShadingModel::Unlit;
-  if (mtl.roughness || mtl.metallic) {
+  const bool has_roughness_map = !mtl.roughness_map.file.empty(), has_metallic_map = !mtl.metallic_map.file.empty();
+  if (mtl.roughness || mtl.metallic || has_roughness_map || has_metallic_map) {
     m.model = ShadingModel::MetallicRoughness;
     m.roughness = std::clamp(mtl.roughness.value_or(1), 0.0f, 1.0f);
-    m.metallic = std::clamp(mtl.metallic.value_or(0), 0.0f, 1.0f);
+    m.metallic = std::clamp(mtl.metallic.value_or(has_metallic_map ? 1.0f : 0.0f), 0.0f, 1.0f);
+    add_metallic_roughness(mtl, within, folder, m);
+    add_layers(mtl, m);
   }
   add_opacity(mtl, within, folder, m);
   warn_of_maps(mtl, folder);

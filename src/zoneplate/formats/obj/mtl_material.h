@@ -13,9 +13,10 @@ namespace zoneplate {
 ///
 /// Kd, Ka, Ks and Ke are sRGB-encoded, as programs write display colours. Values above 1 are unchanged. The model is
 /// Blinn-Phong, with the ambient reflectance Ka, or Kd without a Ka; illum 0 is unlit, illum 1 without highlights; with
-/// Pr or Pm, metallic-roughness. A black Kd or Ke with an image counts as white, with a warning. d below 1, or a map_d
-/// that is not opaque, makes the material blended; map_d becomes the alpha of the base colour image. All surfaces are
-/// double-sided, as OBJ has no other kind.
+/// Pr, Pm or a map of them, metallic-roughness with the layers of Ps, Pc, Pcr, aniso and anisor and the index of
+/// refraction Ni. map_Ks multiplies Ks, map_Ns Ns. A black Kd, Ks or Ke with an image counts as white, with a warning.
+/// d below 1, or a map_d that is not opaque, makes the material blended; map_d becomes the alpha of the base colour
+/// image. All surfaces are double-sided, as OBJ has no other kind.
 Material make_material(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder);
 
 }  // namespace zoneplate

@@ -10,6 +10,7 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/obj/obj.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/scene/material_layers.h"
 
 namespace zoneplate {
 namespace {
@@ -99,6 +100,38 @@ TEST_F(MtlScene, FindsImagesWithinTheFolder) {
   fs::create_symlink(folder_ / "outside.png", folder_ / "model/link.png");
   EXPECT_EQ(first("link.png"), -1);
   EXPECT_EQ(first("."), -1);
+}
+
+TEST_F(MtlScene, HighlightsHaveMaps) {
+  write_png("model/s.png", {255, 0, 0, 255}, {0, 0, 0, 255});
+  const Material m = load("newmtl m\nKs 0 0 0\nNs 64\nmap_Ks s.png\nmap_Ns s.png\n").materials.at(0);
+  EXPECT_EQ(m.specular, (float3{1, 1, 1}));  // black over an image counts as white
+  EXPECT_EQ(m.specular_texture.image, 0);
+  EXPECT_EQ(m.exponent_texture.image, 0);
+  EXPECT_EQ(load("newmtl m\nillum 1\nmap_Ks s.png\n").materials.at(0).specular_texture.image, -1);
+}
+
+TEST_F(MtlScene, MetallicRoughnessMaterialsHaveMapsAndLayers) {
+  write_png("model/r.png", {10, 0, 0, 255}, {20, 0, 0, 255});
+  write_png("model/m.png", {30, 0, 0, 255}, {40, 0, 0, 255});
+  const Scene scene = load(
+      "newmtl m\nmap_Pr -s 2 2 r.png\nmap_Pm m.png\nPc 0.5\nPcr 0.25\nPs 0.75\naniso 0.5\n"
+      "anisor 0.25\nNi 1.25\n");
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.model, ShadingModel::MetallicRoughness);
+  EXPECT_EQ(m.roughness, 1);
+  EXPECT_EQ(m.metallic, 1);
+  const TexelImage& both = scene.images.at(static_cast<std::size_t>(m.metallic_roughness_texture.image)).pixels;
+  EXPECT_EQ(both.as<Rgba8>()(1, 0), (Rgba8{255, 20, 40, 255}));
+  EXPECT_EQ(m.metallic_roughness_texture.scale, (float2{2, 2}));
+  ASSERT_NE(m.layers, nullptr);
+  EXPECT_EQ(m.layers->clearcoat, 0.5f);
+  EXPECT_EQ(m.layers->clearcoat_roughness, 0.25f);
+  EXPECT_EQ(m.layers->sheen_color, (float3{0.75f, 0.75f, 0.75f}));
+  EXPECT_EQ(m.layers->anisotropy, 0.5f);
+  EXPECT_NEAR(m.layers->anisotropy_rotation, 1.5707963f, 1e-6f);
+  EXPECT_EQ(m.layers->ior, 1.25f);
+  EXPECT_EQ(load("newmtl m\nPr 0.5\n").materials.at(0).layers, nullptr);
 }
 
 TEST_F(MtlScene, WarnsOfWhatIsMissing) {

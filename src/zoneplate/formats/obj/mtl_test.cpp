@@ -52,8 +52,25 @@ TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   EXPECT_EQ(m.opacity_map.file, "mask.png");
   EXPECT_EQ(m.normal_map.strength, 0.5f);
   EXPECT_EQ(m.emissive_map.file, "7");
-  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"map_bump", "map_pr"}));
+  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"map_bump"}));
   EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
+}
+
+TEST(ParseMtl, ReadsTheKeysOfLayers) {
+  const Parsed p =
+      parse("newmtl a\nPs 0.1\nPc 0.2\nPcr 0.3\naniso 0.4\nanisor 0.5\nNi 1.33\nmap_Ks s.png\nmap_Ns n.png\n");
+  const MtlMaterial& m = p.materials.at(0);
+  EXPECT_EQ(m.sheen, 0.1f);
+  EXPECT_EQ(m.clearcoat, 0.2f);
+  EXPECT_EQ(m.clearcoat_roughness, 0.3f);
+  EXPECT_EQ(m.anisotropy, 0.4f);
+  EXPECT_EQ(m.anisotropy_rotation, 0.5f);
+  EXPECT_EQ(m.index_of_refraction, 1.33f);
+  EXPECT_EQ(m.specular_map.file, "s.png");
+  EXPECT_EQ(m.exponent_map.file, "n.png");
+  EXPECT_EQ(m.roughness_map.file, "");
+  EXPECT_TRUE(p.warnings.empty());
+  EXPECT_TRUE(m.unsupported.empty());
 }
 
 TEST(ParseMtl, TakesTimeInProportionToALinesLength) {

@@ -24,6 +24,7 @@ struct PlainUniforms {
   static constexpr bool has_sun_only = true;
   static constexpr bool has_occlusion = false, has_emissive = false, has_emissive_texture = false;
   static constexpr bool has_bare_meshes = false, is_blended = false;
+  static constexpr bool has_specular_texture = false, has_exponent_texture = false;
 };
 
 /// The general case, read at run time.
@@ -31,18 +32,22 @@ struct AnyUniforms {
   int lights;
   static constexpr bool has_sun_only = false;
   bool has_occlusion, has_emissive, has_emissive_texture, has_bare_meshes, is_blended;
+  bool has_specular_texture, has_exponent_texture;
   explicit AnyUniforms(const ShadingUniforms& s)
       : lights(s.lights),
         has_occlusion(s.has_occlusion),
         has_emissive(s.has_emissive),
         has_emissive_texture(s.has_emissive_texture),
         has_bare_meshes(s.has_bare_meshes),
-        is_blended(s.is_blended) {}
+        is_blended(s.is_blended),
+        has_specular_texture(s.has_specular_texture),
+        has_exponent_texture(s.has_exponent_texture) {}
 };
 
 inline bool is_plain(const ShadingUniforms& s, const ShadingState& p) {
   return p.light_visibility == nullptr && s.lights == 1 && s.light[0].is_directional && !s.has_occlusion &&
-         !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended;
+         !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended && !s.has_specular_texture &&
+         !s.has_exponent_texture;
 }
 
 /// The irradiance of a light at fragments, perpendicular to its direction.
@@ -168,6 +173,14 @@ template <class F, Highlight highlight>
   }
 }
 
+/// The same with the exponents of a texture.
+template <class F, Highlight highlight>
+[[gnu::always_inline]] inline void raise_cosines(const ShadingState& p, Cosines& cosines) {
+  const F factor(highlight == Highlight::Phong ? 1.0f : 0.5f);
+  for (int i = 0; i < p.count; i += F::lanes)
+    pow(F::load(cosines.highlight + i), F::load(p.exponent + i) * factor).store(cosines.highlight + i);
+}
+
 /// The light accumulated at fragments, for base colour and highlight.
 template <class F>
 struct Gathered {
@@ -189,7 +202,9 @@ template <class F, Highlight highlight, class Kind>
                                                   const Gathered<F>& light, FragmentOutputs& out, int i) {
   const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
   Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
-  if constexpr (highlight != Highlight::None) sum = sum + Vector<F>::all(s.specular) * light.specular;
+  if constexpr (highlight != Highlight::None)
+    sum = sum +
+          (kind.has_specular_texture ? Vector<F>::load(p.specular, i) : Vector<F>::all(s.specular)) * light.specular;
   finish(s, kind, p, sum, base, out, i);
 }
 
@@ -207,7 +222,12 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
   for (int k = 0; k < kind.lights; ++k) {
     const PreparedLight light = s.light[k];
     find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
-    if constexpr (highlight != Highlight::None) raise_cosines<F, highlight>(s.exponent, cosines, p.count);
+    if constexpr (highlight != Highlight::None) {
+      if (kind.has_exponent_texture)
+        raise_cosines<F, highlight>(p, cosines);
+      else
+        raise_cosines<F, highlight>(s.exponent, cosines, p.count);
+    }
     for (int i = 0; i < p.count; i += F::lanes) {
       Gathered<F> all = gather<F, highlight>(light, k, kind.has_sun_only, p, cosines, i);
       if (k > 0) {
@@ -240,17 +260,14 @@ void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const Sha
 template <class F>
 struct ConstantEnvironment {
   Vector<F> radiance;
-  SpecularFit<F> one_fit;
 
-  explicit ConstantEnvironment(const ShadingUniforms& s)
-      : radiance(Vector<F>::all(s.environment)), one_fit(F(s.roughness)) {}
+  explicit ConstantEnvironment(const ShadingUniforms& s) : radiance(Vector<F>::all(s.environment)) {}
 
-  template <bool has_texture, class Kind>
-  [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
-                                             Vector<F> base, F metallic, F roughness, int i) const {
-    const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
-    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
-    return unoccluded(kind, p, radiance, i) * metallic_environment(base, metallic, fit, nv);
+  template <class Kind>
+  [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> /*n*/, Vector<F> /*v*/,
+                                             Vector<F> base, F metallic, F /*roughness*/, SpecularWeights<F> weights,
+                                             int i) const {
+    return unoccluded(kind, p, radiance, i) * metallic_environment(base, metallic, weights);
   }
 };
 
@@ -258,16 +275,15 @@ struct ConstantEnvironment {
 template <class F>
 struct MappedEnvironment {
   const EnvironmentView& map;
-  SpecularFit<F> one_fit;
 
-  explicit MappedEnvironment(const ShadingUniforms& s) : map(*s.map), one_fit(F(s.roughness)) {}
+  explicit MappedEnvironment(const ShadingUniforms& s) : map(*s.map) {}
 
-  template <bool has_texture, class Kind>
+  template <class Kind>
   [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
-                                             Vector<F> base, F metallic, F roughness, int i) const {
-    const F along = dot(n, v), nv = min(max(along, F(0.0f)), F(1.0f));
-    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
-    const EnvironmentShares<F> shares = metallic_shares(base, metallic, fit.at(nv));
+                                             Vector<F> base, F metallic, F roughness, SpecularWeights<F> weights,
+                                             int i) const {
+    const EnvironmentShares<F> shares = metallic_shares(base, metallic, weights);
+    const F along = dot(n, v);
     const Vector<F> mirror = n * (along + along) - v;
     const Vector<F> sum =
         shares.mirrored * specular_light(map, mirror, roughness) + shares.scattered * diffuse_light(map, n);
@@ -278,6 +294,7 @@ struct MappedEnvironment {
 template <class F, bool has_texture, class Environment>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   const Environment environment(s);
+  const SpecularFit<F> one_fit{F(s.roughness)};
   const AnyUniforms kind(s);
   const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
@@ -285,14 +302,15 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
     const F metallic = has_texture ? F::load(p.metallic + i) : F(s.metallic);
     const F roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
-    const Metallic<F> m = make_metallic(base, metallic, roughness);
+    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
+    const SpecularWeights<F> weights = fit.at(min(max(dot(n, v), F(0.0f)), F(1.0f)));
+    const Metallic<F> m = make_metallic(base, metallic, roughness, weights);
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
     }
-    if (s.has_environment)
-      sum = sum + environment.template reflected<has_texture>(kind, p, n, v, base, metallic, roughness, i);
+    if (s.has_environment) sum = sum + environment.reflected(kind, p, n, v, base, metallic, roughness, weights, i);
     finish(s, kind, p, sum, base, out, i);
   }
 }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
@@ -18,18 +20,29 @@ bool uses_slot(const Material& m, TextureSlotIndex slot) {
   if (slot == TextureSlotIndex::BaseColor) return true;
   if (m.model == ShadingModel::Unlit) return false;
   if (slot == TextureSlotIndex::Emissive) return !is_black(m.emissive);
+  if (slot == TextureSlotIndex::Specular || slot == TextureSlotIndex::Exponent)
+    return m.model != ShadingModel::MetallicRoughness && !is_black(m.specular);
   return slot != TextureSlotIndex::MetallicRoughness || m.model == ShadingModel::MetallicRoughness;
 }
 
-TexelMeaning meaning_of(const MaterialTextureSlot& slot) {
-  return slot.is_color ? TexelMeaning::Color : TexelMeaning::Values;
-}
+TexelMeaning meaning_of(bool is_color) { return is_color ? TexelMeaning::Color : TexelMeaning::Values; }
 
-/// Calls use(slot index, slot) for every slot whose texture affects the material's colour.
+/// Calls use(slot index, texture use, meaning) for every slot whose texture affects the material's colour.
 template <class Use>
 void for_used_slots(const Material& m, Use use) {
-  for (std::size_t i = 0; i < texture_slot_count; ++i)
-    if (uses_slot(m, static_cast<TextureSlotIndex>(i))) use(i, material_texture_slots[i]);
+  for (std::size_t i = 0; i < texture_slot_count; ++i) {
+    const MaterialTextureSlot& slot = material_texture_slots[i];
+    if (uses_slot(m, static_cast<TextureSlotIndex>(i))) use(i, m.*slot.use, meaning_of(slot.is_color));
+  }
+}
+
+/// The same for the slots of the material's layers. Requires: it has layers.
+template <class Use>
+void for_used_layer_slots(const Material& m, Use use) {
+  for (std::size_t i = 0; i < layer_texture_slot_count; ++i) {
+    const LayerTextureSlot& slot = layer_texture_slots[i];
+    if (uses_slot(*m.layers, static_cast<LayerSlotIndex>(i))) use(i, (*m.layers).*slot.use, meaning_of(slot.is_color));
+  }
 }
 
 TextureSlot make_slot(const TextureUse& use, const Texture* texture, int anisotropy) {
@@ -72,10 +85,16 @@ void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) 
 }
 
 void find_slots(const Material& m, const TextureSet& textures, int anisotropy, MaterialPlan& plan) {
-  for_used_slots(m, [&](std::size_t i, const MaterialTextureSlot& slot) {
-    const TextureUse& use = m.*slot.use;
-    plan.slots[i] = make_slot(use, textures.find(use, meaning_of(slot)), anisotropy);
-  });
+  const auto slot_of = [&](const TextureUse& use, TexelMeaning meaning) {
+    return make_slot(use, textures.find(use, meaning), anisotropy);
+  };
+  for_used_slots(
+      m, [&](std::size_t i, const TextureUse& use, TexelMeaning meaning) { plan.slots[i] = slot_of(use, meaning); });
+  if (!has_layers(m)) return;
+  LayeredPlan layers{.layers = *m.layers, .slots = {}, .uniforms = make_layered_uniforms(*m.layers)};
+  for_used_layer_slots(
+      m, [&](std::size_t i, const TextureUse& use, TexelMeaning meaning) { layers.slots[i] = slot_of(use, meaning); });
+  plan.layers = std::make_shared<const LayeredPlan>(std::move(layers));
 }
 
 /// Decides which stages are needed, from the lights and textures that exist.
@@ -85,7 +104,8 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   const bool has_places = std::any_of(s.lights.begin(), s.lights.end(),
                                       [](const Light& light) { return light.kind != LightKind::Directional; });
   plan.is_lit = m.model != ShadingModel::Unlit;
-  const bool uses_normal = plan.is_lit && (has_lights || (is_metallic && !is_black(s.environment)));
+  const bool uses_normal =
+      plan.is_lit && (has_lights || plan.layers != nullptr || (is_metallic && !is_black(s.environment)));
   plan.has_specular = plan.is_lit && !is_metallic && has_lights && !is_black(m.specular);
   plan.has_emissive = plan.is_lit && !is_black(m.emissive);
   plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
@@ -96,9 +116,17 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   a.position = (plan.needs_viewer && !s.is_orthographic && !s.rays) || (uses_normal && has_places);
   a.normal = uses_normal;
   a.tangent = normal.texture != nullptr;
-  a.tangent_uv_set = normal.uv_set;
-  for (const TextureSlot& slot : plan.slots)
+  a.tangent_uv_set = tangent_uv_set(m);
+  const auto use_coordinates = [&](const TextureSlot& slot) {
     if (slot.texture != nullptr) a.uv[slot.uv_set] = true;
+  };
+  for (const TextureSlot& slot : plan.slots) use_coordinates(slot);
+  if (plan.layers == nullptr) return;
+  for (const TextureSlot& slot : plan.layers->slots) use_coordinates(slot);
+  // Where light leaves a volume depends on where it enters.
+  const bool has_pixels = s.shading_frequency == ShadingFrequency::Fragment;
+  if (s.backdrop && (plan.layers->uniforms.has_volume || !has_pixels)) a.position = true;
+  if (plan.layers->uniforms.has_anisotropy || plan.layers->has(LayerSlotIndex::ClearcoatNormal)) a.tangent = true;
 }
 
 }  // namespace
@@ -128,14 +156,16 @@ TextureSet TextureSet::take(Scene& scene, bool raw_colors) {
 
 void TextureSet::find_uses(const Scene& scene) {
   for (const TextureImage& image : scene.images) is_light_.push_back(image.pixels.kind() == TexelKind::Light);
-  for (const Material& material : scene.materials)
-    for_used_slots(material, [&](std::size_t, const MaterialTextureSlot& slot) {
-      const int number = (material.*slot.use).image;
-      if (number < 0) return;
-      const TextureImage& image = scene.images.at(static_cast<std::size_t>(number));
+  for (const Material& material : scene.materials) {
+    const auto add = [&](std::size_t, const TextureUse& use, TexelMeaning meaning) {
+      if (use.image < 0) return;
+      const TextureImage& image = scene.images.at(static_cast<std::size_t>(use.image));
       if (image.pixels.empty()) throw Error(ErrorKind::Input, "texture " + image.name + ": has no texels");
-      textures_[key_of(number, meaning_of(slot))] = nullptr;
-    });
+      textures_[key_of(use.image, meaning)] = nullptr;
+    };
+    for_used_slots(material, add);
+    if (has_layers(material)) for_used_layer_slots(material, add);
+  }
 }
 
 TextureSet::Key TextureSet::key_of(int image, TexelMeaning meaning) const {

@@ -17,6 +17,8 @@
 
 namespace zoneplate {
 
+struct LayeredPlan;
+
 /// The textures of a scene's materials. An image that is used both as colour and as data makes two textures.
 class TextureSet {
  public:
@@ -66,6 +68,7 @@ struct MaterialPlan {
   const TextureSlot& slot(TextureSlotIndex index) const { return slots[static_cast<std::size_t>(index)]; }
   TextureSlot& slot(TextureSlotIndex index) { return slots[static_cast<std::size_t>(index)]; }
 
+  std::shared_ptr<const LayeredPlan> layers;  ///< null: none
   float factor[4] = {1, 1, 1, 1};
   float metallic = 1, roughness = 1;
   float emissive_factor[3] = {0, 0, 0};

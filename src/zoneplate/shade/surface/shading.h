@@ -3,11 +3,13 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/surface/layered.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/shading_state.h"
 
 namespace zoneplate {
 
+struct BackdropView;
 struct EnvironmentView;
 
 /// The position or direction of the viewer.
@@ -32,6 +34,7 @@ struct ShadingUniforms {
 
   // (Blinn-)Phong.
   bool has_specular = false, is_phong = false;
+  bool has_specular_texture = false, has_exponent_texture = false;
   float ambient[3] = {0, 0, 0}, specular[3] = {0, 0, 0};
   Exponent exponent;
 
@@ -40,6 +43,8 @@ struct ShadingUniforms {
   float metallic = 1, roughness = 1;
   float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null
   const EnvironmentView* map = nullptr;
+  bool has_pixels = true;                  ///< FragmentBatch::x and y are set; else the positions are
+  const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
 };
 
 /// A linear map of texture coordinates: u' = (u m[0] + v m[1]) + m[2], v' = (u m[3] + v m[4]) + m[5].
@@ -101,6 +106,9 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// The same with an environment map.
   void (*light_metallic_in_map)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                                 FragmentOutputs& out);
+  /// The same for a surface with layers.
+  void (*light_layered)(const ShadingUniforms& uniforms, const LayeredUniforms& layers, const FragmentBatch& batch,
+                        const ShadingState& state, const LayerState& layer_state, FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& state, FragmentOutputs& out);
 };
 

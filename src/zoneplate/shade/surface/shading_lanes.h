@@ -2,6 +2,7 @@
 #pragma once
 
 #include "zoneplate/shade/surface/geometry_lanes.h"
+#include "zoneplate/shade/surface/layered_lanes.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
 
 namespace zoneplate::stages {
@@ -25,6 +26,7 @@ constexpr SurfaceKernels all() {
       .light_phong = &light_phong<Wide>,
       .light_metallic = &light_metallic<Wide>,
       .light_metallic_in_map = &light_metallic_in_map<Wide>,
+      .light_layered = &light_layered<F>,
       .unlit = &unlit<Wide>,
   };
 }

@@ -32,6 +32,7 @@ struct ShadingState {
   alignas(64) Array base[4];
   alignas(64) Array metallic, roughness, occlusion;
   alignas(64) Array emissive[3];
+  alignas(64) Array specular[3], exponent;  ///< of (Blinn-)Phong, where they are textured
 };
 
 /// The vertex records (shade/surface/vertices.h) of a batch's triangles. A group of one triangle has them at the leader
@@ -64,7 +65,7 @@ struct InstanceTransform {
   float normal[9];              ///< columns of the normal matrix, to any scale
   float handedness;             ///< -1 where the transform mirrors
   float keeps_normals;          ///< 1 where the normal matrix is the identity, else 0
-  float unused;
+  float scale;                  ///< of lengths, on average over the axes
 };
 
 /// One array of a ShadingState, by its offset, so that it applies to any of them; none by default.

@@ -24,6 +24,7 @@ struct Bench {
   FragmentBatch batch;
   TriangleVertices vertices;
   ShadingState points;
+  LayerState layers;
   Coordinates coordinates;
   FragmentOutputs shaded;
   InstanceTransform transforms[5];
@@ -50,7 +51,7 @@ struct Bench {
     ShadingState& p = points;
     fill(p.position), fill(p.normal), fill(p.tangent), fill(p.color), fill(p.uv), fill(p.uv_dx), fill(p.uv_dy);
     fill(p.is_lit), fill(p.base), fill(p.metallic), fill(p.roughness), fill(p.occlusion);
-    fill(p.emissive);
+    fill(p.emissive), fill(p.specular), fill(p.exponent), fill(layers);
     for (std::uint32_t i = 0; i < FragmentBatch::capacity; ++i) {
       batch.is_front[i] = static_cast<std::int32_t>(hash(i) & 1);
       batch.instance[i] = i / 8 % 3 == 0 ? hash(i, 1) % 5 : hash(i / 8) % 5;
@@ -166,13 +167,22 @@ std::vector<Stage> stages() {
       ShadingUniforms& s = b.light;
       s.has_specular = bit(0), s.is_phong = s.has_occlusion = bit(1), s.has_emissive_texture = s.is_blended = bit(2);
       s.viewpoint.has_rays = bit(3), s.viewpoint.is_orthographic = bit(4), s.has_material_texture = bit(5);
-      s.has_bare_meshes = bit(3) != bit(5), s.exponent = bit(5) ? Exponent{40, 40} : Exponent{17.5f, 0};
+      s.has_bare_meshes = bit(3) != bit(5), s.has_specular_texture = bit(2) != bit(4);
+      s.has_exponent_texture = bit(4), s.exponent = bit(5) ? Exponent{40, 40} : Exponent{17.5f, 0};
       b.points.light_visibility = bit(1) != bit(4) ? visibility().data() : nullptr;
     };
     all.push_back(
         {"light_phong", [light](K k, B b) { light(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
     all.push_back(
         {"light_metallic", [light](K k, B b) { light(b), k.light_metallic(b.light, b.batch, b.points, b.shaded); }});
+    LayeredUniforms layers;
+    layers.has_clearcoat = bit(0), layers.has_sheen = bit(1), layers.has_anisotropy = bit(2);
+    layers.has_iridescence = bit(3), layers.has_transmission = bit(4), layers.has_diffuse_transmission = bit(5);
+    layers.has_volume = bit(0) != bit(5), layers.half_spread = bit(1) ? 0.0f : 0.1f;
+    layers.absorption[0] = 0.5f, layers.absorption[2] = 7;
+    all.push_back({"light_layered", [light, layers](K k, B b) {
+                     light(b), k.light_layered(b.light, layers, b.batch, b.points, b.layers, b.shaded);
+                   }});
   }
   return all;
 }

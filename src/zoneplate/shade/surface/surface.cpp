@@ -2,10 +2,14 @@
 #include "zoneplate/shade/surface/surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "zoneplate/shade/surface/brightness.h"
+#include "zoneplate/shade/surface/corners.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/surface/receivers.h"
@@ -48,10 +52,14 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
   copy(plan.emissive_factor, s.emissive);
   s.has_specular = plan.has_specular, s.is_phong = plan.model == ShadingModel::Phong;
+  s.has_specular_texture = plan.has_specular && plan.slot(TextureSlotIndex::Specular).texture != nullptr;
+  s.has_exponent_texture = plan.has_specular && plan.slot(TextureSlotIndex::Exponent).texture != nullptr;
   copy(plan.ambient_factor, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   s.metallic = plan.metallic, s.roughness = plan.roughness;
+  s.backdrop = view.backdrop ? &*view.backdrop : nullptr;
+  s.has_pixels = view.shading_frequency == ShadingFrequency::Fragment;
   const float3 environment = view.environment;
   s.map = view.map ? &*view.map : nullptr;
   s.has_environment = environment.x > 0 || environment.y > 0 || environment.z > 0;
@@ -118,6 +126,9 @@ struct SurfaceShader::Data::BatchShading {
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot whose texture look-up made `taps`
   std::unique_ptr<float[]> light_visibility;
+  LayerState q;
+  bool is_corner =
+      false;  ///< shaded at a corner of a triangle: the texture of the base colour is left to its fragments
   alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
@@ -129,6 +140,7 @@ struct SurfaceShader::Data::BatchShading {
   void interpolate(const Needs& needs);
   Footprint footprint(const TextureSlot& slot);
   void sample(const TextureSlot& slot, float* const out[4]);
+  void shade_color(FragmentOutputs& out);
   void find_base();
   void find_normals();
   void find_emissive();
@@ -136,7 +148,15 @@ struct SurfaceShader::Data::BatchShading {
   void find_occlusion();
   void find_metallic();
   void find_visibility();
+  void find_highlight();
+  void find_thickness();
+  void light_layered(FragmentOutputs& out);
   void light(FragmentOutputs& out);
+
+ private:
+  void find_normals(const TextureSlot& normal_map, float scale);
+  void find_coat_normals();
+  void flatten_normals();
 };
 
 /// From vertices to fragments: positions and tangents in world space, normals in the mesh's space.
@@ -180,7 +200,7 @@ void SurfaceShader::Data::BatchShading::sample(const TextureSlot& slot, float* c
 
 /// base = factor × texture × vertex colour.
 void SurfaceShader::Data::BatchShading::find_base() {
-  const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
+  const bool is_textured = !is_corner && plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
   float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), base);
   for (int c = 0; c < 4; ++c) {
@@ -196,12 +216,43 @@ void SurfaceShader::Data::BatchShading::find_base() {
   if (plan.alpha_mode != AlphaMode::Opaque && may_leave) kernels.saturate(p.base[3], p.count);
 }
 
-void SurfaceShader::Data::BatchShading::find_normals() {
-  if (plan.slot(TextureSlotIndex::Normal).texture == nullptr)
-    return kernels.find_normals(batch, vertices, d.transforms.data(), p);
+void SurfaceShader::Data::BatchShading::find_normals(const TextureSlot& normal_map, float scale) {
+  if (normal_map.texture == nullptr) return kernels.find_normals(batch, vertices, d.transforms.data(), p);
   kernels.transform_normals(batch, vertices, d.transforms.data(), p);
-  sample(plan.slot(TextureSlotIndex::Normal), texel);
-  kernels.bend_normals(batch, texel, plan.normal_scale, p);
+  sample(normal_map, texel);
+  kernels.bend_normals(batch, texel, scale, p);
+}
+
+/// The clear coat has its own normal map, or none. The interpolated normals stay in `p` for the surface's own.
+void SurfaceShader::Data::BatchShading::find_coat_normals() {
+  alignas(64) ShadingState::Array interpolated[3];
+  const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
+  for (int c = 0; c < 3; ++c) copy(p.normal[c], interpolated[c]);
+  find_normals(plan.layers->slot(LayerSlotIndex::ClearcoatNormal), plan.layers->layers.clearcoat_normal_scale);
+  for (int c = 0; c < 3; ++c) copy(p.normal[c], q.clearcoat_normal[c]), copy(interpolated[c], p.normal[c]);
+}
+
+/// The normals of the triangles' planes, in the mesh's space; those of lines and points stay.
+void SurfaceShader::Data::BatchShading::flatten_normals() {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+    float3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* const record =
+          vertices.first != nullptr ? vertices.first + vertices.stride * batch.vertex[k][i] : vertices.record[k][i];
+      corner[k] = {record[3], record[4], record[5]};
+    }
+    const float3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    // Of any scale: the normals of tiny and huge triangles stay in range.
+    const float greatest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    if (!(greatest > 0 && greatest <= std::numeric_limits<float>::max())) continue;
+    p.normal[0][i] = normal.x / greatest, p.normal[1][i] = normal.y / greatest, p.normal[2][i] = normal.z / greatest;
+  }
+}
+
+void SurfaceShader::Data::BatchShading::find_normals() {
+  if (is_corner && d.view.shading_frequency == ShadingFrequency::Triangle) flatten_normals();
+  if (plan.layers != nullptr && plan.layers->uniforms.has_clearcoat) find_coat_normals();
+  find_normals(plan.slot(TextureSlotIndex::Normal), plan.normal_scale);
 }
 
 void SurfaceShader::Data::BatchShading::find_emissive() {
@@ -213,7 +264,7 @@ void SurfaceShader::Data::BatchShading::find_emissive() {
 /// Adds the ambient term of channels whose base colour factor is too small to divide by: it counts as emission.
 void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
-  const bool is_textured = plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
+  const bool is_textured = !is_corner && plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
              is_occluded = d.shading_uniforms[static_cast<std::size_t>(batch.material)].has_occlusion;
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), texel);
   for (int c = 0; c < 3; ++c) {
@@ -261,6 +312,50 @@ void SurfaceShader::Data::BatchShading::find_visibility() {
     kernels.multiply(p.occlusion, texel[0], p.count);
 }
 
+/// specular = factor × texture, exponent = factor × texture, at least 1.
+void SurfaceShader::Data::BatchShading::find_highlight() {
+  if (!plan.has_specular) return;
+  if (plan.slot(TextureSlotIndex::Specular).texture != nullptr) {
+    sample(plan.slot(TextureSlotIndex::Specular), texel);
+    for (int c = 0; c < 3; ++c) kernels.scale(p.specular[c], texel[c], plan.specular[c], 0, p.count);
+  }
+  if (plan.slot(TextureSlotIndex::Exponent).texture == nullptr) return;
+  sample(plan.slot(TextureSlotIndex::Exponent), texel);
+  for (int i = 0; i < p.count; ++i) p.exponent[i] = std::max(texel[0][i] * plan.exponent.value, 1.0f);
+}
+
+/// The thickness of the volume in the world: scaled as its instance is.
+void SurfaceShader::Data::BatchShading::find_thickness() {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+    const std::size_t group = i / FragmentBatch::group;
+    const std::size_t at = vertices.one_instance[group] ? batch.leader(group * FragmentBatch::group) : i;
+    q.thickness[i] *= d.transforms[batch.instance[at]].scale;
+  }
+}
+
+void SurfaceShader::Data::BatchShading::light_layered(FragmentOutputs& out) {
+  const LayeredPlan& layered = *plan.layers;
+  const auto values = [&](const TextureSlot& slot) {
+    sample(slot, texel);
+    return texel;
+  };
+  find_layers(layered, kernels, p.count, values, q);
+  if (layered.uniforms.has_volume) find_thickness();
+  if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
+    kernels.fill(p.metallic, plan.metallic, p.count);
+    kernels.fill(p.roughness, plan.roughness, p.count);
+  }
+  if (const std::optional<float> glossiness = layered.layers.glossiness) {
+    const bool is_textured = layered.has(LayerSlotIndex::SpecularColor);
+    if (is_textured)
+      kernels.scale(p.roughness, values(layered.slot(LayerSlotIndex::SpecularColor))[3], -*glossiness, 1, p.count);
+    else
+      kernels.fill(p.roughness, 1 - *glossiness, p.count);
+  }
+  kernels.light_layered(d.shading_uniforms[static_cast<std::size_t>(batch.material)], layered.uniforms, batch, p, q,
+                        out);
+}
+
 /// From base colour and normal to the fragment's colour.
 void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   find_occlusion();
@@ -270,6 +365,7 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
+  if (plan.layers != nullptr) return light_layered(out);
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic && uniforms.map != nullptr) {
@@ -277,8 +373,16 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   } else if (is_metallic) {
     kernels.light_metallic(uniforms, batch, p, out);
   } else {
+    find_highlight();
     kernels.light_phong(uniforms, batch, p, out);
   }
+}
+
+void SurfaceShader::Data::BatchShading::shade_color(FragmentOutputs& out) {
+  interpolate(d.needs_of_color[static_cast<std::size_t>(batch.material)]);
+  find_base();
+  if (plan.attributes.normal) find_normals();
+  light(out);
 }
 
 SurfaceShader::SurfaceShader(const Scene& scene, const ViewUniforms& view, const TextureSet& textures,
@@ -290,6 +394,47 @@ SurfaceShader::~SurfaceShader() = default;
 
 void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const {
   if (batch.count == 0) return;
+  const bool is_lit = data_->plans[static_cast<std::size_t>(batch.material)].is_lit;
+  if (data_->view.shading_frequency == ShadingFrequency::Fragment || !is_lit || !outputs.color)
+    return shade_fragments(batch, outputs, out);
+  shade_triangles(batch, out);
+  outputs.color = false;
+  if (outputs.normal || outputs.uv || outputs.albedo) shade_fragments(batch, outputs, out);
+}
+
+/// Shades the triangles of a batch at their vertices or middles, interpolates their colours, and multiplies them by the
+/// texture of the base colour.
+void SurfaceShader::shade_triangles(const FragmentBatch& batch, FragmentOutputs& out) const {
+  const bool is_flat = data_->view.shading_frequency == ShadingFrequency::Triangle;
+  TriangleCorners corners(is_flat ? 1 : 3);
+  FragmentOutputs colors;
+  for (int begin = 0, end = 0; begin < batch.count; begin = end) {
+    end = corners.collect(batch, begin);
+    Data::BatchShading shading(*data_, corners.batch());
+    shading.is_corner = true;
+    shading.shade_color(colors);
+    for (int i = begin; i < end; ++i) {
+      out.r[i] = corners.at(batch, i, colors.r), out.g[i] = corners.at(batch, i, colors.g);
+      out.b[i] = corners.at(batch, i, colors.b), out.a[i] = corners.at(batch, i, colors.a);
+    }
+  }
+  Data::BatchShading whole(*data_, batch);
+  const MaterialPlan& plan = whole.plan;
+  const TextureSlot& slot = plan.slot(TextureSlotIndex::BaseColor);
+  if (slot.texture == nullptr) return;
+  Attributes attributes;
+  attributes.uv[slot.uv_set] = true;
+  whole.interpolate(data_->make_needs(batch.material, attributes, false));
+  whole.sample(slot, whole.texel);
+  const bool is_blended = plan.alpha_mode == AlphaMode::Blend;
+  for (int i = 0; i < batch.count; ++i) {
+    const float alpha = is_blended ? whole.texel[3][i] : 1;
+    out.r[i] *= whole.texel[0][i] * alpha, out.g[i] *= whole.texel[1][i] * alpha;
+    out.b[i] *= whole.texel[2][i] * alpha, out.a[i] *= alpha;
+  }
+}
+
+void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const {
   Data::BatchShading shading(*data_, batch);
   const MaterialPlan& plan = shading.plan;
   ShadingState& p = shading.p;

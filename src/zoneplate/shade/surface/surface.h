@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "zoneplate/raster/types/batch.h"
+#include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/shade/environment/environment_view.h"
+#include "zoneplate/shade/surface/backdrop.h"
 
 namespace zoneplate {
 
@@ -28,10 +30,14 @@ struct ViewUniforms {
   bool is_orthographic = false;
   std::optional<PixelRays>
       rays;  ///< of a perspective camera; without rays, the vectors to the viewer follow from positions
-  std::vector<Light> lights;           ///< in world space
-  float3 environment{0, 0, 0};         ///< radiance of a constant environment; of a map, the greatest in each channel
-  std::optional<EnvironmentView> map;  ///< none: the environment is constant
-  float3 ambient_light{0, 0, 0};       ///< (Blinn-)Phong's ambient term
+  std::vector<Light> lights;             ///< in world space
+  float3 environment{0, 0, 0};           ///< radiance of a constant environment; of a map, the greatest in each channel
+  std::optional<EnvironmentView> map;    ///< none: the environment is constant
+  std::optional<BackdropView> backdrop;  ///< what transmissive surfaces refract; none: the environment alone
+  float3 ambient_light{0, 0, 0};         ///< (Blinn-)Phong's ambient term
+  /// Of lit surfaces; at Triangle and Vertex, fragments still look up the texture of the base colour.
+  /// Requires  at Triangle and Vertex: no rays.
+  ShadingFrequency shading_frequency = ShadingFrequency::Fragment;
   bool raw_colors = false;  ///< the values of images are linear, not decoded from sRGB (--color-management raw)
   const LightVisibility* visibility = nullptr;  ///< of `lights`, in their order; null: nothing casts shadows
   int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
@@ -66,6 +72,9 @@ class SurfaceShader {
   std::span<const float> vertex_record(std::uint32_t instance, int material) const;
 
  private:
+  void shade_fragments(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const;
+  void shade_triangles(const FragmentBatch& batch, FragmentOutputs& out) const;
+
   struct Data;
   std::unique_ptr<Data> data_;
   float brightest_;

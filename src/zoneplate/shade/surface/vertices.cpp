@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/material_layers.h"
 
 namespace zoneplate {
 namespace {
@@ -37,9 +38,10 @@ std::vector<RecordLayout> make_layouts(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     const auto m = static_cast<std::size_t>(mesh.material);
     const Material& material = scene.materials[m];
-    for (const TextureUse* use : texture_slots(material))
-      if (use->uv_set == 1) reserve(layouts[m].uv1, layouts[m]);
-    if (material.normal_texture.image >= 0) reserve(layouts[m].tangent, layouts[m]);
+    for_texture_uses(material, [&](const TextureUse& use) {
+      if (use.uv_set == 1) reserve(layouts[m].uv1, layouts[m]);
+    });
+    if (needs_tangents(material)) reserve(layouts[m].tangent, layouts[m]);
     if (!mesh.color.empty()) reserve(layouts[m].color, layouts[m]);
     if (!mesh.uv1.empty()) reserve(layouts[m].uv1, layouts[m]);
   }
@@ -194,6 +196,7 @@ std::vector<InstanceTransform> make_instance_transforms(std::span<const Instance
     for (std::size_t c = 0; c < 3; ++c)
       if (is_in_range) store(normal.column[c] * (1 / greatest), p.normal + 3 * c);
     p.handedness = determinant3(world) < 0 ? -1.0f : 1.0f;
+    for (std::size_t c = 0; c < 3; ++c) p.scale += length(xyz(world.column[c])) / 3;
     p.keeps_normals = normal == float4x4{} ? 1.0f : 0.0f;
     transforms.push_back(p);
   }

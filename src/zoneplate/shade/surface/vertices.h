@@ -31,7 +31,8 @@ struct RecordLayout {
 /// eight floats lies within one cache line, and large meshes in large pages, because the access is random.
 class InterleavedVertices {
  public:
-  /// The records are made in parallel. Those of a material without a normal map have no tangents.
+  /// The records are made in parallel. Those of a material that needs no tangents (see
+  /// needs_tangents) have none.
   explicit InterleavedVertices(const Scene& scene);
 
   const RecordLayout& layout(int material) const { return layouts_[static_cast<std::size_t>(material)]; }

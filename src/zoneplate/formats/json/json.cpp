@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/formats/gltf/json.h"
+#include "zoneplate/formats/json/json.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/formats/gltf/meshopt.h"
+#include "zoneplate/formats/meshopt/meshopt.h"
 
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>

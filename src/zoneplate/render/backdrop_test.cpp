@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/render/backdrop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "zoneplate/math/transform.h"
+#include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/render.h"
+#include "zoneplate/scene/material_layers.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr int width = 48, height = 36;
+
+TEST(Backdrop, AConstantImageStaysConstantAtEveryLevel) {
+  const Linear color{0.25f, 3, 1e-3f, 0.75f};
+  for (const auto& [w, h] : {std::pair(13, 7), std::pair(64, 64), std::pair(1, 5), std::pair(1, 1)}) {
+    const Backdrop backdrop(LinearImage(w, h, color), {});
+    const BackdropView view = backdrop.view();
+    EXPECT_EQ(view.width[view.levels - 1] * view.height[view.levels - 1], 1);
+    for (int k = 0; k < view.levels; ++k)
+      for (int i = 0; i < view.width[k] * view.height[k]; ++i) {
+        const float* texel = view.texels + 4 * (view.offset[k] + i);
+        EXPECT_EQ((Linear{texel[0], texel[1], texel[2], texel[3]}), color) << k << " " << i;
+      }
+  }
+}
+
+TEST(Backdrop, LevelsAreFilteredByBinomialWeights) {
+  LinearImage image(8, 8, Linear{0, 0, 0, 0});
+  image(4, 2) = {64, 0, 0, 0};
+  const Backdrop backdrop(image, {});
+  const BackdropView view = backdrop.view();
+  // Texel x of the level takes 1 3 3 1 eighths of the columns 2x - 1 to 2x + 2.
+  const float expected[4] = {0, 1, 3, 0}, along_y[4] = {1, 3, 0, 0};
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x)
+      EXPECT_EQ(view.texels[4 * (view.offset[1] + y * 4 + x)], expected[x] * along_y[y]) << x << " " << y;
+}
+
+/// A square of this size about (0, 0, z) that faces +Z.
+void add_square(Scene& scene, float size, float z, const Material& material) {
+  Mesh mesh;
+  mesh.position = {{-size, -size, z}, {size, -size, z}, {size, size, z}, {-size, size, z}};
+  mesh.normal.assign(4, {0, 0, 1});
+  mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  mesh.index = {0, 1, 2, 0, 2, 3};
+  mesh.material = static_cast<int>(scene.materials.size());
+  scene.meshes.push_back(mesh);
+  scene.objects.push_back("square");
+  scene.instances.push_back(
+      {static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.objects.size()) - 1, {}});
+  scene.materials.push_back(material);
+}
+
+Material glowing(float3 color) {
+  Material m;
+  m.base_color = {0, 0, 0, 1}, m.emissive = color;
+  return m;
+}
+
+Material glass(const MaterialLayers& layers, float roughness = 0) {
+  Material m;
+  m.metallic = 0, m.roughness = roughness;
+  m.layers = std::make_shared<const MaterialLayers>(layers);
+  return m;
+}
+
+/// A red and a green half before black, and a pane of the material in front.
+Scene pane(const Material& material) {
+  Scene scene;
+  add_square(scene, 4, -2, glowing({1, 0, 0}));
+  add_square(scene, 1, 0, material);
+  Mesh right = scene.meshes[0];
+  for (float3& p : right.position) p = {p.x < 0 ? 0 : p.x, p.y, -1.9f};
+  right.material = 2;
+  scene.meshes.push_back(right);
+  scene.materials.push_back(glowing({0, 1, 0}));
+  scene.objects.push_back("right half");
+  scene.instances.push_back({2, 2, {}});
+  return scene;
+}
+
+Camera from_front() {
+  Camera camera;
+  camera.is_orthographic = true, camera.half_height = 1.5f, camera.aspect = 0;
+  camera.near = 0.1f, camera.far = 10;
+  camera.world_from_camera = translation({0, 0, 3});
+  return camera;
+}
+
+LinearImage picture(const Scene& scene, std::optional<Crop> crop = std::nullopt, int samples = 4) {
+  return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(samples)},
+                {.width = width, .height = height, .crop = crop})
+      .color;
+}
+
+TEST(Backdrop, ClearGlassShowsWhatIsBehind) {
+  // An index of refraction of 1 neither reflects nor bends light.
+  MaterialLayers clear{.ior = 1, .transmission = 1};
+  clear.specular = 0;
+  const LinearImage seen = picture(pane(glass(clear)));
+  EXPECT_EQ(seen(width / 2 - 5, height / 2), (Linear{1, 0, 0, 1}));
+  EXPECT_EQ(seen(width / 2 + 5, height / 2), (Linear{0, 1, 0, 1}));
+  clear.transmission = 0.5f;  // the other half would be diffuse, which no light reaches
+  const LinearImage half = picture(pane(glass(clear)));
+  EXPECT_EQ(half(width / 2 - 5, height / 2), (Linear{0.5f, 0, 0, 1}));
+}
+
+TEST(Backdrop, RoughGlassBlursAndKeepsTheSum) {
+  MaterialLayers rough{.ior = 1.5f, .transmission = 1};
+  rough.specular = 0;
+  const LinearImage sharp = picture(pane(glass(rough, 0))), blurred = picture(pane(glass(rough, 0.5f)));
+  const int y = height / 2, middle = width / 2;
+  EXPECT_EQ(sharp(middle - 3, y).g, 0);
+  EXPECT_GT(blurred(middle - 3, y).g, 0.05f);
+  EXPECT_NEAR(blurred(middle - 3, y).r + blurred(middle - 3, y).g, 1, 0.06f);
+}
+
+TEST(Backdrop, AVolumeAbsorbsAsItsThicknessSays) {
+  MaterialLayers volume{.ior = 1, .transmission = 1, .thickness = 2, .attenuation_distance = 1};
+  volume.specular = 0, volume.attenuation_color = {0.5f, 0.25f, 1};
+  const LinearImage seen = picture(pane(glass(volume)));
+  EXPECT_NEAR(seen(width / 2 - 5, height / 2).r, 0.25f, 1e-6f);
+  EXPECT_NEAR(seen(width / 2 + 5, height / 2).g, 0.0625f, 1e-6f);
+}
+
+TEST(Backdrop, AVolumeRefracts) {
+  // A pane that is turned: behind its thickness d, light from the angle a is displaced along the pane.
+  MaterialLayers volume{.ior = 1.5f, .transmission = 1, .thickness = 1};
+  volume.specular = 0;
+  Scene scene = pane(glass(volume));
+  const float angle = 0.6f;
+  scene.instances[1].world_from_object = rotation(Quaternion{0, std::sin(angle / 2), 0, std::cos(angle / 2)});
+  const LinearImage seen = picture(scene);
+  // Light enters at x; inside it runs at asin(sin a / 1.5) from the normal, to the right.
+  const float inside = std::asin(std::sin(angle) / 1.5f), shift = std::sin(angle - inside);
+  const float pixels = shift * height / 3;
+  ASSERT_GT(pixels, 2);
+  const int y = height / 2, middle = width / 2, edge = static_cast<int>(std::lround(pixels));
+  int first_green = 0;
+  for (int x = middle - 9; x < middle + 9; ++x)
+    if (seen(x, y).g > 0.5f && first_green == 0) first_green = x;
+  EXPECT_NEAR(std::abs(first_green - middle), edge, 1);
+}
+
+TEST(Backdrop, ACropHasTheBitsOfTheWholeImage) {
+  MaterialLayers volume{.ior = 1.5f, .transmission = 1, .thickness = 0.5f, .dispersion = 3};
+  const Scene scene = pane(glass(volume, 0.3f));
+  const LinearImage whole = picture(scene);
+  const Crop crop{15, 9, 20, 17};
+  const LinearImage part = picture(scene, crop);
+  for (int y = 0; y < crop.height; ++y)
+    for (int x = 0; x < crop.width; ++x) ASSERT_EQ(part(x, y), whole(x + crop.x, y + crop.y)) << x << " " << y;
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "zoneplate/math/lanes_vector.h"
+#include "zoneplate/shade/surface/backdrop.h"
+
+/// Look-ups in the image behind transmissive surfaces, over the lane types of math/lanes.h.
+namespace zoneplate {
+
+/// Places in the image, in pixels from its top-left corner.
+template <class F>
+struct ImagePlace {
+  F x, y;
+};
+
+/// Where points of the world are seen. Points behind the eye have some place.
+template <class F>
+[[gnu::always_inline]] inline ImagePlace<F> image_place(const BackdropView& b, Vector<F> p) {
+  const auto row = [&](int r) {
+    const float* m = b.clip_from_world + r;
+    return F(m[0]) * p.x + F(m[4]) * p.y + F(m[8]) * p.z + F(m[12]);
+  };
+  const F half(0.5f), inverse = half / max(row(3), F(1e-6f));
+  return {(row(0) * inverse + half) * F(static_cast<float>(b.width[0])),
+          (half - row(1) * inverse) * F(static_cast<float>(b.height[0]))};
+}
+
+/// Colours of the image, premultiplied, and their alpha.
+template <class F>
+struct BackdropColor {
+  Vector<F> color;
+  F alpha;
+};
+
+/// The bilinear mean of the four texels about places, of a level each; the border continues beyond it.
+template <class F>
+[[gnu::always_inline]] inline BackdropColor<F> backdrop_texels(const BackdropView& b, ImagePlace<F> at,
+                                                               typename F::Int level) {
+  using Int = typename F::Int;
+  const F scale = exp2(-F::from(level)), zero(0.0f), half(0.5f);
+  const Int width = Int::gather(b.width, level), height = Int::gather(b.height, level), one(1);
+  const auto bounded = [&](F x, Int size) { return min(max(x * scale - half, zero), F::from(size - one)); };
+  const F x = bounded(at.x, width), y = bounded(at.y, height);
+  const Int left = truncate(x), top = truncate(y);
+  const F across = x - F::from(left), down = y - F::from(top);
+  const Int right = min(left + one, width - one), bottom = min(top + one, height - one);
+  const Int first = Int::gather(b.offset, level);
+
+  F texel[4][4];
+  const auto load = [&](Int column, Int row, F(&out)[4]) {
+    alignas(64) std::int32_t index[F::lanes];
+    (first + row * width + column).store(index);
+    F::load_quads([&](int lane) { return b.texels + std::ptrdiff_t{4} * index[lane]; }, out);
+  };
+  load(left, top, texel[0]), load(right, top, texel[1]), load(left, bottom, texel[2]), load(right, bottom, texel[3]);
+  const auto mean = [&](int c) {
+    const F above = texel[0][c] + (texel[1][c] - texel[0][c]) * across;
+    const F below = texel[2][c] + (texel[3][c] - texel[2][c]) * across;
+    return above + (below - above) * down;
+  };
+  return {{mean(0), mean(1), mean(2)}, mean(3)};
+}
+
+/// The image about places, blurred as a wall of a roughness in [0, 1] blurs it: over its whole width at 1.
+template <class F>
+[[gnu::always_inline]] inline BackdropColor<F> backdrop_color(const BackdropView& b, ImagePlace<F> at, F roughness) {
+  using Int = typename F::Int;
+  const F last(static_cast<float>(b.levels - 1));
+  const F level = min(max(log2(F(static_cast<float>(b.width[0]))) * roughness, F(0.0f)), last);
+  const Int lower = truncate(level), upper = min(lower + Int(1), Int(b.levels - 1));
+  const F part = level - F::from(lower);
+  const BackdropColor<F> sharp = backdrop_texels(b, at, lower), blurred = backdrop_texels(b, at, upper);
+  return {sharp.color + (blurred.color - sharp.color) * part, sharp.alpha + (blurred.alpha - sharp.alpha) * part};
+}
+
+}  // namespace zoneplate
