@@ -314,4 +314,13 @@ Bvh::Bvh(std::span<const ShadowCaster> casters) {
   });
 }
 
+Box Bvh::bounds() const {
+  Box box;
+  if (nodes_.empty()) return box;
+  const auto& bound = nodes_[0].bound;
+  for (std::size_t i = 0; i < BvhNode::width; ++i)
+    box.add(Box{{bound[0][0][i], bound[0][1][i], bound[0][2][i]}, {bound[1][0][i], bound[1][1][i], bound[1][2][i]}});
+  return box;
+}
+
 }  // namespace zoneplate

@@ -51,6 +51,8 @@ class Bvh {
   std::span<const BvhNode> nodes() const { return nodes_; }
   std::span<const BvhLeaf> leaves() const { return leaves_; }
   std::size_t triangles() const { return triangles_; }
+  /// Of all triangles.
+  Box bounds() const;
 
   /// The greatest number of nodes on a path from the root; bounds the stack of a traversal.
   static constexpr int max_depth = 40;

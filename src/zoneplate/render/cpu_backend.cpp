@@ -45,7 +45,7 @@ class SceneFragmentShader : public FragmentShader {
   }
   float brightest() const override { return surfaces_.brightest(); }
   bool needs_derivatives(int material) const override {
-    return !is_ground(material) && surfaces_.needs_derivatives(material);
+    return is_ground(material) ? ground_->needs_derivatives() : surfaces_.needs_derivatives(material);
   }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
     if (is_ground(material)) return {};
@@ -198,6 +198,10 @@ void check(const RenderOptions& o, const Request& request) {
       c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > o.width - c.width || c.y > o.height - c.height)
     reject("the crop must lie within the image of " + std::to_string(o.width) + " × " + std::to_string(o.height));
   if (o.ground == GroundKind::Shadow && !has_visibility(o)) reject("a ground of shadows requires shadows or occlusion");
+  if (o.shadows.samples < 1 || o.occlusion.samples < 0 || !(o.occlusion.distance >= 0))
+    reject("soft shadows have at least one ray, and occlusion has a distance that is not negative");
+  if (const ShadowMapOptions& map = o.shadows.map; map.size < 1 || map.size > 16384 || !(map.radius >= 0.5f))
+    reject("a shadow map has 1 to 16384 texels a side and a filter of at least half a texel");
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
   if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))

@@ -10,6 +10,7 @@
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
+#include "zoneplate/shade/surface/receivers.h"
 
 namespace zoneplate {
 namespace {
@@ -73,6 +74,8 @@ Draw Ground::draw(const float4x4& clip_from_world, std::uint32_t instance, int m
   return draw;
 }
 
+bool Ground::needs_derivatives() const { return visibility_.needs_footprint(); }
+
 void Ground::shade(const FragmentBatch& batch, FragmentOutputs& out) const {
   Receivers receivers;
   ShadingState p;
@@ -87,6 +90,8 @@ void Ground::shade(const FragmentBatch& batch, FragmentOutputs& out) const {
     store(at, p.position), store(at, receivers.position);
     store(square_.up, receivers.face), store(square_.up, receivers.normal);
     receivers.margin[i] = margin_;
+    if (visibility_.needs_footprint())
+      store_footprint(batch, i, corner(1) - corner(0), corner(2) - corner(0), receivers);
     receivers.seed[i] = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
   }
 

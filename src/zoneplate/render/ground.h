@@ -34,6 +34,7 @@ class Ground {
   /// The draw, which refers to this object. Requires: no other draw has this instance or material.
   Draw draw(const float4x4& clip_from_world, std::uint32_t instance, int material) const;
   void shade(const FragmentBatch& batch, FragmentOutputs& out) const;
+  bool needs_derivatives() const;
 
  private:
   const LightVisibility& visibility_;

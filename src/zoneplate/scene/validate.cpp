@@ -122,6 +122,7 @@ const char* flaw_of(const Light& l, const Scene&) {
   if (!(l.range > 0) || !are_amounts(l.attenuation)) return "a falloff out of range";
   constexpr float right_angle = 1.5707964f;
   if (!(l.inner_cone >= 0 && l.inner_cone < l.outer_cone && l.outer_cone <= right_angle)) return "a cone out of range";
+  if (!is_amount(l.radius)) return "a radius out of range";
   return nullptr;
 }
 

@@ -27,7 +27,7 @@ Scene make_scene() {
     return m;
   };
   Mesh floor, fence;
-  add_quad(floor, {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}});
+  add_quad(floor, {{-5, 0, 5}, {5, 0, 5}, {5, 0, -5}, {-5, 0, -5}});
   for (int i = 0; i < 9; ++i) {
     const float x = -1.6f + 0.4f * static_cast<float>(i);
     add_box(fence, {x - 0.06f, 0, -1.03f}, {x + 0.06f, 1.5f, -0.97f});

@@ -238,7 +238,7 @@ void pass(S& s, Light& l) {
   s.text(l.name), s.choice(l.kind, LightKind::Spot), s.choice(l.is_in_camera_space), s.value(l.color),
       s.value(l.intensity), s.value(l.position);
   s.value(l.direction), s.value(l.range), s.choice(l.falloff, Falloff::Quadratic), s.value(l.attenuation);
-  s.value(l.inner_cone), s.value(l.outer_cone);
+  s.value(l.inner_cone), s.value(l.outer_cone), s.value(l.radius);
 }
 
 template <class S>

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
@@ -10,23 +11,27 @@
 
 namespace zoneplate {
 
-/// Points of the unit square: a lattice, shifted by a random vector, whose first 2^k points are a lattice too for every
-/// k.
+/// Points of a disc, by the square of the radius and a turn, each with a point of a square. They are a lattice of four
+/// dimensions, of which the first 2^k points are a lattice too for every k.
 ///
-/// Exact     integer arithmetic only.
 /// Source    extensible lattices: Hickernell, Hong, L'Ecuyer and Lemieux, SIAM J. Sci. Comput. 22, 2000. The generator
-///           (1, 39) has the least error of occlusion by a sphere, over 16, 32, 64 and 256 points, of those tried.
-class ShiftedLattice {
+///           (1, 39) has the least error of occlusion by a sphere, over 16, 32, 64 and 256 points, of those tried; the
+///           other two dimensions are the third and fourth of Cools, Kuo and Nuyens, SIAM J. Sci. Comput. 28, 2006.
+class DiscLattice {
  public:
-  /// `dimension`: which of the independent lattices of a receiver.
-  ShiftedLattice(std::uint32_t seed, std::uint32_t dimension)
-      : x_(hash(seed, dimension, 1)), y_(hash(seed, dimension, 2)) {}
+  struct Point {
+    std::uint32_t square;  ///< of the radius, in units of 2^-32
+    float cosine, sine;    ///< of the turn
+    std::uint32_t x, y;    ///< in the square, in units of 2^-32
+  };
 
-  /// Point i, in [0, 1)².
-  float2 operator()(std::uint32_t i) const {
-    const std::uint32_t r = reversed(i);
-    return {unit_float(r + x_), unit_float(r * 39u + y_)};
+  explicit DiscLattice(int count) {
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+      const float turn = 6.28318531f * unit_float(reversed(i) * 39u);
+      points_.push_back({reversed(i), cos(turn), sin(turn), reversed(i) * 245389u, reversed(i) * 97823u});
+    }
   }
+  const Point& operator[](std::uint32_t i) const { return points_[i]; }
 
  private:
   /// The bits in reverse order.
@@ -38,7 +43,38 @@ class ShiftedLattice {
     return v >> 16 | v << 16;
   }
 
-  std::uint32_t x_, y_;
+  std::vector<Point> points_;
+};
+
+/// The lattice of one receiver: shifted by a random vector, which is a turn of the disc and a rotation of the areas of
+/// its rings.
+class ShiftedDisc {
+ public:
+  struct Point {
+    float square;        ///< of the radius, in [0, 1)
+    float cosine, sine;  ///< of the turn
+    float x, y;          ///< in [-1, 1)
+  };
+
+  /// `dimension`: which of the independent lattices of a receiver.
+  ShiftedDisc(const DiscLattice& lattice, std::uint32_t seed, std::uint32_t dimension)
+      : lattice_(lattice),
+        square_(hash(seed, dimension, 1)),
+        x_(hash(seed, dimension, 3)),
+        y_(hash(seed, dimension, 4)) {
+    const float turn = 6.28318531f * unit_float(hash(seed, dimension, 2));
+    cosine_ = cos(turn), sine_ = sin(turn);
+  }
+  Point operator()(std::uint32_t i) const {
+    const DiscLattice::Point& p = lattice_[i];
+    return {unit_float(p.square + square_), p.cosine * cosine_ - p.sine * sine_, p.sine * cosine_ + p.cosine * sine_,
+            2 * unit_float(p.x + x_) - 1, 2 * unit_float(p.y + y_) - 1};
+  }
+
+ private:
+  const DiscLattice& lattice_;
+  std::uint32_t square_, x_, y_;
+  float cosine_, sine_;
 };
 
 /// Directions about a unit axis.
@@ -53,17 +89,16 @@ class DirectionsAbout {
   }
 
   /// Uniform in solid angle over the cone of the directions whose cosine with the axis is at least 1 - height.
-  float3 of_cone(float2 u, float height) const {
-    const float below = u.x * height;
-    return at(std::sqrt(below * (2 - below)), 1 - below, u.y);
+  float3 of_cone(const ShiftedDisc::Point& p, float height) const {
+    const float below = p.square * height;
+    return at(std::sqrt(below * (2 - below)), 1 - below, p);
   }
   /// Density proportional to the cosine with the axis.
-  float3 of_cosine(float2 u) const { return at(std::sqrt(u.x), std::sqrt(1 - u.x), u.y); }
+  float3 of_cosine(const ShiftedDisc::Point& p) const { return at(std::sqrt(p.square), std::sqrt(1 - p.square), p); }
 
  private:
-  float3 at(float sine, float cosine, float turn) const {
-    const float angle = 6.28318531f * turn;
-    return first_ * (sine * cos(angle)) + second_ * (sine * sin(angle)) + axis_ * cosine;
+  float3 at(float sine, float cosine, const ShiftedDisc::Point& p) const {
+    return first_ * (sine * p.cosine) + second_ * (sine * p.sine) + axis_ * cosine;
   }
   float3 axis_, first_, second_;
 };

@@ -19,6 +19,9 @@ struct Receivers {
   /// A ray that begins at position + face × margin does not meet the triangle's own plane by rounding.
   alignas(64) float margin[capacity];
   alignas(64) std::uint32_t seed[capacity];  ///< hash of the position in the image
+  /// Half of the change of the position from one pixel to the next, shortened so that position ± dx ± dy stay within
+  /// the triangle; zero where LightVisibility::needs_footprint is false.
+  alignas(64) float dx[3][capacity], dy[3][capacity];
 };
 
 /// Which part of each light reaches a point.
@@ -27,6 +30,8 @@ class LightVisibility {
   virtual ~LightVisibility() = default;
   /// The part of light k of the frame's lights, in [0, 1]; 0 where the light is below the horizon of `normal`.
   virtual void of_light(int k, const Receivers& receivers, float* visible) const = 0;
+  /// Whether of_light averages over the pixel: it then reads dx and dy.
+  virtual bool needs_footprint() const = 0;
   /// Whether of_environment is to be called.
   virtual bool has_occlusion() const = 0;
   /// The cosine-weighted part of the hemisphere about `normal`, in [0, 1], that nothing near occludes.

@@ -7,7 +7,6 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
-#include "zoneplate/shade/shadow/disc_samples.h"
 
 namespace zoneplate {
 
@@ -40,6 +39,8 @@ namespace {
 /// the upper bound that counts as light bleeding.
 /// Source    Lauritzen and McCool 2008; bleeding: Lauritzen, Summed-Area Variance Shadow Maps, GPU Gems 3, 2007.
 constexpr float positive_exponent = 40, negative_exponent = 5, bleeding = 0.2f;
+/// Texels in which PCSS looks for blockers.
+constexpr int search_points = 32;
 /// The least standard deviation of a depth, as a part of the depth range: the depth of a map changes within a texel.
 constexpr float least_deviation = 1e-4f;
 
@@ -111,7 +112,11 @@ void for_square(int size, float u, float v, float radius, Use use) {
 
 MappedVisibility::MappedVisibility(std::vector<Light> lights, std::vector<std::vector<ShadowMap>> maps,
                                    const ShadowOptions& options, const LightVisibility* environment)
-    : lights_(std::move(lights)), maps_(std::move(maps)), options_(options), environment_(environment) {
+    : lights_(std::move(lights)),
+      maps_(std::move(maps)),
+      options_(options),
+      environment_(environment),
+      search_(search_points) {
   if (options_.map.filter != ShadowFilter::Evsm) return;
   for (const std::vector<ShadowMap>& of_light : maps_) {
     moments_.emplace_back();
@@ -169,14 +174,14 @@ float MappedVisibility::at(const Light& light, const ShadowMap& map, const Plane
       const float slope = sine / std::sqrt(std::max(1 - sine * sine, 1e-6f));
       constexpr float most = 64;  // texels
       const float search = std::clamp(slope * r.depth / r.texel_width, 1.0f, most);
-      const ShiftedLattice lattice(seed, 0x5eed);
+      const ShiftedDisc disc(search_, seed, 0x5eed);
       float sum = 0;
       int blockers = 0;
-      for (std::uint32_t i = 0; i < 32; ++i) {
-        const float2 offset = lattice(i);
-        const float radius = search * std::sqrt(offset.x), turn = 6.28318531f * offset.y;
-        const int x = static_cast<int>(std::floor(r.u + radius * cos(turn)));
-        const int y = static_cast<int>(std::floor(r.v + radius * sin(turn)));
+      for (std::uint32_t i = 0; i < search_points; ++i) {
+        const ShiftedDisc::Point point = disc(i);
+        const float radius = search * std::sqrt(point.square);
+        const int x = static_cast<int>(std::floor(r.u + radius * point.cosine));
+        const int y = static_cast<int>(std::floor(r.v + radius * point.sine));
         if (x < 0 || y < 0 || x >= size || y >= size || is_lit(x, y)) continue;
         sum += map.depth(x, y), ++blockers;
       }

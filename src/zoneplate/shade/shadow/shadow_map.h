@@ -6,6 +6,7 @@
 
 #include "zoneplate/image/plane.h"
 #include "zoneplate/scene/light.h"
+#include "zoneplate/shade/shadow/disc_samples.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/shadows.h"
 
@@ -38,6 +39,7 @@ class MappedVisibility : public LightVisibility {
                    const LightVisibility* environment);
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
+  bool needs_footprint() const override { return false; }
   bool has_occlusion() const override { return environment_ != nullptr && environment_->has_occlusion(); }
   void of_environment(const Receivers& receivers, float* visible) const override {
     environment_->of_environment(receivers, visible);
@@ -53,6 +55,7 @@ class MappedVisibility : public LightVisibility {
   std::vector<std::vector<Plane<WarpedMoments>>> moments_;  ///< the same, for ShadowFilter::Evsm
   ShadowOptions options_;
   const LightVisibility* environment_;
+  DiscLattice search_;  ///< where PCSS looks for blockers
 };
 
 }  // namespace zoneplate

@@ -8,7 +8,6 @@
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
-#include "zoneplate/shade/shadow/disc_samples.h"
 
 namespace zoneplate {
 namespace {
@@ -34,6 +33,14 @@ constexpr int chunk = 64;
 /// 1 - cos of the angle, without cancellation.
 float height_of(float sine) { return sine * sine / (1 + std::sqrt(std::max(0.0f, 1 - sine * sine))); }
 
+/// From a point to the nearest one of a box.
+float distance_squared(const Box& box, float3 p) {
+  const auto outside = [](float low, float high, float x) { return std::max({low - x, x - high, 0.0f}); };
+  const float3 d{outside(box.low.x, box.high.x, p.x), outside(box.low.y, box.high.y, p.y),
+                 outside(box.low.z, box.high.z, p.z)};
+  return dot(d, d);
+}
+
 SeenLight see(const Light& light, const ShadowOptions& shadows, float3 from) {
   SeenLight seen;
   if (light.kind == LightKind::Directional) {
@@ -56,11 +63,13 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
                                    const ShadowOptions& shadows, const OcclusionOptions& occlusion,
                                    const EnvironmentView* environment)
     : bvh_(view_of(bvh)),
+      bounds_(bvh.bounds()),
       opacity_(opacity),
       lights_(std::move(lights)),
       shadows_(shadows),
       occlusion_(occlusion),
       environment_(environment),
+      lattice_(std::max(shadows.method == ShadowMethod::Soft ? shadows.samples : 0, occlusion.samples)),
       kernels_(RayKernels::of()) {}
 
 /// The mean over rays ray(0), ray(1), ... of what each of them sees. The first quarter of the rays are the only ones
@@ -103,10 +112,13 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
       lit[count++] = i;
       continue;
     }
-    const ShiftedLattice lattice(receivers.seed[i], static_cast<std::uint32_t>(k) + 1);
+    const ShiftedDisc disc(lattice_, receivers.seed[i], static_cast<std::uint32_t>(k) + 1);
     const DirectionsAbout directions(seen.direction);
-    visible[i] = mean_visibility(
-        [&](std::uint32_t s) { return make_ray(origin, directions.of_cone(lattice(s), seen.height), seen.distance); });
+    const float3 dx = at(receivers.dx, i), dy = at(receivers.dy, i);
+    visible[i] = mean_visibility([&](std::uint32_t s) {
+      const ShiftedDisc::Point p = disc(s);
+      return make_ray(origin + dx * p.x + dy * p.y, directions.of_cone(p, seen.height), seen.distance);
+    });
   }
   float seen[Receivers::capacity];
   kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
@@ -128,14 +140,16 @@ void TracedVisibility::of_environment(const Receivers& receivers, float* visible
   float seen[chunk];
   for (int i = 0; i < receivers.count; ++i) {
     const float3 origin = origin_of(receivers, i);
-    const ShiftedLattice lattice(receivers.seed[i], 0);
+    visible[i] = 1;
+    if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
+    const ShiftedDisc disc(lattice_, receivers.seed[i], 0);
     const DirectionsAbout directions(at(receivers.normal, i));
     float all = 0, arriving = 0;
     for (int first = 0; first < occlusion_.samples; first += chunk) {
       const int count = std::min(chunk, occlusion_.samples - first);
       for (int s = 0; s < count; ++s)
         rays[s] =
-            make_ray(origin, directions.of_cosine(lattice(static_cast<std::uint32_t>(first + s))), occlusion_.distance);
+            make_ray(origin, directions.of_cosine(disc(static_cast<std::uint32_t>(first + s))), occlusion_.distance);
       kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
       for (int s = 0; s < count; ++s) {
         const float* const d = rays[s].direction;

@@ -6,6 +6,7 @@
 #include "zoneplate/ray/trace.h"
 #include "zoneplate/scene/light.h"
 #include "zoneplate/shade/environment/environment_view.h"
+#include "zoneplate/shade/shadow/disc_samples.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/shadows.h"
 
@@ -15,7 +16,8 @@ namespace zoneplate {
 ///
 /// A light with an extent is a sphere (point, spot) or a distant disc (directional), seen from the receiver as a cone
 /// of directions; its part that is visible is the mean over rays of a uniform density in solid angle. The first quarter
-/// of the rays to a light decides alone where none or all of them are blocked.
+/// of the rays to a light decides alone where none or all of them are blocked. The rays begin all over the part of the
+/// pixel that the triangle covers, which filters the edge of a shadow that is sharper than a pixel.
 /// Exact     the same bits for any number of threads and any instruction set: the rays depend on the receiver's position
 ///           in the image, the light and the options only.
 class TracedVisibility : public LightVisibility {
@@ -29,6 +31,7 @@ class TracedVisibility : public LightVisibility {
                    const EnvironmentView* environment = nullptr);
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
+  bool needs_footprint() const override { return shadows_.method == ShadowMethod::Soft; }
   bool has_occlusion() const override { return occlusion_.samples > 0; }
   void of_environment(const Receivers& receivers, float* visible) const override;
 
@@ -38,11 +41,13 @@ class TracedVisibility : public LightVisibility {
   float light_from(float3 direction) const;
 
   BvhView bvh_;
+  Box bounds_;  ///< of all casters
   OpacityOfHits opacity_;
   std::vector<Light> lights_;
   ShadowOptions shadows_;
   OcclusionOptions occlusion_;
   const EnvironmentView* environment_;
+  DiscLattice lattice_;
   const RayKernels& kernels_;
 };
 

@@ -9,6 +9,8 @@
 
 #include "zoneplate/math/random.h"
 #include "zoneplate/ray/casters_for_test.h"
+#include "zoneplate/scene/environment.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 
 namespace zoneplate {
 namespace {
@@ -155,6 +157,30 @@ TEST(TracedVisibility, OcclusionByASphereIsThatOfTheFormula) {
     return 1 - std::pow(1 / std::sqrt(double{p.x} * p.x + double{p.z} * p.z + 1), 3);
   };
   EXPECT_LT(rms(plane, plane.visible(visibility, true), exact), 1.0 / 255);
+}
+
+// An environment that shines from one side only is hidden by what stands on that side.
+TEST(TracedVisibility, OcclusionCountsTheEnvironmentsLight) {
+  const TestMesh sphere = standing_sphere(40);
+  const Bvh bvh(std::vector{sphere.caster()});
+  Plane<float4> all(64, 32, {2, 2, 2, 1}), half(64, 32);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) half(x, y) = {1, 1, 1, 1};
+  const PreparedEnvironment uniform = prepare_equirectangular(TexelImage(std::move(all)));
+  const PreparedEnvironment one_side = prepare_equirectangular(TexelImage(std::move(half)));
+  const OcclusionOptions options{.samples = 128, .distance = 1e6f};
+  PlanePoints plane(1, 0);
+  const auto seen = [&](float3 point, const PreparedEnvironment* environment) {
+    plane.points = {point};
+    EnvironmentView view;
+    if (environment != nullptr) view = environment->view({.color = {1, 1, 1}}, {0, 1, 0});
+    const TracedVisibility visibility(bvh, {}, {}, {}, options, environment != nullptr ? &view : nullptr);
+    return plane.visible(visibility, true)[0];
+  };
+  EXPECT_NEAR(seen({2, 0, 0}, &uniform), seen({2, 0, 0}, nullptr), 1e-5f);
+  const float left = seen({-2, 0, 0}, &one_side), right = seen({2, 0, 0}, &one_side);
+  EXPECT_LT(std::min(left, right), seen({2, 0, 0}, nullptr) - 0.03f);
+  EXPECT_GT(std::max(left, right), 0.97f);
 }
 
 TEST(TracedVisibility, NothingOccludesBeyondTheDistance) {

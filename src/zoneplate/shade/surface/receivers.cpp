@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "zoneplate/math/random.h"
@@ -60,9 +61,28 @@ float3 position_on(const ReceivingTriangle& t, float b1, float b2) {
 
 }  // namespace
 
+void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, float3 edge2, Receivers& out) {
+  const float x[3] = {-(batch.dbdx[0][i] + batch.dbdx[1][i]), batch.dbdx[0][i], batch.dbdx[1][i]};
+  const float y[3] = {-(batch.dbdy[0][i] + batch.dbdy[1][i]), batch.dbdy[0][i], batch.dbdy[1][i]};
+  const float b[3] = {1 - batch.b[0][i] - batch.b[1][i], batch.b[0][i], batch.b[1][i]};
+  // No weight falls below 0 within half a pixel.
+  float half = 0.5f;
+  for (int k = 0; k < 3; ++k) {
+    const float change = std::abs(x[k]) + std::abs(y[k]);
+    if (half * change > b[k]) half = std::max(b[k], 0.0f) / change;
+  }
+  const auto store = [&](float3 v, float(&to)[3][Receivers::capacity]) {
+    if (!is_finite(v)) v = {};
+    to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
+  };
+  store((edge1 * x[1] + edge2 * x[2]) * half, out.dx);
+  store((edge1 * y[1] + edge2 * y[2]) * half, out.dy);
+}
+
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const TriangleVertices& vertices,
-                    const Viewpoint& viewpoint, Receivers& out) {
+                    const Viewpoint& viewpoint, bool has_footprint, Receivers& out) {
   out.count = batch.padded();
+  if (!has_footprint) std::memset(out.dx, 0, sizeof out.dx), std::memset(out.dy, 0, sizeof out.dy);
   const auto store = [](float3 from, float(&to)[3][Receivers::capacity], std::size_t i) {
     to[0][i] = from.x, to[1][i] = from.y, to[2][i] = from.z;
   };
@@ -88,6 +108,9 @@ void make_receivers(const Scene& scene, const FragmentBatch& batch, const Triang
     const float3(&n)[3] = triangle.normal;
     store(normalize(n[0] + ((n[1] - n[0]) * b1 + (n[2] - n[0]) * b2), triangle.face), out.normal, i);
     out.margin[i] = triangle.margin;
+    if (has_footprint)
+      store_footprint(batch, i, triangle.position[1] - triangle.position[0],
+                      triangle.position[2] - triangle.position[0], out);
     out.seed[i] = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
   }
 }

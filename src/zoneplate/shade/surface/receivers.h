@@ -16,6 +16,9 @@ struct Scene;
 /// triangles does not shadow itself along their edges.
 /// Source    Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021.
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const TriangleVertices& vertices,
-                    const Viewpoint& viewpoint, Receivers& out);
+                    const Viewpoint& viewpoint, bool has_footprint, Receivers& out);
+
+/// Sets the footprint of fragment i of a triangle with these edges from its first vertex, from the batch's derivatives.
+void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, float3 edge2, Receivers& out);
 
 }  // namespace zoneplate

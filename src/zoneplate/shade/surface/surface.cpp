@@ -483,7 +483,7 @@ void SurfaceShader::Data::BatchShading::find_metallic() {
 void SurfaceShader::Data::BatchShading::find_visibility() {
   const LightVisibility& visibility = *d.view.visibility;
   Receivers receivers;
-  make_receivers(d.scene, batch, vertices, d.viewpoint, receivers);
+  make_receivers(d.scene, batch, vertices, d.viewpoint, visibility.needs_footprint(), receivers);
   constexpr std::size_t stride = FragmentBatch::padded_capacity;
   light_visibility = std::make_unique<float[]>(d.lights.size() * stride);
   for (std::size_t k = 0; k < d.lights.size(); ++k)
@@ -672,7 +672,9 @@ void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outpu
 
 bool SurfaceShader::needs_derivatives(int material) const {
   const Attributes& a = data_->plans[static_cast<std::size_t>(material)].attributes;
-  return a.uv[0] || a.uv[1] || a.normal_change || a.object_position;
+  const LightVisibility* const visibility = data_->view.visibility;
+  return a.uv[0] || a.uv[1] || a.normal_change || a.object_position ||
+         (visibility != nullptr && visibility->needs_footprint());
 }
 
 std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
