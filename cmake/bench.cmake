@@ -7,6 +7,11 @@ foreach(bench IN LISTS benches)
   add_executable(${name} ${bench})
   target_link_libraries(${name} PRIVATE zoneplate zoneplate_flags benchmark::benchmark)
 endforeach()
+find_library(embree_library embree3) # measured too where it is installed
+if(embree_library)
+  target_compile_definitions(ray_bench PRIVATE ZONEPLATE_EMBREE)
+  target_link_libraries(ray_bench PRIVATE ${embree_library})
+endif()
 
 # The comparison with Mesa's software OpenGL, which bench/peers/run starts; its library is looked for when it runs.
 find_path(opengl_headers GL/glcorearb.h)

@@ -26,6 +26,18 @@ add_dependencies(zoneplate_tests zoneplate_program fuzz_appetite)
 target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
 gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISABLED_*")
 
+# Embree judges rays where it is installed.
+find_library(embree_library embree3)
+find_path(embree_headers embree3/rtcore.h)
+if(embree_library AND embree_headers)
+  set_source_files_properties(src/zoneplate/ray/embree_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+                              COMPILE_OPTIONS "${built_quickly}" COMPILE_DEFINITIONS ZONEPLATE_EMBREE)
+  target_link_libraries(zoneplate_tests PRIVATE ${embree_library})
+  add_test(NAME ten_million_rays CONFIGURATIONS Long
+           COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Embree.DISABLED_AgreesAboutTenMillionRays)
+  set_tests_properties(ten_million_rays PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endif()
+
 # What takes minutes, only for `ctest -C Long`.
 foreach(pattern RANGE 5)
   add_test(NAME million_triangles_${pattern} CONFIGURATIONS Long

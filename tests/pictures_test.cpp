@@ -164,6 +164,37 @@ TEST(Pictures, ThreadsAndInstructionSetsLeaveNoTrace) {
   }
 }
 
+/// A shot with all that rays decide.
+Shot shadowed_shot(ShadowOptions shadows) {
+  Shot shot("teapot:divisions=6", 97, 61);
+  shot.options.shadows = shadows;
+  shot.options.occlusion = {.samples = 5};
+  shot.options.ground = GroundKind::Shadow;
+  return shot;
+}
+
+TEST(Pictures, ShadowsHaveTheirBits) {
+  const std::pair<ShadowOptions, std::uint64_t> shadow_goldens[] = {
+      {{.method = ShadowMethod::Hard}, 0x6f6e0583720d18du},
+      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0x9ab219806c887ae8u},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Nearest, .size = 64}}, 0xf0062e939563a148u},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcf, .size = 64}}, 0x142383387fc34307u},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcss, .size = 64}}, 0x4de1c23969190abeu},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Evsm, .size = 64}}, 0x990cb1d83fbf7f6bu},
+  };
+  for (const auto& [shadows, hash] : shadow_goldens)
+    EXPECT_EQ(hash_of(shadowed_shot(shadows).frame("msaa:n=4").color), hash) << std::hex << hash;
+}
+
+TEST(Pictures, CropsOfShadowsHaveTheirBits) {
+  Shot shot = shadowed_shot({.method = ShadowMethod::Soft, .samples = 9});
+  const Frame whole = shot.frame("msaa:n=4");
+  shot.options.crop = Crop{37, 10, 50, 41};
+  const Frame part = shot.frame("msaa:n=4");
+  for (int y = 0; y < 41; ++y)
+    for (int x = 0; x < 50; ++x) ASSERT_EQ(part.color(x, y), whole.color(37 + x, 10 + y));
+}
+
 TEST(Pictures, DataPlanesDoNotChangeTheColour) {
   // With planes each pixel goes its own way, without them rows of pixels go together.
   for (const char* name : {"teapot:divisions=6", "city-trilinear", "fillblend", "cyclic"})

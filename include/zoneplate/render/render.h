@@ -11,6 +11,7 @@
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/method.h"
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/shadow/shadows.h"
 
 #pragma GCC visibility push(default)
 namespace zoneplate {
@@ -54,6 +55,10 @@ struct RenderOptions {
   ShadingFrequency shading_frequency = ShadingFrequency::Fragment;  ///< Fragment, except for teaching
   bool cull_back_faces = true;                                      ///< of single-sided materials
   int anisotropy = 1;  ///< maximum texture probes along a footprint, for all samplers that blend mip levels; at most 16
+  ShadowOptions shadows;       ///< of the lights; none by default
+  OcclusionOptions occlusion;  ///< of the environment's light; none by default
+  /// Shadow requires shadows or occlusion. It moves the near and far planes, which may change data passes by rounding.
+  GroundKind ground = GroundKind::None;
   bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;             ///< pixels
   RasterCapacity capacity;                          ///< trades memory for time; does not change any bit of the image
@@ -62,6 +67,11 @@ struct RenderOptions {
   std::optional<Moment> last;  ///< the moment from which Frame::motion is measured; none: no motion
   std::optional<Moment> next;  ///< the moment to which Frame::flow leads
 };
+
+/// Whether rays to the lights or to the environment are traced.
+inline bool has_visibility(const RenderOptions& o) {
+  return o.shadows.method != ShadowMethod::None || o.occlusion.samples > 0;
+}
 
 /// Times and counts of the work of a frame.
 struct RenderCounts {

@@ -42,6 +42,8 @@ struct Bool {
   friend Bool operator|(Bool a, Bool b) { return {a.v || b.v}; }
   friend bool all(Bool a) { return a.v; }
   friend bool none(Bool a) { return !a.v; }
+  /// Bit i: lane i.
+  friend unsigned bits_of(Bool a) { return a.v ? 1 : 0; }
 };
 
 struct Int {

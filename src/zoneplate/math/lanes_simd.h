@@ -21,6 +21,12 @@ struct BoolVector {
   friend HWY_INLINE Bool operator|(Bool a, Bool b) { return {hn::Or(a.v, b.v)}; }
   friend HWY_INLINE bool all(Bool a) { return hn::AllTrue(FloatTag(), a.v); }
   friend HWY_INLINE bool none(Bool a) { return hn::AllFalse(FloatTag(), a.v); }
+  friend HWY_INLINE unsigned bits_of(Bool a) {
+    static_assert(hn::MaxLanes(FloatTag()) <= 8);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(FloatTag(), a.v, bits);
+    return bits[0];
+  }
 };
 
 template <class FloatTag>
@@ -166,9 +172,10 @@ struct FloatVector {
   static HWY_INLINE Float from(Int i) { return Float(hn::ConvertTo(FloatTag(), i.v)); }
 };
 
-/// As many lanes as a group of fragments has at most, as many as a vector has, and one for the rests of rows.
+/// As many lanes as a group of fragments has at most, as many as a vector has, four, and one for the rests of rows.
 using Float = FloatVector<hn::CappedTag<float, 8>>;
 using WideFloat = FloatVector<hn::CappedTag<float, 16>>;
+using FourFloats = FloatVector<hn::CappedTag<float, 4>>;
 using OneFloat = FloatVector<hn::CappedTag<float, 1>>;
 
 }  // namespace zoneplate::HWY_NAMESPACE

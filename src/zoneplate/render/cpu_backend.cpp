@@ -17,8 +17,10 @@
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
 #include "zoneplate/render/geometry_fragments.h"
+#include "zoneplate/render/ground.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/scene_shadows.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
@@ -27,13 +29,14 @@
 namespace zoneplate {
 namespace {
 
-/// Adapts the scene's materials to FragmentShader.
+/// Adapts the scene's materials to FragmentShader. The material after them is that of the ground.
 class SceneFragmentShader : public FragmentShader {
  public:
-  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view)
-      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()) {}
+  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view, const Ground* ground)
+      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()), ground_(ground) {}
 
   void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
+    if (is_ground(batch.material)) return ground_->shade(batch, out);
     surfaces_.shade(batch, outputs, out);
   }
   float alpha(const FragmentBatch& batch, float* out) const override {
@@ -41,15 +44,21 @@ class SceneFragmentShader : public FragmentShader {
     return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
   }
   float brightest() const override { return surfaces_.brightest(); }
-  bool needs_derivatives(int material) const override { return surfaces_.needs_derivatives(material); }
+  bool needs_derivatives(int material) const override {
+    return !is_ground(material) && surfaces_.needs_derivatives(material);
+  }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
+    if (is_ground(material)) return {};
     const std::span<const float> record = surfaces_.vertex_record(instance, material);
     return {reinterpret_cast<const std::byte*>(record.data()), record.size_bytes()};
   }
 
  private:
+  bool is_ground(int material) const { return static_cast<std::size_t>(material) == scene_.materials.size(); }
+
   const Scene& scene_;
   SurfaceShader surfaces_;
+  const Ground* ground_;
 };
 
 /// Clip space looks x = m00 X + m02 Z, w = -Z: through the pixel's (x, y) goes the direction ((x + m02) / m00, ...,
@@ -185,6 +194,7 @@ void check(const RenderOptions& o, const Request& request) {
   if (const Crop c = o.crop.value_or(Crop{0, 0, o.width, o.height});
       c.x < 0 || c.y < 0 || c.width < 1 || c.height < 1 || c.x > o.width - c.width || c.y > o.height - c.height)
     reject("the crop must lie within the image of " + std::to_string(o.width) + " × " + std::to_string(o.height));
+  if (o.ground == GroundKind::Shadow && !has_visibility(o)) reject("a ground of shadows requires shadows or occlusion");
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
   if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))
@@ -231,12 +241,15 @@ class CpuBackend : public Backend {
 
  private:
   RasterMemory memory_;
+  SceneShadows shadows_;
 };
 
-Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, const Request& request,
+Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_camera, const Request& request,
                          const RenderOptions& options, RenderCounts* counts) {
   check(options, request);
   const Scene& scene = prepared.scene();
+  const Camera camera =
+      options.ground == GroundKind::Shadow ? GroundSquare(scene).enclosing(scene_camera) : scene_camera;
   const Stopwatch prepare;
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
@@ -247,11 +260,18 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& camera, co
                           .is_painter = options.visibility == Visibility::Painter,
                           .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
+  if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
   std::optional<Backdrop> backdrop;
   if (request.content == Content::Colour)
     backdrop = make_backdrop(prepared, view, draws.draws, clip_from_world, rules, options, memory_);
   if (backdrop) view.backdrop = backdrop->view();
-  const SceneFragmentShader points(prepared, view);
+  std::optional<Ground> ground;
+  if (options.ground == GroundKind::Shadow && view.visibility != nullptr) {
+    ground.emplace(scene, view);
+    draws.draws.push_back(ground->draw(clip_from_world, static_cast<std::uint32_t>(scene.instances.size()),
+                                       static_cast<int>(scene.materials.size())));
+  }
+  const SceneFragmentShader points(prepared, view, ground ? &*ground : nullptr);
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;

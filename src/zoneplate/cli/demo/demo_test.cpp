@@ -50,10 +50,10 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   const std::string said = testing::internal::GetCapturedStdout();
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  EXPECT_EQ(names,
-            (std::set<std::string>{"antialiasing.png", "black-edge.png", "jaggies.png", "moire.png", "prefilter.png",
-                                   "convolution-theorem.png", "sampling.png", "aliases.png", "exact-coverage.png",
-                                   "wagon-wheel.png", "wagon-wheel.webp", "shading-frequency.png", "blinn-phong.png"}));
+  EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png", "black-edge.png", "jaggies.png", "moire.png",
+                                          "prefilter.png", "convolution-theorem.png", "sampling.png", "aliases.png",
+                                          "exact-coverage.png", "wagon-wheel.png", "wagon-wheel.webp",
+                                          "shading-frequency.png", "blinn-phong.png", "shadows.png"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {
@@ -61,9 +61,10 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
     }
   }
   // The text holds what the image says: titles, captions, and tables.
-  for (const char* words : {"Jaggies: with one", "The same region by every", "The black edge: four",
-                            "have the correct brightness", "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling",
-                            "border", "Sampling repeats", "blackman-harris", "+0.90", "Shutter always open: "})
+  for (const char* words :
+       {"Jaggies: with one", "The same region by every", "The black edge: four", "have the correct brightness",
+        "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling", "border", "Sampling repeats", "blackman-harris",
+        "+0.90", "Shutter always open: ", "Percentage closer"})
     EXPECT_NE(said.find(words), std::string::npos) << words;
 }
 

@@ -42,12 +42,15 @@ Camera camera_of(const Scene& scene, int width, int height) {
 
 LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts,
                   ShadingFrequency frequency) {
+  return shoot(scene, method, {.width = width, .height = height, .shading_frequency = frequency}, counts);
+}
+
+LinearImage shoot(const Scene& scene, const std::string& method, const RenderOptions& options, RenderCounts* counts) {
   Scene lit = scene;
   light_unlit(lit);
   Renderer renderer(PreparedScene(std::move(lit)), make_resolver(antialias::methods(), method));
-  RenderedImage image = renderer.render(
-      camera_of(scene, width, height),
-      {.options = {.width = width, .height = height, .shading_frequency = frequency}, .form = ImageForm::Linear});
+  RenderedImage image =
+      renderer.render(camera_of(scene, options.width, options.height), {.options = options, .form = ImageForm::Linear});
   if (counts) *counts = image.counts;
   LinearImage light = std::move(image.linear);
   const float background = decode_srgb(background_code);

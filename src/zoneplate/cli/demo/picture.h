@@ -17,6 +17,10 @@ namespace zoneplate::cli {
 LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts = nullptr,
                   ShadingFrequency frequency = ShadingFrequency::Fragment);
 
+/// The same with any options.
+LinearImage shoot(const Scene& scene, const std::string& method, const RenderOptions& options,
+                  RenderCounts* counts = nullptr);
+
 /// The camera of `shoot`.
 Camera camera_of(const Scene& scene, int width, int height);
 

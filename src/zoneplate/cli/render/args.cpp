@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/render/shadow_args.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
@@ -249,6 +250,23 @@ std::vector<Option> scene_options(RenderArgs& a) {
        false, [&](auto& text) { a.hdri_rotation = radians(text, -360, 360); }},
       {"--hdri-intensity", "FACTOR", "Factor of the image's light; default 1", group, false,
        [&](auto& text) { a.hdri_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
+      {"--shadows", "METHOD",
+       "Shadows of the lights: none; hard, one ray from each fragment to each light; soft:samples=N,angle=DEG, N rays "
+       "to a light of this angular radius, default 32 and 3; or map:filter=F,size=N, depth images from the lights with "
+       "the filter nearest, pcf, pcss or evsm, default pcf and 2048; default none",
+       group, false, [&](auto& text) { a.options.shadows = parse_shadows(text); }},
+      {"--ambient-occlusion", "METHOD",
+       "What hides the environment's light: none, or rays:samples=N,distance=D, surfaces within D world units, default "
+       "a quarter of the scene's diagonal; default none",
+       group, false, [&](auto& text) { a.options.occlusion = parse_occlusion(text); }},
+      {"--ground", "KIND",
+       "What lies under the scene: none, or shadow: a plane that shows the shadows on it alone, over the background "
+       "or, "
+       "with --no-background, as alpha; requires --shadows or --ambient-occlusion; default none",
+       group, false,
+       [&](auto& text) {
+         a.options.ground = parse_choice(text, {"none", "shadow"}) == 1 ? GroundKind::Shadow : GroundKind::None;
+       }},
       {"--no-cull", "", "Draw back faces of single-sided materials", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
       {"--point-size", "PX", "Size of points, which are drawn as squares; default 1", group, false,
@@ -396,6 +414,8 @@ void check_args(RenderArgs& args) {
   const std::string ending = extension_of(args.named_output());
   if (args.output != "-" && args.stdout_format != "png")
     throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
+  if (args.options.ground == GroundKind::Shadow && !has_visibility(args.options))
+    throw Error(ErrorKind::Usage, "--ground shadow requires --shadows or --ambient-occlusion");
   if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
     throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))

@@ -12,6 +12,7 @@
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
+#include "zoneplate/shade/surface/receivers.h"
 #include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/filtering.h"
@@ -34,6 +35,10 @@ std::vector<PreparedLight> prepare_all(const std::vector<Light>& lights) {
   return prepared;
 }
 
+bool has_traced_occlusion(const ViewUniforms& view) {
+  return view.visibility != nullptr && view.visibility->has_occlusion();
+}
+
 /// The constants of a material under the scene's lights; `lights` and `view` must outlive them.
 ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
                                       const Viewpoint& viewpoint, const ViewUniforms& view) {
@@ -41,7 +46,7 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   ShadingUniforms s;
   s.light = lights.data(), s.lights = static_cast<int>(lights.size());
   s.viewpoint = viewpoint, s.needs_viewer = plan.needs_viewer;
-  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
+  s.has_occlusion = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr || has_traced_occlusion(view);
   s.has_emissive_texture = plan.slot(TextureSlotIndex::Emissive).texture != nullptr || plan.has_own_ambient;
   s.has_emissive = plan.has_emissive || plan.has_own_ambient;
   s.has_bare_meshes = plan.has_bare_meshes, s.is_blended = plan.alpha_mode == AlphaMode::Blend;
@@ -120,6 +125,7 @@ struct SurfaceShader::Data::BatchShading {
   Coordinates coordinates;
   Taps taps;
   const TextureSlot* taps_of = nullptr;  ///< the slot whose texture look-up made `taps`
+  std::unique_ptr<float[]> light_visibility;
   LayerState q;
   bool is_corner =
       false;  ///< shaded at a corner of a triangle: the texture of the base colour is left to its fragments
@@ -141,6 +147,7 @@ struct SurfaceShader::Data::BatchShading {
   void add_own_ambient();
   void find_occlusion();
   void find_metallic();
+  void find_visibility();
   void find_highlight();
   void find_thickness();
   void light_layered(FragmentOutputs& out);
@@ -258,7 +265,7 @@ void SurfaceShader::Data::BatchShading::find_emissive() {
 void SurfaceShader::Data::BatchShading::add_own_ambient() {
   if (!plan.has_own_ambient) return;
   const bool is_textured = !is_corner && plan.slot(TextureSlotIndex::BaseColor).texture != nullptr,
-             is_occluded = plan.slot(TextureSlotIndex::Occlusion).texture != nullptr;
+             is_occluded = d.shading_uniforms[static_cast<std::size_t>(batch.material)].has_occlusion;
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), texel);
   for (int c = 0; c < 3; ++c) {
     if (plan.slot(TextureSlotIndex::Emissive).texture == nullptr)
@@ -285,6 +292,24 @@ void SurfaceShader::Data::BatchShading::find_metallic() {
   sample(plan.slot(TextureSlotIndex::MetallicRoughness), texel);
   kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
   kernels.scale(p.metallic, texel[2], plan.metallic, 0, p.count);
+}
+
+/// The part of each light, and of the environment, that reaches the fragments.
+void SurfaceShader::Data::BatchShading::find_visibility() {
+  const LightVisibility& visibility = *d.view.visibility;
+  Receivers receivers;
+  make_receivers(d.scene, batch, vertices, d.viewpoint, receivers);
+  constexpr std::size_t stride = FragmentBatch::padded_capacity;
+  light_visibility = std::make_unique<float[]>(d.lights.size() * stride);
+  for (std::size_t k = 0; k < d.lights.size(); ++k)
+    visibility.of_light(static_cast<int>(k), receivers, &light_visibility[k * stride]);
+  if (!d.lights.empty()) p.light_visibility = light_visibility.get();
+  if (!visibility.has_occlusion()) return;
+  visibility.of_environment(receivers, texel[0]);
+  if (plan.slot(TextureSlotIndex::Occlusion).texture == nullptr)
+    std::copy_n(texel[0], p.count, p.occlusion);
+  else
+    kernels.multiply(p.occlusion, texel[0], p.count);
 }
 
 /// specular = factor × texture, exponent = factor × texture, at least 1.
@@ -334,6 +359,7 @@ void SurfaceShader::Data::BatchShading::light_layered(FragmentOutputs& out) {
 /// From base colour and normal to the fragment's colour.
 void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   find_occlusion();
+  if (d.view.visibility != nullptr) find_visibility();
   find_emissive();
   add_own_ambient();
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);

@@ -16,6 +16,7 @@ namespace zoneplate {
 
 class TextureSet;
 class InterleavedVertices;
+class LightVisibility;
 
 /// The vector from pixel (x, y) to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
 struct PixelRays {
@@ -38,7 +39,8 @@ struct ViewUniforms {
   /// Requires  at Triangle and Vertex: no rays.
   ShadingFrequency shading_frequency = ShadingFrequency::Fragment;
   bool raw_colors = false;  ///< the values of images are linear, not decoded from sRGB (--color-management raw)
-  int anisotropy = 1;       ///< maximum number of probes along a footprint, for all samplers that blend mip levels
+  const LightVisibility* visibility = nullptr;  ///< of `lights`, in their order; null: nothing casts shadows
+  int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };
 
 /// Shades a scene's surfaces with its materials and lights, in batched stages.

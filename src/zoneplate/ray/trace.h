@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "zoneplate/base/isa.h"
+#include "zoneplate/ray/bvh.h"
+
+namespace zoneplate {
+
+/// The points origin + t direction for 0 < t < end. The direction may have any length but zero.
+struct Ray {
+  float origin[3];
+  float direction[3];
+  float end = std::numeric_limits<float>::infinity();
+};
+
+/// The point where a ray meets a triangle: the weights of the second and third vertex are b1 and b2.
+struct RayHit {
+  static constexpr std::uint32_t none = 0xffffffffu;
+  std::uint32_t instance = none, primitive = none;
+  float t = std::numeric_limits<float>::infinity();
+  float b1 = 0, b2 = 0;
+};
+
+/// The opacity, in [0, 1], of a translucent caster at a hit.
+struct OpacityOfHits {
+  float (*opacity)(const void* context, const RayHit& hit) = nullptr;  ///< null: all casters are opaque
+  const void* context = nullptr;
+};
+
+/// The tree in the form that kernels read.
+struct BvhView {
+  const BvhNode* nodes = nullptr;  ///< null: no triangles
+  const BvhLeaf* leaves = nullptr;
+};
+inline BvhView view_of(const Bvh& bvh) {
+  return {bvh.nodes().empty() ? nullptr : bvh.nodes().data(), bvh.leaves().data()};
+}
+
+/// Queries of single rays against a BVH.
+///
+/// A ray through an edge or a vertex of a closed mesh hits at least one of the triangles there: vertices are sheared
+/// into the ray's space, the same way for every triangle that has them, and the signs of the edge functions are exact
+/// there. Boxes are tested with a margin greater than the error of the shear.
+/// Exact     the same bits for every instruction set.
+/// Source    Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2013; Ize, Robust BVH Ray Traversal,
+///           JCGT 2013.
+struct RayKernels : PerIsa<RayKernels> {
+  /// visibility[i] = the product of 1 - opacity of all triangles that ray i meets; 0 as soon as one of them is opaque.
+  void (*visibility)(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity,
+                     float* visibility);
+  /// The hit of least t of each ray; of equal ones, that of the least instance and then primitive.
+  void (*nearest)(const BvhView& bvh, const Ray* rays, std::size_t count, RayHit* hits);
+};
+
+}  // namespace zoneplate

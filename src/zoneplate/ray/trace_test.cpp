@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/ray/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "zoneplate/ray/casters_for_test.h"
+
+namespace zoneplate {
+namespace {
+
+std::vector<Ray> random_rays(std::uint32_t count) {
+  std::vector<Ray> rays;
+  for (std::uint32_t i = 0; i < count; ++i) rays.push_back(random_ray(i));
+  return rays;
+}
+
+std::vector<RayHit> nearest(const Bvh& bvh, const std::vector<Ray>& rays,
+                            const RayKernels& kernels = RayKernels::of()) {
+  std::vector<RayHit> hits(rays.size());
+  kernels.nearest(view_of(bvh), rays.data(), rays.size(), hits.data());
+  return hits;
+}
+
+std::vector<float> visibility(const Bvh& bvh, const std::vector<Ray>& rays, const OpacityOfHits& opacity = {},
+                              const RayKernels& kernels = RayKernels::of()) {
+  std::vector<float> out(rays.size());
+  kernels.visibility(view_of(bvh), rays.data(), rays.size(), opacity, out.data());
+  return out;
+}
+
+/// The t of the intersection in double precision; infinite where the ray misses.
+double exact_t(const TestMesh& mesh, std::size_t triangle, const Ray& ray) {
+  const auto at = [&](std::size_t k, std::size_t axis) {
+    const float3 p = mesh.position[mesh.index[3 * triangle + k]];
+    return static_cast<double>(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
+  };
+  double a[3], b[3], o[3], d[3];
+  for (std::size_t c = 0; c < 3; ++c)
+    a[c] = at(1, c) - at(0, c), b[c] = at(2, c) - at(0, c), o[c] = ray.origin[c] - at(0, c), d[c] = ray.direction[c];
+  const auto det = [](const double(&x)[3], const double(&y)[3], const double(&z)[3]) {
+    return x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) + x[2] * (y[0] * z[1] - y[1] * z[0]);
+  };
+  // o + t d = u a + v b
+  const double whole = det(a, b, d);
+  const double u = det(o, b, d) / whole, v = det(a, o, d) / whole, t = -det(a, b, o) / whole;
+  return u >= 0 && v >= 0 && u + v <= 1 && t > 0 ? t : INFINITY;
+}
+
+TEST(Trace, FindsTheNearestOfAllTriangles) {
+  const TestMesh soup = triangle_soup(500, 0.5f);
+  const Bvh bvh(std::vector{soup.caster()});
+  const std::vector<Ray> rays = random_rays(2000);
+  const std::vector<RayHit> hits = nearest(bvh, rays);
+  const std::vector<float> visible = visibility(bvh, rays);
+  int hit_count = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    double least = INFINITY;
+    for (std::size_t t = 0; t < 500; ++t) least = std::min(least, exact_t(soup, t, rays[i]));
+    ASSERT_EQ(std::isinf(least), std::isinf(hits[i].t)) << i;
+    ASSERT_EQ(visible[i], std::isinf(least) ? 1 : 0);
+    if (std::isinf(least)) continue;
+    ++hit_count;
+    ASSERT_NEAR(hits[i].t, least, 1e-5 * least);
+    const RayHit& h = hits[i];
+    const auto p = [&](std::size_t k) { return soup.position[soup.index[3 * h.primitive + k]]; };
+    const float3 on_triangle = p(0) * (1 - h.b1 - h.b2) + p(1) * h.b1 + p(2) * h.b2;
+    const float* const o = rays[i].origin;
+    const float* const d = rays[i].direction;
+    const float3 on_ray{o[0] + h.t * d[0], o[1] + h.t * d[1], o[2] + h.t * d[2]};
+    ASSERT_LT(length(on_triangle - on_ray), 1e-5f);
+  }
+  EXPECT_GT(hit_count, 300);
+}
+
+// From inside of a closed mesh every ray meets it: through the middles of triangles, and exactly at vertices and edges.
+TEST(Trace, NoRayLeavesAClosedMesh) {
+  const TestMesh sphere = bumpy_sphere(48);
+  const Bvh bvh(std::vector{sphere.caster()});
+  std::vector<Ray> rays;
+  const auto add = [&](float3 from, float3 to) {
+    const float3 d = to - from;
+    rays.push_back({{from.x, from.y, from.z}, {d.x, d.y, d.z}});
+  };
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const float4 r = random_numbers(i, 5);
+    const float3 from = i == 0 ? float3{} : float3{r.x - 0.5f, r.y - 0.5f, r.z - 0.5f};
+    for (const float3 vertex : sphere.position) add(from, vertex);
+    for (std::size_t t = 0; t < sphere.index.size() / 3; ++t) {
+      const float3 a = sphere.position[sphere.index[3 * t]], b = sphere.position[sphere.index[3 * t + 1]];
+      const float4 along = random_numbers(static_cast<std::uint32_t>(t), i);
+      add(from, a + (b - a) * along.x);
+    }
+  }
+  for (const float3 axis : {float3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}) add({}, axis);
+  for (const float v : visibility(bvh, rays)) ASSERT_EQ(v, 0);
+  for (const RayHit& hit : nearest(bvh, rays)) ASSERT_NE(hit.primitive, RayHit::none);
+}
+
+// The plane's boxes are flat, and the rays lie in them.
+TEST(Trace, RaysAlongAnAxisMeetWhatTheyTouch) {
+  const TestMesh wall{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 1, 2, 2, 1, 3}};
+  const Bvh bvh(std::vector{wall.caster()});
+  std::vector<Ray> rays;
+  for (const float x : {0.0f, 0.25f, 0.5f, 1.0f})
+    for (const float y : {0.0f, 0.25f, 0.5f, 1.0f}) rays.push_back({{x, y, -1}, {0, 0, 1}});
+  for (const float v : visibility(bvh, rays)) EXPECT_EQ(v, 0);
+  for (Ray& ray : rays) ray.end = 1;  // excluded
+  for (const float v : visibility(bvh, rays)) EXPECT_EQ(v, 1);
+  EXPECT_EQ(visibility(Bvh({}), rays)[0], 1);
+}
+
+TEST(Trace, TranslucentCastersAttenuate) {
+  const TestMesh wall{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}};
+  ShadowCaster near = wall.caster(), far = wall.caster();
+  near.is_translucent = true;
+  near.world_from_object.column[3].z = -0.5f;
+  const std::vector<Ray> rays = {{{0.25f, 0.25f, -1}, {0, 0, 1}}};
+  const auto quarter = [](const void* factor, const RayHit& hit) {
+    return hit.b1 * *static_cast<const float*>(factor);
+  };
+  const float one = 1;
+  const OpacityOfHits opacity{quarter, &one};
+  EXPECT_EQ(visibility(Bvh(std::vector{near}), rays, opacity)[0], 0.75f);
+  EXPECT_EQ(visibility(Bvh(std::vector{near, near}), rays, opacity)[0], 0.75f * 0.75f);
+  EXPECT_EQ(visibility(Bvh(std::vector{near, far}), rays, opacity)[0], 0);
+}
+
+TEST(TraceBits, AreTheSameForAllInstructionSets) {
+  const TestMesh sphere = bumpy_sphere(40), soup = triangle_soup(2000, 0.3f);
+  const ShadowCaster casters[] = {sphere.caster(), soup.caster()};
+  std::vector<ShadowCaster> translucent(std::begin(casters), std::end(casters));
+  for (ShadowCaster& caster : translucent) caster.is_translucent = true;
+  const std::vector<Ray> rays = random_rays(5000);
+  const OpacityOfHits weights{[](const void*, const RayHit& hit) { return 0.5f * hit.b1 + 0.25f * hit.b2; }, nullptr};
+  const Bvh opaque(casters), veil(translucent);
+  const std::vector<RayHit> hits = nearest(opaque, rays, RayKernels::scalar);
+  for (const Isa isa : supported_isas()) {
+    const RayKernels& kernels = RayKernels::of(isa);
+    EXPECT_EQ(visibility(opaque, rays, {}, kernels), visibility(opaque, rays, {}, RayKernels::scalar));
+    EXPECT_EQ(visibility(veil, rays, weights, kernels), visibility(veil, rays, weights, RayKernels::scalar));
+    const std::vector<RayHit> same = nearest(opaque, rays, kernels);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(same[i].primitive, hits[i].primitive);
+      ASSERT_EQ(same[i].t, hits[i].t);
+      ASSERT_EQ(same[i].b1, hits[i].b1);
+      ASSERT_EQ(same[i].b2, hits[i].b2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

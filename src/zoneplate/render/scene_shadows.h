@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "zoneplate/render/render.h"
+#include "zoneplate/shade/shadow/shadow_map.h"
+#include "zoneplate/shade/shadow/traced_visibility.h"
+#include "zoneplate/shade/surface/casters.h"
+#include "zoneplate/shade/surface/surface.h"
+
+namespace zoneplate {
+
+/// The shadow casters of a scene: their tree, which lasts as long as the scene's geometry, or the maps of a frame.
+class SceneShadows {
+ public:
+  /// The visibility of a frame's lights; null where the options need none. It is valid until the next call, and as long
+  /// as `view`.
+  const LightVisibility* of_frame(const PreparedScene& prepared, const ViewUniforms& view,
+                                  const RenderOptions& options);
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  std::optional<Bvh> bvh_;
+  std::optional<CasterOpacity> opacity_;
+  std::optional<TracedVisibility> traced_;
+  std::optional<MappedVisibility> mapped_;
+};
+
+/// The maps of the lights, in their order, rendered by the rasterizer: one for each directional light and narrow spot
+/// light, six for others.
+std::vector<std::vector<ShadowMap>> make_shadow_maps(const PreparedScene& prepared, const std::vector<Light>& lights,
+                                                     int size);
+
+}  // namespace zoneplate

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/shade/shadow/traced_visibility.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/math/lanes.h"
+#include "zoneplate/shade/environment/lookup_lanes.h"
+#include "zoneplate/shade/shadow/disc_samples.h"
+
+namespace zoneplate {
+namespace {
+
+float3 at(const float (&array)[3][Receivers::capacity], int i) { return {array[0][i], array[1][i], array[2][i]}; }
+
+float3 origin_of(const Receivers& r, int i) { return at(r.position, i) + at(r.face, i) * r.margin[i]; }
+
+Ray make_ray(float3 origin, float3 direction, float end) {
+  return {{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, end};
+}
+
+/// A light as a receiver sees it.
+struct SeenLight {
+  float3 direction;  ///< unit, to its centre
+  float distance = std::numeric_limits<float>::infinity();
+  float height = 0;  ///< 1 - the cosine of its angular radius
+};
+
+/// Rays that are traced together.
+constexpr int chunk = 64;
+
+/// 1 - cos of the angle, without cancellation.
+float height_of(float sine) { return sine * sine / (1 + std::sqrt(std::max(0.0f, 1 - sine * sine))); }
+
+SeenLight see(const Light& light, const ShadowOptions& shadows, float3 from) {
+  SeenLight seen;
+  if (light.kind == LightKind::Directional) {
+    seen.direction = -normalize(light.direction, {0, 0, -1});
+    const float angle = light.radius > 0 ? light.radius : shadows.angle;
+    seen.height = height_of(sin(std::min(angle, 1.57079633f)));
+    return seen;
+  }
+  const float3 path = light.position - from;
+  seen.distance = length(path);
+  seen.direction = normalize(path, {0, 0, 1});
+  const float sine = light.radius > 0 ? light.radius / std::max(seen.distance, light.radius) : sin(shadows.angle);
+  seen.height = height_of(sine);
+  return seen;
+}
+
+}  // namespace
+
+TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity, std::vector<Light> lights,
+                                   const ShadowOptions& shadows, const OcclusionOptions& occlusion,
+                                   const EnvironmentView* environment)
+    : bvh_(view_of(bvh)),
+      opacity_(opacity),
+      lights_(std::move(lights)),
+      shadows_(shadows),
+      occlusion_(occlusion),
+      environment_(environment),
+      kernels_(RayKernels::of()) {}
+
+/// The mean over rays ray(0), ray(1), ... of what each of them sees. The first quarter of the rays are the only ones
+/// where all of these see the same.
+template <class MakeRay>
+float TracedVisibility::mean_visibility(const MakeRay& ray) const {
+  Ray rays[chunk];
+  float visible[chunk];
+  float sum = 0, least = 1, greatest = 0;
+  const int samples = shadows_.samples, probes = std::max(1, samples / 4);
+  for (int first = 0; first < samples;) {
+    const int count = std::min(chunk, (first < probes ? probes : samples) - first);
+    for (int i = 0; i < count; ++i) rays[i] = ray(static_cast<std::uint32_t>(first + i));
+    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, visible);
+    for (int i = 0; i < count; ++i) {
+      sum += visible[i];
+      least = std::min(least, visible[i]), greatest = std::max(greatest, visible[i]);
+    }
+    first += count;
+    if (first == probes && least == greatest && (least == 0 || least == 1)) return least;
+  }
+  return sum / static_cast<float>(samples);
+}
+
+void TracedVisibility::of_light(int k, const Receivers& receivers, float* visible) const {
+  if (shadows_.method == ShadowMethod::None) return std::fill_n(visible, receivers.count, 1.0f), void();
+  const Light& light = lights_[static_cast<std::size_t>(k)];
+  Ray rays[Receivers::capacity];
+  int lit[Receivers::capacity];
+  int count = 0;
+  for (int i = 0; i < receivers.count; ++i) {
+    const float3 origin = origin_of(receivers, i);
+    const SeenLight seen = see(light, shadows_, origin);
+    visible[i] = 0;
+    if (!(dot(at(receivers.normal, i), seen.direction) > 0)) continue;
+    if (shadows_.method == ShadowMethod::Hard) {
+      const bool is_far = light.kind == LightKind::Directional;
+      rays[count] =
+          is_far ? make_ray(origin, seen.direction, seen.distance) : make_ray(origin, light.position - origin, 1);
+      lit[count++] = i;
+      continue;
+    }
+    const ShiftedLattice lattice(receivers.seed[i], static_cast<std::uint32_t>(k) + 1);
+    const DirectionsAbout directions(seen.direction);
+    visible[i] = mean_visibility(
+        [&](std::uint32_t s) { return make_ray(origin, directions.of_cone(lattice(s), seen.height), seen.distance); });
+  }
+  float seen[Receivers::capacity];
+  kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
+  for (int i = 0; i < count; ++i) visible[lit[i]] = seen[i];
+}
+
+/// The luminance of the environment from about a direction.
+float TracedVisibility::light_from(float3 direction) const {
+  if (environment_ == nullptr) return 1;
+  // Blurred, since there are few directions.
+  constexpr float roughness = 0.4f;
+  using F = scalar::Float;
+  const Vector<F> light = specular_light(*environment_, {F(direction.x), F(direction.y), F(direction.z)}, F(roughness));
+  return 0.2126f * light.x.v + 0.7152f * light.y.v + 0.0722f * light.z.v;
+}
+
+void TracedVisibility::of_environment(const Receivers& receivers, float* visible) const {
+  Ray rays[chunk];
+  float seen[chunk];
+  for (int i = 0; i < receivers.count; ++i) {
+    const float3 origin = origin_of(receivers, i);
+    const ShiftedLattice lattice(receivers.seed[i], 0);
+    const DirectionsAbout directions(at(receivers.normal, i));
+    float all = 0, arriving = 0;
+    for (int first = 0; first < occlusion_.samples; first += chunk) {
+      const int count = std::min(chunk, occlusion_.samples - first);
+      for (int s = 0; s < count; ++s)
+        rays[s] =
+            make_ray(origin, directions.of_cosine(lattice(static_cast<std::uint32_t>(first + s))), occlusion_.distance);
+      kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
+      for (int s = 0; s < count; ++s) {
+        const float* const d = rays[s].direction;
+        const float light = light_from({d[0], d[1], d[2]});
+        all += light, arriving += light * seen[s];
+      }
+    }
+    visible[i] = all > 0 ? arriving / all : 1;
+  }
+}
+
+}  // namespace zoneplate

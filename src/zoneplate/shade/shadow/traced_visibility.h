@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "zoneplate/ray/trace.h"
+#include "zoneplate/scene/light.h"
+#include "zoneplate/shade/environment/environment_view.h"
+#include "zoneplate/shade/shadow/light_visibility.h"
+#include "zoneplate/shade/shadow/shadows.h"
+
+namespace zoneplate {
+
+/// Visibility by rays.
+///
+/// A light with an extent is a sphere (point, spot) or a distant disc (directional), seen from the receiver as a cone
+/// of directions; its part that is visible is the mean over rays of a uniform density in solid angle. The first quarter
+/// of the rays to a light decides alone where none or all of them are blocked.
+/// Exact     the same bits for any number of threads and any instruction set: the rays depend on the receiver's position
+///           in the image, the light and the options only.
+class TracedVisibility : public LightVisibility {
+ public:
+  /// `lights` in world space. `environment` weights what is occluded by its light; null: all directions count alike.
+  ///
+  /// Requires  the tree, the environment and the context of `opacity` outlive this object; `occlusion.distance` > 0
+  ///           where there are samples.
+  TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity, std::vector<Light> lights,
+                   const ShadowOptions& shadows, const OcclusionOptions& occlusion,
+                   const EnvironmentView* environment = nullptr);
+
+  void of_light(int k, const Receivers& receivers, float* visible) const override;
+  bool has_occlusion() const override { return occlusion_.samples > 0; }
+  void of_environment(const Receivers& receivers, float* visible) const override;
+
+ private:
+  template <class MakeRay>
+  float mean_visibility(const MakeRay& ray) const;
+  float light_from(float3 direction) const;
+
+  BvhView bvh_;
+  OpacityOfHits opacity_;
+  std::vector<Light> lights_;
+  ShadowOptions shadows_;
+  OcclusionOptions occlusion_;
+  const EnvironmentView* environment_;
+  const RayKernels& kernels_;
+};
+
+}  // namespace zoneplate

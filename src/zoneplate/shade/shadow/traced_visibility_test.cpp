@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/shade/shadow/traced_visibility.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "zoneplate/math/random.h"
+#include "zoneplate/ray/casters_for_test.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A sphere of radius 1 that stands on the plane y = 0, of 2 × n × n triangles.
+TestMesh standing_sphere(std::uint32_t n) {
+  TestMesh mesh = bumpy_sphere(n);
+  for (float3& p : mesh.position) p = normalize(p) + float3{0, 1, 0};
+  return mesh;
+}
+
+/// A square grid of n × n points of the plane y = 0 around the origin.
+struct PlanePoints {
+  std::vector<float3> points;
+  PlanePoints(int n, float half_side) {
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const float step = 2 * half_side / static_cast<float>(n);
+        points.push_back(
+            {(static_cast<float>(i) + 0.5f) * step - half_side, 0, (static_cast<float>(j) + 0.5f) * step - half_side});
+      }
+  }
+  std::vector<float> visible(const LightVisibility& visibility, bool is_environment = false) const {
+    std::vector<float> all;
+    for (std::size_t first = 0; first < points.size(); first += 256) {
+      Receivers r{};
+      r.count = static_cast<int>(std::min<std::size_t>(256, points.size() - first));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(r.count); ++i) {
+        const float3 p = points[first + i];
+        r.position[0][i] = p.x, r.position[1][i] = p.y, r.position[2][i] = p.z;
+        r.face[1][i] = r.normal[1][i] = 1;
+        r.margin[i] = 1e-6f;
+        r.seed[i] = hash(static_cast<std::uint32_t>(first + i), 7);
+      }
+      float out[Receivers::capacity];
+      if (is_environment)
+        visibility.of_environment(r, out);
+      else
+        visibility.of_light(0, r, out);
+      all.insert(all.end(), out, out + r.count);
+    }
+    return all;
+  }
+};
+
+/// The part of a cone of directions that another cone hides, their axes at `between`.
+double hidden_part(double cone, double other, double between) {
+  if (between >= cone + other) return 0;
+  const double whole = 2 * pi * (1 - std::cos(cone));
+  if (between <= std::abs(cone - other)) return 2 * pi * (1 - std::cos(std::min(cone, other))) / whole;
+  const double a = std::cos(cone), b = std::cos(other), c = std::cos(between);
+  const double sa = std::sin(cone), sb = std::sin(other), sc = std::sin(between);
+  const double common = 2 * (pi - std::acos((c - a * b) / (sa * sb)) - a * std::acos((b - c * a) / (sc * sa)) -
+                             b * std::acos((a - c * b) / (sc * sb)));
+  return common / whole;
+}
+
+/// What a point of the plane sees of a light's cone behind the sphere.
+double exact_visibility(float3 point, float3 to_light, double cone) {
+  const double x = -point.x, y = 1, z = -point.z, distance = std::sqrt(x * x + y * y + z * z);
+  const double cosine = (x * to_light.x + y * to_light.y + z * to_light.z) / distance / length(to_light);
+  return 1 - hidden_part(cone, std::asin(1 / distance), std::acos(cosine));
+}
+
+double rms(const PlanePoints& plane, const std::vector<float>& found, const std::function<double(float3)>& exact) {
+  double sum = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) sum += std::pow(found[i] - exact(plane.points[i]), 2);
+  return std::sqrt(sum / static_cast<double>(found.size()));
+}
+
+Light sun_from(float3 to_light) {
+  Light light;
+  light.direction = -normalize(to_light);
+  return light;
+}
+
+// The shadow of a sphere is an ellipse: the points whose line to the light passes the centre at less than the radius.
+TEST(TracedVisibility, HardShadowOfASphereIsItsEllipse) {
+  const TestMesh sphere = standing_sphere(300);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const float3 to_light = normalize({1, 1.5f, -0.4f});
+  const TracedVisibility visibility(bvh, {}, {sun_from(to_light)}, {.method = ShadowMethod::Hard}, {});
+  const PlanePoints plane(300, 3);
+  const std::vector<float> found = plane.visible(visibility);
+  int dark = 0, on_edge = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double x = -plane.points[i].x, z = -plane.points[i].z;
+    const double along = x * to_light.x + to_light.y + z * to_light.z,
+                 off = std::sqrt(x * x + 1 + z * z - along * along);
+    // The polyhedron lies within 2e-4 of the sphere.
+    if (std::abs(off - 1) < 2e-4) {
+      ++on_edge;
+      continue;
+    }
+    ASSERT_EQ(found[i], off < 1 ? 0 : 1) << plane.points[i].x << ", " << plane.points[i].z;
+    dark += off < 1;
+  }
+  // The ellipse has the area pi / sin(elevation).
+  EXPECT_NEAR(dark, pi / to_light.y * 2500, 20);
+  EXPECT_LT(on_edge, 20);
+}
+
+TEST(TracedVisibility, PenumbraOfADiscLightIsThatOfTheFormula) {
+  const TestMesh sphere = standing_sphere(200);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const float3 to_light = normalize({1, 1.5f, -0.4f});
+  for (const float angle : {0.02f, 0.1f, 0.3f}) {
+    Light light = sun_from(to_light);
+    light.radius = angle;
+    const TracedVisibility visibility(bvh, {}, {light}, {.method = ShadowMethod::Soft, .samples = 256}, {});
+    const PlanePoints plane(48, 3);
+    const auto exact = [&](float3 p) { return exact_visibility(p, to_light, angle); };
+    const double error = rms(plane, plane.visible(visibility), exact);
+    EXPECT_LT(error, 1.0 / 255);
+    EXPECT_GT(error, 1e-5);
+  }
+}
+
+TEST(TracedVisibility, SphericalLightIsSeenAsACone) {
+  const TestMesh sphere = standing_sphere(200);
+  const Bvh bvh(std::vector{sphere.caster()});
+  Light light;
+  light.kind = LightKind::Point;
+  light.position = {2, 4, 1};
+  light.radius = 0.5f;
+  const TracedVisibility visibility(bvh, {}, {light}, {.method = ShadowMethod::Soft, .samples = 256}, {});
+  const PlanePoints plane(48, 3);
+  const auto exact = [&](float3 p) {
+    const float3 path = light.position - p;
+    return exact_visibility(p, path, std::asin(0.5 / length(path)));
+  };
+  EXPECT_LT(rms(plane, plane.visible(visibility), exact), 1.0 / 255);
+}
+
+// A sphere that touches the plane hides sin^3 of the elevation of its centre.
+TEST(TracedVisibility, OcclusionByASphereIsThatOfTheFormula) {
+  const TestMesh sphere = standing_sphere(200);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const TracedVisibility visibility(bvh, {}, {}, {}, {.samples = 256, .distance = 1e6f});
+  const PlanePoints plane(48, 4);
+  const auto exact = [&](float3 p) {
+    return 1 - std::pow(1 / std::sqrt(double{p.x} * p.x + double{p.z} * p.z + 1), 3);
+  };
+  EXPECT_LT(rms(plane, plane.visible(visibility, true), exact), 1.0 / 255);
+}
+
+TEST(TracedVisibility, NothingOccludesBeyondTheDistance) {
+  const TestMesh sphere = standing_sphere(20);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const TracedVisibility visibility(bvh, {}, {}, {}, {.samples = 16, .distance = 0.25f});
+  const PlanePoints plane(32, 3);
+  const std::vector<float> found = plane.visible(visibility, true);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(found[i] == 1 || length(plane.points[i]) < 1.3f);
+}
+
+TEST(TracedVisibility, MoreRaysComeNearerToTheFormula) {
+  const TestMesh sphere = standing_sphere(100);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const float3 to_light = normalize({1, 1.5f, -0.4f});
+  double last = 1;
+  for (const int samples : {4, 16, 64, 256}) {
+    const TracedVisibility visibility(bvh, {}, {sun_from(to_light)},
+                                      {.method = ShadowMethod::Soft, .samples = samples, .angle = 0.2f}, {});
+    const PlanePoints plane(32, 3);
+    const auto exact = [&](float3 p) { return exact_visibility(p, to_light, static_cast<double>(0.2f)); };
+    const double error = rms(plane, plane.visible(visibility), exact);
+    EXPECT_LT(error, last / 1.8) << samples;
+    last = error;
+  }
+}
+
+TEST(TracedVisibilityBits, AreTheSameForAllInstructionSets) {
+  const TestMesh sphere = standing_sphere(20);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const PlanePoints plane(24, 3);
+  std::vector<float> first;
+  for (const Isa isa : supported_isas()) {
+    with_isa(isa, [&] {
+      const TracedVisibility visibility(bvh, {}, {sun_from({1, 1, 1})}, {.method = ShadowMethod::Soft, .angle = 0.2f},
+                                        {.samples = 8, .distance = 2});
+      std::vector<float> found = plane.visible(visibility), occluded = plane.visible(visibility, true);
+      found.insert(found.end(), occluded.begin(), occluded.end());
+      if (first.empty()) first = found;
+      EXPECT_EQ(found, first);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

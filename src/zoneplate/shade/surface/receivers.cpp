@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/shade/surface/receivers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "zoneplate/math/random.h"
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+namespace {
+
+/// A fragment's triangle in world space. Its normals are on the viewer's side.
+struct ReceivingTriangle {
+  float3 position[3], normal[3];
+  float3 face;
+  float margin = 0;
+  bool is_smooth = false;  ///< the normals differ
+};
+
+float greatest(float3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+/// Rounding of positions and of the intersection is some ulp (2^-24) of the greatest coordinate.
+constexpr float margin_of_coordinates = 0x1p-18f;
+
+ReceivingTriangle triangle_of(const float4x4& world, const float4x4& normals, const float* const (&record)[3],
+                              const Viewpoint& viewpoint) {
+  ReceivingTriangle t;
+  float largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* const r = record[k];
+    t.position[k] = transform_point(world, {r[3], r[4], r[5]});
+    t.normal[k] = normalize(transform_vector(normals, {r[0], r[1], r[2]}));
+    largest = std::max(largest, greatest(t.position[k]));
+  }
+  t.margin = largest * margin_of_coordinates;
+  t.is_smooth = t.normal[0] != t.normal[1] || t.normal[1] != t.normal[2];
+
+  // Lines have no face of their own.
+  const float3 sum = t.normal[0] + t.normal[1] + t.normal[2];
+  t.face = normalize(cross(t.position[1] - t.position[0], t.position[2] - t.position[0]), normalize(sum, {0, 0, 1}));
+  const float3 eye{viewpoint.eye[0], viewpoint.eye[1], viewpoint.eye[2]};
+  const float3 towards{viewpoint.towards[0], viewpoint.towards[1], viewpoint.towards[2]};
+  if (dot(t.face, viewpoint.is_orthographic ? towards : eye - t.position[0]) < 0) t.face = -t.face;
+  if (dot(sum, t.face) < 0)
+    for (float3& n : t.normal) n = -n;
+  return t;
+}
+
+/// The point with weights b1 and b2, moved out of the triangle where the surface is smooth.
+float3 position_on(const ReceivingTriangle& t, float b1, float b2) {
+  const auto mix = [&](const float3(&v)[3]) { return v[0] + ((v[1] - v[0]) * b1 + (v[2] - v[0]) * b2); };
+  const float3 p = mix(t.position);
+  if (!t.is_smooth) return p;
+  float3 moved[3];
+  for (std::size_t k = 0; k < 3; ++k) moved[k] = t.normal[k] * -std::min(0.0f, dot(p - t.position[k], t.normal[k]));
+  return p + mix(moved);
+}
+
+}  // namespace
+
+void make_receivers(const Scene& scene, const FragmentBatch& batch, const TriangleVertices& vertices,
+                    const Viewpoint& viewpoint, Receivers& out) {
+  out.count = batch.padded();
+  const auto store = [](float3 from, float(&to)[3][Receivers::capacity], std::size_t i) {
+    to[0][i] = from.x, to[1][i] = from.y, to[2][i] = from.z;
+  };
+  ReceivingTriangle triangle;
+  float4x4 normals;
+  std::size_t known_leader = 0;
+  std::uint32_t known_instance = ~0u;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(out.count); ++i) {
+    const std::size_t leader = batch.leader(i);
+    if (i == 0 || leader != known_leader) {
+      const float* record[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        record[k] = vertices.first != nullptr ? vertices.first + vertices.stride * batch.vertex[k][leader]
+                                              : vertices.record[k][leader];
+      const float4x4& world = scene.instances[batch.instance[leader]].world_from_object;
+      if (batch.instance[leader] != known_instance) normals = normal_matrix(world);
+      triangle = triangle_of(world, normals, record, viewpoint);
+      known_leader = leader, known_instance = batch.instance[leader];
+    }
+    const float b1 = batch.b[0][i], b2 = batch.b[1][i];
+    store(position_on(triangle, b1, b2), out.position, i);
+    store(triangle.face, out.face, i);
+    const float3(&n)[3] = triangle.normal;
+    store(normalize(n[0] + ((n[1] - n[0]) * b1 + (n[2] - n[0]) * b2), triangle.face), out.normal, i);
+    out.margin[i] = triangle.margin;
+    out.seed[i] = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
+  }
+}
+
+}  // namespace zoneplate
