@@ -14,7 +14,7 @@ find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests un
 target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate_cli GTest::gtest_main webpdemux)
 # A fifth less to build than with -O1; what takes time is in the libraries, or in the tests named here.
 target_compile_options(zoneplate_tests PRIVATE -O0)
-set(laborious shade/surface/shading shade/surface/brdf raster/coverage/coverage raster/tile/rasterize
+set(laborious shade/environment/prepared_environment shade/surface/shading shade/surface/brdf raster/coverage/coverage raster/tile/rasterize
     raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)
@@ -24,7 +24,8 @@ target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE
                            ZONEPLATE_APPETITE="$<TARGET_FILE:fuzz_appetite>")
 add_dependencies(zoneplate_tests zoneplate_program fuzz_appetite)
 target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
-gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISABLED_*")
+gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISABLED_*"
+                     PROPERTIES ENVIRONMENT "XDG_CACHE_HOME=${CMAKE_CURRENT_BINARY_DIR}/cache")
 
 # Embree judges rays where it is installed.
 find_library(embree_library embree3)

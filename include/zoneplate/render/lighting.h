@@ -20,7 +20,7 @@ struct Lighting {
 
 /// Changes to the lighting of a scene.
 struct LightingOptions {
-  float intensity = 1;                     ///< multiplies every light
+  float intensity = 1;                     ///< multiplies every light, and the studio
   std::optional<Environment> environment;  ///< in place of the scene's own
   /// Makes the studio of the default light (scene/default_lights.h), for callers that keep it; empty: it is made anew.
   std::function<std::shared_ptr<const PreparedEnvironment>()> studio;
@@ -28,10 +28,12 @@ struct LightingOptions {
 
 /// The scene's own lighting, changed by the options.
 ///
-/// A scene without lights gets the default ones and their environment (scene/default_lights.h), unless the options
-/// give an environment; in a scene of (Blinn-)Phong materials alone the default lights are divided by π, which the
-/// diffuse term of these models lacks. The environment's radiance is also the ambient light of (Blinn-)Phong materials
-/// where the scene has none.
+/// A scene without lights gets the default light, unless the options give an environment. Where a material is
+/// metallic-roughness, that is a studio made in code, which turns with the camera: an environment of soft boxes and a
+/// directional light from the brightest of them. Other scenes get three directional lights and a dim constant
+/// environment (scene/default_lights.h); in a scene of (Blinn-)Phong materials alone these lights are divided by π,
+/// which the diffuse term of these models lacks. A scene with lights of its own and no environment gets none. The mean
+/// radiance of the environment is also the ambient light of (Blinn-)Phong materials where the scene has none.
 Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});
 
 /// Lights the scene by make_lighting without options: a scene that has lights keeps them, any other gets the default

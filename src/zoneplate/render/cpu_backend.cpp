@@ -115,7 +115,7 @@ std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewU
   target.width = options.width, target.height = options.height;
   target.samples = standard_pattern(4);
   target.color = &image;
-  rasterize(behind, SceneFragmentShader(prepared, view), rules, target, &memory);
+  rasterize(behind, SceneFragmentShader(prepared, view, nullptr), rules, target, &memory);
   return Backdrop(image, clip_from_world);
 }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "zoneplate/scene/default_lights.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
+#include "zoneplate/shade/environment/studio.h"
 
 namespace zoneplate {
 namespace {
@@ -17,6 +19,46 @@ bool is_phong(ShadingModel model) { return model == ShadingModel::BlinnPhong || 
 float3 mean_radiance(const Environment& environment) {
   if (environment.map) return environment.factor() * environment.map->mean();
   return environment.image < 0 ? environment.factor() : float3{0, 0, 0};
+}
+
+/// True if a material reflects its environment.
+bool is_mirroring(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return m.model == ShadingModel::MetallicRoughness; });
+}
+
+/// The default light of scenes whose materials do not reflect an environment.
+Lighting three_lights(const Scene& scene) {
+  Lighting lighting{default_lights(), {.color = {default_environment, default_environment, default_environment}}, {}};
+  // (Blinn-)Phong's diffuse term lacks the factor 1 / π: dividing the lights by π gives a white surface the same
+  // brightness in every model.
+  constexpr float pi = 3.14159265f;
+  const auto is_made_of_it = [](const Material& m) { return is_phong(m.model); };
+  if (!scene.materials.empty() && std::all_of(scene.materials.begin(), scene.materials.end(), is_made_of_it))
+    for (Light& light : lighting.lights) light.intensity /= pi;
+  return lighting;
+}
+
+/// The studio is made once, by the first scene that needs it.
+const std::shared_ptr<const PreparedEnvironment>& studio() {
+  static const auto made = std::make_shared<const PreparedEnvironment>(prepare_studio());
+  return made;
+}
+
+/// The studio, and a directional light from its brightest box, which gives the form and casts the shadow that the
+/// filtered environment cannot cast.
+Lighting studio_lighting(const LightingOptions& options) {
+  Light key;
+  key.name = "key";
+  key.is_in_camera_space = true;
+  key.direction = -studio_key();
+  key.intensity = studio_key_lux;
+  return {{key},
+          {.color = {1, 1, 1},
+           .is_in_camera_space = true,
+           .strength = options.intensity,
+           .map = options.studio ? options.studio() : studio()},
+          {}};
 }
 
 }  // namespace
@@ -46,14 +88,7 @@ Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
   if (options.environment) {
     lighting.environment = *options.environment;
   } else if (scene.lights.empty() && scene.environment == Environment{}) {
-    lighting.lights = default_lights();
-    // (Blinn-)Phong's diffuse term lacks the factor 1 / π: dividing the lights by π gives a white surface the same
-    // brightness in every model.
-    constexpr float pi = 3.14159265f;
-    const auto is_made_of_it = [](const Material& m) { return is_phong(m.model); };
-    if (!scene.materials.empty() && std::all_of(scene.materials.begin(), scene.materials.end(), is_made_of_it))
-      for (Light& light : lighting.lights) light.intensity /= pi;
-    lighting.environment = {.color = {default_environment, default_environment, default_environment}};
+    lighting = is_mirroring(scene) ? studio_lighting(options) : three_lights(scene);
   }
   for (Light& light : lighting.lights) light.intensity *= options.intensity;
   if (lighting.ambient_light == float3{}) lighting.ambient_light = mean_radiance(lighting.environment);

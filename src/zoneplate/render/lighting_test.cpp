@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/default_lights.h"
+#include "zoneplate/shade/environment/lookup_lanes.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
+#include "zoneplate/shade/environment/studio.h"
 
 namespace zoneplate {
 namespace {
@@ -19,13 +23,53 @@ TEST(Lighting, LightsASceneThatHasNoLight) {
   EXPECT_EQ(scene.ambient_light, dim);
 }
 
-TEST(Lighting, APhongSceneIsAsBrightAsAnyOther) {
-  Scene phong, physical;
+TEST(Lighting, APhongSceneIsAsBrightAsOneWithoutLight) {
+  Scene phong, unlit;
   phong.materials.push_back({.model = ShadingModel::BlinnPhong});
-  physical.materials.push_back({.model = ShadingModel::MetallicRoughness});
+  unlit.materials.push_back({.model = ShadingModel::Unlit});
   light_unlit(phong);
-  light_unlit(physical);
-  EXPECT_FLOAT_EQ(phong.lights[0].intensity * 3.14159265f, physical.lights[0].intensity);
+  light_unlit(unlit);
+  EXPECT_FLOAT_EQ(phong.lights[0].intensity * 3.14159265f, unlit.lights[0].intensity);
+}
+
+TEST(Lighting, MetallicRoughnessIsLitByTheStudio) {
+  Scene scene;
+  scene.materials.push_back({.model = ShadingModel::MetallicRoughness});
+  int made = 0;
+  const auto studio = std::make_shared<const PreparedEnvironment>(studio_cube(32));
+  const Lighting lighting = make_lighting(scene, {.intensity = 2, .studio = [&] {
+                                                    ++made;
+                                                    return studio;
+                                                  }});
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(lighting.environment.map, studio);
+  EXPECT_TRUE(lighting.environment.is_in_camera_space);
+  EXPECT_EQ(lighting.environment.strength, 2);
+  ASSERT_EQ(lighting.lights.size(), 1u);
+  EXPECT_TRUE(lighting.lights[0].is_in_camera_space);
+  EXPECT_EQ(lighting.lights[0].intensity, 2 * studio_key_lux);
+  // The light comes from the brightest box.
+  const EnvironmentView view = studio->view({.color = {1, 1, 1}}, {0, 1, 0});
+  const auto light_from = [&](float3 d) {
+    return specular_light(view, Vector<scalar::Float>{d.x, d.y, d.z}, scalar::Float(0.2f)).x.v;
+  };
+  const float key = light_from(-lighting.lights[0].direction);
+  for (const float3 d : {float3{0, 0, 1}, float3{1, 0, 0}, float3{0, 1, 0}, float3{-1, 0, 0}, float3{0, 0, -1}})
+    EXPECT_GT(key, 1.5f * light_from(d));
+  EXPECT_NEAR(lighting.ambient_light.x, 2 * studio->mean().x, 1e-6f);
+}
+
+TEST(Lighting, TheStudioShowsAWhiteSurfaceJustBelowWhite) {
+  const PreparedEnvironment studio = prepare_studio();
+  const EnvironmentView view = studio.view({.color = {1, 1, 1}}, {0, 1, 0});
+  const float3 key = studio_key();
+  const auto diffuse = [&](float3 n) {
+    const float light = diffuse_light(view, Vector<scalar::Float>{n.x, n.y, n.z}).x.v;
+    return light + std::max(dot(n, key), 0.0f) * studio_key_lux / 3.14159265f;
+  };
+  EXPECT_NEAR(diffuse(key), 1, 0.05f);
+  EXPECT_GT(diffuse({0, 0, 1}), 0.6f);
+  EXPECT_GT(diffuse({0, -1, 0}), 0.3f);
 }
 
 TEST(Lighting, LeavesAFilesOwnLightAlone) {

@@ -105,6 +105,13 @@ Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& re
     Frame frame = backend_->render(scene_, camera, round_request, options, &own);
     frame.display = options.display;
     add(counts, own);
+    // Behind every colour that the method may read, so that it also filters the edges before the environment.
+    const auto draw_behind = [&](LinearImage& color) {
+      draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, color);
+    };
+    if (options.background && !frame.color.empty()) draw_behind(frame.color);
+    if (options.background)
+      for (LinearImage& color : frame.sample_color) draw_behind(color);
     return frame;
   };
   Rounds rounds{round(request), std::nullopt};
@@ -150,8 +157,6 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   const Request request = request_for(settings);
   RenderOptions options = settings.options;
   options.crop = padded_crop(settings.options, request.halo);
-  // The environment is composited behind what the method resolves, which so needs its alpha.
-  if (options.background) options.display.is_transparent = true;
   if (!options.last) options.last = moment_;
 
   RenderedImage out;
@@ -181,8 +186,6 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   request.writes_display8 = false;
   RenderOptions options = settings.options;
   options.crop = padded_crop(settings.options, request.halo);
-  // The environment is composited behind what the method resolves, which so needs its alpha.
-  if (options.background) options.display.is_transparent = true;
   if (!options.last) options.last = moment_;
 
   RenderedImage out;
@@ -195,8 +198,6 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
     LinearImage picture = method_->resolve(rounds.frame);
-    if (options.background)
-      draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, picture);
     if (i == 0) {
       sum = std::move(picture);
     } else {

@@ -7,7 +7,8 @@
 
 namespace zoneplate {
 
-/// The lights of a scene that has none: three directional lights that follow the camera.
+/// The lights of a scene that has none, and no metallic-roughness material (else: render/lighting.h): three directional
+/// lights that follow the camera.
 ///
 /// key   from above on the left, 40° off the view axis: it gives form and nearly all of the light;
 /// fill  from the right, a little below: a sixth of the key, so that no side is black;

@@ -35,8 +35,9 @@ constexpr const char* notes =
     "--camera-index only. Azimuth and elevation set the direction of the whole-scene view, 0 and 0 being the front;\n"
     "with a position or an index they turn that camera about its focal point.\n"
     "\n"
-    "Light: a scene without lights gets a key, a fill and a back light that follow the camera, and a dim constant\n"
-    "environment, which metals reflect; lights in the file or --environment replace them.\n"
+    "Light: a scene without lights gets a studio made in code, which turns with the camera: soft boxes, which metals\n"
+    "reflect, and a key light. (Blinn-)Phong materials get a key, a fill and a back light instead. --hdri-file and\n"
+    "--environment replace them. A file with lights of its own has no environment without these options.\n"
     "\n"
     "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
     "chair.####.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and WebM require the program\n"
@@ -241,11 +242,27 @@ std::vector<Option> scene_options(RenderArgs& a) {
        }},
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
-      {"--environment", "COLOR", "Constant environment light of this colour, instead of the default lights", group,
-       false, [&](auto& text) { a.environment_color = linear_color(text); }},
+      {"--environment", "COLOR",
+       "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
+       "light, also for files with lights of their own",
+       group, false,
+       [&](auto& text) {
+         a.is_in_studio = text == "studio";
+         a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));
+       }},
       {"--hdri-file", "FILE",
-       "Image-based light, instead of the default lights: an equirectangular image, .hdr, .exr, .png, .jpg or .webp",
+       "Image-based light, instead of the default lights: .hdr, .exr, .png, .jpg or .webp; {face} in the name stands "
+       "for px, nx, py, ny, pz and nz, the six squares of a cube map",
        group, false, [&](auto& text) { a.hdri_file = text; }},
+      {"--hdri-layout", "NAME",
+       "equirectangular, cross or strip of a cube map, mirror-ball, or angular (light probe); default by the aspect",
+       group, false,
+       [&](auto& text) {
+         constexpr EnvironmentLayout layouts[] = {EnvironmentLayout::Equirectangular, EnvironmentLayout::Cross,
+                                                  EnvironmentLayout::Strip, EnvironmentLayout::MirrorBall,
+                                                  EnvironmentLayout::AngularMap};
+         a.hdri_layout = layouts[parse_choice(text, {"equirectangular", "cross", "strip", "mirror-ball", "angular"})];
+       }},
       {"--hdri-rotation", "DEG", "Turn of the image about the up axis, counter-clockwise from above; default 0", group,
        false, [&](auto& text) { a.hdri_rotation = radians(text, -360, 360); }},
       {"--hdri-intensity", "FACTOR", "Factor of the image's light; default 1", group, false,
@@ -392,13 +409,14 @@ void check_environment(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--background-blur requires --background environment");
   }
   if (args.environment_color) args.lighting.environment = Environment{.color = *args.environment_color};
+  if (args.is_in_studio) args.lighting.environment = Environment{.color = {1, 1, 1}, .is_in_camera_space = true};
   if (args.hdri_file.empty()) {
-    if (args.hdri_rotation != 0 || args.hdri_intensity != 1)
-      throw Error(ErrorKind::Usage, "--hdri-rotation and --hdri-intensity require --hdri-file");
+    if (args.hdri_rotation != 0 || args.hdri_intensity != 1 || args.hdri_layout)
+      throw Error(ErrorKind::Usage, "--hdri-rotation, --hdri-intensity and --hdri-layout require --hdri-file");
     return;
   }
-  if (args.environment_color)
-    throw Error(ErrorKind::Usage, "--environment is a colour and --hdri-file an image: give one of them");
+  if (args.environment_color || args.is_in_studio)
+    throw Error(ErrorKind::Usage, "--environment and --hdri-file both name an environment: give one of them");
   args.lighting.environment =
       Environment{.color = {1, 1, 1}, .rotation = args.hdri_rotation, .strength = args.hdri_intensity};
 }

@@ -18,6 +18,7 @@
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/render/view.h"
+#include "zoneplate/shade/environment/layout.h"
 
 namespace zoneplate::cli {
 
@@ -54,9 +55,11 @@ struct RenderArgs {
   bool raw_colors = false;                    ///< images are not decoded from sRGB
   std::optional<ShadingModel> shading_model;  ///< for every material
   LightingOptions lighting;
-  std::optional<float3> environment_color;  ///< linear radiance of --environment
-  std::string cache;                        ///< folder of prepared environments; empty: none is kept
-  std::string hdri_file;                    ///< the image of `lighting.environment`; empty: none
+  std::optional<float3> environment_color;       ///< linear radiance of --environment
+  std::string cache;                             ///< folder of prepared environments; empty: none is kept
+  bool is_in_studio = false;                     ///< --environment studio
+  std::string hdri_file;                         ///< the image of `lighting.environment`; empty: none
+  std::optional<EnvironmentLayout> hdri_layout;  ///< none: by the image's aspect
   float hdri_rotation = 0, hdri_intensity = 1;
   std::vector<const Aov*> aovs;
   LoadOptions load;

@@ -16,6 +16,7 @@
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/shade/environment/equirectangular.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/environment/studio.h"
 
@@ -82,17 +83,77 @@ void store_environment(const std::string& path, std::uint64_t size,
   }
 }
 
+std::vector<std::string> environment_files(const RenderArgs& args) {
+  constexpr std::string_view face = "{face}";
+  const std::string& name = args.hdri_file;
+  if (name.empty()) return {};
+  const std::size_t at = name.find(face);
+  if (at == name.npos) return {name};
+  std::vector<std::string> files;
+  for (const char* of_face : {"px", "nx", "py", "ny", "pz", "nz"})
+    files.push_back(std::string(name).replace(at, face.size(), of_face));
+  return files;
+}
+
+namespace {
+
+/// The squares of a cube map side by side.
+TexelImage strip_of(const std::vector<TexelImage>& squares, const std::vector<std::string>& names) {
+  const int side = squares.front().width();
+  Plane<float4> strip(side * static_cast<int>(squares.size()), side);
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const int width = squares[k].width(), height = squares[k].height();
+    if (width != side || height != side)
+      throw Error(ErrorKind::Input, fmt::format("{}: is {} x {} pixels, expected a square of {} x {}, as {}", names[k],
+                                                width, height, side, side, names.front()));
+    const Plane<float3> light = light_of(squares[k]);
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const float3 c = light(x, y);
+        strip(side * static_cast<int>(k) + x, y) = {c.x, c.y, c.z, 1};
+      }
+  }
+  return strip;
+}
+
+/// The files of an environment, open.
+struct EnvironmentSource {
+  std::vector<std::string> names;
+  std::vector<FileBytes> files;
+
+  EnvironmentSource(const RenderArgs& args) : names(environment_files(args)) {
+    for (const std::string& name : names) files.emplace_back(name, args.load.limits.memory);
+  }
+
+  /// The number of the prepared environment.
+  std::uint64_t key(const RenderArgs& args) const {
+    std::vector<std::uint64_t> parts = {args.hdri_layout ? 1 + static_cast<std::uint64_t>(*args.hdri_layout) : 0};
+    for (const FileBytes& file : files) parts.push_back(content_hash(file.bytes()));
+    return content_hash({reinterpret_cast<const std::uint8_t*>(parts.data()), parts.size() * sizeof parts[0]});
+  }
+
+  CubeImage cube(const RenderArgs& args) const {
+    const LoadLimits& limits = args.load.limits;
+    std::uint64_t need = 0;
+    for (const FileBytes& file : files) need += decoded_image_memory(file.bytes()) + image_working_memory(file.bytes());
+    ImportBudget(names.front(), limits).take(need);
+    std::vector<TexelImage> images;
+    for (std::size_t k = 0; k < files.size(); ++k)
+      images.push_back(decode_image(files[k].bytes(), names[k], limits.pixels));
+    if (images.size() > 1) return cube_of(strip_of(images, names), EnvironmentLayout::Strip);
+    const TexelImage& image = images.front();
+    return cube_of(image, args.hdri_layout.value_or(layout_of(image.width(), image.height())));
+  }
+};
+
+}  // namespace
+
 Map Environments::load(const RenderArgs& args, const Store& store) const {
-  const std::string& path = args.hdri_file;
-  const LoadLimits& limits = args.load.limits;
   const MappedFileWatch watch;
-  const FileBytes file(path, limits.memory);
-  const Map map = find_or_make(args.cache, content_hash(file.bytes()), store, [&] {
-    ImportBudget budget(path, limits);
-    budget.take(decoded_image_memory(file.bytes()) + image_working_memory(file.bytes()));
-    return prepare_equirectangular(decode_image(file.bytes(), path, limits.pixels));
-  });
-  watch.check(path);
+  const EnvironmentSource source(args);
+  const Map map =
+      find_or_make(args.cache, source.key(args), store, [&] { return PreparedEnvironment(source.cube(args)); });
+  watch.check(args.hdri_file);
   return map;
 }
 
@@ -101,10 +162,13 @@ void Environments::complete(RenderArgs& args, const Store& store) {
     if (!studio_) studio_ = find_or_make(cache, studio_key_number(), store, prepare_studio);
     return studio_;
   };
+  if (args.is_in_studio) args.lighting.environment->map = args.lighting.studio();
   if (args.hdri_file.empty()) return;
-  if (args.hdri_file != file_) {
+  const std::string key =
+      fmt::format("{} {}", args.hdri_layout ? static_cast<int>(*args.hdri_layout) : -1, args.hdri_file);
+  if (key != key_) {
     map_ = load(args, store);
-    file_ = args.hdri_file;
+    key_ = key;
   }
   args.lighting.environment->map = map_;
 }

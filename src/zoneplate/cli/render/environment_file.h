@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "zoneplate/cli/render/args.h"
 
@@ -17,6 +18,9 @@ std::string environment_cache();
 
 /// The file of a prepared environment in the folder.
 std::string environment_path(const std::string& cache, std::uint64_t key);
+
+/// The files of --hdri-file: one, or the six squares of a cube map; none where it is not given.
+std::vector<std::string> environment_files(const RenderArgs& args);
 
 /// Stores an environment that the item's process has prepared, whole or not at all, so that several processes may store
 /// the same one at once. The cache is an optimisation: nothing happens where it cannot be written.
@@ -41,7 +45,7 @@ class Environments {
   using Map = std::shared_ptr<const PreparedEnvironment>;
   Map load(const RenderArgs& args, const Store& store) const;
 
-  std::string file_;  ///< of `map_`
+  std::string key_;  ///< of `map_`: its files and layout
   Map map_, studio_;
 };
 

@@ -18,9 +18,10 @@ namespace {
 ItemLimits limits_of(const std::vector<RenderArgs>& items) {
   const RenderArgs& args = items.front();
   std::vector<std::string> readable = readable_paths(args.input, args.load);
-  for (const RenderArgs& item : items)
-    for (const std::string& path : {item.hdri_file, item.cache})
-      if (!path.empty()) readable.push_back(path);
+  for (const RenderArgs& item : items) {
+    for (std::string& path : environment_files(item)) readable.push_back(std::move(path));
+    if (!item.cache.empty()) readable.push_back(item.cache);
+  }
   return {.name = args.input == "-" ? "standard input" : args.input,
           .load = args.load.limits,
           .seconds = args.max_seconds,

@@ -68,18 +68,6 @@ float3 look_up(const Plane<float3>& light, float3 direction) {
                  step(acos(d.y) / pi, light.height(), false));
 }
 
-Plane<float3> light_of(const TexelImage& image) {
-  Plane<float3> light(image.width(), image.height());
-  image.visit([&](const auto& plane) {
-    parallel_for(static_cast<std::size_t>(plane.height()), [&](std::size_t row) {
-      const int y = static_cast<int>(row);
-      std::transform(plane.row(y).begin(), plane.row(y).end(), light.row(y).begin(),
-                     [](const auto& texel) { return radiance_of(texel); });
-    });
-  });
-  return light;
-}
-
 /// One face: the mean over the steps in each texel, weighted by their solid angles, in the order of the image.
 void make_face(const Plane<float3>& light, const std::vector<Step>& columns, const std::vector<Step>& rows,
                int per_pixel, int face, CubeImage& cube) {
@@ -119,9 +107,21 @@ void make_face(const Plane<float3>& light, const std::vector<Step>& columns, con
 
 }  // namespace
 
+Plane<float3> light_of(const TexelImage& image) {
+  Plane<float3> light(image.width(), image.height());
+  image.visit([&](const auto& plane) {
+    parallel_for(static_cast<std::size_t>(plane.height()), [&](std::size_t row) {
+      const int y = static_cast<int>(row);
+      std::transform(plane.row(y).begin(), plane.row(y).end(), light.row(y).begin(),
+                     [](const auto& texel) { return radiance_of(texel); });
+    });
+  });
+  return light;
+}
+
 int cube_side(int equirectangular_width) {
   int side = 32;
-  while (side < 512 && 8 * side <= equirectangular_width) side *= 2;
+  while (side < 512 && (side < 256 ? 4 : 8) * side <= equirectangular_width) side *= 2;
   return side;
 }
 

@@ -6,9 +6,12 @@
 
 namespace zoneplate {
 
-/// The side of the cube map that has the angular resolution of an equirectangular image of this width: a power of two
-/// from 32 to 512.
+/// The side of the cube map of an equirectangular image of this width, a power of two from 32 to 512: of a large image
+/// with its angular resolution, of a small one with twice that, so that lamps of a pixel keep their place.
 int cube_side(int equirectangular_width);
+
+/// The radiance of every pixel. Edges: see radiance_of.
+Plane<float3> light_of(const TexelImage& image);
 
 /// An equirectangular image as a cube map.
 ///

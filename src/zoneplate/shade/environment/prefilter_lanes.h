@@ -31,12 +31,12 @@ inline Cone cone_of(const DirectionBlock& b) {
 /// Which nodes are divided.
 struct Division {
   Cone cone;
-  float detail, core;
-  static constexpr float greatest_width = 0.0625f;  ///< resolves the edge of the cosine at the horizon
-  static constexpr float horizon = 1.41421356f;     ///< the chord of a right angle
+  float detail, core, greatest_width;
+  static constexpr float horizon = 1.41421356f;  ///< the chord of a right angle
 
+  /// The wider the lobe, the more light arrives from near the horizon, whose edge small nodes resolve.
   Division(const Lobe& lobe, const DirectionBlock& block)
-      : cone(cone_of(block)), detail(lobe.detail), core(2 * lobe.alpha) {}
+      : cone(cone_of(block)), detail(lobe.detail), core(2 * lobe.alpha), greatest_width(0.0626f / lobe.alpha) {}
 
   enum class Fate { Skipped, Divided, Taken };
   Fate of(const LightTree::Node& node, float width) const {

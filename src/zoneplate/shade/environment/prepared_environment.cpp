@@ -91,7 +91,7 @@ void copy_level(const CubeImage& cube, const Level& level) {
 void filter_level(const LightTree& tree, float alpha, const Level& level) {
   const PrefilterKernels& kernels = PrefilterKernels::of();
   const int side = level.side, blocks = side / 4;
-  const Lobe lobe{.alpha = alpha, .detail = alpha < 0.03f ? 0.33f : 0.2f};
+  const Lobe lobe{.alpha = alpha, .detail = alpha < 0.03f ? 0.33f : alpha < 0.2f ? 0.25f : 0.2f};
   parallel_for(static_cast<std::size_t>(cube::faces * blocks), [&](std::size_t row) {
     const int face = static_cast<int>(row) / blocks, first_y = static_cast<int>(row) % blocks * 4;
     for (int first_x = 0; first_x < side; first_x += 4) {
@@ -111,7 +111,7 @@ void filter_level(const LightTree& tree, float alpha, const Level& level) {
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '2'};
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '3'};
 
 /// The levels of an environment whose unfiltered level has this side; returns the number of texels.
 std::size_t lay_out(int side, EnvironmentView& view) {

@@ -12,8 +12,12 @@ class PreparedEnvironment;
 /// The direction of the brightest soft box of the studio, of unit length, in the studio's space.
 float3 studio_key();
 
+/// The illuminance of the light from there that goes with the studio's environment, in lux.
+inline constexpr float studio_key_lux = 1.2f;
+
 /// The radiance of a photographer's studio, neutral grey: a large soft box above on the left in front, a panel
-/// overhead, a white card on the right, two strips behind that draw outlines, and a floor that glows.
+/// overhead, a white card on the right, two strips behind that draw outlines, a dim reflector behind the viewer, and a
+/// floor that glows.
 ///
 /// Space     that of the camera: x right, y up, z towards the viewer.
 CubeImage studio_cube(int side);

@@ -3,6 +3,7 @@
 
 #include "zoneplate/math/lanes_vector.h"
 #include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/surface/specular_table.h"
 
 /// Reflection models, as templates over the lane types of math/lanes.h.
 ///
@@ -98,92 +99,52 @@ template <class F>
   return x2 * x2 * x;
 }
 
-/// A metallic-roughness surface, prepared for its lights.
-template <class F>
-struct Metallic {
-  Vector<F> diffuse;  ///< base colour of the dielectric part
-  Vector<F> f0;       ///< reflectance at normal incidence
-  F alpha;            ///< roughness squared
-};
-
-/// Source: glTF 2.0, appendix B: c_diff = mix(base, 0, metallic), f0 = mix(0.04, base, metallic).
-template <class F>
-[[gnu::always_inline]] inline Metallic<F> make_metallic(Vector<F> base, F metallic, F roughness) {
-  const F dielectric = F(1.0f) - metallic;
-  const F r = max(roughness, F(least_roughness));
-  const F one(1.0f), f0 = F(0.04f) * dielectric;
-  const Vector<F> reflectance{min(f0 + base.x * metallic, one), min(f0 + base.y * metallic, one),
-                              min(f0 + base.z * metallic, one)};
-  return {base * dielectric, reflectance, r * r};
-}
-
-/// Reflected radiance for one unit of irradiance perpendicular to l: BRDF × n·l; zero for lights below the horizon.
-///
-/// Source    glTF 2.0, appendix B.3: (1 - F) c_diff / π + F V D.
-template <class F>
-[[gnu::always_inline]] inline Vector<F> metallic_light(const Metallic<F>& m, Vector<F> n, Vector<F> l, Vector<F> v) {
-  const Vector<F> h = normalize(l + v);
-  const F nl = max(dot(n, l), F(0.0f));
-  const F nv = max(dot(n, v), F(1e-4f));
-  const F peak = ggx(dot(n, h), cross(n, h), m.alpha) * smith(nl, nv, m.alpha);
-  const F white = schlick_weight(dot(v, h));
-  const Vector<F> one{F(1.0f), F(1.0f), F(1.0f)};
-  const Vector<F> fresnel = m.f0 + (one - m.f0) * white;
-  return ((one - fresnel) * (m.diffuse * F(inverse_pi)) + fresnel * peak) * nl;
-}
-
 /// The specular reflectance of a uniform environment is f0 scale + bias, for any f0.
 template <class F>
 struct SpecularWeights {
   F scale, bias;
 };
 
-/// Coefficients by powers of roughness, then of 1 - n·v: least-squares fits at 28 × 36 points to the integrals of
-/// V D (1 - v·h)^5 4 (n·l) and of V D 4 (n·l), computed to four digits (brdf_test.cpp repeats the fits).
-inline constexpr float bias_fit[5][6] = {{0.001071967f, -0.02879978f, 0.06464715f, 0.6246422f, -2.248347f, 2.752502f},
-                                         {0.06429541f, -3.563934f, 35.83931f, -131.8516f, 200.4812f, -104.5397f},
-                                         {-0.3169211f, 16.97701f, -165.8701f, 593.0977f, -866.8636f, 427.0783f},
-                                         {0.4722983f, -24.93838f, 240.9048f, -850.3088f, 1218.679f, -586.6104f},
-                                         {-0.2222662f, 11.63321f, -111.6655f, 390.8947f, -553.3457f, 262.8498f}};
-inline constexpr float scale_and_bias_fit[5][6] = {
-    {1.030213f, -0.5295086f, 3.992396f, -12.97856f, 17.04678f, -7.533857f},
-    {-0.5799478f, 6.826395f, -46.4232f, 149.67f, -190.8224f, 79.61082f},
-    {3.218751f, -22.70056f, 133.9361f, -431.7784f, 528.2256f, -203.7823f},
-    {-6.757923f, 27.54618f, -146.1094f, 473.533f, -553.8303f, 195.7494f},
-    {3.39516f, -10.8005f, 53.47554f, -174.0905f, 193.1336f, -60.68471f}};
+template <class F>
+[[gnu::always_inline]] inline F table_value(const float* table, typename F::Int i) {
+  if constexpr (requires { F::gather(table, i); })
+    return F::gather(table, i);
+  else
+    return F(static_cast<double>(table[i.v]));  // the references of the tests
+}
 
-/// Both fits for one roughness, which leaves polynomials in 1 - n·v.
+/// The weights for a roughness, by the table of shade/surface/specular_table.h.
 ///
 /// Requires  roughness in [0, 1], nv in [0, 1].
 /// Edges     roughness below least_roughness counts as least_roughness.
-/// Exact     scale + bias and bias within 0.04 of their integrals, 0.005 in the root mean square.
-/// Source    the split into scale and bias: Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013 (its own fits are for
-///           another geometry term, and off by 0.17 here).
+/// Exact     scale + bias and bias within 0.01 of their integrals for nv above 0.02, 0.002 in the root mean square.
 template <class F>
 struct SpecularFit {
-  F total[6], bias[6];
+  typename F::Int row;
+  F part;  ///< of the row below
 
   [[gnu::always_inline]] explicit SpecularFit(F roughness) {
-    const F r = max(roughness, F(least_roughness));
-    for (int j = 0; j < 6; ++j) total[j] = of(scale_and_bias_fit, j, r), bias[j] = of(bias_fit, j, r);
+    const F rows = (max(roughness, F(least_roughness)) - F(least_roughness)) *
+                   F((specular_table_side - 1) / (1 - least_roughness));
+    row = min(truncate(rows), typename F::Int(specular_table_side - 2));
+    part = rows - F::from(row);
   }
   [[gnu::always_inline]] SpecularWeights<F> at(F nv) const {
-    const F t = F(1.0f) - nv;
-    const F both = min(max(evaluate(total, t), F(0.0f)), F(1.0f));
-    const F least = min(max(evaluate(bias, t), F(0.0f)), both);
-    return {both - least, least};
-  }
-
- private:
-  [[gnu::always_inline]] static F of(const float (&fit)[5][6], int j, F roughness) {
-    F sum(fit[4][j]);
-    for (int i = 3; i >= 0; --i) sum = sum * roughness + F(fit[i][j]);
-    return sum;
-  }
-  [[gnu::always_inline]] static F evaluate(const F (&polynomial)[6], F t) {
-    F sum = polynomial[5];
-    for (int j = 4; j >= 0; --j) sum = sum * t + polynomial[j];
-    return sum;
+    using Int = typename F::Int;
+    const F columns = sqrt(nv) * F(specular_table_side - 1.0f);
+    const Int column = min(truncate(columns), Int(specular_table_side - 2));
+    const F right = columns - F::from(column);
+    const Int first = (row * Int(specular_table_side) + column) * Int(2);
+    const auto value = [&](int which) {
+      const float* const table = &specular_table[0][0][0] + which;
+      constexpr int down = 2 * specular_table_side;
+      const F a = table_value<F>(table, first), b = table_value<F>(table + 2, first);
+      const F c = table_value<F>(table + down, first), d = table_value<F>(table + down + 2, first);
+      const F above = a + (b - a) * right, below = c + (d - c) * right;
+      return above + (below - above) * part;
+    };
+    const F both = value(0), bias = value(1);
+    return {both - bias, bias};
   }
 };
 
@@ -197,6 +158,56 @@ template <class F>
   const F once = f0 * weights.scale + weights.bias;
   const F mean = f0 + (one - f0) * F(1.0f / 21.0f);
   return once + once * (mean * lost / (one - mean * lost));
+}
+
+/// specular_albedo over the reflectance of single scattering: what the lobe is multiplied by so that it reflects the
+/// light of several reflections too.
+template <class F>
+[[gnu::always_inline]] inline F specular_gain(SpecularWeights<F> weights, F f0) {
+  const F one(1.0f);
+  const F mean = f0 + (one - f0) * F(1.0f / 21.0f);
+  return one / (one - mean * (one - (weights.scale + weights.bias)));
+}
+
+/// A metallic-roughness surface seen from one direction, prepared for its lights.
+template <class F>
+struct Metallic {
+  Vector<F> diffuse;            ///< reflectance of the layer below the dielectric's lobe, over π
+  Vector<F> mirrored, grazing;  ///< the lobe's Fresnel term: mirrored + grazing × schlick_weight
+  F alpha;                      ///< roughness squared
+};
+
+/// Source    glTF 2.0, appendix B: a mixture of a dielectric with f0 0.04 and a metal with f0 of the base colour. Unlike
+///           glTF's sample implementation, whose rough metals lose up to 70 % of the light and whose dielectrics gain
+///           it at grazing views, light that arrives from all sides evenly is reflected as metallic_environment
+///           reflects it: the lobes have their specular_gain, and the layer below gets what the lobe leaves on average.
+template <class F>
+[[gnu::always_inline]] inline Metallic<F> make_metallic(Vector<F> base, F metallic, F roughness,
+                                                        SpecularWeights<F> weights) {
+  const F one(1.0f), f0(0.04f), dielectric = one - metallic;
+  const F r = max(roughness, F(least_roughness));
+  const F coat_gain = specular_gain(weights, f0) * dielectric;
+  const F below = (one - specular_albedo(weights, f0)) * dielectric * F(inverse_pi);
+  Metallic<F> m{base * below, {}, {}, r * r};
+  const auto lobe = [&](F color, F& mirrored, F& grazing) {
+    const F c = min(color, one), gain = specular_gain(weights, c) * metallic;
+    mirrored = f0 * coat_gain + c * gain;
+    grazing = (one - f0) * coat_gain + (one - c) * gain;
+  };
+  lobe(base.x, m.mirrored.x, m.grazing.x);
+  lobe(base.y, m.mirrored.y, m.grazing.y);
+  lobe(base.z, m.mirrored.z, m.grazing.z);
+  return m;
+}
+
+/// Reflected radiance for one unit of irradiance perpendicular to l: BRDF × n·l; zero for lights below the horizon.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> metallic_light(const Metallic<F>& m, Vector<F> n, Vector<F> l, Vector<F> v) {
+  const Vector<F> h = normalize(l + v);
+  const F nl = max(dot(n, l), F(0.0f));
+  const F nv = max(dot(n, v), F(1e-4f));
+  const F peak = ggx(dot(n, h), cross(n, h), m.alpha) * smith(nl, nv, m.alpha);
+  return (m.diffuse + (m.mirrored + m.grazing * schlick_weight(dot(v, h))) * peak) * nl;
 }
 
 /// The light of an environment that a metallic-roughness surface reflects: a part of the light from about the mirror
@@ -236,10 +247,8 @@ template <class F>
 ///
 /// Source    glTF 2.0, appendix B.2: mix(dielectric, metal, metallic).
 template <class F>
-[[gnu::always_inline]] inline Vector<F> metallic_environment(Vector<F> base, F metallic, const SpecularFit<F>& fit,
-                                                             F nv) {
+[[gnu::always_inline]] inline Vector<F> metallic_environment(Vector<F> base, F metallic, SpecularWeights<F> weights) {
   const F one(1.0f);
-  const SpecularWeights<F> weights = fit.at(nv);
   const F coat = specular_albedo(weights, F(0.04f));
   const auto channel = [&](F color) {
     const F c = min(color, one);

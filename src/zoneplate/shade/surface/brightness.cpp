@@ -23,13 +23,14 @@ float arriving(std::span<const PreparedLight> lights) {
   return sum;
 }
 
-/// The greatest n·l F V D: V n·l is at most 1 / (2 α) and D at most 1 / (π α²).
+/// The greatest n·l F V D: V n·l is at most 1 / (2 α) and D at most 1 / (π α²), and F with its specular_gain at most 4,
+/// because a lobe reflects more than a quarter of the light.
 float highlight(const MaterialPlan& plan) {
   if (plan.model != ShadingModel::MetallicRoughness) return greatest(plan.specular);
   const bool is_textured = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
   const float roughness = is_textured ? least_roughness : std::max(plan.roughness, least_roughness);
   const float alpha = roughness * roughness;
-  return inverse_pi / (2 * alpha * alpha * alpha);
+  return 4 * inverse_pi / (2 * alpha * alpha * alpha);
 }
 
 /// True for a float or half-float texture, whose texels may exceed 1; texels of unorm textures are at most 1.

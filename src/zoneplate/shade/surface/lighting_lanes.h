@@ -260,17 +260,14 @@ void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const Sha
 template <class F>
 struct ConstantEnvironment {
   Vector<F> radiance;
-  SpecularFit<F> one_fit;
 
-  explicit ConstantEnvironment(const ShadingUniforms& s)
-      : radiance(Vector<F>::all(s.environment)), one_fit(F(s.roughness)) {}
+  explicit ConstantEnvironment(const ShadingUniforms& s) : radiance(Vector<F>::all(s.environment)) {}
 
-  template <bool has_texture, class Kind>
-  [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
-                                             Vector<F> base, F metallic, F roughness, int i) const {
-    const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
-    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
-    return unoccluded(kind, p, radiance, i) * metallic_environment(base, metallic, fit, nv);
+  template <class Kind>
+  [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> /*n*/, Vector<F> /*v*/,
+                                             Vector<F> base, F metallic, F /*roughness*/, SpecularWeights<F> weights,
+                                             int i) const {
+    return unoccluded(kind, p, radiance, i) * metallic_environment(base, metallic, weights);
   }
 };
 
@@ -278,16 +275,15 @@ struct ConstantEnvironment {
 template <class F>
 struct MappedEnvironment {
   const EnvironmentView& map;
-  SpecularFit<F> one_fit;
 
-  explicit MappedEnvironment(const ShadingUniforms& s) : map(*s.map), one_fit(F(s.roughness)) {}
+  explicit MappedEnvironment(const ShadingUniforms& s) : map(*s.map) {}
 
-  template <bool has_texture, class Kind>
+  template <class Kind>
   [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
-                                             Vector<F> base, F metallic, F roughness, int i) const {
-    const F along = dot(n, v), nv = min(max(along, F(0.0f)), F(1.0f));
-    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
-    const EnvironmentShares<F> shares = metallic_shares(base, metallic, fit.at(nv));
+                                             Vector<F> base, F metallic, F roughness, SpecularWeights<F> weights,
+                                             int i) const {
+    const EnvironmentShares<F> shares = metallic_shares(base, metallic, weights);
+    const F along = dot(n, v);
     const Vector<F> mirror = n * (along + along) - v;
     const Vector<F> sum =
         shares.mirrored * specular_light(map, mirror, roughness) + shares.scattered * diffuse_light(map, n);
@@ -298,6 +294,7 @@ struct MappedEnvironment {
 template <class F, bool has_texture, class Environment>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   const Environment environment(s);
+  const SpecularFit<F> one_fit{F(s.roughness)};
   const AnyUniforms kind(s);
   const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
@@ -305,14 +302,15 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
     const F metallic = has_texture ? F::load(p.metallic + i) : F(s.metallic);
     const F roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
-    const Metallic<F> m = make_metallic(base, metallic, roughness);
+    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
+    const SpecularWeights<F> weights = fit.at(min(max(dot(n, v), F(0.0f)), F(1.0f)));
+    const Metallic<F> m = make_metallic(base, metallic, roughness, weights);
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
     }
-    if (s.has_environment)
-      sum = sum + environment.template reflected<has_texture>(kind, p, n, v, base, metallic, roughness, i);
+    if (s.has_environment) sum = sum + environment.reflected(kind, p, n, v, base, metallic, roughness, weights, i);
     finish(s, kind, p, sum, base, out, i);
   }
 }
