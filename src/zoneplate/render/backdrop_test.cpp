@@ -3,13 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "zoneplate/math/lanes.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/material_layers.h"
+#include "zoneplate/shade/surface/backdrop_lanes.h"
 
 namespace zoneplate {
 namespace {
@@ -40,6 +44,32 @@ TEST(Backdrop, LevelsAreFilteredByBinomialWeights) {
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x)
       EXPECT_EQ(view.texels[4 * (view.offset[1] + y * 4 + x)], expected[x] * along_y[y]) << x << " " << y;
+}
+
+TEST(Backdrop, BlurredLevelsAreLookedUpByTheCubicBSpline) {
+  using F = scalar::Float;
+  LinearImage image(16, 16, Linear{0, 0, 0, 1});
+  for (int x = 0; x < 16; ++x)
+    for (int y = 0; y < 16; ++y) image(x, y).r = static_cast<float>(hash(static_cast<std::uint32_t>(16 * y + x)) % 100);
+  const Backdrop backdrop(image, {});
+  const BackdropView view = backdrop.view();
+  const auto texel = [&](int x, int y) {
+    const int at = std::clamp(y, 0, 7) * 8 + std::clamp(x, 0, 7);
+    return static_cast<double>(view.texels[4 * (view.offset[1] + at)]);
+  };
+  const auto weight = [](double d) {  // the B-spline at a distance
+    d = std::abs(d);
+    return d < 1 ? 2.0 / 3 - d * d + d * d * d / 2 : d < 2 ? (2 - d) * (2 - d) * (2 - d) / 6 : 0;
+  };
+  for (const auto& [px, py] : {std::pair(7.3f, 8.9f), std::pair(0.2f, 15.7f), std::pair(12.0f, 3.5f)}) {
+    const double x = px / 2 - 0.5, y = py / 2 - 0.5;
+    double expected = 0;
+    for (int j = -3; j < 12; ++j)
+      for (int i = -3; i < 12; ++i) expected += texel(i, j) * weight(x - i) * weight(y - j);
+    const BackdropColor<F> found = backdrop_texels<F>(view, {px, py}, scalar::Int(1));
+    EXPECT_NEAR(found.color.x.v, expected, 1e-3) << px << " " << py;
+    EXPECT_NEAR(found.alpha.v, 1, 1e-6);
+  }
 }
 
 /// A square of this size about (0, 0, z) that faces +Z.
