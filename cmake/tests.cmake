@@ -14,7 +14,8 @@ find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests un
 target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate_cli GTest::gtest_main webpdemux)
 # A fifth less to build than with -O1; what takes time is in the libraries, or in the tests named here.
 target_compile_options(zoneplate_tests PRIVATE -O0)
-set(laborious shade/environment/prepared_environment shade/surface/shading shade/surface/brdf raster/coverage/coverage raster/tile/rasterize
+set(laborious shade/environment/prepared_environment shade/surface/shading shade/reflection/brdf shade/surface/layered raster/coverage/coverage
+    raster/tile/rasterize
     raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/texture/texture.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "zoneplate/shade/backdrop/backdrop_lanes.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
-#include "zoneplate/shade/surface/backdrop_lanes.h"
+#include "zoneplate/shade/reflection/layers.h"
 #include "zoneplate/shade/surface/layered.h"
-#include "zoneplate/shade/surface/layers.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
 
 /// The stage of shade/surface/shading.h that lights surfaces with layers, over the lane types of math/lanes.h.
@@ -41,9 +41,9 @@ struct LayeredSurface {
   F nv, metallic, roughness, alpha;
   F through_roughness;  ///< of light that passes through the surface
   Interface<F> dielectric, metal;
-  InterfaceShares<F> dielectric_shares;  ///< of the light of an environment
-  F below_interface;                     ///< the part of light that the dielectric interface does not reflect
-  MicrofacetFrame<F> frame;              ///< where anisotropic
+  InterfaceShares<F> dielectric_shares, metal_shares;  ///< of the light of an environment
+  F below_interface;         ///< the part of light that the dielectric interface does not reflect
+  MicrofacetFrame<F> frame;  ///< where anisotropic
 
   F transmission, diffuse_transmission;
   Vector<F> back_color;  ///< of diffuse transmission, attenuated by the volume
@@ -107,7 +107,9 @@ template <class F>
     s.metal.film = film_fresnel(ior, thickness, s.metal.f0, s.nv);
   }
   if (u.has_anisotropy) s.frame = make_frame<F>(p, q, s.n, s.alpha, i);
-  s.dielectric_shares = interface_shares(s.dielectric, SpecularFit<F>(s.roughness).at(s.nv));
+  const SpecularWeights<F> weights = SpecularFit<F>(s.roughness).at(s.nv);
+  s.dielectric_shares = interface_shares(s.dielectric, weights);
+  s.metal_shares = interface_shares(s.metal, weights);
   s.below_interface = one - min(greatest_channel(s.dielectric_shares.mirrored + s.dielectric_shares.scattered), one);
 
   s.absorbed = white, s.thickness = zero;
@@ -169,7 +171,8 @@ template <class F>
   const F weight = schlick_weight(dot(s.v, h));
   const F peak = u.has_anisotropy ? ggx(s.frame, h) * smith(s.frame, front_l, s.v, nl, s.nv)
                                   : ggx(dot(s.n, h), cross(s.n, h), s.alpha) * smith(nl, s.nv, s.alpha);
-  const Vector<F> dielectric = s.dielectric.fresnel(weight), metal = s.metal.fresnel(weight);
+  const Vector<F> dielectric = s.dielectric.fresnel(weight) * s.dielectric_shares.gain;
+  const Vector<F> metal = s.metal.fresnel(weight) * s.metal_shares.gain;
 
   const auto grey = [](F x) { return Vector<F>{x, x, x}; };
   const F behind = max(-along, zero);
@@ -216,8 +219,7 @@ template <class F, class Radiance>
                                                             const Radiance& around, Vector<F> through, F seen,
                                                             const LayerState& q, int i) {
   const F one(1.0f);
-  const InterfaceShares<F>& dielectric = s.dielectric_shares;
-  const InterfaceShares<F> metal = interface_shares(s.metal, SpecularFit<F>(s.roughness).at(s.nv));
+  const InterfaceShares<F>&dielectric = s.dielectric_shares, &metal = s.metal_shares;
   const Vector<F> mirrored = around.specular(mirror_direction(u, s, q, i), s.roughness) * seen;
   const Vector<F> front = around.diffuse(s.n) * seen;
   const Vector<F> back = u.has_diffuse_transmission ? around.diffuse(Vector<F>{-s.n.x, -s.n.y, -s.n.z}) * seen : front;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "zoneplate/shade/environment/lookup_lanes.h"
-#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
 #include "zoneplate/shade/surface/shading.h"
@@ -124,7 +124,8 @@ struct Cosines {
   alignas(64) float highlight[FragmentBatch::padded_capacity];  ///< the cosine's power
 };
 
-/// Computes the cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in shade/surface/brdf.h.
+/// Computes the cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in
+/// shade/reflection/brdf.h.
 template <class F, Highlight highlight>
 [[gnu::always_inline]] inline void find_cosines(const ShadingUniforms& s, const PreparedLight& of, bool is_sun,
                                                 const FragmentBatch& batch, const ShadingState& p, Cosines& out) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "zoneplate/scene/scene.h"
-#include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/reflection/exponent.h"
 #include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/surface.h"
 #include "zoneplate/shade/surface/vertices.h"

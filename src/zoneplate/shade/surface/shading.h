@@ -2,7 +2,7 @@
 #pragma once
 
 #include "zoneplate/base/isa.h"
-#include "zoneplate/shade/surface/exponent.h"
+#include "zoneplate/shade/reflection/exponent.h"
 #include "zoneplate/shade/surface/layered.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/shading_state.h"

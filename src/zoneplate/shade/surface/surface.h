@@ -10,8 +10,8 @@
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/scene/texture_filter.h"
+#include "zoneplate/shade/backdrop/backdrop_view.h"
 #include "zoneplate/shade/environment/environment_view.h"
-#include "zoneplate/shade/surface/backdrop.h"
 
 namespace zoneplate {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "zoneplate/math/lanes.h"
-#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/surface_for_test.h"
 
 namespace zoneplate {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "zoneplate/math/lanes_vector.h"
-#include "zoneplate/shade/surface/exponent.h"
-#include "zoneplate/shade/surface/specular_table.h"
+#include "zoneplate/shade/reflection/exponent.h"
+#include "zoneplate/shade/reflection/specular_table.h"
 
 /// Reflection models, as templates over the lane types of math/lanes.h.
 ///
@@ -113,7 +113,7 @@ template <class F>
     return F(static_cast<double>(table[i.v]));  // the references of the tests
 }
 
-/// The weights for a roughness, by the table of shade/surface/specular_table.h.
+/// The weights for a roughness, by the table of shade/reflection/specular_table.h.
 ///
 /// Requires  roughness in [0, 1], nv in [0, 1].
 /// Edges     roughness below least_roughness counts as least_roughness.

@@ -5,7 +5,7 @@
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/mat.h"
-#include "zoneplate/shade/surface/backdrop.h"
+#include "zoneplate/shade/backdrop/backdrop_view.h"
 
 namespace zoneplate {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/reflection/brdf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/render/backdrop.h"
+#include "zoneplate/shade/backdrop/backdrop.h"
 
 #include <algorithm>
 #include <cstddef>

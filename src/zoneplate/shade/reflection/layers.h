@@ -2,8 +2,8 @@
 #pragma once
 
 #include "zoneplate/math/lanes_vector.h"
-#include "zoneplate/shade/surface/brdf.h"
-#include "zoneplate/shade/surface/sheen_table.h"
+#include "zoneplate/shade/reflection/brdf.h"
+#include "zoneplate/shade/reflection/sheen_table.h"
 
 /// Reflection models of a surface's layers, as templates over the lane types of math/lanes.h.
 ///
@@ -58,6 +58,7 @@ template <class F>
 template <class F>
 struct InterfaceShares {
   Vector<F> mirrored, scattered;
+  Vector<F> gain;  ///< multiplies the lobe under lights, so that it reflects the light of several reflections too
 };
 
 /// Source    as specular_albedo; a film replaces the reflectance of single scattering (KHR_materials_iridescence).
@@ -65,12 +66,13 @@ template <class F>
 [[gnu::always_inline]] inline InterfaceShares<F> interface_shares(const Interface<F>& s, SpecularWeights<F> weights) {
   const F one(1.0f), lost = one - (weights.scale + weights.bias);
   const auto once = [&](F f0) { return f0 * weights.scale + s.f90 * weights.bias; };
-  const auto more = [&](F f0) {
+  const auto gain = [&](F f0) {
     const F mean = f0 + (s.f90 - f0) * F(1.0f / 21.0f);
-    return once(f0) * (mean * lost / (one - mean * lost)) * (one - s.film_weight);
+    return mix(one / (one - mean * lost), one, s.film_weight);
   };
+  const Vector<F> gains{gain(s.f0.x), gain(s.f0.y), gain(s.f0.z)}, white{one, one, one};
   const Vector<F> single{once(s.f0.x), once(s.f0.y), once(s.f0.z)};
-  return {mix(single, s.film, s.film_weight), {more(s.f0.x), more(s.f0.y), more(s.f0.z)}};
+  return {mix(single, s.film, s.film_weight), single * (gains - white), gains};
 }
 
 /// The axes of anisotropic microfacets: the highlight is stretched along t; b is perpendicular to t and n.

@@ -1,76 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/render/backdrop.h"
-
+// Transmissive surfaces in whole images: what is behind them, refracted, absorbed and blurred.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
-#include "zoneplate/math/lanes.h"
-#include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/material_layers.h"
-#include "zoneplate/shade/surface/backdrop_lanes.h"
 
 namespace zoneplate {
 namespace {
 
 constexpr int width = 48, height = 36;
-
-TEST(Backdrop, AConstantImageStaysConstantAtEveryLevel) {
-  const Linear color{0.25f, 3, 1e-3f, 0.75f};
-  for (const auto& [w, h] : {std::pair(13, 7), std::pair(64, 64), std::pair(1, 5), std::pair(1, 1)}) {
-    const Backdrop backdrop(LinearImage(w, h, color), {});
-    const BackdropView view = backdrop.view();
-    EXPECT_EQ(view.width[view.levels - 1] * view.height[view.levels - 1], 1);
-    for (int k = 0; k < view.levels; ++k)
-      for (int i = 0; i < view.width[k] * view.height[k]; ++i) {
-        const float* texel = view.texels + 4 * (view.offset[k] + i);
-        EXPECT_EQ((Linear{texel[0], texel[1], texel[2], texel[3]}), color) << k << " " << i;
-      }
-  }
-}
-
-TEST(Backdrop, LevelsAreFilteredByBinomialWeights) {
-  LinearImage image(8, 8, Linear{0, 0, 0, 0});
-  image(4, 2) = {64, 0, 0, 0};
-  const Backdrop backdrop(image, {});
-  const BackdropView view = backdrop.view();
-  // Texel x of the level takes 1 3 3 1 eighths of the columns 2x - 1 to 2x + 2.
-  const float expected[4] = {0, 1, 3, 0}, along_y[4] = {1, 3, 0, 0};
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x)
-      EXPECT_EQ(view.texels[4 * (view.offset[1] + y * 4 + x)], expected[x] * along_y[y]) << x << " " << y;
-}
-
-TEST(Backdrop, BlurredLevelsAreLookedUpByTheCubicBSpline) {
-  using F = scalar::Float;
-  LinearImage image(16, 16, Linear{0, 0, 0, 1});
-  for (int x = 0; x < 16; ++x)
-    for (int y = 0; y < 16; ++y) image(x, y).r = static_cast<float>(hash(static_cast<std::uint32_t>(16 * y + x)) % 100);
-  const Backdrop backdrop(image, {});
-  const BackdropView view = backdrop.view();
-  const auto texel = [&](int x, int y) {
-    const int at = std::clamp(y, 0, 7) * 8 + std::clamp(x, 0, 7);
-    return static_cast<double>(view.texels[4 * (view.offset[1] + at)]);
-  };
-  const auto weight = [](double d) {  // the B-spline at a distance
-    d = std::abs(d);
-    return d < 1 ? 2.0 / 3 - d * d + d * d * d / 2 : d < 2 ? (2 - d) * (2 - d) * (2 - d) / 6 : 0;
-  };
-  for (const auto& [px, py] : {std::pair(7.3f, 8.9f), std::pair(0.2f, 15.7f), std::pair(12.0f, 3.5f)}) {
-    const double x = px / 2 - 0.5, y = py / 2 - 0.5;
-    double expected = 0;
-    for (int j = -3; j < 12; ++j)
-      for (int i = -3; i < 12; ++i) expected += texel(i, j) * weight(x - i) * weight(y - j);
-    const BackdropColor<F> found = backdrop_texels<F>(view, {px, py}, scalar::Int(1));
-    EXPECT_NEAR(found.color.x.v, expected, 1e-3) << px << " " << py;
-    EXPECT_NEAR(found.alpha.v, 1, 1e-6);
-  }
-}
 
 /// A square of this size about (0, 0, z) that faces +Z.
 void add_square(Scene& scene, float size, float z, const Material& material) {
@@ -129,7 +74,7 @@ LinearImage picture(const Scene& scene, std::optional<Crop> crop = std::nullopt,
       .color;
 }
 
-TEST(Backdrop, ClearGlassShowsWhatIsBehind) {
+TEST(Transmission, ClearGlassShowsWhatIsBehind) {
   // An index of refraction of 1 neither reflects nor bends light.
   MaterialLayers clear{.ior = 1, .transmission = 1};
   clear.specular = 0;
@@ -141,7 +86,7 @@ TEST(Backdrop, ClearGlassShowsWhatIsBehind) {
   EXPECT_EQ(half(width / 2 - 5, height / 2), (Linear{0.5f, 0, 0, 1}));
 }
 
-TEST(Backdrop, RoughGlassBlursAndKeepsTheSum) {
+TEST(Transmission, RoughGlassBlursAndKeepsTheSum) {
   MaterialLayers rough{.ior = 1.5f, .transmission = 1};
   rough.specular = 0;
   const LinearImage sharp = picture(pane(glass(rough, 0))), blurred = picture(pane(glass(rough, 0.5f)));
@@ -151,7 +96,7 @@ TEST(Backdrop, RoughGlassBlursAndKeepsTheSum) {
   EXPECT_NEAR(blurred(middle - 3, y).r + blurred(middle - 3, y).g, 1, 0.06f);
 }
 
-TEST(Backdrop, AVolumeAbsorbsAsItsThicknessSays) {
+TEST(Transmission, AVolumeAbsorbsAsItsThicknessSays) {
   MaterialLayers volume{.ior = 1, .transmission = 1, .thickness = 2, .attenuation_distance = 1};
   volume.specular = 0, volume.attenuation_color = {0.5f, 0.25f, 1};
   const LinearImage seen = picture(pane(glass(volume)));
@@ -159,7 +104,7 @@ TEST(Backdrop, AVolumeAbsorbsAsItsThicknessSays) {
   EXPECT_NEAR(seen(width / 2 + 5, height / 2).g, 0.0625f, 1e-6f);
 }
 
-TEST(Backdrop, AVolumeRefracts) {
+TEST(Transmission, AVolumeRefracts) {
   // A pane that is turned: behind its thickness d, light from the angle a is displaced along the pane.
   MaterialLayers volume{.ior = 1.5f, .transmission = 1, .thickness = 1};
   volume.specular = 0;
@@ -178,7 +123,7 @@ TEST(Backdrop, AVolumeRefracts) {
   EXPECT_NEAR(std::abs(first_green - middle), edge, 1);
 }
 
-TEST(Backdrop, ACropHasTheBitsOfTheWholeImage) {
+TEST(Transmission, ACropHasTheBitsOfTheWholeImage) {
   MaterialLayers volume{.ior = 1.5f, .transmission = 1, .thickness = 0.5f, .dispersion = 3};
   const Scene scene = pane(glass(volume, 0.3f));
   const LinearImage whole = picture(scene);

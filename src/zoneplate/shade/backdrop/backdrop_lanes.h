@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "zoneplate/math/lanes_vector.h"
-#include "zoneplate/shade/surface/backdrop.h"
+#include "zoneplate/shade/backdrop/backdrop_view.h"
 
 /// Look-ups in the image behind transmissive surfaces, over the lane types of math/lanes.h.
 namespace zoneplate {

@@ -7,7 +7,7 @@ inline constexpr int sheen_table_side = 24;
 inline constexpr float least_sheen_roughness = 0.07f, least_sheen_cosine = 0.01f;
 
 /// The directional albedo of the sheen lobe of KHR_materials_sheen before it is limited to 1: the integral of D V (n·l)
-/// over the hemisphere, by midpoint quadrature (shade/surface/layers_test.cpp repeats it).
+/// over the hemisphere, by midpoint quadrature (shade/surface/layered_test.cpp repeats it).
 ///
 /// Shape     by roughness from least_sheen_roughness to 1, then by the square root of n·v from its least value to 1,
 ///           both in equal steps.
