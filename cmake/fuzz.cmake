@@ -23,10 +23,10 @@ target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
 # Beside file formats: `scene`, what a child process answers, and `manifest`, the lines of a batch.
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm scene manifest)
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 scene manifest)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
-  if(format MATCHES "png|jpeg|webp|hdr|exr|pfm")
+  if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2")
     set(kind image)
   elseif(format MATCHES "scene|manifest")
     set(kind ${format})

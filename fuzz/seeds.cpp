@@ -6,6 +6,7 @@
 
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
+#include "zoneplate/codec/ktx2/files_for_test.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
@@ -111,6 +112,8 @@ void write_images(const std::string& root) {
   write(root + "/jpeg", "pixel.jpg", encode_jpeg(Rgba8Image(1, 1)));
   write(root + "/webp", "rgba.webp", encode_webp(image, true));
   write(root + "/webp", "rgb.webp", encode_webp(image, false));
+  write(root + "/ktx2", "etc1s.ktx2", Bytes(std::begin(etc1s_file), std::end(etc1s_file)));
+  write(root + "/ktx2", "uastc.ktx2", Bytes(std::begin(zstandard_file), std::end(zstandard_file)));
 }
 
 /// A Radiance image of these bytes.

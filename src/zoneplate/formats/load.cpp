@@ -108,6 +108,7 @@ Scene read_in_child(const std::string& name, const LoadOptions& options) {
       [] {
         open_library(Library::OpenExr);
         open_library(Library::Meshoptimizer);
+        open_library(Library::Zstd);
       });
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }

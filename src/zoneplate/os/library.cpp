@@ -16,7 +16,8 @@ struct Package {
 /// packages of Debian 12 that hold them.
 constexpr Package packages[] = {{soname_assimp, "libassimp5"},
                                 {soname_meshoptimizer, "libmeshoptimizer2d"},
-                                {soname_openexrcore, "libopenexr-3-1-30"}};
+                                {soname_openexrcore, "libopenexr-3-1-30"},
+                                {soname_zstd, "libzstd1"}};
 
 const Package& package_of(Library library) { return packages[static_cast<int>(library)]; }
 

@@ -10,7 +10,7 @@ namespace zoneplate {
 
 /// Shared libraries that few files need. Each is loaded by the first such file: loading one takes as long as rendering
 /// a small image.
-enum class Library { Assimp, Meshoptimizer, OpenExr };
+enum class Library { Assimp, Meshoptimizer, OpenExr, Zstd };
 
 /// Thrown in a sandboxed child, which has no right to load code, for a library that its parent had not opened. It is no
 /// Error, so that what goes on without a texture that cannot be read does not go on without one that can.

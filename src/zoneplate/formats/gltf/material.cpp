@@ -97,8 +97,8 @@ TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key
   const JsonView texture = file_.root().element("textures", number, "texture");
   if (const auto s = texture.find_index("sampler", file_.count("samplers")))
     use.sampler = read_sampler(file_.root().element("samplers", *s, "sampler"));
-  const auto webp = texture.extension("EXT_texture_webp");
-  if (const auto source = (webp ? *webp : texture).find_index("source", file_.count("images")))
+  const auto basis = texture.extension("KHR_texture_basisu"), webp = texture.extension("EXT_texture_webp");
+  if (const auto source = (basis ? *basis : webp ? *webp : texture).find_index("source", file_.count("images")))
     use.image = images_.use(*source);
   else
     file_.warn(texture.place() + ": has no image that is supported, left out");

@@ -140,6 +140,14 @@ TEST(GltfMaterial, TexturesWithoutASupportedImageAreLeftOut) {
   EXPECT_NE(s.warnings[0].find("texture 0: has no image that is supported"), std::string::npos);
 }
 
+TEST(GltfMaterial, BasisTexturesReplaceTheirFallback) {
+  const Scene s = load(painted(R"({"emissiveTexture":{"index":0}})",
+                               R"({"source":0,"extensions":{"KHR_texture_basisu":{"source":1}}})"));
+  ASSERT_EQ(s.materials.at(0).emissive_texture.image, 0);
+  EXPECT_EQ(s.images.at(0).pixels.as<Rgba8>()(0, 0).g, 255);
+  EXPECT_TRUE(s.warnings.empty());
+}
+
 TEST(GltfMaterial, IndicesMustBeInRange) {
   EXPECT_EQ(error_of(painted(R"({"emissiveTexture":{"index":2}})")),
             "material 0 emissiveTexture: index is 2, expected an index below 2");
@@ -160,7 +168,7 @@ TEST(GltfMaterial, ImagesThatNobodyUsesAreNotRead) {
 TEST(GltfMaterial, ImageErrorsNameTheFirstImage) {
   GltfMaker m = painted(R"({"emissiveTexture":{"index":0},"occlusionTexture":{"index":1}})");
   m.rest = R"(,"images":[{"bufferView":0,"name":"x"},{"bufferView":0}],"textures":[{"source":0},{"source":1}])";
-  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, expected PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
   m.rest = R"(,"images":[{"uri":"none.png"},{}],"textures":[{"source":0},{"source":1}])";
   EXPECT_EQ(error_of(m).rfind("image 0: ", 0), 0u);
   m.rest = R"(,"images":[{"bufferView":1},{}],"textures":[{"source":0},{"source":1}])";

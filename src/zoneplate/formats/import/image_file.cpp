@@ -12,6 +12,7 @@
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
+#include "zoneplate/codec/ktx2/ktx2.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
 
@@ -26,7 +27,7 @@ bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_v
 
 /// The name of a format that is not read.
 std::string_view known_format(std::span<const std::uint8_t> bytes) {
-  if (has_text(bytes, 1, "KTX ")) return "a KTX";
+  if (has_text(bytes, 1, "KTX ")) return "a KTX 1";
   if (has_text(bytes, 0, "DDS ")) return "a DDS";
   if (has_text(bytes, 0, "GIF8")) return "a GIF";
   if (has_text(bytes, 4, "ftypavif")) return "an AVIF";
@@ -73,6 +74,7 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_webp(bytes)) return find_webp_size(bytes);
   if (is_hdr(bytes)) return find_hdr_size(bytes);
   if (is_exr(bytes)) return find_exr_size(bytes);
+  if (is_ktx2(bytes)) return find_ktx2_size(bytes);
   if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
   return std::nullopt;
 }
@@ -91,6 +93,7 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   if (!size) return 0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
   if (is_exr(bytes)) return exr_working_memory(bytes);
+  if (is_ktx2(bytes)) return ktx2_working_memory(bytes);
   // Every pixel once more, and its alpha.
   if (is_webp(bytes)) return 5 * pixels;
   if (!is_jpeg(bytes)) return 0;
@@ -105,8 +108,9 @@ TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& 
   if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
   if (is_exr(bytes)) return decode_exr_light(bytes, name, max_pixels / 4);
   if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
+  if (is_ktx2(bytes)) return decode_ktx2(bytes, name, max_pixels);
   throw Error(ErrorKind::Input,
-              name + ": is " + std::string(known_format(bytes)) + " image, expected PNG, JPEG, WebP, HDR or EXR");
+              name + ": is " + std::string(known_format(bytes)) + " image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
 }
 
 std::optional<std::string> size_warning(const TextureImage& image) {

@@ -129,9 +129,10 @@ TEST(ImageFile, WarnsOfWhatIsDrawnSmaller) {
 TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
   EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
-  EXPECT_EQ(error_of(bytes("\xabKTX 20\xbb\r\n\x1a\n")), "tex: is a KTX image, expected PNG, JPEG, WebP, HDR or EXR");
-  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, expected PNG, JPEG, WebP, HDR or EXR");
-  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR or EXR");
+  EXPECT_EQ(error_of(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
+            "tex: is a KTX 1 image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
+  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
+  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
   EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
   EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
 }

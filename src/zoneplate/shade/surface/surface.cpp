@@ -414,7 +414,7 @@ void SurfaceShader::Data::BatchShading::displace_coordinates() {
 
 /// Adds the variance of the normals that the pixel covers to the roughness.
 void SurfaceShader::Data::BatchShading::widen_roughness() {
-  if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
+  if (plan.layers == nullptr && plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
     kernels.fill(p.roughness, plan.roughness, p.count);
     kernels.fill(p.metallic, plan.metallic, p.count);
   }
@@ -537,6 +537,7 @@ void SurfaceShader::Data::BatchShading::light_layered(FragmentOutputs& out) {
     else
       kernels.fill(p.roughness, 1 - *glossiness, p.count);
   }
+  if (plan.widens()) widen_roughness();
   kernels.light_layered(d.shading_uniforms[static_cast<std::size_t>(batch.material)], layered.uniforms, batch, p, q,
                         out);
 }
@@ -550,8 +551,8 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
   if (is_metallic) find_metallic();
-  if (is_metallic && plan.widens()) widen_roughness();
   if (plan.layers != nullptr) return light_layered(out);
+  if (is_metallic && plan.widens()) widen_roughness();
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic && uniforms.map != nullptr) {
