@@ -176,7 +176,7 @@ Shot shadowed_shot(ShadowOptions shadows) {
 TEST(Pictures, ShadowsHaveTheirBits) {
   const std::pair<ShadowOptions, std::uint64_t> shadow_goldens[] = {
       {{.method = ShadowMethod::Hard}, 0x6e5621faed3b2b14u},
-      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0x9f656d4bbc82e75fu},
+      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0x4681d2d156bdd0aeu},
       {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Nearest, .size = 64}}, 0x33fc234ff5ff85cbu},
       {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcf, .size = 64}}, 0xe06f4ece22970c5au},
       {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcss, .size = 64}}, 0x159ed39d3df755dcu},

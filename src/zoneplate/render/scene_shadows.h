@@ -8,7 +8,7 @@
 #include "zoneplate/render/render.h"
 #include "zoneplate/shade/shadow/shadow_map.h"
 #include "zoneplate/shade/shadow/traced_visibility.h"
-#include "zoneplate/shade/surface/casters.h"
+#include "zoneplate/shade/cast/casters.h"
 #include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {

@@ -11,6 +11,8 @@ namespace zoneplate {
 struct Receivers {
   static constexpr int capacity = FragmentBatch::padded_capacity;
   int count = 0;
+  /// Light from below the horizon passes through the surfaces; else of_light may give 0 for it.
+  bool is_transmissive = false;
 
   /// On the triangle, or outside of it where interpolated normals describe a convex surface.
   alignas(64) float position[3][capacity];
@@ -28,7 +30,8 @@ struct Receivers {
 class LightVisibility {
  public:
   virtual ~LightVisibility() = default;
-  /// The part of light k of the frame's lights, in [0, 1]; 0 where the light is below the horizon of `normal`.
+  /// The part of light k of the frame's lights, in [0, 1]; 0 where the light is below the horizon of `normal`, unless
+  /// the receivers are transmissive: then as seen from their other side.
   virtual void of_light(int k, const Receivers& receivers, float* visible) const = 0;
   /// Whether of_light averages over the pixel: it then reads dx and dy.
   virtual bool needs_footprint() const = 0;

@@ -204,11 +204,13 @@ void MappedVisibility::of_light(int k, const Receivers& receivers, float* visibl
     const ShadowMap& map = maps[side];
     const float3 to_light = map.is_perspective ? map.eye - position : -map.forward;
     visible[i] = 0;
-    if (!(dot(vector(receivers.normal), to_light) > 0)) continue;
+    const bool is_above = dot(vector(receivers.normal), to_light) > 0;
+    if (!is_above && !receivers.is_transmissive) continue;
+    const float sign = is_above ? 1.0f : -1.0f;
 
     const float distance = dot(position - map.eye, map.forward);
     const float texel_width = (map.is_perspective ? std::max(distance, 0.0f) : 1.0f) / map.scale;
-    const float3 at_map = position + face * (receivers.margin[i] + options_.map.bias * texel_width) - map.eye;
+    const float3 at_map = position + face * (sign * (receivers.margin[i] + options_.map.bias * texel_width)) - map.eye;
     const float3 p{dot(at_map, map.right), dot(at_map, map.up), dot(at_map, map.forward)};
     visible[i] = 1;
     if (map.is_perspective && !(p.z > 0)) continue;

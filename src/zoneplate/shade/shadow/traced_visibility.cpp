@@ -14,7 +14,10 @@ namespace {
 
 float3 at(const float (&array)[3][Receivers::capacity], int i) { return {array[0][i], array[1][i], array[2][i]}; }
 
-float3 origin_of(const Receivers& r, int i) { return at(r.position, i) + at(r.face, i) * r.margin[i]; }
+/// Where the rays of a receiver begin, on the side of its face (1) or on the other one (-1).
+float3 origin_of(const Receivers& r, int i, float side) {
+  return at(r.position, i) + at(r.face, i) * (side * r.margin[i]);
+}
 
 Ray make_ray(float3 origin, float3 direction, float end) {
   return {{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, end};
@@ -101,10 +104,13 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
   int lit[Receivers::capacity];
   int count = 0;
   for (int i = 0; i < receivers.count; ++i) {
-    const float3 origin = origin_of(receivers, i);
+    float3 origin = origin_of(receivers, i, 1);
     const SeenLight seen = see(light, shadows_, origin);
     visible[i] = 0;
-    if (!(dot(at(receivers.normal, i), seen.direction) > 0)) continue;
+    if (!(dot(at(receivers.normal, i), seen.direction) > 0)) {
+      if (!receivers.is_transmissive) continue;
+      origin = origin_of(receivers, i, -1);
+    }
     if (shadows_.method == ShadowMethod::Hard) {
       const bool is_far = light.kind == LightKind::Directional;
       rays[count] =
@@ -139,7 +145,7 @@ void TracedVisibility::of_environment(const Receivers& receivers, float* visible
   Ray rays[chunk];
   float seen[chunk];
   for (int i = 0; i < receivers.count; ++i) {
-    const float3 origin = origin_of(receivers, i);
+    const float3 origin = origin_of(receivers, i, 1);
     visible[i] = 1;
     if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
     const ShiftedDisc disc(lattice_, receivers.seed[i], 0);

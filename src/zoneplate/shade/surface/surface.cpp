@@ -10,13 +10,13 @@
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/shade/shadow/receivers.h"
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/corners.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
-#include "zoneplate/shade/surface/receivers.h"
 #include "zoneplate/shade/surface/shading.h"
 #include "zoneplate/shade/surface/vertices.h"
 #include "zoneplate/shade/texture/area_filters.h"
@@ -483,7 +483,14 @@ void SurfaceShader::Data::BatchShading::find_metallic() {
 void SurfaceShader::Data::BatchShading::find_visibility() {
   const LightVisibility& visibility = *d.view.visibility;
   Receivers receivers;
-  make_receivers(d.scene, batch, vertices, d.viewpoint, visibility.needs_footprint(), receivers);
+  const auto record = [this](std::size_t k, std::size_t i) {
+    return vertices.first != nullptr ? vertices.first + vertices.stride * batch.vertex[k][i] : vertices.record[k][i];
+  };
+  const float(&towards)[3] = d.viewpoint.towards;
+  make_receivers(d.scene, batch, record, {d.view.eye, {towards[0], towards[1], towards[2]}, d.view.is_orthographic},
+                 visibility.needs_footprint(), receivers);
+  receivers.is_transmissive = plan.layers != nullptr && (plan.layers->uniforms.has_transmission ||
+                                                         plan.layers->uniforms.has_diffuse_transmission);
   constexpr std::size_t stride = FragmentBatch::padded_capacity;
   light_visibility = std::make_unique<float[]>(d.lights.size() * stride);
   for (std::size_t k = 0; k < d.lights.size(); ++k)

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
+
+#include "zoneplate/math/vec.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
-#include "zoneplate/shade/surface/shading.h"
 
 namespace zoneplate {
 
 struct Scene;
+
+/// The viewer: a position, or the direction to an orthographic camera.
+struct ReceiversViewer {
+  float3 position, towards;
+  bool is_orthographic = false;
+};
+
+/// The record of vertex k of the triangle whose values entry i of a batch holds: normal and position, in object space.
+using ReceiverRecord = std::function<const float*(std::size_t k, std::size_t i)>;
 
 /// The fragments of a batch as receivers of light.
 ///
@@ -15,8 +27,8 @@ struct Scene;
 /// mean of its projections onto the tangent planes at those vertices that lie above it, so that a smooth surface of few
 /// triangles does not shadow itself along their edges.
 /// Source    Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021.
-void make_receivers(const Scene& scene, const FragmentBatch& batch, const TriangleVertices& vertices,
-                    const Viewpoint& viewpoint, bool has_footprint, Receivers& out);
+void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
+                    const ReceiversViewer& viewer, bool has_footprint, Receivers& out);
 
 /// Sets the footprint of fragment i of a triangle with these edges from its first vertex, from the batch's derivatives.
 void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, float3 edge2, Receivers& out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/render/ground.h"
+#include "zoneplate/shade/cast/ground.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include "zoneplate/math/random.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
+#include "zoneplate/shade/shadow/receivers.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
-#include "zoneplate/shade/surface/receivers.h"
 
 namespace zoneplate {
 namespace {

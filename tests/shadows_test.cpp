@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
 #include "zoneplate/scene/builtin/shapes.h"
+#include "zoneplate/scene/material_layers.h"
 
 namespace zoneplate {
 namespace {
@@ -186,6 +188,39 @@ TEST(Shadows, AlphaOfCastersCounts) {
   const Frame blended = frame_of(scene, hard);
   EXPECT_NEAR(red_at(blended, camera, {-0.2f, 0, 0}), 1 - 64 / 255.0f, 1e-3f);
   EXPECT_EQ(red_at(blended, camera, {0.2f, 0, 0}), 0);
+}
+
+TEST(Shadows, GlassPassesItsShare) {
+  Scene scene = floor_scene();
+  Mesh sheet;
+  add_quad(sheet, {{-0.4f, 0.5f, 0.4f}, {0.4f, 0.5f, 0.4f}, {0.4f, 0.5f, -0.4f}, {-0.4f, 0.5f, -0.4f}});
+  Material glass = white();
+  glass.model = ShadingModel::MetallicRoughness;
+  MaterialLayers layers;
+  layers.transmission = 0.75f;
+  glass.layers = std::make_shared<const MaterialLayers>(layers);
+  add_part(scene, glass, std::move(sheet));
+  scene.lights = {sun_from({0, 1, 0})};
+  scene.cameras[0] = camera_at({0, 0.3f, 3}, {0, 0, 0}, 0.7f, 0.1f, 100);
+  EXPECT_NEAR(red_at(frame_of(scene, hard), scene.cameras[0], {0, 0, 0}), 0.75f, 1e-5f);
+}
+
+// The edge of a sharp shadow across one large triangle: with one ray a pixel is either lit or not; rays from all over
+// the pixel give its lit part.
+TEST(Shadows, SoftOnesAreFilteredWithinPixels) {
+  Scene scene = floor_scene(200);
+  Mesh sheet;
+  add_quad(sheet, {{-60, 1, 50}, {0.1f, 1, 50}, {-0.9f, 1, -50}, {-60, 1, -50}});
+  add_part(scene, white(), std::move(sheet));
+  scene.lights = {sun_from({0, 1, 0})};
+  scene.cameras[0] = camera_at({2, 0.5f, 0}, {0, 0, 0}, 0.4f, 0.1f, 100);
+  RenderOptions soft;
+  soft.shadows = {.method = ShadowMethod::Soft, .samples = 64, .angle = 1e-4f};
+  const auto grey = [&](const Frame& frame) {
+    return std::ranges::count_if(frame.color.values(), [](Linear c) { return c.r > 0.05f && c.r < 0.95f; });
+  };
+  EXPECT_EQ(grey(frame_of(scene, hard)), 0);
+  EXPECT_GT(grey(frame_of(scene, soft)), 60);
 }
 
 TEST(Shadows, OcclusionMultipliesTheEnvironmentsLight) {

@@ -15,7 +15,7 @@ class TextureSet;
 std::vector<ShadowCaster> make_casters(const Scene& scene);
 
 /// The opacity of a scene's translucent casters: where an alpha-tested surface is present 1, else 0; of a blended
-/// surface its alpha. Textures are looked up in level 0.
+/// surface its alpha, times what it does not transmit (KHR_materials_transmission). Textures are looked up in level 0.
 class CasterOpacity {
  public:
   /// Requires  the scene and its textures outlive this object.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/shade/surface/receivers.h"
+#include "zoneplate/shade/shadow/receivers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ float greatest(float3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::a
 constexpr float margin_of_coordinates = 0x1p-18f;
 
 ReceivingTriangle triangle_of(const float4x4& world, const float4x4& normals, const float* const (&record)[3],
-                              const Viewpoint& viewpoint) {
+                              const ReceiversViewer& viewer) {
   ReceivingTriangle t;
   float largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -41,9 +41,7 @@ ReceivingTriangle triangle_of(const float4x4& world, const float4x4& normals, co
   // Lines have no face of their own.
   const float3 sum = t.normal[0] + t.normal[1] + t.normal[2];
   t.face = normalize(cross(t.position[1] - t.position[0], t.position[2] - t.position[0]), normalize(sum, {0, 0, 1}));
-  const float3 eye{viewpoint.eye[0], viewpoint.eye[1], viewpoint.eye[2]};
-  const float3 towards{viewpoint.towards[0], viewpoint.towards[1], viewpoint.towards[2]};
-  if (dot(t.face, viewpoint.is_orthographic ? towards : eye - t.position[0]) < 0) t.face = -t.face;
+  if (dot(t.face, viewer.is_orthographic ? viewer.towards : viewer.position - t.position[0]) < 0) t.face = -t.face;
   if (dot(sum, t.face) < 0)
     for (float3& n : t.normal) n = -n;
   return t;
@@ -79,8 +77,8 @@ void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, fl
   store((edge1 * y[1] + edge2 * y[2]) * half, out.dy);
 }
 
-void make_receivers(const Scene& scene, const FragmentBatch& batch, const TriangleVertices& vertices,
-                    const Viewpoint& viewpoint, bool has_footprint, Receivers& out) {
+void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
+                    const ReceiversViewer& viewer, bool has_footprint, Receivers& out) {
   out.count = batch.padded();
   if (!has_footprint) std::memset(out.dx, 0, sizeof out.dx), std::memset(out.dy, 0, sizeof out.dy);
   const auto store = [](float3 from, float(&to)[3][Receivers::capacity], std::size_t i) {
@@ -93,13 +91,10 @@ void make_receivers(const Scene& scene, const FragmentBatch& batch, const Triang
   for (std::size_t i = 0; i < static_cast<std::size_t>(out.count); ++i) {
     const std::size_t leader = batch.leader(i);
     if (i == 0 || leader != known_leader) {
-      const float* record[3];
-      for (std::size_t k = 0; k < 3; ++k)
-        record[k] = vertices.first != nullptr ? vertices.first + vertices.stride * batch.vertex[k][leader]
-                                              : vertices.record[k][leader];
+      const float* const corner[3] = {record(0, leader), record(1, leader), record(2, leader)};
       const float4x4& world = scene.instances[batch.instance[leader]].world_from_object;
       if (batch.instance[leader] != known_instance) normals = normal_matrix(world);
-      triangle = triangle_of(world, normals, record, viewpoint);
+      triangle = triangle_of(world, normals, corner, viewer);
       known_leader = leader, known_instance = batch.instance[leader];
     }
     const float b1 = batch.b[0][i], b2 = batch.b[1][i];
