@@ -175,12 +175,12 @@ Shot shadowed_shot(ShadowOptions shadows) {
 
 TEST(Pictures, ShadowsHaveTheirBits) {
   const std::pair<ShadowOptions, std::uint64_t> shadow_goldens[] = {
-      {{.method = ShadowMethod::Hard}, 0x6f6e0583720d18du},
-      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0x9ab219806c887ae8u},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Nearest, .size = 64}}, 0xf0062e939563a148u},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcf, .size = 64}}, 0x142383387fc34307u},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcss, .size = 64}}, 0x4de1c23969190abeu},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Evsm, .size = 64}}, 0x990cb1d83fbf7f6bu},
+      {{.method = ShadowMethod::Hard}, 0x6e5621faed3b2b14u},
+      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0x9f656d4bbc82e75fu},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Nearest, .size = 64}}, 0x33fc234ff5ff85cbu},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcf, .size = 64}}, 0xe06f4ece22970c5au},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcss, .size = 64}}, 0x159ed39d3df755dcu},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Evsm, .size = 64}}, 0x94ba9f047381e5e7u},
   };
   for (const auto& [shadows, hash] : shadow_goldens)
     EXPECT_EQ(hash_of(shadowed_shot(shadows).frame("msaa:n=4").color), hash) << std::hex << hash;
