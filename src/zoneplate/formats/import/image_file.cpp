@@ -24,7 +24,7 @@ bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_v
                     [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
 }
 
-/// The name of a format that is not read.
+/// The name of a known image format that is not supported.
 std::string_view known_format(std::span<const std::uint8_t> bytes) {
   if (has_text(bytes, 1, "KTX ")) return "a KTX";
   if (has_text(bytes, 0, "DDS ")) return "a DDS";
@@ -40,7 +40,7 @@ int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
 }
 
-/// Light without the alpha that it was multiplied by.
+/// The straight colour of a premultiplied one.
 float4 straight(Linear c) {
   const float alpha = c.a > 0 ? c.a : 1.0f;
   return {c.r / alpha, c.g / alpha, c.b / alpha, c.a};
@@ -91,10 +91,10 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   if (!size) return 0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
   if (is_exr(bytes)) return exr_working_memory(bytes);
-  // Every pixel once more, and its alpha.
+  // libwebp's own copy of the pixels, and a plane of alpha.
   if (is_webp(bytes)) return 5 * pixels;
   if (!is_jpeg(bytes)) return 0;
-  // In several passes all coefficients are kept, two bytes each.
+  // libjpeg keeps all coefficients of a progressive image, two bytes each.
   const std::optional<JpegFrame> frame = read_jpeg_frame(bytes);
   return 2 * pixels * frame->samples / frame->pixels;
 }

@@ -9,13 +9,13 @@
 
 namespace zoneplate {
 
-/// A material of an MTL file as ours, its images loaded. `within` is the folder of the MTL file, as for find_file.
+/// Converts a material of an MTL file and loads its images. `within` is the folder of the MTL file, as for find_file.
 ///
-/// Kd, Ka, Ks and Ke are sRGB-encoded, as programs write display colours. Values above 1 are unchanged. The model is
-/// Blinn-Phong, with the ambient reflectance Ka, or Kd without a Ka; illum 0 is unlit, illum 1 without highlights; with
-/// Pr or Pm, metallic-roughness. A black Kd or Ke with an image counts as white, with a warning. d below 1, or a map_d
-/// that is not opaque, makes the material blended; map_d becomes the alpha of the base colour image. All surfaces are
-/// double-sided, as OBJ has no other kind.
+/// Kd, Ka, Ks and Ke are sRGB-encoded, as programs write display colours; values above 1 are kept unchanged. The model
+/// is Blinn-Phong with the ambient reflectance Ka, or Kd if there is no Ka; illum 0 is unlit, illum 1 has no
+/// highlights; with Pr or Pm the model is metallic-roughness. A black Kd or Ke with an image is taken as white, with a
+/// warning. d below 1, or a map_d that is not opaque, makes the material blended; map_d becomes the alpha of the base
+/// colour image. All surfaces are double-sided, because OBJ has no single-sided surfaces.
 Material make_material(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder);
 
 }  // namespace zoneplate

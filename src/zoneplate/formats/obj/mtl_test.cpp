@@ -86,7 +86,7 @@ TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {
   EXPECT_EQ(found[0].name, "b");
   EXPECT_EQ(found[0].diffuse, (float3{0, 1, 0}));
   EXPECT_EQ(asked, (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_EQ(warnings.size(), 1u);  // errors in the others are reported all the same
+  EXPECT_EQ(warnings.size(), 1u);  // errors in the other materials are reported nevertheless
 }
 
 TEST(ParseMtl, NamesEachMapThatIsNotDrawnOnce) {
