@@ -53,7 +53,7 @@ void seen_row(const float* power, std::ptrdiff_t stride, float threshold, float 
   }
 }
 
-/// Where the edges of a vector's pixels run.
+/// The orientation of the edges of a vector's pixels.
 enum class Direction { Level, Upright, Both };
 
 /// The edges of a vector of pixels, each with its own direction and side.
@@ -63,7 +63,7 @@ struct Walk {
   MF is_level, is_second;
   VF average, least;
 
-  /// The power on this side of the edge, i pixels along it, and on the other.
+  /// The power on this side of the edge, i pixels along it, and on the other side.
   template <Direction direction>
   HWY_INLINE void pair(std::ptrdiff_t i, VF& here, VF& across) const {
     if constexpr (direction == Direction::Both) {
@@ -81,7 +81,7 @@ struct Walk {
   }
 };
 
-/// One end of the edges: its distance, and how far its luma is off the edge's.
+/// One end of the edges: its distance, and the difference of its luma from the edge's.
 struct End {
   VF distance, off;
 };

@@ -8,7 +8,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lumas at the four corners of pixels, one a lane.
+/// The lumas at the four corners of pixels, one pixel per lane.
 template <class D>
 struct Corners {
   using V = hn::Vec<D>;
@@ -19,7 +19,7 @@ struct Corners {
     const hn::Rebind<std::uint8_t, D> bytes;
     const auto load = [&](std::ptrdiff_t at) HWY_ATTR { return hn::PromoteTo(di, hn::LoadU(bytes, p + at)); };
     const auto sum = [&](auto a, auto b) HWY_ATTR { return hn::Add(a, b); };
-    // Upright pairs serve two corners each.
+    // Each vertical pair is used by two corners.
     const auto here = load(0), north = load(-stride), south = load(stride);
     const auto west = load(-1), east = load(1);
     const auto up = sum(here, north), down = sum(here, south);
@@ -61,7 +61,7 @@ HWY_INLINE VF4 load_codes(const std::uint8_t* p) {
 
 /// A point between four pixels.
 struct Point {
-  std::ptrdiff_t x, y;  ///< the upper left one; y relative to the row
+  std::ptrdiff_t x, y;  ///< the upper left pixel; y is relative to the row
   float u, v;
 
   HWY_INLINE Point(std::ptrdiff_t at, float dx, float dy) {
