@@ -19,7 +19,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The definition, in precision to spare.
+/// The definition, in extended precision.
 long double true_encode(long double x) {
   return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L;
 }
@@ -72,7 +72,7 @@ TEST(Transfer, EightBitCodesComeBack) {
 
 TEST(Transfer, EightBitCodesAreRoundedExactly) {
   const auto rounded = [](float x) { return static_cast<int>(255 * true_encode(x) + 0.5L); };
-  // Around every place where the code changes, and many values besides.
+  // Values around each change of code, and many others.
   for (int code = 1; code < 256; ++code) {
     const float change = static_cast<float>(true_decode((code - 0.5L) / 255));
     std::uint32_t bits = std::bit_cast<std::uint32_t>(change) - 20;
@@ -131,7 +131,7 @@ TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
       kernels.decode(in.data(), found.data(), n);
       EXPECT_EQ(found, wanted) << name_of(isa);
 
-      // One more code than the kernel may write detects a write past the end.
+      // One more code than the kernel may write, to detect a write past the end.
       std::vector<std::uint8_t> wanted8(n + 1, 9), found8(n + 1, 9);
       TransferKernels::scalar.quantize8(in.data(), wanted8.data(), n);
       kernels.quantize8(in.data(), found8.data(), n);
