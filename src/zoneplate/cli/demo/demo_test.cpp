@@ -59,7 +59,7 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
       EXPECT_GT(decode_png(file.bytes(), name).pixels.width(), 190) << name;
     }
   }
-  // The text holds what the image says: titles, captions, and tables.
+  // The text contains the titles, captions and tables of the image.
   for (const char* words : {"Jaggies: with one", "The same region by every", "The black edge: four",
                             "have the correct brightness", "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling",
                             "border", "Sampling repeats", "blackman-harris", "+0.90", "Shutter always open: "})
@@ -117,7 +117,7 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
   EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
 }
 
-// The table holds each kernel's figures near their theory, and lanczos3 keeps what is promised of it.
+// The table has each kernel's measured aliasing close to its theory, and lanczos3 keeps its limits.
 TEST(Demo, AliasesHaveEveryKernelBesideItsTheory) {
   const Lesson lesson = demo_of("aliases").make(small);
   const Table& table = lesson.tables.at(0);
