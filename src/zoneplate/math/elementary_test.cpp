@@ -25,7 +25,7 @@ double ulps(float value, long double truth) {
   return static_cast<double>(std::abs(static_cast<long double>(value) - truth) / std::ldexp(1.0L, least));
 }
 
-/// Numbers over [low, high], evenly spread, the ends included.
+/// Evenly spaced numbers in [low, high], including both ends.
 std::vector<float> spread(float low, float high, int count) {
   std::vector<float> values;
   for (int i = 0; i <= count; ++i) {
@@ -35,7 +35,7 @@ std::vector<float> spread(float low, float high, int count) {
   return values;
 }
 
-/// Positive normal numbers of every exponent.
+/// Positive normal numbers with all exponents.
 std::vector<float> positive(std::uint32_t count, std::uint32_t seed) {
   std::vector<float> values;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -179,7 +179,7 @@ TEST(Elementary, ArcFunctionsAreWithinThreeUlp) {
   EXPECT_EQ(asin(1), elementary::half_pi);
 }
 
-/// Arguments that reach every branch: all sizes and signs, integers, halves and the edges of the ranges.
+/// Arguments for every branch: all magnitudes and signs, integers, halves and the ends of the ranges.
 std::vector<float> arguments(std::uint32_t seed) {
   std::vector<float> values = {0.0f, -0.0f,     1,         -1,       0.5f,   -126, -126.001f,
                                128,  127.9999f, -87.3365f, 88.7228f, 1e-40f, 1e38f};
