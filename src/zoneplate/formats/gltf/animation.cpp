@@ -17,7 +17,8 @@ namespace {
 enum class Path { Translation, Rotation, Scale, Weights };
 enum class Interpolation { Step, Linear, CubicSpline };
 
-/// Where a moment lies among the keys: at `first`, or the share `t` of the way to the next, `span` seconds long.
+/// The position of a time among the keys: at `first`, plus the fraction `t` of the interval to the next key, which is
+/// `span` seconds long.
 struct Moment {
   std::size_t first = 0;
   float t = 0, span = 0;
@@ -43,7 +44,7 @@ std::vector<float> read_times(GltfFile& file, const JsonView& sampler) {
   return times;
 }
 
-/// A channel's values as lists of floats, `width` to a value.
+/// The values of a channel's keys as floats, each value with as many floats as its path has.
 std::vector<float> read_values(GltfFile& file, const JsonView& sampler, Path path, ElementRange range) {
   std::vector<float> out;
   if (path == Path::Weights) return read_float(file, sampler, "output", range);
@@ -55,12 +56,12 @@ std::vector<float> read_values(GltfFile& file, const JsonView& sampler, Path pat
   return out;
 }
 
-/// Between two values at the share t.
+/// Interpolates linearly between two values.
 void mix_linear(const float* a, const float* b, float t, std::vector<float>& out) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] + (b[i] - a[i]) * t;
 }
 
-/// Along the shorter great circle; as a chord where the two are so near that both are the same.
+/// Interpolates along the shorter great circle; linearly if the two rotations are nearly equal.
 void mix_rotations(const float* a, const float* b, float t, std::vector<float>& out) {
   float d = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const float sign = d < 0 ? -1.0f : 1.0f;
@@ -74,7 +75,8 @@ void mix_rotations(const float* a, const float* b, float t, std::vector<float>& 
   for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] * from + b[i] * (to * sign);
 }
 
-/// The cubic through value and out-tangent of one key, in-tangent and value of the next (glTF 2.0, appendix C.5).
+/// The cubic Hermite spline through value and out-tangent of one key, in-tangent and value of the next (glTF 2.0,
+/// appendix C.5).
 void mix_cubic(const float* key, std::size_t width, const Moment& m, std::vector<float>& out) {
   const float t = m.t, t2 = t * t, t3 = t2 * t;
   for (std::size_t i = 0; i < width; ++i) {
@@ -94,7 +96,7 @@ Interpolation read_interpolation(const JsonView& sampler) {
   return Interpolation::CubicSpline;
 }
 
-/// The moment among the keys of a sampler, and how many these are.
+/// The position among the keys of a sampler, and the number of keys.
 struct Keys {
   Moment moment;
   std::size_t count = 0;
@@ -106,7 +108,7 @@ Keys find_keys(GltfFile& file, const JsonView& sampler, double time) {
   return {find_moment(times, time), times.size()};
 }
 
-/// The value of a sampler; `width` floats, or for weights as many as a key has.
+/// The value of a sampler: as many floats as its path has; for weights, as many as a key has.
 std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, const Keys& of_input) {
   const Interpolation kind = read_interpolation(sampler);
   const std::uint64_t parts = kind == Interpolation::CubicSpline ? 3 : 1, keys = of_input.count * parts;
@@ -137,7 +139,7 @@ std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, Path path, 
   return out;
 }
 
-/// The part of a pose that a path names; nothing for one that is not known.
+/// The property of a pose that a path names; nothing for an unknown path.
 std::optional<Path> find_path_kind(const std::string& word) {
   constexpr const char* words[] = {"translation", "rotation", "scale", "weights"};
   for (std::size_t i = 0; i < std::size(words); ++i)
@@ -152,7 +154,8 @@ void set(GltfNodePose& pose, Path path, std::vector<float> v) {
   if (path == Path::Weights) pose.weights = std::move(v);
 }
 
-/// The accessor's stated extent, which the specification requires for times; read where it is missing.
+/// The minimum and maximum of the accessor, which the specification requires for times; if they are missing, the times
+/// are read.
 std::pair<float, float> extent(GltfFile& file, const JsonView& sampler) {
   const std::size_t number = sampler.index("input", file.count("accessors"));
   const JsonView accessor = file.root().element("accessors", number, "accessor");
@@ -167,7 +170,7 @@ std::pair<float, float> extent(GltfFile& file, const JsonView& sampler) {
 
 std::vector<AnimationSpan> list_animations(GltfFile& file) {
   std::vector<AnimationSpan> out;
-  std::map<std::size_t, std::pair<float, float>> extents;  // of the accessors of times
+  std::map<std::size_t, std::pair<float, float>> extents;  // by the accessor of times
   for (std::size_t i = 0; i < file.count("animations"); ++i) {
     const JsonView json = file.root().element("animations", i, "animation");
     AnimationSpan span{json.text("name"), 0, 0};
@@ -181,7 +184,7 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
       span.begin = s == 0 ? begin : std::min(span.begin, begin);
       span.end = s == 0 ? end : std::max(span.end, end);
     }
-    span.end = std::max(span.end, span.begin);  // from min and max of the accessors, which may be invalid
+    span.end = std::max(span.end, span.begin);  // the accessors' min and max may be invalid
     out.push_back(std::move(span));
   }
   return out;
@@ -189,7 +192,7 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
 
 void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses) {
   const JsonView json = file.root().element("animations", animation, "animation");
-  // Many channels may share the times of their keys, and a sampler: each is looked through once.
+  // Many channels may share a sampler, or the accessor of its times: each is evaluated once.
   std::map<std::size_t, Keys> keys;                                   // by accessor
   std::map<std::pair<std::size_t, Path>, std::vector<float>> values;  // by sampler
   for (std::size_t c = 0; c < json.count("channels"); ++c) {

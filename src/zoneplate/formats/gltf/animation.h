@@ -15,21 +15,22 @@ namespace zoneplate {
 struct GltfNodePose {
   std::optional<float3> translation, scale;
   std::optional<Quaternion> rotation;
-  std::vector<float> weights;  ///< of the morph targets
+  std::vector<float> weights;  ///< weights of the morph targets
 };
 
-/// The poses of the nodes that an animation moves, by their numbers in the file.
+/// The poses of the nodes that an animation changes, by their indices in the file.
 using GltfPoses = std::map<std::size_t, GltfNodePose>;
 
-/// Names and extents in time of the file's animations.
+/// The names and time ranges of the file's animations.
 std::vector<AnimationSpan> list_animations(GltfFile& file);
 
-/// Evaluates an animation, over what `poses` has already: STEP, LINEAR (rotations along the shorter great circle) and
-/// CUBICSPLINE.
+/// Evaluates an animation and overwrites the changed properties in `poses`: STEP, LINEAR (rotations along the shorter
+/// great circle) and CUBICSPLINE.
 ///
-/// Units     seconds; before the first key of a channel and after its last one the value of that key holds.
+/// Units     seconds; before the first and after the last key of a channel, the value of that key applies.
 /// Exact     + - × / √ and math/elementary.h only, in float.
-/// Errors    ErrorKind::Input naming animation and sampler: times that do not grow, too few values, unknown words.
+/// Errors    ErrorKind::Input naming animation and sampler: times that are not increasing, too few values, unknown
+///           words.
 void pose_nodes(GltfFile& file, std::size_t animation, double time, GltfPoses& poses);
 
 }  // namespace zoneplate

@@ -9,14 +9,14 @@
 namespace zoneplate {
 
 struct GltfMaterials {
-  std::vector<Material> materials;   ///< the file's, in its order
-  std::vector<TextureImage> images;  ///< those that a material uses
+  std::vector<Material> materials;   ///< the file's materials, in order
+  std::vector<TextureImage> images;  ///< the images that materials use
 };
 
 /// Reads all materials and decodes the images that they use, the images in parallel.
 ///
-/// Factors out of their range are clamped and textures of a third uv set left out, both with a warning.
-/// Errors    ErrorKind::Input naming the material or image: a bad index or value, an image that cannot be read.
+/// Factors out of range are clamped and textures of a third uv set omitted, both with a warning.
+/// Errors    ErrorKind::Input naming the material or image: an invalid index or value, an unreadable image.
 GltfMaterials load_materials(GltfFile& file);
 
 }  // namespace zoneplate

@@ -8,11 +8,10 @@
 
 namespace zoneplate {
 
-/// The bytes of a buffer view that EXT_meshopt_compression packs; `packed` are those of the extension's own range.
+/// Decompresses a buffer view with EXT_meshopt_compression; `packed` are the bytes of the extension's own range.
 ///
 /// Errors    ErrorKind::Input naming the place: a mode, filter or size that the extension does not have, corrupt data,
-///           more memory than the budget.
-///           Also where libmeshoptimizer, which this opens, is not installed.
+///           more memory than the budget, or if libmeshoptimizer, which this function opens, is not installed.
 /// Source    EXT_meshopt_compression; decoded by meshoptimizer.
 std::vector<std::uint8_t> decode_meshopt(const JsonView& extension, std::span<const std::uint8_t> packed,
                                          ImportBudget& budget);
