@@ -154,8 +154,8 @@ void expect_decodes(const Noise& noise) {
     for (int x = 0; x < noise.width; ++x) {
       const Rgba16 expected = wanted_pixel(noise, x, y);
       const auto rounded = [](int code) { return static_cast<std::uint8_t>((2 * code + 257) / 514); };
-      const Rgba8 wanted8{rounded(expected.r), rounded(expected.g), rounded(expected.b), rounded(expected.a)};
-      ASSERT_EQ(image.pixels(x, y), wanted8) << "type " << noise.type << ", " << noise.bit_depth << " bits";
+      const Rgba8 expected8{rounded(expected.r), rounded(expected.g), rounded(expected.b), rounded(expected.a)};
+      ASSERT_EQ(image.pixels(x, y), expected8) << "type " << noise.type << ", " << noise.bit_depth << " bits";
       if (noise.bit_depth == 16) {
         ASSERT_EQ(image.pixels16(x, y), expected);
       }

@@ -20,10 +20,10 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-void expect_near(float3 found, float3 wanted, float tolerance) {
-  EXPECT_NEAR(found.x, wanted.x, tolerance);
-  EXPECT_NEAR(found.y, wanted.y, tolerance);
-  EXPECT_NEAR(found.z, wanted.z, tolerance);
+void expect_near(float3 found, float3 expected, float tolerance) {
+  EXPECT_NEAR(found.x, expected.x, tolerance);
+  EXPECT_NEAR(found.y, expected.y, tolerance);
+  EXPECT_NEAR(found.z, expected.z, tolerance);
 }
 
 TEST(Tonemap, NoneClamps) {
@@ -36,9 +36,9 @@ TEST(Tonemap, AcesOfGreyIsItsCurve) {
   for (const double grey : {0.0, 0.01, 0.18, 0.5, 1.0, 4.0, 30.0}) {
     const double v = grey / 0.6;
     const double curve = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
-    const auto wanted = static_cast<float>(std::clamp(curve, 0.0, 1.0));
+    const auto expected = static_cast<float>(std::clamp(curve, 0.0, 1.0));
     const auto x = static_cast<float>(grey);
-    expect_near(tone_map({x, x, x}, ToneMapping::Aces), {wanted, wanted, wanted}, 5e-5f);
+    expect_near(tone_map({x, x, x}, ToneMapping::Aces), {expected, expected, expected}, 5e-5f);
   }
 }
 
@@ -50,10 +50,10 @@ TEST(Tonemap, AcesOfRed) {
     c[i] = (v[i] * (v[i] + 0.0245786) - 0.000090537) / (v[i] * (0.983729 * v[i] + 0.4329510) + 0.238081);
   }
   const auto unit = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
-  const float3 wanted = {unit(1.60475 * c[0] - 0.53108 * c[1] - 0.07367 * c[2]),
-                         unit(-0.10208 * c[0] + 1.10813 * c[1] - 0.00605 * c[2]),
-                         unit(-0.00327 * c[0] - 0.07276 * c[1] + 1.07602 * c[2])};
-  expect_near(tone_map({1, 0, 0}, ToneMapping::Aces), wanted, 1e-6f);
+  const float3 expected = {unit(1.60475 * c[0] - 0.53108 * c[1] - 0.07367 * c[2]),
+                           unit(-0.10208 * c[0] + 1.10813 * c[1] - 0.00605 * c[2]),
+                           unit(-0.00327 * c[0] - 0.07276 * c[1] + 1.07602 * c[2])};
+  expect_near(tone_map({1, 0, 0}, ToneMapping::Aces), expected, 1e-6f);
 }
 
 TEST(Tonemap, NeutralKeepsBaseColorAndCompressesTheRest) {
@@ -160,10 +160,10 @@ TEST(MakeDisplay, EveryInstructionSetGivesTheSameBits) {
     for (std::uint32_t n = 0; n <= 200; ++n) {
       const std::vector<float> in = pixels(n, n);
       const DisplayStep& step = steps[n % steps.size()];
-      std::vector<float> wanted(in.size() + 1, 9), found(in.size() + 1, 9);
-      TonemapKernels::scalar.display_row(step, in.data(), wanted.data(), n);
+      std::vector<float> expected(in.size() + 1, 9), found(in.size() + 1, 9);
+      TonemapKernels::scalar.display_row(step, in.data(), expected.data(), n);
       kernels.display_row(step, in.data(), found.data(), n);
-      EXPECT_EQ(found, wanted) << name_of(isa) << ' ' << n;
+      EXPECT_EQ(found, expected) << name_of(isa) << ' ' << n;
       EXPECT_TRUE(std::all_of(found.begin(), found.end() - 1, [](float x) { return x >= 0 && x <= 1; }));
     }
   }

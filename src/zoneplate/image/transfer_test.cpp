@@ -123,23 +123,23 @@ TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
         const float u = unit_float(hash(i, n));
         in[i] = i % 17 == 3 ? nan : i % 17 == 5 ? infinity : i % 3 == 0 ? u * 2 - 0.5f : i % 3 == 1 ? u : u * 0.01f;
       }
-      std::vector<float> wanted(n), found(n);
-      TransferKernels::scalar.encode(in.data(), wanted.data(), n);
+      std::vector<float> expected(n), found(n);
+      TransferKernels::scalar.encode(in.data(), expected.data(), n);
       kernels.encode(in.data(), found.data(), n);
-      EXPECT_EQ(found, wanted) << name_of(isa);
-      TransferKernels::scalar.decode(in.data(), wanted.data(), n);
+      EXPECT_EQ(found, expected) << name_of(isa);
+      TransferKernels::scalar.decode(in.data(), expected.data(), n);
       kernels.decode(in.data(), found.data(), n);
-      EXPECT_EQ(found, wanted) << name_of(isa);
+      EXPECT_EQ(found, expected) << name_of(isa);
 
       // One more code than the kernel may write, to detect a write past the end.
-      std::vector<std::uint8_t> wanted8(n + 1, 9), found8(n + 1, 9);
-      TransferKernels::scalar.quantize8(in.data(), wanted8.data(), n);
+      std::vector<std::uint8_t> expected8(n + 1, 9), found8(n + 1, 9);
+      TransferKernels::scalar.quantize8(in.data(), expected8.data(), n);
       kernels.quantize8(in.data(), found8.data(), n);
-      EXPECT_EQ(found8, wanted8) << name_of(isa);
-      std::vector<std::uint16_t> wanted16(n + 1, 9), found16(n + 1, 9);
-      TransferKernels::scalar.quantize16(in.data(), wanted16.data(), n);
+      EXPECT_EQ(found8, expected8) << name_of(isa);
+      std::vector<std::uint16_t> expected16(n + 1, 9), found16(n + 1, 9);
+      TransferKernels::scalar.quantize16(in.data(), expected16.data(), n);
       kernels.quantize16(in.data(), found16.data(), n);
-      EXPECT_EQ(found16, wanted16) << name_of(isa);
+      EXPECT_EQ(found16, expected16) << name_of(isa);
     }
   }
 }

@@ -106,10 +106,10 @@ TEST(Elementary, PowKeepsItsRelativeError) {
   for (std::uint32_t i = 0; i < bases.size(); ++i) {
     const float x = i % 2 == 0 ? bases[i] : unit_float(hash(i, 3)) + 0x1p-24f;
     const float y = (unit_float(hash(i, 4)) - 0.5f) * (i % 4 < 2 ? 8.0f : 1000.0f);
-    const long double wanted = std::pow(static_cast<long double>(x), static_cast<long double>(y));
-    const double size = std::abs(static_cast<double>(std::log2(wanted)));
+    const long double expected = std::pow(static_cast<long double>(x), static_cast<long double>(y));
+    const double size = std::abs(static_cast<double>(std::log2(expected)));
     if (size > 125) continue;
-    const double error = static_cast<double>(std::abs(static_cast<long double>(pow(x, y)) / wanted - 1));
+    const double error = static_cast<double>(std::abs(static_cast<long double>(pow(x, y)) / expected - 1));
     worst_share = std::max(worst_share, error * 0x1p23 / (1 + 2 * size));
     if (size <= 3) worst_near_one = std::max(worst_near_one, error);
   }
@@ -199,15 +199,15 @@ TEST(Elementary, EveryInstructionSetGivesTheSameBits) {
     const ElementaryKernels& kernels = ElementaryKernels::of(isa);
     for (int f = 0; f <= static_cast<int>(Elementary::Asin); ++f) {
       const auto function = static_cast<Elementary>(f);
-      std::vector<float> wanted(a.size()), found(a.size());
-      ElementaryKernels::scalar.evaluate(function, a.data(), b.data(), wanted.data(), a.size());
+      std::vector<float> expected(a.size()), found(a.size());
+      ElementaryKernels::scalar.evaluate(function, a.data(), b.data(), expected.data(), a.size());
       kernels.evaluate(function, a.data(), b.data(), found.data(), a.size());
       std::size_t different = 0;
       for (std::size_t i = 0; i < a.size(); ++i) {
-        const bool is_same = std::bit_cast<std::uint32_t>(wanted[i]) == std::bit_cast<std::uint32_t>(found[i]);
-        if (!is_same && !(std::isnan(wanted[i]) && std::isnan(found[i])) && different++ < 5) {
+        const bool is_same = std::bit_cast<std::uint32_t>(expected[i]) == std::bit_cast<std::uint32_t>(found[i]);
+        if (!is_same && !(std::isnan(expected[i]) && std::isnan(found[i])) && different++ < 5) {
           ADD_FAILURE() << name_of(isa) << " function " << f << " of " << a[i] << ", " << b[i] << ": " << found[i]
-                        << ", expected " << wanted[i];
+                        << ", expected " << expected[i];
         }
       }
       EXPECT_EQ(different, 0u);

@@ -263,7 +263,7 @@ std::vector<float3> defined_normals(const Mesh& m) {
 
 TEST(SmoothNormals, AreTheirDefinitionForAnyNumberOfThreads) {
   const Mesh land = rough_land();
-  const std::vector<float3> wanted = defined_normals(land);
+  const std::vector<float3> expected = defined_normals(land);
   std::vector<float3> first;
   for (const int threads : {1, 2, 5}) {
     Mesh m = land;
@@ -272,7 +272,7 @@ TEST(SmoothNormals, AreTheirDefinitionForAnyNumberOfThreads) {
     const std::vector<float3> found = corner_normals(m);
     if (first.empty()) first = found;
     ASSERT_EQ(found, first) << threads;
-    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_GT(dot(found[i], wanted[i]), 0.99999f) << i;
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_GT(dot(found[i], expected[i]), 0.99999f) << i;
   }
 }
 

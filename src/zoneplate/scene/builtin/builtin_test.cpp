@@ -127,8 +127,8 @@ TEST(Teapot, StandsUprightOnTheGround) {
 }
 
 TEST(Sphere, IsClosedAndHasTheTrianglesAskedFor) {
-  for (const auto& [asked, given] : {std::pair{12, 12u}, {13, 48u}, {48, 48u}, {49, 108u}, {10000, 10092u}}) {
-    const Scene scene = made("sphere:triangles=" + std::to_string(asked));
+  for (const auto& [requested, given] : {std::pair{12, 12u}, {13, 48u}, {48, 48u}, {49, 108u}, {10000, 10092u}}) {
+    const Scene scene = made("sphere:triangles=" + std::to_string(requested));
     EXPECT_EQ(triangles_of(scene), given);
     EXPECT_TRUE(open_edges(scene.meshes[0]).empty());
   }

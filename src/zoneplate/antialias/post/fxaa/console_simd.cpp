@@ -40,8 +40,8 @@ void seen_row(const FxaaConsoleRows& rows, float threshold, float least, std::ui
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     const Corners<hn::CappedTag<float, 8>> c(d, rows.luma + i, rows.stride);
     const auto range = hn::Sub(hn::Max(c.high, c.m), hn::Min(c.low, c.m));
-    const auto wanted = hn::Max(hn::Set(d, least), hn::Mul(c.high, hn::Set(d, threshold)));
-    const auto is_seen = hn::RebindMask(di, hn::Ge(range, wanted));
+    const auto limit = hn::Max(hn::Set(d, least), hn::Mul(c.high, hn::Set(d, threshold)));
+    const auto is_seen = hn::RebindMask(di, hn::Ge(range, limit));
     hn::StoreU(hn::DemoteTo(bytes, hn::IfThenElseZero(is_seen, hn::Set(di, 1))), bytes, seen + i);
   }
 }

@@ -164,9 +164,9 @@ struct End {
 /// Tests four distances between branches, because a mispredicted branch at the end of the search costs more than
 /// additional tests.
 template <Direction direction>
-HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 wanted, int sign) {
+HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 selected, int sign) {
   End end{hn::Set(dw, static_cast<std::int16_t>(search.distances[0])), hn::Zero(dw)};
-  MI16 goes_on = wanted;
+  MI16 goes_on = selected;
   for (std::size_t i = 0; i + 1 < search.count; ++i) {
     if (i % 4 == 0 && hn::AllFalse(dw, goes_on)) break;
     const VI16 found = walk.error<direction>(sign * search.distances[i]);
@@ -179,16 +179,16 @@ HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 wanted,
 }
 
 /// Finds both ends with the loop for the vector's orientation: most vectors have only one.
-HWY_INLINE void find_ends(const Walk& walk, const FxaaSearch& search, MI16 wanted, End& before, End& after) {
-  if (hn::AllFalse(dw, hn::AndNot(walk.is_level, wanted))) {
-    before = find_end<Direction::Level>(walk, search, wanted, -1);
-    after = find_end<Direction::Level>(walk, search, wanted, 1);
-  } else if (hn::AllFalse(dw, hn::And(walk.is_level, wanted))) {
-    before = find_end<Direction::Upright>(walk, search, wanted, -1);
-    after = find_end<Direction::Upright>(walk, search, wanted, 1);
+HWY_INLINE void find_ends(const Walk& walk, const FxaaSearch& search, MI16 selected, End& before, End& after) {
+  if (hn::AllFalse(dw, hn::AndNot(walk.is_level, selected))) {
+    before = find_end<Direction::Level>(walk, search, selected, -1);
+    after = find_end<Direction::Level>(walk, search, selected, 1);
+  } else if (hn::AllFalse(dw, hn::And(walk.is_level, selected))) {
+    before = find_end<Direction::Upright>(walk, search, selected, -1);
+    after = find_end<Direction::Upright>(walk, search, selected, 1);
   } else {
-    before = find_end<Direction::Both>(walk, search, wanted, -1);
-    after = find_end<Direction::Both>(walk, search, wanted, 1);
+    before = find_end<Direction::Both>(walk, search, selected, -1);
+    after = find_end<Direction::Both>(walk, search, selected, 1);
   }
 }
 
@@ -213,7 +213,7 @@ HWY_INLINE VF line_shift(VF nearer, VF both) {
   return hn::IfThenElse(hn::Gt(nearer, hn::Zero(df)), share, hn::Zero(df));
 }
 
-void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& search, MI16 wanted,
+void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& search, MI16 selected,
                const FxaaEnds& ends, std::size_t x) {
   const VI16 m = load_luma(p), n = load_luma(p - stride), s = load_luma(p + stride), w = load_luma(p - 1),
              e = load_luma(p + 1);
@@ -232,7 +232,7 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   walk.twice = hn::Add(here, here);
 
   End before, after;
-  find_ends(walk, search, wanted, before, after);
+  find_ends(walk, search, selected, before, after);
   // Pixels with a tie are processed separately, by fxaa_tied_shift.
   const MI16 is_tied =
       hn::Or(hn::Eq(hn::Abs(before.error), walk.gradient), hn::Eq(hn::Abs(after.error), walk.gradient));
@@ -285,8 +285,8 @@ void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch&
     for (std::size_t byte = begin / 8; byte < (end + lanes - 1) / lanes * lanes / 8; ++byte) ends.tied_bits[byte] = 0;
     for (std::size_t i = 0; i < blocks.count; ++i) {
       const std::size_t x = blocks.first[i];
-      const int wanted = bits[x / 8] | (lanes == 16 ? bits[x / 8 + 1] << 8 : 0);
-      const VI16 set = hn::And(hn::Set(dw, static_cast<std::int16_t>(wanted)), powers);
+      const int selected = bits[x / 8] | (lanes == 16 ? bits[x / 8 + 1] << 8 : 0);
+      const VI16 set = hn::And(hn::Set(dw, static_cast<std::int16_t>(selected)), powers);
       ends_some(luma + x, stride, search, hn::Eq(set, powers), ends, x);
     }
   }

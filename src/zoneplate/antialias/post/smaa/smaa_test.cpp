@@ -296,10 +296,10 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
   // 1.5 % are less than a threshold of 2 %.
   EXPECT_EQ(treated("smaa:predication=depth,pthreshold=0.02"), before);
   EXPECT_EQ(treated("smaa:predication=depth,pscale=1,pstrength=0"), plain);
-  const auto asks = [](const char* method) { return make_resolver(methods(), method)->request({}).planes; };
-  EXPECT_TRUE(asks("smaa:predication=depth").depth);
-  EXPECT_TRUE(asks("smaa:predication=objects").object_id);
-  EXPECT_FALSE(asks("smaa").depth);
+  const auto planes_of = [](const char* method) { return make_resolver(methods(), method)->request({}).planes; };
+  EXPECT_TRUE(planes_of("smaa:predication=depth").depth);
+  EXPECT_TRUE(planes_of("smaa:predication=objects").object_id);
+  EXPECT_FALSE(planes_of("smaa").depth);
   for (const char* wrong : {"smaa:predication=depth,edges=depth", "smaa:predication=depth,mode=s2x", "smaa:pscale=3"})
     EXPECT_THROW(make_resolver(methods(), wrong), Error) << wrong;
 }
@@ -450,9 +450,9 @@ TEST(Smaa, TwoSamplesUseTheAreasOfTheirDiagonals) {
       int count = 0;
       for (int y = 0; y < 80; ++y)
         for (int x = 12; x < 52; ++x) {
-          const double wanted = area(x, y);
+          const double expected = area(x, y);
           const double light = static_cast<double>(decode_srgb8(a(x, y).g) + decode_srgb8(b(x, y).g)) / 2;
-          if (wanted > 0 && wanted < 1) sum += (light - wanted) * (light - wanted), ++count;
+          if (expected > 0 && expected < 1) sum += (light - expected) * (light - expected), ++count;
         }
       return std::sqrt(sum / count);
     };

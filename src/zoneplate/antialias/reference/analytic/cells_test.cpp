@@ -84,7 +84,7 @@ TEST(PixelCells, AreasSumToOneForAnySoup) {
 }
 
 TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
-  int asked = 0;
+  int tested = 0;
   for (std::uint32_t seed = 0; seed < 120; ++seed) {
     const std::vector<PixelTriangle> triangles = soup(1000 + seed, 12, seed % 2 == 1);
     const PixelCells cells = cells_of(triangles);
@@ -112,7 +112,7 @@ TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
         if (there[i]->alpha_mode == AlphaMode::Opaque) break;
       }
       if (!is_clear) continue;
-      ++asked;
+      ++tested;
       int holders = 0;
       for (const PixelCells::Cell& cell : cells.cells()) {
         bool holds = true;
@@ -129,7 +129,7 @@ TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
       EXPECT_EQ(holders, 1) << "seed " << seed << " at " << p.x << ", " << p.y;
     }
   }
-  EXPECT_GT(asked, 3000);
+  EXPECT_GT(tested, 3000);
 }
 
 TEST(PixelCells, TrianglesThatPassThroughEachOtherMeetAlongTheirLine) {
