@@ -28,7 +28,7 @@ constexpr SceneFormat formats[] = {{".gltf", "glTF 2.0, with its buffers and ima
 
 Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
 
-/// Refuses a choice where there is none.
+/// Returns the limits; throws if the options choose a scene, variant or animation, which only glTF files have.
 const LoadLimits& limits_of(const LoadOptions& o) {
   const SceneChoice& c = o.choice;
   if (c.scene || c.animation || !c.variant.empty())

@@ -12,7 +12,7 @@ namespace zoneplate::antialias {
 /// The sides of texture footprints, in pixels.
 struct Footprints {
   float part = 1;  ///< of most fragments: the side of a part of the pixel
-  /// Of fragments in a part of the finer grid for alpha-tested surfaces: half of the part's side.
+  /// The side for fragments in a part of the finer grid for alpha-tested surfaces: half of the part's side.
   float fine = 1;
   float alpha = 1;       ///< of alpha tests at a point
   float alpha_part = 1;  ///< of alpha tests for a whole part of the finer grid
