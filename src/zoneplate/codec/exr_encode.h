@@ -21,7 +21,7 @@ struct ExrChannel {
   std::string name;  ///< "R", or with the name of its layer "N.X"; at most 31 bytes
   ExrType type = ExrType::Half;
   const float* value = nullptr;           ///< the first pixel's value, if type is Half or Float
-  const std::uint32_t* number = nullptr;  ///< the same for Number
+  const std::uint32_t* number = nullptr;  ///< the first pixel's value, if type is Number
   std::size_t step = 1;                   ///< distance between the values of neighbouring pixels
 };
 

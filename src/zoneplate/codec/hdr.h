@@ -27,7 +27,7 @@ std::optional<int2> find_hdr_size(std::span<const std::uint8_t> bytes);
 LinearImage decode_hdr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
-/// The same as red, green, blue and alpha.
+/// Decodes a Radiance image to red, green, blue and alpha as floats.
 Plane<float4> decode_hdr_rgba(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
 }  // namespace zoneplate

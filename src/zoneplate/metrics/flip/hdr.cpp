@@ -2,7 +2,7 @@
 // FLIP for high dynamic range: the images are compared at a range of exposures derived from the reference, and
 // each pixel has its greatest error.
 //
-// Weak for unbounded radiance: one outlier (firefly) in the reference adds irrelevant exposures.
+// Weakness: one outlier of unbounded radiance (firefly) in the reference adds irrelevant exposures.
 #include <algorithm>
 #include <cmath>
 #include <limits>

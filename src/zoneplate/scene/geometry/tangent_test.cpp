@@ -82,7 +82,7 @@ TEST(Tangents, TheMeanIsWeightedByTheAngle) {
     return float2{static_cast<float>(std::cos(deg * std::numbers::pi / 180)),
                   static_cast<float>(std::sin(deg * std::numbers::pi / 180))};
   };
-  // uv = position, with u scaled in each triangle such that neighbours agree on the shared edges: bend the fan.
+  // Irregular uv, which adjacent triangles share and which give each triangle its own direction of u.
   const std::vector<float2> position{{0, 0}, on_circle(0), on_circle(90), on_circle(150), on_circle(180)};
   const std::vector<float2> uv{{0, 0}, {1, 0}, {0.2f, -1}, {-1, -0.5f}, {-1, 0.3f}};
   Mesh m = flat_mesh(position, uv, {0, 1, 2, 0, 2, 3, 0, 3, 4});

@@ -109,7 +109,7 @@ class Line {
   }
 
   /// The number of consecutive pairs of pixels from `first` in one direction that continue the line without crossing
-  /// edges; at most `limit`. The pixels of a horizontal line are adjacent and are tested by eight.
+  /// edges; at most `limit`. The pixels of a horizontal line are adjacent in memory and are tested eight at a time.
   int pairs_on(const SearchSteps& steps, int first, int direction, int limit) const {
     if constexpr (!is_top) {
       int k = 0;
@@ -154,7 +154,8 @@ class Line {
     return {mixed(0), mixed(1)};
   }
 
-  /// If an edge crosses one pixel beyond the end, the line is the side of a sharp corner: its area is reduced.
+  /// If the edge that crosses an end continues one pixel farther across the line, the corner is sharp: the area is
+  /// reduced.
   void round_corners(int before, int after, float strength, const SmaaOptions& options, Areas& areas) const {
     const int l = options.is_postprocessing ? before : -before, r = after;
     const bool is_left = l <= r, is_right = r <= l;

@@ -28,7 +28,7 @@ struct AnalyticOptions {
 ///           order of the triangles (of triangles with equal depths the first drawn is visible).
 /// Errors    those of the deadline (base/deadline.h), checked for each row of pixels and each region; OutOfMemory.
 /// Memory    the screen vertices, the ids of the triangles in tiles (TileTriangles), and for each thread the triangles
-/// of one tile, or of a row of its pixels if they are more than 32,768.
+///           of one tile, or of a row of its pixels if they are more than 32,768.
 void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options);
 
 }  // namespace zoneplate::antialias
