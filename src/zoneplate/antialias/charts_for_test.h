@@ -20,7 +20,7 @@ Rgba8Image make_codes(int width, int height, const ColorAt& color_at) {
   return image;
 }
 
-/// The chart of 64 × 64 pixels for which other implementations of FXAA and SMAA were run.
+/// The chart of 64 × 64 pixels on which other implementations of FXAA and SMAA were run.
 inline Rgba8Image chart64() {
   return make_codes(64, 64, [](int i, int j) {
     const double x = i + 0.5, y = j + 0.5;
@@ -33,7 +33,7 @@ inline Rgba8Image chart64() {
   });
 }
 
-/// Discs and bars of random colours: edges of every angle, thin lines, corners; no two lumas nearly alike.
+/// Discs and bars of random colours: edges at all angles, thin lines and corners; lumas are never nearly equal.
 inline Rgba8Image random_shapes(int width, int height, std::uint32_t seed) {
   Rgba8Image image(width, height, {40, 44, 52});
   std::uint32_t n = 0;
@@ -56,7 +56,7 @@ inline Rgba8Image random_shapes(int width, int height, std::uint32_t seed) {
   return image;
 }
 
-/// A white band on black along a line of slope 1 / run, sampled at one point of each pixel, and its area in each pixel.
+/// A white band on black along a line of slope 1 / run, point-sampled once per pixel, and its exact area in each pixel.
 struct Band {
   static constexpr int width = 160, height = 56;
   double run, thickness, start = 20.1;
@@ -75,7 +75,7 @@ struct Band {
     }
     return sum / 64;
   }
-  /// Root of the mean square error in linear light of the pixels at the band's rim, away from the sides.
+  /// Root mean square error, in linear light, of the pixels on the band's edges, away from the sides of the image.
   double error(const Rgba8Image& image) const {
     double sum = 0;
     int count = 0;
@@ -88,7 +88,7 @@ struct Band {
   }
 };
 
-/// FNV-1a over the bytes of a image.
+/// FNV-1a over the bytes of an image.
 inline std::uint64_t hash_of(const Rgba8Image& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Rgba8& c : image.values())
@@ -96,7 +96,7 @@ inline std::uint64_t hash_of(const Rgba8Image& image) {
   return h;
 }
 
-/// The same without alpha, which other implementations do not always keep.
+/// FNV-1a over the colours without alpha, which some other implementations discard.
 inline std::uint64_t hash_of_colors(const Rgba8Image& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Rgba8& c : image.values())
@@ -104,7 +104,7 @@ inline std::uint64_t hash_of_colors(const Rgba8Image& image) {
   return h;
 }
 
-/// How many pixels differ by more than `tolerance` in any channel.
+/// The number of pixels that differ by more than `tolerance` in any channel.
 inline int count_differing(const Rgba8Image& a, const Rgba8Image& b, int tolerance) {
   int count = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {

@@ -12,7 +12,7 @@
 
 namespace zoneplate::antialias {
 
-/// A scene seen by its own camera and resolved by a method, before tone mapping.
+/// Renders a scene with its own camera and resolves it with a method, before tone mapping.
 inline LinearImage shot(const Scene& scene, const std::string& method,
                         RenderOptions options = {.width = 160, .height = 120}, RenderCounts* counts = nullptr) {
   Renderer renderer(PreparedScene(scene), make_resolver(methods(), method));
@@ -21,7 +21,7 @@ inline LinearImage shot(const Scene& scene, const std::string& method,
   return std::move(image.linear);
 }
 
-/// The mean of the greens' distances.
+/// The mean absolute difference of green.
 inline double mean_error(const LinearImage& a, const LinearImage& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i)

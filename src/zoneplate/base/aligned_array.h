@@ -6,7 +6,7 @@
 
 namespace zoneplate {
 
-/// An array that is aligned to a cache line, as the kernels require of their planes; initially zero.
+/// An array with the alignment of a cache line, as the kernels require of their planes; initially zero.
 template <class T>
 class AlignedArray {
  public:

@@ -6,13 +6,13 @@
 
 namespace zoneplate {
 
-/// Measures elapsed wall time from its construction; for reports only, never for results.
+/// Measures elapsed time from its construction; for reports and time limits only, not for results.
 class Stopwatch {
  public:
   double ms() const {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// The same, and starts again from 0.
+  /// Returns the elapsed time and restarts at 0.
   double lap_ms() {
     const auto before = std::exchange(start_, std::chrono::steady_clock::now());
     return std::chrono::duration<double, std::milli>(start_ - before).count();

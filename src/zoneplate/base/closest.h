@@ -6,8 +6,8 @@
 
 namespace zoneplate {
 
-/// The name nearest to `word` by edit distance, or empty if none is near, for "did you mean". A name is near if at most
-/// 2 letters or a third of the word differ, and not all of them.
+/// The name nearest to `word` by edit distance, for "did you mean"; empty if none is near. A name is near if at most 2
+/// letters or a third of the word differ, and not all of them.
 std::string_view closest(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace zoneplate

@@ -12,7 +12,7 @@ TEST(Closest, FindsTheNameOfLeastEditDistanceIfOneIsNear) {
   EXPECT_EQ(closest("fxa", names), "fxaa");
   EXPECT_EQ(closest("convrgd", names), "converged");
   EXPECT_EQ(closest("raytracing", names), "");
-  EXPECT_EQ(closest("m", names), "");  // nothing of it is left in n
+  EXPECT_EQ(closest("m", names), "");  // all letters differ
   EXPECT_EQ(closest("", names), "");
   EXPECT_EQ(closest("msaa", {}), "");
 }

@@ -39,7 +39,7 @@ const Deadline* current_deadline() { return current; }
 const Deadline* exchange_deadline(const Deadline* deadline) { return std::exchange(current, deadline); }
 
 void with_deadline(double seconds, ErrorKind kind, const std::string& message, const std::function<void()>& body) {
-  constexpr double longest = 1e9;  // seconds; what the clock's type holds is some 300 years
+  constexpr double longest = 1e9;  // seconds; the range of the clock's type is about 300 years
   const Deadline deadline(std::min(seconds, longest), kind, message, current);
   struct Restore {
     const Deadline* outer;

@@ -8,23 +8,23 @@
 
 namespace zoneplate {
 
-/// Runs `body` with a limit on its time, on the wall clock, which starts now.
+/// Runs `body` with a limit of elapsed time, which starts now.
 ///
-/// The limit holds on the calling thread and on every thread that takes part in its loops: `parallel_for` checks it
-/// before each item. A long serial loop, such as the rows of a decoder, calls `check_deadline`. Limits nest: all of
-/// them hold.
+/// The limit applies to the calling thread and to every thread that takes part in its loops: `parallel_for` checks it
+/// before each item. A long serial loop, such as that over the rows of a decoder, calls `check_deadline`. Nested limits
+/// all apply.
 /// Requires  `message` is one complete line, which names the file and the option that raises the limit.
-/// Errors    whatever `body` throws; Error(kind, message) from the first check after the time is up.
+/// Errors    those of `body`; Error(kind, message) from the first check after the limit.
 void with_deadline(double seconds, ErrorKind kind, const std::string& message, const std::function<void()>& body);
 
-/// Errors    that of the first limit of the enclosing `with_deadline`s whose time is up.
-/// Cost      reads the clock once for each limit, some 25 ns: once a row, a chunk or a thousand cheap iterations.
+/// Errors    that of the innermost enclosing `with_deadline` whose limit is exceeded.
+/// Cost      reads the clock once per limit, about 25 ns: call it once per row, chunk or thousand cheap iterations.
 void check_deadline();
 
-/// The limits that hold on the calling thread, for threads that work on its behalf.
+/// The limits of the calling thread, for threads that work on its behalf.
 class Deadline;
 const Deadline* current_deadline();
-/// Sets what `current_deadline` returns on this thread and returns what it returned before.
+/// Sets the result of `current_deadline` on this thread and returns the previous one.
 const Deadline* exchange_deadline(const Deadline* deadline);
 
 }  // namespace zoneplate

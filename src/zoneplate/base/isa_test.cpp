@@ -15,7 +15,7 @@
 
 namespace zoneplate {
 
-/// Kernels that do nothing but name the set of their table.
+/// Kernels that only identify the instruction set of their table.
 struct NamedKernels : PerIsa<NamedKernels> {
   Isa isa;
 };
@@ -43,7 +43,7 @@ TEST(Isa, EveryItemOfALoopTakesTheTableOfTheEnclosingWithIsa) {
         std::array<Isa, 100> taken{};
         with_isa(isa, [&] { parallel_for(taken.size(), [&](std::size_t i) { taken[i] = NamedKernels::of().isa; }); });
         for (const Isa each : taken) EXPECT_EQ(each, isa) << threads;
-        // The threads of the team are left with the set that they had.
+        // The threads of the team keep their previous instruction set.
         parallel_for(taken.size(), [&](std::size_t i) { taken[i] = NamedKernels::of().isa; });
         for (const Isa each : taken) EXPECT_EQ(each, best_isa()) << threads;
       });
@@ -59,8 +59,8 @@ TEST(Isa, TheInnermostWithIsaHoldsAndItsEndBringsTheOuterOneBack) {
   EXPECT_EQ(current_isa(), best_isa());
 }
 
-/// Without this, `--isa` would not reach every kernel of a run: the library takes every table by `of()`, and none of
-/// its options, parameters or objects holds an instruction set. Only the command, which parses `--isa`, names the type.
+/// Guarantees that `--isa` affects every kernel of a run: the library obtains every table by `of()`, and none of its
+/// options, parameters or objects contains an instruction set. Only the command, which parses `--isa`, names the type.
 TEST(Isa, NoSourceOfTheLibraryTakesATableForAnIsaOfItsOwn) {
   namespace fs = std::filesystem;
   const fs::path root = fs::path(ZONEPLATE_SOURCE_DIR) / "src/zoneplate";

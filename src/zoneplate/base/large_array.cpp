@@ -29,7 +29,7 @@ void prefault(void* memory, std::size_t bytes) {
   prefer_large_pages(memory, bytes);
   const std::uintptr_t begin = rounded_up(reinterpret_cast<std::uintptr_t>(memory), page);
   const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
-  // Each thread's part ends at a large page. A system without this request allocates the pages at their first use.
+  // Each thread's part ends at a large page. On systems without this request, pages are allocated at their first use.
   const std::uintptr_t origin = begin / large_page * large_page;
   parallel_ranges(end - origin, large_page, [&](std::size_t from, std::size_t to) {
     const std::uintptr_t at = std::max(origin + from, begin);

@@ -5,7 +5,7 @@
 
 namespace zoneplate {
 
-/// An allocation that failed, with what it was for.
+/// A failed allocation, with a description of its purpose.
 class OutOfMemory : public std::bad_alloc {
  public:
   /// Requires  `what` is a literal: a noun phrase in the plural, such as "screen vertices".
@@ -16,7 +16,7 @@ class OutOfMemory : public std::bad_alloc {
   const char* what_;
 };
 
-/// Calls `body`. An allocation that fails in it, and has no name yet, is thrown again as OutOfMemory(what).
+/// Calls `body`. A failed allocation without a description is rethrown as OutOfMemory(what).
 template <class Body>
 decltype(auto) growing(const char* what, Body&& body) {
   try {

@@ -18,18 +18,18 @@
 namespace zoneplate {
 namespace {
 
-/// One loop: each free thread processes the next item.
+/// One loop; each free thread takes its next item.
 struct Loop {
   const std::function<void(std::size_t)>& body;
   const std::size_t count;
-  const Deadline* const deadline;  ///< of the thread that began the loop
-  const Isa isa;                   ///< likewise
+  const Deadline* const deadline;  ///< of the thread that started the loop
+  const Isa isa;                   ///< of the same thread
   std::exception_ptr error;        ///< the first one; guarded by the team's mutex
-  std::atomic<int> helpers = 0;    ///< threads at work on it, besides the one that began it
+  std::atomic<int> helpers = 0;    ///< threads that work on it, besides the one that started it
   alignas(64) std::atomic<std::size_t> next = 0;
 };
 
-/// Calls `is_so` for some 50 µs until it is true: to wake a sleeping thread takes as long.
+/// Polls `is_so` for about 50 µs, which is the time for waking a sleeping thread; returns its last value.
 template <class Condition>
 bool becomes_true(Condition is_so) {
   constexpr std::chrono::microseconds patience(50);
@@ -41,8 +41,8 @@ bool becomes_true(Condition is_so) {
   return is_so();
 }
 
-/// The threads of one `with_threads`. They are started when a loop first has work for them, help with whatever loop is
-/// open, nested ones too, sleep in between, and end with their team.
+/// The threads of one `with_threads`. They are started for the first loop that needs them, work on any open loop
+/// including nested ones, sleep in between, and end with their team.
 class Team {
  public:
   explicit Team(int limit) : limit_(limit) {}
@@ -65,11 +65,11 @@ class Team {
   std::vector<std::thread> threads_;
   std::vector<Loop*> open_;  ///< the newest last
   bool is_ending_ = false;
-  std::atomic<std::uint32_t> news_ = 0;  ///< counts loops that were opened, and the end
-  std::atomic<std::uint32_t> left_ = 0;  ///< counts helpers that have left a loop
+  std::atomic<std::uint32_t> news_ = 0;  ///< number of opened loops, plus one for the end
+  std::atomic<std::uint32_t> left_ = 0;  ///< number of times that a helper has left a loop
 };
 
-/// Where the calling thread stands.
+/// The team of the calling thread, and the thread's index in it.
 struct Place {
   Team* team = nullptr;
   int index = 0;
@@ -95,7 +95,7 @@ void Team::start(std::size_t helpers) {
       threads_.emplace_back([this, index] { help(index); });
     }
   } catch (const std::system_error&) {
-    // The system gives no more: those that are there do the work.
+    // No more threads can be created: the existing ones do the work.
   }
 }
 
@@ -143,7 +143,7 @@ void Team::work(Loop& loop) {
   exchange_deadline(outer);
 }
 
-/// Whoever began the loop may end its life with the last helper's leaving, so that nothing of it is touched after that.
+/// The loop may be destroyed as soon as the last helper has left, so that it is not accessed after the decrement.
 void Team::leave(Loop& loop) {
   --loop.helpers;
   ++left_;

@@ -55,7 +55,7 @@ TEST(Parallel, RethrowsTheException) {
 }
 
 TEST(Parallel, ThreadsTakePartAndHaveNumbersOfTheirOwn) {
-  // Each item waits for the others, so that three threads must hold one each.
+  // Each item waits for the others, so that three threads must execute one each.
   with_threads(3, [] {
     std::atomic<int> here = 0;
     std::vector<int> index(3);

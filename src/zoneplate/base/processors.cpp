@@ -27,22 +27,22 @@ int processors_of_affinity() {
   return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-/// Version 2: "50000 100000" or "max 100000", microseconds of processor time in each period.
+/// The quota of version 2: "50000 100000" or "max 100000", microseconds of CPU time per period.
 double quota_2(const std::string& folder) {
   std::ifstream file(folder + "/cpu.max");
   double quota = 0, period = 0;
   return file >> quota >> period && quota > 0 && period > 0 ? quota / period : unlimited;
 }
 
-/// Version 1: the same in two files, and -1 for no quota.
+/// The quota of version 1: the same numbers in two files, where -1 means no quota.
 double quota_1(const std::string& folder) {
   std::ifstream quota_file(folder + "/cpu.cfs_quota_us"), period_file(folder + "/cpu.cfs_period_us");
   double quota = 0, period = 0;
   return quota_file >> quota && period_file >> period && quota > 0 && period > 0 ? quota / period : unlimited;
 }
 
-/// The least quota of a group and of all above it, up to the mounted folder. In a container the group's own folder may
-/// be missing, as the mounted one is the container's.
+/// The least quota of a group and its ancestors, up to the mounted folder. In a container the group's own folder may be
+/// missing, because the mounted folder is the container's.
 double least_quota(const std::string& mount, std::string group, double (*quota_of)(const std::string&)) {
   double least = quota_of(mount);
   while (group.size() > 1) {
@@ -73,7 +73,7 @@ double cpu_quota(const std::string& membership, const std::string& mount) {
   double least = unlimited;
   std::istringstream lines(membership);
   for (std::string line; std::getline(lines, line);) {
-    // "0::/group" of version 2, "4:cpu,cpuacct:/group" of version 1.
+    // The formats are "0::/group" in version 2 and "4:cpu,cpuacct:/group" in version 1.
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);

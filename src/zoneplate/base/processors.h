@@ -5,8 +5,8 @@
 
 namespace zoneplate {
 
-/// The number of processors that this process may use at once, at least 1: on Linux those of the calling thread's
-/// affinity mask, and no more than the CPU quota of its control groups (cpu_quota), rounded up.
+/// The number of processors that this process may use at once, at least 1: on Linux the size of the calling thread's
+/// affinity mask, limited to the CPU quota of its control groups (cpu_quota), rounded up.
 ///
 /// Exact     determined by the first call; later changes have no effect.
 int usable_processors();

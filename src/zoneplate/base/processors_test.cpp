@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// A folder of control groups.
+/// A fixture with a temporary folder of control groups.
 class CpuQuota : public testing::Test {
  protected:
   CpuQuota() {
@@ -48,7 +48,7 @@ TEST_F(CpuQuota, OfVersionTwoIsTheLeastOnTheWayToTheRoot) {
   write("pods/one/cpu.max", "50000 100000\n");
   EXPECT_EQ(quota("0::/pods/one\n"), 0.5);
   EXPECT_EQ(quota("0::/other\n"), unlimited);
-  // In a container the mounted folder is the container's own, whatever its group is called outside.
+  // In a container the mounted folder is the container's own, independently of its group's name outside.
   write("cpu.max", "150000 100000\n");
   EXPECT_EQ(quota("0::/not/visible/here\n"), 1.5);
 }
@@ -68,7 +68,7 @@ TEST_F(CpuQuota, BrokenTextIsNoQuota) {
 }
 
 TEST(Processors, ThreadsAreNoMoreThanTheAffinityMaskAllows) {
-  // In a process of its own, since the first call finds the number for good.
+  // In a separate process, because the first call caches the number.
   const std::string self = fs::read_symlink("/proc/self/exe").string();
   const int child = ::fork();
   if (child == 0) {
@@ -93,7 +93,7 @@ TEST(Processors, DISABLED_OneProcessorIsOneThread) {
   EXPECT_EQ(usable_processors(), 1);
   EXPECT_EQ(thread_limit(), 1);
   with_threads(0, [] { EXPECT_EQ(thread_limit(), 1); });
-  with_threads(3, [] { EXPECT_EQ(thread_limit(), 3); });  // an explicit number is not reduced
+  with_threads(3, [] { EXPECT_EQ(thread_limit(), 3); });  // an explicit number is not limited
 }
 
 }  // namespace

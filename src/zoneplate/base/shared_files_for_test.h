@@ -8,10 +8,10 @@
 
 namespace zoneplate {
 
-// Models and images of others are not part of the sources. Where they lie in `../shared`, parametrised tests take
-// them as well; elsewhere these tests do not exist, and what they show is tested on files that are made in code.
+// Third-party models and images are not part of the sources. If they are present in `../shared`, parametrised tests use
+// them; otherwise these tests do not exist, and their subject is tested with procedural files only.
 
-/// Those of the named files of a folder of `../shared` that are there.
+/// The existing ones of the named files in a folder of `../shared`.
 inline std::vector<std::string> shared_files(const std::string& folder, std::vector<std::string> names) {
   const std::filesystem::path root = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared" / folder;
   for (std::string& name : names) name = (root / name).string();
@@ -19,7 +19,7 @@ inline std::vector<std::string> shared_files(const std::string& folder, std::vec
   return names;
 }
 
-/// All files of a folder of `../shared` and its folders that end in one of these, in the order of their names.
+/// All files in a folder of `../shared` and its subfolders with one of these endings, sorted by name.
 inline std::vector<std::string> shared_files_ending(const std::string& folder,
                                                     const std::vector<std::string>& endings) {
   const std::filesystem::path root = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared" / folder;

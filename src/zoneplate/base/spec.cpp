@@ -21,7 +21,7 @@ std::int64_t power_of_ten(int exponent) {
   return power;
 }
 
-/// The whole of `text` as a number, or nothing.
+/// Parses the whole of `text` as a number; nothing if it is not one.
 template <class Number>
 std::optional<Number> parse_whole(std::string_view text) {
   Number value = 0;
@@ -30,7 +30,7 @@ std::optional<Number> parse_whole(std::string_view text) {
   return value;
 }
 
-/// Parses a number with at most `decimals` decimals, in units of the last one; nothing if the text is no such number.
+/// Parses a number with at most `decimals` decimals, in units of the last one; nothing for any other text.
 std::optional<std::int64_t> parse_decimals(std::string_view text, int decimals) {
   const std::size_t point = decimals > 0 ? text.find('.') : std::string_view::npos;
   const std::string_view fraction = point == std::string_view::npos ? std::string_view{} : text.substr(point + 1);
@@ -41,7 +41,7 @@ std::optional<std::int64_t> parse_decimals(std::string_view text, int decimals) 
   return parse_whole<std::int64_t>(digits);
 }
 
-/// "a, b or c".
+/// Formats a list of alternatives: "a, b or c".
 template <class List>
 std::string alternatives(const List& list) {
   if (list.size() < 2) return fmt::format("{}", fmt::join(list, ""));
@@ -84,7 +84,7 @@ Settings::Settings(std::string_view kind, std::span<const Param> params, std::st
   }
 }
 
-/// Takes `name=value`.
+/// Parses and stores `name=value`.
 void Settings::set(const std::string& owner, std::string_view item) {
   const std::string_view name = item.substr(0, item.find('='));
   const std::string_view text = item.substr(std::min(item.size(), name.size() + 1));

@@ -23,7 +23,7 @@ namespace {
 constexpr Rgba8 nothing{0, 0, 0, 0};
 const PngOptions data{.is_srgb = false};
 
-// A unit value as an integer code, rounded; values outside are clamped, and NaN is 0.
+// Quantizes a value in [0, 1] to an integer code, rounded; values outside are clamped, and NaN gives 0.
 float code(float value, float top) {
   const float unit = value > 0 ? std::min(value, 1.0f) : 0.0f;
   return std::floor(unit * top + 0.5f);
@@ -78,7 +78,7 @@ std::vector<std::uint8_t> uv_picture(const Frame& frame, const Scene&) {
   });
 }
 
-// Channels stay above 64, so that no surface is taken for the black of nothing.
+// Channels are at least 64, so that no surface has the black of empty pixels.
 Rgba8 id_color(std::uint32_t id) {
   const auto channel = [](std::uint32_t word) { return static_cast<std::uint8_t>(64 + (word & 255) * 191 / 255); };
   const std::uint32_t word = hash(id);
@@ -91,7 +91,7 @@ std::vector<std::uint8_t> id_picture(const Frame& frame, const Scene&) {
                       [&](std::uint32_t id) { return id == Frame::no_id ? nothing : id_color(id); });
 }
 
-// The colour of an id is a hash of the name: the same in every image of any scene.
+// The colour of an id is a hash of the name, and therefore the same in all images of all scenes.
 template <MatteKind kind>
 std::vector<std::uint8_t> matte_picture(const Frame& frame, const Scene& scene) {
   const Cryptomatte matte = make_cryptomatte(frame, scene, kind);
@@ -135,7 +135,7 @@ std::vector<std::uint8_t> position_picture(const Frame& frame, const Scene&) {
   });
 }
 
-// A hue of the colour circle, from red (0) by green (1/3) and blue (2/3) to red (1), mixed with white.
+// A hue of the colour circle, from red (0) over green (1/3) and blue (2/3) to red (1), blended with white.
 Rgba8 circle_color(float turn, float saturation) {
   const auto channel = [&](float offset) {
     const float t = 6 * (turn + offset), from = t - 6 * std::floor(t / 6);

@@ -18,10 +18,9 @@ namespace zoneplate::cli {
 /// albedo       8-bit sRGB base colour.
 /// uv           8-bit: red and green are the fractional parts of u and v; 0 for one that is not finite.
 /// *-id         a false colour for each id, the same in every image.
-/// crypto-*     the colours of the items that cover the pixel, weighted by coverage; transparent by the uncovered rest.
-/// position     8-bit: from 0 to 1 between the minimum and the maximum of the visible positions, axis by axis; these
-/// are
-///              in the tEXt chunks "least" and "greatest".
+/// crypto-*     the colours of the items that cover the pixel, weighted by coverage; alpha is the covered fraction.
+/// position     8-bit: from 0 to 1 between the minimum and the maximum of the visible positions, axis by axis; both
+///              are in the tEXt chunks "least" and "greatest".
 /// motion, flow 8-bit: the hue is the direction (red to the right, green-yellow down), the saturation the length, full
 ///              at the maximum of the image, which is in the tEXt chunk "greatest", in pixels. Black where it is
 ///              not finite.

@@ -13,7 +13,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// Three pixels: near, far, and one where nothing is.
+// Three pixels: a near one, a far one, and an empty one.
 Frame frame() {
   constexpr float nothing = std::numeric_limits<float>::infinity();
   Frame f;
@@ -38,7 +38,7 @@ Frame frame() {
   return f;
 }
 
-// Two triangles, an object and a material each.
+// Two triangles with an object and a material each.
 Scene scene() {
   Scene s;
   s.objects = {"one", "two"};
@@ -78,15 +78,15 @@ TEST(Aov, DepthTellsItsDistances) {
   EXPECT_NE(text.find(std::string("tEXtfar\0006", 9)), std::string::npos);
 }
 
-/// The three pixels of a picture: a surface, another one, and none.
+/// The three pixels of an image: two surfaces, and an empty pixel.
 using ThreePixels = std::array<Rgba8, 3>;
 ThreePixels pixels_of(const PngImage& png) { return {png.pixels(0, 0), png.pixels(1, 0), png.pixels(2, 0)}; }
 
 TEST(Aov, NormalsAlbedoAndPositionsHaveTheirColours) {
   const std::pair<const char*, ThreePixels> pictures[] = {
-      {"normal", {{{128, 128, 255, 255}, {0, 128, 128, 255}, nothing}}},  // halved
+      {"normal", {{{128, 128, 255, 255}, {0, 128, 128, 255}, nothing}}},  // 0.5 + 0.5 n
       {"albedo", {{{255, 0, 124, 255}, {255, 255, 255, 255}, nothing}}},  // encode_srgb(0.2) = 0.4845
-      {"position", {{{0, 255, 128, 255}, {255, 0, 128, 255}, nothing}}},  // over their range
+      {"position", {{{0, 255, 128, 255}, {255, 0, 128, 255}, nothing}}},  // relative to their range
   };
   for (const auto& [name, pixels] : pictures) EXPECT_EQ(pixels_of(picture(name)), pixels) << name;
 }
@@ -107,7 +107,7 @@ TEST(Aov, WhatIsNotFiniteHasAColourToo) {
   for (const float2 step : {float2{infinity, 0}, float2{0, -infinity}, float2{nan, 1}, float2{infinity, nan}}) {
     odd.motion(1, 0) = step;
     const PngImage motion = decode_png(encode_data_png(aov_of("motion"), odd, scene()), "motion");
-    EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // the longest that is finite
+    EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // the longest finite motion
     EXPECT_EQ(motion.pixels(1, 0), (Rgba8{0, 0, 0, 255}));
   }
 }
@@ -123,8 +123,8 @@ TEST(Aov, IdsHaveDistinctColoursAndNothingHasNone) {
 
 TEST(Aov, MotionIsAHueOfItsDirection) {
   const PngImage motion = picture("motion");
-  EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // to the right, the longest
-  const Rgba8 down = motion.pixels(1, 0);                   // half as long: half way to white
+  EXPECT_EQ(motion.pixels(0, 0), (Rgba8{255, 0, 0, 255}));  // to the right, with the greatest length
+  const Rgba8 down = motion.pixels(1, 0);                   // half the length: half way to white
   EXPECT_EQ(down.g, 255);
   EXPECT_NEAR(down.r, 191, 1);
   EXPECT_NEAR(down.b, 128, 1);
@@ -139,7 +139,7 @@ TEST(Aov, MattesMixTheirOwnersColours) {
   EXPECT_EQ(png.pixels(0, 0).a, 255);
   EXPECT_NE(png.pixels(0, 0), png.pixels(1, 0));
   EXPECT_EQ(png.pixels(2, 0), nothing);
-  EXPECT_NE(png.pixels(0, 0), picture("crypto-material").pixels(0, 0));  // another name
+  EXPECT_NE(png.pixels(0, 0), picture("crypto-material").pixels(0, 0));  // the names differ
 }
 
 TEST(Aov, LevelsAndAnisotropyAreFalseColours) {

@@ -16,7 +16,7 @@ namespace {
 
 std::vector<std::string> names_of(const Option& option) { return CLI::detail::split_names(option.names); }
 
-// "-o, --output FILE": short forms first, as manuals show them.
+// The names of an option in help, short forms first: "-o, --output FILE".
 std::string shown(const Option& option) {
   std::vector<std::string> names = names_of(option);
   std::stable_sort(names.begin(), names.end(),
@@ -24,7 +24,7 @@ std::string shown(const Option& option) {
   return fmt::format("{}{}{}", fmt::join(names, ", "), option.value.empty() ? "" : " ", option.value);
 }
 
-// Text broken at spaces to `width` columns, every line after the first one indented.
+// Breaks the text at spaces into lines of `width` columns; all lines but the first are indented.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
   std::string out;
   std::size_t column = 0;
@@ -93,7 +93,7 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   app.add_option("operands", syntax.found_operands)->expected(-1);
 
   std::vector<const CLI::Option*> parsers;
-  std::map<std::string, std::string> places;  // by CLI11's name of an option, ours with its value
+  std::map<std::string, std::string> places;  // maps CLI11's name of an option to our option with its value
   for (const Option& option : syntax.options) {
     CLI::Option* parser = option.value.empty() ? app.add_flag(option.names) : app.add_option(option.names);
     if (!option.value.empty()) parser->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -101,7 +101,7 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
     parsers.push_back(parser);
   }
 
-  // CLI11 takes the arguments from the back.
+  // CLI11 expects the arguments in reverse order.
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ArgumentMismatch& mismatch) {
@@ -129,7 +129,7 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
 }
 
 void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value) {
-  // Names are few and parted by commas; that one is the beginning of another is excluded by what follows it.
+  // A name that is a prefix of another one is excluded by the character after it.
   const std::string dashed = "--" + name;
   const auto has_name = [&](const Option& option) {
     const std::size_t at = option.names.find(dashed), end = at + dashed.size();

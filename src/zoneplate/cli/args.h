@@ -9,9 +9,9 @@
 
 namespace zoneplate::cli {
 
-/// One option of a verb. Parsing and help are made from the same row.
+/// One option of a verb. Parsing and help use the same table.
 struct Option {
-  std::string names;                            ///< all forms, the one to be shown in messages first: "--output,-o"
+  std::string names;                            ///< all forms, the one for messages first: "--output,-o"
   std::string value;                            ///< placeholder of the value in help, "FILE"; empty for a switch
   std::string meaning;                          ///< one sentence, without a full stop
   std::string group;                            ///< heading in the full help
@@ -30,13 +30,13 @@ struct Syntax {
 };
 
 /// Parses the arguments after the verb: options in any order, `--name=value` or `--name value`; `--` ends options, and
-/// the last of a repeated option counts. Returns false after printing the help for -h or --help.
+/// the last one of a repeated option counts. Returns false after printing the help for -h or --help.
 ///
-/// Errors    ErrorKind::Usage naming the option: unknown (with the closest one), without its value, or refused by
-/// `set`.
+/// Errors    ErrorKind::Usage naming the option: unknown (with the closest one), without its value, or rejected by
+///           `set`.
 bool parse(Syntax& syntax, std::span<const std::string> arguments);
 
-/// Sets one option, named without dashes, as a job of a manifest does; `value` is nothing for a switch.
+/// Sets one option, named without dashes, for a job of a manifest; `value` is nothing for a switch.
 ///
 /// Errors    as `parse`.
 void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value);

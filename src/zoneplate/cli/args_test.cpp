@@ -10,7 +10,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// A verb with two options, and what they were set to.
+// A verb with two options, and their values.
 struct Toy {
   std::string size = "none";
   bool is_loud = false;

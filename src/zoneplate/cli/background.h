@@ -9,16 +9,16 @@ namespace zoneplate::cli {
 
 /// Runs work in the background: frames are encoded and written while the next ones are drawn.
 ///
-/// At most thread_limit() tasks run at a time, with one thread each; if the limit is one, `run` does the work itself.
-/// Tasks may end in any order.
+/// At most thread_limit() tasks run at a time, with one thread each; if the limit is one, `run` executes the work
+/// itself. Tasks may end in any order.
 class Background {
  public:
   /// Waits for running tasks and ignores their errors; call `wait` first.
   ~Background();
 
-  /// Begins the work, once there is room for it. Rethrows what earlier work threw.
+  /// Starts the work as soon as a task is free. Rethrows exceptions of earlier work.
   void run(std::function<void()> work);
-  /// Waits for all work. Rethrows what it threw.
+  /// Waits for all work. Rethrows its exceptions.
   void wait();
 
  private:

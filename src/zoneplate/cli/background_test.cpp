@@ -25,7 +25,7 @@ TEST(Background, WorkGoesOnBesideTheCallerAndNoMoreThanThereIsRoomFor) {
   with_threads(2, [&] {
     Background background;
     background.run(work), background.run(work);
-    may_go = true;  // only reached because the work does not hold the caller up
+    may_go = true;  // reached only if `run` does not block
     for (int i = 0; i < 20; ++i) background.run(work);
     background.wait();
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate filter: post-process antialiasing of images that exist already, without a scene.
+// zoneplate filter: post-process antialiasing of existing images, without a scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ struct FilterArgs {
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 };
 
-/// True for a method that reads nothing of a frame but its display-referred image.
+/// True for a method that only needs the display-referred image of a frame.
 bool reads_image_alone(Resolver& method) {
   const Request request = method.request({});
   return request.is_display_referred && request.samples.size() == 1 && !request.draw && !request.planes.any();
@@ -58,14 +58,14 @@ struct FilterItem {
   std::string input, output;
 };
 
-/// The images that the operand names, and the file that each is written to.
+/// The images of the operand, and the output file of each.
 ///
-/// Errors    ErrorKind::Usage where two images would be written to one file.
+/// Errors    ErrorKind::Usage if two images have the same output file.
 std::vector<FilterItem> plan(const std::string& operand, const std::string& output) {
   const std::vector<std::string> inputs = metrics::list_pictures(operand);
   if (inputs.size() == 1 && inputs.front() == operand) return {{operand, output}};
   std::vector<FilterItem> items;
-  std::map<std::string, std::string> input_of;  // by output
+  std::map<std::string, std::string> input_of;  // maps an output to its input
   for (const std::string& input : inputs) {
     items.push_back({input, (fs::path(output) / fs::path(input).stem()).string() + ".png"});
     const auto [first, is_new] = input_of.emplace(items.back().output, input);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verb as scripts meet it. Runs the built program.
+// Tests of the verb that run the built program.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ class FilterVerb : public testing::Test {
   }
   ~FilterVerb() override { fs::remove_all(folder_); }
 
-  /// Runs the program in the folder; gives its exit code and keeps its output.
+  /// Runs the program in the folder; returns its exit code and stores its output.
   int run(const std::string& arguments) {
     const std::string command = "cd '" + folder_.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -103,10 +103,10 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
             "zoneplate: error: a.exr: is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)\n");
   EXPECT_EQ(run("filter a.png -o b.exr --aa smaa"), 2);
   EXPECT_EQ(run("filter a.png -o b.webp --aa smaa --bit-depth 16"), 2);
-  EXPECT_EQ(run("filter none.png -o b.webp --aa smaa --bit-depth 16"), 2);  // before the input is read
+  EXPECT_EQ(run("filter none.png -o b.webp --aa smaa --bit-depth 16"), 2);  // an error before the input is read
   EXPECT_EQ(run("filter none.png -o b.png --aa smaa"), 3);
   EXPECT_FALSE(exists("b.png"));
-  // The model reader names the verb that reads images.
+  // The error of the model reader names the verb for images.
   EXPECT_EQ(run("a.png -o b.png --aa smaa"), 3);
   EXPECT_NE(output_.find("zoneplate filter"), std::string::npos) << output_;
 }

@@ -89,7 +89,7 @@ Json scenes_json() {
   return rows;
 }
 
-// The writers are chosen by these endings in render/picture.cpp and render/film.cpp.
+// render/picture.cpp and render/film.cpp select the writers by these extensions.
 constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits per channel, sRGB; - writes to stdout"},
                                            {".jpg", "quality 92, no chroma subsampling (4:4:4)"},
                                            {".webp", "lossless; several frames make an animation"},

@@ -35,7 +35,7 @@ bool uses_color() {
   return stderr_is_terminal() && environment("NO_COLOR").empty();
 }
 
-// The whole line in one write, so that lines of several processes do not mix.
+// Each line is written by one call, so that lines of several processes do not mix.
 void say(std::string_view kind, std::string_view color, std::string message) {
   std::replace_if(
       message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate: the command. The table of verbs, and the conversion of errors to exit codes.
+// zoneplate: the command. Contains the table of verbs, and the conversion of errors to exit codes.
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -57,7 +57,7 @@ std::string overview() {
          "More: zoneplate VERB -h (short), zoneplate VERB --help (everything), zoneplate --version\n";
 }
 
-// A first word that is not a verb is the input of render, unless it is a misspelt verb or scene.
+// A first word that is not a verb is the input of render. Throws if it is a misspelt verb or scene.
 void refuse_misspelt_verb(const std::string& word) {
   std::error_code ignored;
   if (word.starts_with('-') || word.find_first_of("./:") != std::string::npos) return;
@@ -95,13 +95,13 @@ void run(std::vector<std::string> arguments) {
   run_render(all);
 }
 
-// Opens /dev/null for streams that the caller has closed, so that no output file gets their descriptors.
+// Opens /dev/null for closed standard streams, so that no output file gets their descriptors.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDONLY));
 }
 
-// The stacks of threads count towards the memory limit whether used or not, and 8 MB each, the default, is too much.
+// The stacks of threads count towards the memory limit whether used or not; the default of 8 MB each is too much.
 void shorten_stacks_of_threads() {
   constexpr std::size_t stack_bytes = std::size_t{2} << 20;
   pthread_attr_t attributes;
@@ -137,9 +137,9 @@ int main(int argc, char** argv) {
   using namespace zoneplate;
   cli::occupy_closed_streams();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    if (std::signal(signal, cli::leave) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup sets it
-  std::signal(SIGPIPE, SIG_IGN);  // a closed stdout is an error of write(), and so exit code 4
-  std::signal(SIGXFSZ, SIG_IGN);  // likewise a file that may not grow
+    if (std::signal(signal, cli::leave) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup ignores signals
+  std::signal(SIGPIPE, SIG_IGN);  // writing to a closed stdout is an error of write(), with exit code 4
+  std::signal(SIGXFSZ, SIG_IGN);  // the same for the maximum size of files
   survive_truncated_mappings();
   cli::shorten_stacks_of_threads();
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate metrics: how far images are from a reference, by any of the catalogue's metrics.
+// zoneplate metrics: the difference between images and a reference, by any of the catalogue's metrics.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ using metrics::Comparison;
 using metrics::Metric;
 using metrics::Result;
 
-/// The least that a metric has to reach.
+/// A metric's threshold.
 struct Bound {
   const Metric* metric = nullptr;
   double value = 0;
@@ -55,7 +55,7 @@ double parse_bound(const std::string& text) {
   return parse_number(text, -1e300, 1e300);
 }
 
-/// Thresholds: "40" for a single metric, or "psnr=40,ssim=0.98".
+/// Parses thresholds: "40" for a single metric, or "psnr=40,ssim=0.98".
 std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choice>& choices) {
   std::vector<Bound> bounds;
   for (std::size_t start = 0; start < text.size();) {
@@ -99,7 +99,7 @@ std::string text_of(const Comparison& comparison) {
   return text;
 }
 
-/// JSON has no infinite numbers; they become the strings "inf" and "-inf".
+/// JSON does not support infinities; they become the strings "inf" and "-inf".
 Json json_number(double value) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   return value;
@@ -147,7 +147,7 @@ Json json_of(const Comparison& comparison, const std::string& reference, const s
                       {"metrics", std::move(rows)}};
 }
 
-/// The verdict where the images differ or a metric misses its threshold; else empty.
+/// The failure message if the images differ or a metric misses its threshold; else empty.
 std::string shortfall(const Comparison& comparison, const std::vector<Bound>& bounds) {
   if (bounds.empty()) return comparison.are_same ? "" : "the images differ";
   std::string text;
@@ -170,7 +170,7 @@ void save_map(const std::string& path, const Comparison& comparison) {
   throw Error(ErrorKind::Usage, "--map: none of these metrics has an error map");
 }
 
-// The catalogue as the end of the help.
+// The catalogue of metrics at the end of the help.
 std::string catalogue_text() {
   std::string text = "Metrics (--metric NAME:PARAMETER=VALUE,...; the default is all that are marked *):\n";
   for (const Metric& metric : metrics::metrics()) {
@@ -251,7 +251,7 @@ void run(std::span<const std::string> arguments) {
 }  // namespace
 
 void run_metrics(std::span<const std::string> arguments) {
-  // As those of diff and cmp: 1 for a difference, 2 for any error.
+  // Exit codes as those of diff and cmp: 1 for a difference, 2 for any error.
   try {
     run(arguments);
   } catch (const Error& error) {

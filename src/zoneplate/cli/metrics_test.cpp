@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verb as scripts meet it: its output, its map and its exit codes. Runs the built program.
+// Tests of the verb that run the built program: its output, its map and its exit codes.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -43,7 +43,7 @@ void check_parent(const std::string& path) {
     refuse(path, fmt::format("nothing can be written into {}: {}", folder, std::strerror(errno)));
 }
 
-/// Holds back, for the calling thread, the signals that end the program, unless they are ignored.
+/// Blocks the signals that end the program for the calling thread, unless they are ignored.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -70,12 +70,12 @@ class HeldSignals {
   sigset_t held_{}, before_{};
 };
 
-/// A new folder next to `target`, which is renamed to it by `commit`, or removed with the files made in it.
+/// A new folder next to `target`, which `commit` renames to `target`; otherwise it is removed together with its files.
 class StagedFolder {
  public:
   explicit StagedFolder(const std::string& target) : target_(target) {
     const fs::path path(target);
-    // Only part of a very long name is used, so that the staged name is not too long either.
+    // Only part of a very long name is used, so that the temporary name does not exceed the limit.
     const std::string stem = fmt::format(".{}.{}", path.filename().string().substr(0, 200), ::getpid());
     for (int attempt = 0; attempt < 100; ++attempt) {
       root_ = (path.parent_path() / (attempt == 0 ? stem + ".tmp" : fmt::format("{}.{}.tmp", stem, attempt))).string();
@@ -106,7 +106,7 @@ class StagedFolder {
 
   void commit() {
     int result = ::renameat2(AT_FDCWD, root_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE);
-    // A file system without this flag has rename, which replaces no folder but an empty one.
+    // File systems without this flag use plain rename, which replaces only empty folders.
     if (result != 0 && (errno == EINVAL || errno == ENOSYS)) result = ::rename(root_.c_str(), target_.c_str());
     if (result != 0)
       refuse(target_, errno == EEXIST || errno == ENOTEMPTY || errno == ENOTDIR

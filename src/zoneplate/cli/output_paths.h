@@ -8,27 +8,27 @@
 
 namespace zoneplate::cli {
 
-/// Checks before any work that `save_folder(path)` will succeed: there must be nothing under this name, and a folder
-/// that it can be made in. Of single files: check_savable (os/file.h).
+/// Checks before any work that `save_folder(path)` can succeed: the name must be unused, and its parent folder
+/// writable. For single files, see check_savable (os/file.h).
 ///
 /// Errors    ErrorKind::Usage for an empty path; ErrorKind::Output naming the path and the cause.
 void check_output_folder(const std::string& path);
 
-/// A file of a folder: its name within the folder, with at most one folder of its own before a '/'.
+/// A file of a folder: its name within the folder, with at most one subfolder before a '/'.
 struct OutputFile {
   std::string name;
   std::vector<std::uint8_t> bytes;
 };
 
-/// Makes a folder with these files, whole or not at all. Nothing that was there before is replaced or removed.
+/// Creates a folder with these files, completely or not at all. No existing file is replaced or removed.
 ///
-/// The files are written into a folder `.NAME.PID.tmp` next to `path`. This call creates that folder, under a name that
-/// was free, and renames it when the last file is written. After an error it removes what it made itself, name by name.
-/// SIGINT, SIGTERM and SIGHUP are held back from the calling thread meanwhile: one that arrives ends the writing
-/// before the next file, and is delivered when the unfinished folder is removed.
-/// Requires  no other thread that takes these signals.
-/// Errors    ErrorKind::Output naming the path and the cause, among them that another run has made the folder
-/// meanwhile.
+/// The files are written into a folder `.NAME.PID.tmp` next to `path`. This call creates that folder under an unused
+/// name, and renames it after the last file. After an error it removes what it created, name by name. Meanwhile SIGINT,
+/// SIGTERM and SIGHUP are blocked for the calling thread: a signal that arrives ends the writing before the next file,
+/// and is delivered after the unfinished folder is removed.
+/// Requires  no other thread receives these signals.
+/// Errors    ErrorKind::Output naming the path and the cause, for example that another run has created the folder in
+///           the meantime.
 void save_folder(const std::string& path, std::span<const OutputFile> files);
 
 }  // namespace zoneplate::cli

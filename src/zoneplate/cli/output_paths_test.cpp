@@ -30,7 +30,7 @@ class OutputPaths : public testing::Test {
   void put(const std::string& name, const std::string& text) const { std::ofstream(place / name) << text; }
   std::string at(const std::string& name) const { return (place / name).string(); }
 
-  // Every file and folder below the place, hidden ones too; of a file its text.
+  // All files and folders below the place, including hidden ones; the value of a file is its text.
   std::map<std::string, std::string> all() const {
     std::map<std::string, std::string> out;
     for (const auto& entry : fs::recursive_directory_iterator(place)) {
@@ -41,7 +41,7 @@ class OutputPaths : public testing::Test {
     }
     return out;
   }
-  // What the call refuses with, without the place; "" if it does not.
+  // The error message of `call` without the place; "" if there is none.
   std::string refusal(const std::function<void()>& call) const {
     try {
       call();
@@ -67,7 +67,7 @@ TEST_F(OutputPaths, AFolderIsMadeWhole) {
 }
 
 TEST_F(OutputPaths, NothingThatWasThereIsReplacedOrRemoved) {
-  // Names that an earlier version or another process of this number may have left.
+  // Names that an earlier version, or another process with this id, may have left behind.
   for (const std::string& name : {std::string(".out.tmp"), ".out." + std::to_string(::getpid()) + ".tmp"}) {
     fs::create_directory(place / name);
     put(name + "/notes.txt", "precious");
@@ -77,7 +77,7 @@ TEST_F(OutputPaths, NothingThatWasThereIsReplacedOrRemoved) {
   auto after = before;
   after.insert(whole.begin(), whole.end());
   EXPECT_EQ(all(), after);
-  // A second run that began when there was nothing finds what the first one made.
+  // A second run that started before the folder existed fails, because the first one has created it.
   EXPECT_EQ(refusal([&] {
               save_folder(at("out"), std::vector<OutputFile>{{"c.txt", bytes_of("three")}});
             }),
@@ -133,7 +133,7 @@ TEST_F(OutputPaths, FilesAreRefusedBeforeTheWork) {
   put("file", "text");
   fs::create_directory(place / "there");
   EXPECT_EQ(file("new.png"), "");
-  EXPECT_EQ(file("file"), "");  // is replaced
+  EXPECT_EQ(file("file"), "");  // an existing file can be replaced
   EXPECT_EQ(file("there"), "there: cannot be written: it is a directory");
   EXPECT_EQ(file("none/new.png"), "none/new.png: cannot be written: no directory none");
   EXPECT_EQ(file("file/new.png"), "file/new.png: cannot be written: Not a directory");

@@ -31,9 +31,9 @@ class Packer {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads the values again, in the same order.
+/// Deserializes the values in the same order.
 ///
-/// Errors    ErrorKind::Failed where the bytes end too early, whatever they are.
+/// Errors    ErrorKind::Failed if the bytes end early.
 class Unpacker {
  public:
   explicit Unpacker(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

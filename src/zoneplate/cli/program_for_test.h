@@ -15,7 +15,7 @@
 
 namespace zoneplate {
 
-/// The bytes of a file; nothing where there is none.
+/// The bytes of a file; empty if it does not exist.
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
@@ -25,13 +25,13 @@ inline std::string text_of(const std::filesystem::path& path) {
 
 inline bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-/// What a run of the built program printed and returned.
+/// The output and exit code of a run of the built program.
 struct ProgramAnswer {
   int code = -1;
-  std::string out;  ///< stdout and stderr together
+  std::string out;  ///< stdout and stderr combined
 };
 
-/// Tests of the built program, in an empty folder of their own, which is removed at the end.
+/// Fixture for tests of the built program, with an empty temporary folder.
 class ProgramTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -41,7 +41,7 @@ class ProgramTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(place); }
 
-  /// Runs the program in that folder, with arguments as a shell reads them.
+  /// Runs the program in that folder, with arguments in shell syntax.
   ProgramAnswer run(const std::string& arguments) const {
     const std::string command = "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");

@@ -11,7 +11,7 @@
 
 namespace zoneplate::cli {
 
-// "return to column 0, clear to the end of the line" (ECMA-48, EL).
+// Control sequence: return to column 0, clear to the end of the line (ECMA-48, EL).
 constexpr std::string_view wipe = "\r\x1b[K";
 
 void Progress::begin(std::string_view stage, double done) {

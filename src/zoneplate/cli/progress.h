@@ -8,8 +8,8 @@ namespace zoneplate::cli {
 
 enum class ProgressKind {
   None,
-  Bar,   ///< one line on stderr, rewritten in place and wiped at the end
-  Json,  ///< one line a step: {"stage":"render","done":0.4}
+  Bar,   ///< one line on stderr, updated in place and cleared at the end
+  Json,  ///< one line per step: {"stage":"render","done":0.4}
 };
 
 /// Reports the progress of a command on stderr, for people or programs.
@@ -20,14 +20,14 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Reports that `stage` begins, with the fraction `done` of all work, in [0, 1], completed.
+  /// Reports that `stage` begins, when the fraction `done` of all work, in [0, 1], is complete.
   void begin(std::string_view stage, double done);
 
  private:
   ProgressKind kind_;
 };
 
-/// The kind for a text of --progress: "auto" (a bar on a terminal, else none), "bar", "json" or "none".
+/// Parses the value of --progress: "auto" (a bar on a terminal, else none), "bar", "json" or "none".
 ProgressKind parse_progress(const std::string& text);
 
 }  // namespace zoneplate::cli

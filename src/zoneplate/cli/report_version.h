@@ -3,8 +3,8 @@
 
 namespace zoneplate::cli {
 
-/// The version of the JSON reports, their field `version`: it rises when the name or the meaning of a field changes.
-/// CHANGELOG.md lists the changes.
+/// The version of the JSON reports, their field `version`. It is incremented when the name or the meaning of a field
+/// changes. CHANGELOG.md lists the changes.
 inline constexpr int report_version = 2;
 
 }  // namespace zoneplate::cli

@@ -10,7 +10,7 @@
 namespace zoneplate::cli {
 namespace {
 
-/// A size of /proc/self/status, in bytes: "VmHWM:     1234 kB".
+/// A size from /proc/self/status, in bytes: "VmHWM:     1234 kB".
 std::optional<std::uint64_t> status_size(const std::string& name) {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -36,7 +36,7 @@ double processor_ms() {
 
 MemoryWatch::MemoryWatch() {
   ::malloc_trim(0);
-  // "5" sets the peak back to what is resident now (proc(5), clear_refs).
+  // Writing "5" resets the peak to the current resident memory (proc(5), clear_refs).
   std::ofstream reset("/proc/self/clear_refs");
   if (reset << '5' << std::flush) before_ = status_size("VmRSS:");
 }

@@ -6,15 +6,15 @@
 
 namespace zoneplate::cli {
 
-/// The greatest resident memory of the process so far, in bytes.
+/// The peak resident memory of the process, in bytes.
 std::uint64_t peak_memory();
 
-/// CPU time of all threads so far, in milliseconds.
+/// The CPU time of all threads, in milliseconds.
 double processor_ms();
 
-/// Measures the peak increase of the process's resident memory from its construction on.
+/// Measures the peak increase of the process's resident memory since its construction.
 ///
-/// Free heap memory is returned to the system first, so that the memory of earlier work is not reused.
+/// The constructor returns free heap memory to the system, so that memory of earlier work is not reused.
 class MemoryWatch {
  public:
   MemoryWatch();

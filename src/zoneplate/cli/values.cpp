@@ -37,7 +37,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-// The numbers of "a,b,c", or nothing if one of them is none.
+// The numbers of "a,b,c"; nothing if one of them is not a number.
 std::optional<std::vector<float>> numbers_in(std::string_view text) {
   std::vector<float> numbers;
   for (const std::string_view part : split(text, ',')) {
@@ -52,7 +52,7 @@ std::optional<std::vector<float>> numbers_in(std::string_view text) {
   throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, expected));
 }
 
-// "#rgb", "#rgba", "#rrggbb", "#rrggbbaa" after the '#'.
+// Parses the digits after the '#' of "#rgb", "#rgba", "#rrggbb", "#rrggbbaa".
 std::optional<float4> hex_color(std::string_view digits) {
   const bool is_short = digits.size() == 3 || digits.size() == 4;
   if (!is_short && digits.size() != 6 && digits.size() != 8) return std::nullopt;

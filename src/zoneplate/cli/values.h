@@ -13,8 +13,8 @@
 
 namespace zoneplate::cli {
 
-// Conversion of the text of an option to a value. Every error is ErrorKind::Usage and states what was found and what
-// was expected; text after the value, infinities and NaN are errors.
+// Conversion of the text of an option to a value. Every error is ErrorKind::Usage and states the found text and the
+// expected values; text after the value, infinities and NaN are errors.
 
 double parse_number(const std::string& text, double low, double high);
 int parse_whole(const std::string& text, int low, int high);
@@ -32,16 +32,16 @@ float4 parse_color(const std::string& text);
 /// A number of bytes with an optional K, M or G (powers of 1024), at least 1.
 std::uint64_t parse_bytes(const std::string& text);
 
-/// "psnr,flip:ppd=30,x=1": items at commas; `name=value` without a colon belongs to the item before it.
+/// Splits "psnr,flip:ppd=30,x=1" at commas; a `name=value` without a colon belongs to the previous item.
 std::vector<std::string> split_specs(const std::string& text);
 
-/// The place of `text` in `names`.
+/// The index of `text` in `names`.
 std::size_t parse_choice(const std::string& text, std::span<const std::string_view> names);
 inline std::size_t parse_choice(const std::string& text, std::initializer_list<std::string_view> names) {
   return parse_choice(text, std::span(names.begin(), names.size()));
 }
 
-/// The instruction set of a name, which must be one that this machine has.
+/// Parses the name of an instruction set, which this machine must support.
 Isa parse_isa(const std::string& text);
 
 }  // namespace zoneplate::cli

@@ -10,7 +10,7 @@
 
 namespace zoneplate::cli {
 
-/// Some of several items failed, each with a message of its own: exit code 5.
+/// Some of several items failed, each with its own message: exit code 5.
 class PartialFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,13 +22,13 @@ class Difference : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A word after `zoneplate`, or after `zoneplate signal`, and what it runs with the arguments that follow.
+/// A word after `zoneplate`, or after `zoneplate signal`, and the function that it calls with the following arguments.
 struct Verb {
   std::string_view name, summary;
   void (*run)(std::span<const std::string> arguments);
 };
 
-/// A line for each verb, with its name in a column of `width` characters.
+/// One line per verb, with its name in a column of `width` characters.
 inline std::string lines_of(std::span<const Verb> verbs, int width) {
   std::string text;
   for (const Verb& verb : verbs) text += fmt::format("  {:<{}}{}\n", verb.name, width, verb.summary);
@@ -36,7 +36,7 @@ inline std::string lines_of(std::span<const Verb> verbs, int width) {
 }
 
 // The verbs of the command. Each takes the arguments after its name, writes its result to stdout or files, and throws
-// zoneplate::Error where it cannot.
+// zoneplate::Error on failure.
 
 void run_render(std::span<const std::string> arguments);
 void run_contact_sheet(std::span<const std::string> arguments);

@@ -64,7 +64,7 @@ std::string version_text() {
       "licence Apache-2.0\n"
       "libpng {}, zlib {}, libjpeg-turbo {}, libwebp {}, FreeType {}, Draco {}, libseccomp {}\n"
       "fmt {}.{}.{}, Highway {}.{}.{}, JSON for Modern C++ {}.{}.{}, CLI11 {}\n"
-      // Its licence demands this statement of programs (THIRD_PARTY.md).
+      // Its licence requires this statement of programs (THIRD_PARTY.md).
       "Uses Jimenez's MLAA. Copyright (C) 2010 by Jorge Jimenez, Belen Masia, Jose I. Echevarria, Fernando Navarro and "
       "Diego Gutierrez.\n",
       version, name_of(best_isa()), compiler(), commit, png_get_libpng_ver(nullptr), ::zlibVersion(),

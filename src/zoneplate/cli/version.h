@@ -5,8 +5,8 @@
 
 namespace zoneplate::cli {
 
-/// What `--version` prints: version, instruction set, compiler, commit, licence, and the versions of the libraries that
-/// the program is linked with.
+/// The output of `--version`: version, instruction set, compiler, commit, licence, and the versions of the libraries
+/// that the program is linked with.
 std::string version_text();
 
 }  // namespace zoneplate::cli

@@ -17,7 +17,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t signature_size = 8;
-constexpr std::size_t chunk_frame = 12;  // length, name and checksum around a chunk's data
+constexpr std::size_t chunk_frame = 12;  // bytes around a chunk's data: length, name and checksum
 
 void put16(Bytes& out, int value) {
   for (const int shift : {8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
@@ -29,7 +29,7 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes) {
   return word;
 }
 
-/// Calls use(name, data, whole chunk) for every chunk of a PNG file that we wrote ourselves.
+/// Calls use(name, data, whole chunk) for each chunk of a PNG file. The file is trusted: it comes from encode_png.
 template <class Use>
 void for_chunks(std::span<const std::uint8_t> png, Use use) {
   for (std::size_t at = signature_size; at < png.size();) {
@@ -44,7 +44,8 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Where two frames differ; one pixel where they do not, because a frame cannot be empty.
+/// The bounding box of the pixels in which two frames differ; one pixel if they are equal, because a frame cannot be
+/// empty.
 Rectangle difference(const Rgba8Image& before, const Rgba8Image& now) {
   int left = now.width(), top = now.height(), right = -1, bottom = -1;
   for (int y = 0; y < now.height(); ++y)
@@ -66,7 +67,7 @@ Bytes encoded(const Rgba8Image& frame, const Rectangle& r, bool has_alpha) {
   return encode_png(part, {.has_alpha = has_alpha, .is_small = true});
 }
 
-/// The file as it grows; fcTL and fdAT chunks are numbered in one sequence.
+/// Builds the file. The fcTL and fdAT chunks share one sequence of numbers.
 class Writer {
  public:
   explicit Writer(const Animation& animation) : animation_(animation) {}
@@ -87,7 +88,7 @@ class Writer {
   }
 
  private:
-  // The first frame's file, with what says that more follows before its data.
+  // Writes the file of the first frame, with acTL and fcTL chunks inserted before its data.
   void write_first(const Bytes& png) {
     out_.assign(png.begin(), png.begin() + signature_size);
     bool is_before_data = true;
@@ -122,8 +123,8 @@ class Writer {
     for (const int value : {r.width, r.height, r.x, r.y}) put_png_word(control, static_cast<std::uint32_t>(value));
     put16(control, animation_.seconds);
     put16(control, animation_.per);
-    control.push_back(0);  // dispose: leave it for the next frame
-    control.push_back(0);  // blend: replace what was there
+    control.push_back(0);  // dispose_op: keep the frame as the background of the next one
+    control.push_back(0);  // blend_op: replace the pixels below, do not blend
     put_png_chunk(out_, "fcTL", control);
   }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A light square that walks over a gradient; the last frame repeats the one before.
+/// A light square that moves over a gradient; the last frame is equal to the previous one.
 Animation walk(bool has_alpha) {
   Animation animation{.seconds = 1, .per = 24, .loops = 3, .has_alpha = has_alpha};
   for (const int place : {2, 9, 20, 20}) {
@@ -38,7 +38,7 @@ struct Chunk {
   }
 };
 
-/// The chunks, their checksums being right.
+/// The chunks of a file, whose checksums are verified.
 std::vector<Chunk> chunks_of(const Bytes& file) {
   std::vector<Chunk> chunks;
   for (std::size_t at = 8; at + 12 <= file.size();) {
@@ -63,7 +63,8 @@ void put(Bytes& out, const std::string& name, const Bytes& data) {
   word(static_cast<std::uint32_t>(crc32(0, all.data(), static_cast<uInt>(all.size()))));
 }
 
-/// What a player shows, frame by frame: each frame's data as a PNG file of its own, read by libpng, put in its place.
+/// The frames that a player displays: the data of each frame is decoded by libpng as a PNG file of its own and copied
+/// to the frame's rectangle.
 std::vector<Rgba8Image> played(const Bytes& file) {
   const std::vector<Chunk> chunks = chunks_of(file);
   std::vector<Rgba8Image> shown;
@@ -100,7 +101,8 @@ TEST(Apng, PlaysTheFramesThatWereGiven) {
     const Animation animation = walk(has_alpha);
     const Bytes file = encode_apng(animation);
     EXPECT_EQ(played(file), animation.frames);
-    EXPECT_EQ(decode_png(file, "whole").pixels, animation.frames[0]);  // for programs that know no animation
+    // The default image, which decoders without APNG support display.
+    EXPECT_EQ(decode_png(file, "whole").pixels, animation.frames[0]);
     EXPECT_EQ(encode_apng(animation), file);
   }
 }

@@ -19,7 +19,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// With what a decoder ends whose time is up when it begins.
+/// The error message of a decoder that starts after its deadline.
 std::string late(const std::function<void()>& decode) {
   try {
     with_deadline(0, ErrorKind::Failed, "the time is up", decode);

@@ -23,12 +23,12 @@
 namespace zoneplate {
 namespace {
 
-/// Why an image is not decoded.
+/// The reason why an image is rejected.
 struct Refusal {
   std::string cause;
 };
 
-/// A rectangle of pixels, both corners in it.
+/// A rectangle of pixels; both corners are inclusive.
 struct Window {
   std::int32_t left = 0, top = 0, right = -1, bottom = -1;
 
@@ -45,7 +45,7 @@ struct Windows {
   Window data, display;
 };
 
-/// The text up to the next zero, of 255 bytes at most.
+/// Takes the text before the next zero byte from the front of `bytes`; at most 255 bytes.
 std::optional<std::string_view> take_text(std::span<const std::uint8_t>& bytes) {
   const std::size_t most = std::min<std::size_t>(bytes.size(), 256);
   const auto end = std::find(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(most), 0);
@@ -56,7 +56,7 @@ std::optional<std::string_view> take_text(std::span<const std::uint8_t>& bytes) 
   return text;
 }
 
-/// Walks over the attributes of the first header: name, type, size, value.
+/// Finds the data and display windows by iterating over the attributes of the first header: name, type, size, value.
 std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
   if (!is_exr(bytes)) return std::nullopt;
   Windows out;
@@ -80,7 +80,8 @@ std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-/// The library's functions that are used here; it is opened by them, not with the program.
+/// The functions of libOpenEXRCore that this file calls. The library is loaded at run time; the program is not linked
+/// to it.
 struct ExrLibrary {
   decltype(&exr_start_read) start_read = nullptr;
   decltype(&exr_finish) finish = nullptr;
@@ -132,8 +133,8 @@ std::int64_t size_of_bytes(exr_const_context_t, void* user) {
 }
 void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
 
-/// Numbers by rows, zero at first. They take memory where they are written, so that an image of which nothing is there
-/// takes none.
+/// Rows of numbers, initially zero. A page is allocated when it is first written, so that an image without data takes
+/// no memory.
 class Channel {
  public:
   Channel() = default;
@@ -154,7 +155,7 @@ class Channel {
   std::unique_ptr<float, Free> values_;
 };
 
-/// An open file, decoded into the channels of its data window. It lives in the child.
+/// An open file, decoded into the channels of its data window. It exists in the child process only.
 class ExrReader {
  public:
   ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window)
@@ -185,7 +186,7 @@ class ExrReader {
       throw Refusal{"is deep, which is not read"};
   }
 
-  /// A row of the data window, from one column on.
+  /// Copies a row of the data window, starting at column `first`.
   void copy_row(int y, int first, std::span<Linear> out) const {
     const auto value = [&](std::size_t slot, std::size_t x) {
       if (!channels_[slot]) return slot == 3 ? 1.0f : 0.0f;
@@ -202,7 +203,7 @@ class ExrReader {
   }
 
  private:
-  /// Which part of a pixel a channel fills; nothing for others.
+  /// The slot of `channels_` that holds a channel; nothing if the channel is ignored.
   std::optional<std::size_t> slot_of(std::string_view channel) const {
     if (is_grey_)
       return channel == "Y"   ? std::optional<std::size_t>{0}
@@ -230,7 +231,7 @@ class ExrReader {
       }
   }
 
-  /// Decodes a part whose first pixel is (x, y) of the data window.
+  /// Decodes a chunk whose first pixel is (x, y) of the data window.
   void read_chunk(const exr_chunk_info_t& chunk, std::int64_t x, std::int64_t y) {
     if (x < 0 || y < 0 || chunk.width < 1 || chunk.height < 1 || x + chunk.width > window_.width() ||
         y + chunk.height > window_.height())
@@ -240,7 +241,7 @@ class ExrReader {
     library_.check(library_.begin_decoding(context_, 0, &chunk, &pipeline));
     const std::unique_ptr<exr_decode_pipeline_t, std::function<void(exr_decode_pipeline_t*)>> end(
         &pipeline, [this](exr_decode_pipeline_t* p) { library_.end_decoding(context_, p); });
-    // Channel by channel: the library's quick ways for mixed pixels have their order wrong in some versions.
+    // Channel by channel, because the library's fast paths for interleaved pixels swap channels in some versions.
     for (int i = 0; i < pipeline.channel_count; ++i) {
       exr_coding_channel_info_t& channel = pipeline.channels[i];
       const std::optional<std::size_t> slot = slot_of(channel.channel_name);
@@ -284,10 +285,10 @@ class ExrReader {
   Window window_;
   exr_context_t context_ = nullptr;
   bool is_grey_ = false;
-  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha, of those that there are
+  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha; channels that the file lacks are empty
 };
 
-/// Gives the rows of the display window, with what the data window has of them, to `send(row)`.
+/// Calls `send(row)` for each row of the display window; pixels outside the data window are transparent black.
 template <class Send>
 void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
   const Window &data = windows.data, &display = windows.display;
@@ -343,7 +344,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
   };
   if (is_limited_child()) return decode(ExrLibrary(name), take_row);
 
-  // The image, and as much again for what is being unpacked of it.
+  // The image, the same again for the library's decompression buffers, and a fixed overhead.
   constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
   const Stopwatch clock;
   LimitedChild::Limits limits;
@@ -367,7 +368,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
 }
 
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  LinearImage image;  // made when the first row is there: a broken file takes no memory
+  LinearImage image;  // allocated when the first row arrives, so that a corrupt file takes no memory
   int y = 0;
   decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
     if (y == 0) image = LinearImage(static_cast<int>(row.size()), find_exr_size(bytes)->y);

@@ -15,7 +15,7 @@ namespace zoneplate {
 /// True for the first bytes of an OpenEXR image.
 bool is_exr(std::span<const std::uint8_t> bytes);
 
-/// Width and height of its display window.
+/// Width and height of the display window of an OpenEXR image.
 std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 
 /// Decodes the colour of an OpenEXR image: the channels R, G, B and A, or Y as grey, of its first part; scanlines or
@@ -31,11 +31,11 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
-/// The same, row by row from the top.
+/// Decodes an image as decode_exr does, and passes it on row by row, from the top.
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                      const std::function<void(std::span<const Linear>)>& take_row);
 
-/// Bytes that decoding takes in addition to the rows.
+/// The memory in bytes that decoding takes in addition to the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);
 
 }  // namespace zoneplate

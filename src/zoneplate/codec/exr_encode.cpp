@@ -52,8 +52,8 @@ Bytes list_of(std::span<const ExrChannel> channels) {
   for (const ExrChannel& channel : channels) {
     put_text(out, channel.name);
     put(out, static_cast<std::int32_t>(channel.type));
-    put(out, std::uint32_t{0});  // not perceptually linear
-    put(out, std::int32_t{1});   // a sample for every pixel
+    put(out, std::uint32_t{0});  // pLinear: 0, the channel is not perceptually linear
+    put(out, std::int32_t{1});   // xSampling and ySampling: one sample per pixel
     put(out, std::int32_t{1});
   }
   out.push_back(0);
@@ -76,7 +76,7 @@ Bytes header_of(int width, int height, std::span<const ExrChannel> channels, con
   return out;
 }
 
-/// Some rows, channel by channel in each, as they are stored.
+/// The uncompressed bytes of rows [first, end): in each row, one channel after the other.
 Bytes rows_of(std::span<const ExrChannel> channels, std::size_t width, std::size_t first, std::size_t end) {
   Bytes out;
   for (std::size_t y = first; y < end; ++y)
@@ -98,8 +98,8 @@ Bytes rows_of(std::span<const ExrChannel> channels, std::size_t width, std::size
   return out;
 }
 
-/// The predictor of ZIP compression: bytes at even positions before those at odd positions, each as its difference from
-/// the previous one, plus 128.
+/// The predictor of ZIP compression: the bytes at even positions before those at odd positions, each replaced by its
+/// difference from the previous byte plus 128.
 Bytes prepared(const Bytes& raw) {
   Bytes out(raw.size());
   const std::size_t middle = (raw.size() + 1) / 2;
@@ -108,7 +108,7 @@ Bytes prepared(const Bytes& raw) {
   return out;
 }
 
-/// A block as it is stored: deflated, or as it was where that is not longer.
+/// A compressed block: the deflated bytes, or the raw bytes if deflating does not shorten them.
 Bytes packed(Bytes raw) {
   constexpr std::size_t most_part = std::size_t{1} << 24;
   const Bytes data = prepared(raw);
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChann
   });
 
   Bytes out = header_of(width, height, channels, attributes);
-  // Where each block begins, then the blocks: first row, size, bytes.
+  // The table of block offsets, then the blocks: first row, size, bytes.
   std::uint64_t at = out.size() + 8 * blocks.size();
   for (const Bytes& block : blocks) {
     put(out, at);

@@ -20,7 +20,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Values of all sizes, so that blocks of every kind come up: rows of noise are stored as they are.
+// Values of all magnitudes, so that both kinds of block occur: rows of noise are stored uncompressed.
 LinearImage make_image(int width, int height) {
   LinearImage image(width, height);
   for (int y = 0; y < height; ++y)
@@ -77,7 +77,7 @@ TEST(Exr, HalvesAreTheNearest) {
 }
 
 TEST(Exr, NumbersKeepTheirBits) {
-  // The library turns numbers into floats; these are exact in both.
+  // The library converts integers to floats; these integers are exact in both types.
   Plane<std::uint32_t> ids(5, 18);
   for (std::uint32_t i = 0; i < 90; ++i) ids.values()[i] = i * 0x0a0b00u;
   const ExrChannel y{"Y", ExrType::Number, nullptr, ids.values().data()};
@@ -140,7 +140,7 @@ TEST(Exr, AClaimOfManyPixelsTakesNoMemory) {
     const std::int32_t window[4] = {0, 0, 8191, 8191};
     std::memcpy(&*(at + static_cast<std::ptrdiff_t>(name.size()) + 1 + 6 + 4), window, sizeof window);
   }
-  bytes.resize(bytes.size() + (1 << 17));  // room for the table of its parts
+  bytes.resize(bytes.size() + (1 << 17));  // space for the table of chunk offsets
   const auto most_of_children = [] {
     rusage usage{};
     ::getrusage(RUSAGE_CHILDREN, &usage);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_side = 1 << 24;
 
-/// The order in which pixels are stored: scanlines go along one axis, one after the other along the other.
+/// The order of the pixels in the file: scanlines run along one axis and follow each other along the other axis.
 struct Scan {
   int width = 0, height = 0;
   bool is_by_columns = false;  ///< a scanline is a column
@@ -26,7 +26,7 @@ struct Scan {
   int length() const { return is_by_columns ? height : width; }
 };
 
-/// A number without sign at the front of `text`, which is taken off it; 0 where there is none.
+/// Takes an unsigned number from the front of `text`; 0 if there is none.
 int take_number(std::string_view& text) {
   long value = 0;
   while (!text.empty() && text.front() >= '0' && text.front() <= '9') {
@@ -36,7 +36,7 @@ int take_number(std::string_view& text) {
   return static_cast<int>(value);
 }
 
-/// The line that ends the header: "-Y 512 +X 1024", the outer axis first.
+/// Parses the resolution line, which ends the header: "-Y 512 +X 1024", the outer axis first.
 std::optional<Scan> parse_scan(std::string_view line) {
   Scan scan;
   bool has[2] = {};  // x, y
@@ -63,14 +63,14 @@ std::optional<Scan> parse_scan(std::string_view line) {
 struct Header {
   Scan scan;
   bool is_rgbe = true;
-  std::size_t end = 0;  ///< where the pixels begin
+  std::size_t end = 0;  ///< offset of the pixels
 };
 
 std::optional<Header> parse_header(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t most_header = std::size_t{1} << 16;
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), most_header));
   Header header;
-  bool is_over = false;  // the empty line was seen
+  bool is_over = false;  // the empty line after the header was found
   for (std::size_t at = 0;;) {
     const std::size_t end = text.find('\n', at);
     if (end == std::string_view::npos) return std::nullopt;
@@ -89,14 +89,14 @@ std::optional<Header> parse_header(std::span<const std::uint8_t> bytes) {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-/// Mantissas and exponent as light.
+/// Converts mantissas and exponent to linear colour.
 Linear light_of(Rgbe p) {
   if (p[3] == 0) return {0, 0, 0, 1};
   const auto unit = std::bit_cast<double>((std::uint64_t{p[3]} + 1023 - 136) << 52);  // 2^(exponent - 136)
   return {static_cast<float>(p[0] * unit), static_cast<float>(p[1] * unit), static_cast<float>(p[2] * unit), 1};
 }
 
-/// Unpacks scanlines one after the other; what is wrong ends in false.
+/// Decompresses scanlines one after the other; `read` returns false on corrupt data.
 class LineReader {
  public:
   explicit LineReader(std::span<const std::uint8_t> packed) : packed_(packed) {}
@@ -115,7 +115,8 @@ class LineReader {
  private:
   std::size_t left() const { return packed_.size() - at_; }
 
-  /// Channel by channel; a count above 128 repeats the byte behind it, another one copies as many.
+  /// Reads a scanline of the new run-length encoding, channel by channel: a count of 128 + n repeats the next byte n
+  /// times; another count is followed by that many literal bytes.
   bool read_channels(std::span<Rgbe> line) {
     for (std::size_t channel = 0; channel < 4; ++channel)
       for (std::size_t x = 0; x < line.size();) {
@@ -130,7 +131,8 @@ class LineReader {
     return true;
   }
 
-  /// Pixel by pixel; 1 1 1 n repeats the last one n times, and right after such a one 256 n times, and so on.
+  /// Reads a scanline of the old run-length encoding, pixel by pixel: 1 1 1 n repeats the last pixel n times; directly
+  /// after another repetition it repeats it n << 8 times, then n << 16, and so on.
   bool read_pixels(std::span<Rgbe> line) {
     int shift = 0;
     for (std::size_t x = 0; x < line.size();) {
@@ -157,7 +159,7 @@ class LineReader {
   Rgbe last_{};
 };
 
-/// Calls `put(x, y, pixel)` for every pixel, in the order in which they are stored.
+/// Calls `put(x, y, pixel)` for each pixel, in the order of the file.
 template <class Put>
 void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const std::string& name, const Put& put) {
   LineReader reader(packed);
@@ -175,7 +177,7 @@ void for_pixels(const Scan& scan, std::span<const std::uint8_t> packed, const st
   }
 }
 
-/// The image, each pixel as `to_pixel(light)`.
+/// Decodes an image whose pixels are `to_pixel(light)`.
 template <class Image, class ToPixel>
 Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
              const ToPixel& to_pixel) {

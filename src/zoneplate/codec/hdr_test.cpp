@@ -44,7 +44,7 @@ TEST(Hdr, MantissasAndExponent) {
 }
 
 TEST(Hdr, AllEightOrders) {
-  // Six pixels whose red counts how they are stored.
+  // Six pixels; the red channel is the index of the pixel in the file.
   Bytes pixels;
   for (std::uint8_t i = 0; i < 6; ++i) pixels.insert(pixels.end(), {static_cast<std::uint8_t>(10 + i), 0, 0, 136});
   const auto red = [&](const std::string& scan, int x, int y) {
@@ -63,14 +63,14 @@ TEST(Hdr, AllEightOrders) {
 }
 
 TEST(Hdr, NewRuns) {
-  // Red is a run of 10, green 4 + 6 plain ones, blue and exponent runs.
+  // Red is a run of 10, green consists of 4 + 6 literals, blue and exponent are runs.
   const Bytes line = {2, 2, 0, 10, 138, 50, 4, 1, 2, 3, 4, 6, 5, 6, 7, 8, 9, 10, 138, 9, 138, 136};
   Bytes two = line;
   two.insert(two.end(), line.begin(), line.end());
   const LinearImage image = decode_hdr(file_of("-Y 2 +X 10", two), "a.hdr");
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 10; ++x) EXPECT_EQ(image(x, y), (Linear{50, static_cast<float>(x + 1), 9, 1}));
-  EXPECT_EQ(error_of(file_of("-Y 1 +X 9", line)), "a.hdr: HDR: scanline 0 is corrupt or cut off");  // 10 is stated
+  EXPECT_EQ(error_of(file_of("-Y 1 +X 9", line)), "a.hdr: HDR: scanline 0 is corrupt or cut off");  // it has 10 pixels
   for (std::size_t n = 0; n < line.size(); ++n)
     EXPECT_NE(error_of(file_of("-Y 1 +X 10", Bytes(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(n)))),
               "no error")
@@ -81,7 +81,8 @@ TEST(Hdr, NewRuns) {
 }
 
 TEST(Hdr, OldRuns) {
-  // One pixel, 2 more of it, another one, and 256 + 3 of it: a run right behind a run counts 256ths.
+  // One pixel, 2 repetitions of it, another pixel, and 256 + 3 repetitions of that: a run directly after a run counts
+  // 256 times as much.
   const Bytes pixels = {5, 0, 0, 136, 1, 1, 1, 2, 6, 0, 0, 136, 1, 1, 1, 3, 1, 1, 1, 1};
   const LinearImage image = decode_hdr(file_of("-Y 1 +X 263", pixels), "a.hdr");
   for (int x = 0; x < 263; ++x) EXPECT_EQ(image(x, 0).r, x < 3 ? 5 : 6);
@@ -101,7 +102,8 @@ TEST(Hdr, RefusalsNameTheCause) {
 }
 
 TEST(Hdr, ASmallFileThatClaimsMuchIsLookedThroughFirst) {
-  // Every line is one pixel and its repetitions, the last one lacks them; whole it would be a gigabyte of light.
+  // Each line is one pixel and its repetitions; the repetitions of the last line are missing. The whole image would
+  // take a gigabyte.
   constexpr int side = 8192;
   Bytes pixels = {5, 0, 0, 136};
   for (int line = 0; line + 1 < side; ++line) pixels.insert(pixels.end(), {1, 1, 1, 255, 1, 1, 1, 31, 5, 0, 0, 136});

@@ -22,7 +22,7 @@ namespace {
 
 static_assert(sizeof(Rgba8) == 4, "rows are handed to libjpeg as they lie");
 
-/// libjpeg's error manager, with the place to which it jumps back and what it reported.
+/// libjpeg's error manager, with the longjmp target and the error message.
 struct Report {
   jpeg_error_mgr manager{};
   std::jmp_buf place;
@@ -35,23 +35,24 @@ struct Report {
   std::longjmp(report->place, 1);
 }
 
-/// libjpeg paints over damage and warns; only warnings of what leaves the image whole are let through.
+/// libjpeg conceals damage and warns; only warnings that do not concern the image data are accepted.
 void refuse_warning(j_common_ptr jpeg, int level) {
   const int code = jpeg->err->msg_code;
   if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_BOGUS_ICC) jump_back(jpeg);
 }
 
-/// A small file can hold very many passes over a large image: encoders write some ten of them, and few more tens are
-/// taken of an image so large that 200 would be 2^31 pixels.
+/// The limit of scans: a small file can contain very many scans of a large image. Encoders write about ten. The limit
+/// is 200, reduced for large images to 2^31 pixels in total, but not below 32.
 int most_scans(const jpeg_decompress_struct& jpeg) {
   constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31, least = 32, most = 200;
   const std::uint64_t pixels = std::max<std::uint64_t>(std::uint64_t{jpeg.image_width} * jpeg.image_height, 1);
   return static_cast<int>(std::clamp(most_pixels / pixels, least, most));
 }
 
-/// Called by libjpeg between rows of blocks, while scans are read and while pixels are made.
+/// libjpeg's progress monitor, called between rows of blocks while scans are read and pixels are decoded.
 ///
-/// An exception cannot pass through libjpeg's frames: the caller checks the deadline again after the jump.
+/// It does not throw, because exceptions cannot unwind libjpeg's frames: it jumps, and the caller checks the deadline
+/// again.
 void check_progress(j_common_ptr jpeg) {
   const auto* const decoder = reinterpret_cast<j_decompress_ptr>(jpeg);
   const bool has_time = [] {
@@ -100,7 +101,7 @@ class Reader {
     check_size(max_pixels);
     const bool is_cmyk = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
     jpeg_.out_color_space = is_cmyk ? JCS_CMYK : JCS_EXT_RGBA;
-    // The exact integer transform: the same codes on every machine.
+    // The exact integer transform gives the same codes on every machine.
     jpeg_.dct_method = JDCT_ISLOW;
     jpeg_.do_block_smoothing = FALSE;
 
@@ -111,7 +112,7 @@ class Reader {
   }
 
  private:
-  /// Runs `body`, in which nothing needs a destructor; false where libjpeg gave up.
+  /// Runs `body`, which must not need destructors; false if libjpeg reported an error.
   template <class Body>
   bool guarded(Body body) {
     if (setjmp(report_.place) != 0) return false;
@@ -139,7 +140,8 @@ class Reader {
                                         std::to_string(jpeg_.image_height) + " pixels, at most " +
                                         std::to_string(max_pixels) + " are allowed");
     }
-    // A Huffman code takes at least one bit for each 8 x 8 block: a small file that claims more is not whole.
+    // A Huffman code takes at least one bit per block of 8 x 8 pixels, so that a file with far fewer bytes is
+    // truncated.
     if (!jpeg_.arith_code && pixels / 1024 > bytes_.size()) throw Error(ErrorKind::Input, name_ + ": JPEG: truncated");
   }
 
@@ -156,7 +158,8 @@ class Reader {
     }));
   }
 
-  /// Inks as light that passes through all of them; files with Adobe's marker store light, others ink.
+  /// Converts CMYK to RGB: each ink transmits light, and the transmittances are multiplied. Files with Adobe's marker
+  /// store transmittance, others store ink.
   void mix_inks(Rgba8Image& image) const {
     const bool is_light = jpeg_.saw_Adobe_marker;
     const auto light = [&](int code) { return is_light ? code : 255 - code; };

@@ -14,14 +14,14 @@ namespace zoneplate {
 /// True for the first bytes of a JPEG.
 bool is_jpeg(std::span<const std::uint8_t> bytes);
 
-/// What the frame header of a JPEG states.
+/// The contents of a JPEG's frame header.
 struct JpegFrame {
   int2 size;
-  std::uint64_t samples = 0;  ///< of all components in one unit of `pixels`: 3 of 2 where colour is stored by halves
+  std::uint64_t samples = 0;  ///< samples of all components in `pixels` pixels: 6 in 4 with 4:2:0 subsampling
   std::uint64_t pixels = 1;
 };
 
-/// The frame header, as read by libjpeg; nothing if the bytes up to the first scan are not a valid JPEG.
+/// Reads the frame header with libjpeg; nothing if the bytes up to the first scan are not a valid JPEG.
 std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes);
 
 /// Errors    ErrorKind::Input with `name` in front: not a JPEG, truncated, corrupt, more than `max_pixels` pixels.

@@ -18,7 +18,7 @@ std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image) {
       image.height() > JPEG_MAX_DIMENSION)
     throw Error(ErrorKind::Failed, "an image of " + std::to_string(image.width()) + " x " +
                                        std::to_string(image.height()) + " pixels cannot be encoded as JPEG");
-  // Nothing can go wrong from here on but memory, where libjpeg ends the process as operator new would.
+  // From here on only memory allocation can fail, in which case libjpeg exits the process.
   jpeg_error_mgr errors{};
   jpeg_compress_struct jpeg{};
   jpeg.err = jpeg_std_error(&errors);

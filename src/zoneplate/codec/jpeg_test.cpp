@@ -29,13 +29,13 @@ struct Kind {
   bool is_subsampled = false;
 };
 
-/// A smooth image, of which a good JPEG keeps every code within a few.
+/// A smooth image: a good JPEG encoder changes each of its codes by only a few units.
 int smooth(int x, int y, int channel) {
   const double phase = 0.11 * x + 0.07 * y * (channel + 1) + channel;
   return static_cast<int>(std::lround(128 + 100 * std::sin(phase)));
 }
 
-/// A JPEG: `set_up(jpeg)` sets what the defaults do not, `fill(y, row)` gives each row.
+/// Compresses a JPEG: `set_up(jpeg)` changes the default parameters, `fill(y, row)` fills each row.
 template <class SetUp, class Fill>
 Bytes compressed(int width, int height, int channels, J_COLOR_SPACE space, SetUp set_up, Fill fill) {
   jpeg_error_mgr errors;
@@ -80,7 +80,7 @@ Bytes jpeg_of(int width, int height, const Kind& kind) {
   });
 }
 
-/// The greatest difference of a code from the smooth image, after `expected` has mixed its channels.
+/// The greatest difference between a code and `expected`, the smooth image after its channels were mixed.
 template <class Wanted>
 int worst_difference(const Rgba8Image& image, Wanted expected) {
   int worst = 0;
@@ -98,12 +98,12 @@ TEST(Jpeg, DecodesColorAndGrey) {
   for (const bool is_progressive : {false, true}) {
     for (const auto& [width, height] : {std::pair{1, 1}, std::pair{17, 9}, std::pair{64, 50}}) {
       const Bytes color = jpeg_of(width, height, {.is_progressive = is_progressive});
-      // Luma and chroma are rounded, each coefficient is, and chroma counts up to 1.8 fold.
+      // Errors: luma, chroma and each coefficient are rounded, and chroma is multiplied by up to 1.8.
       EXPECT_LE(worst_difference(decode_jpeg(color, "a"), smooth), 4);
       const Bytes grey = jpeg_of(width, height, {JCS_GRAYSCALE, JCS_GRAYSCALE, 1, is_progressive});
       const auto expected = [](int x, int y, int) { return smooth(x, y, 0); };
       EXPECT_LE(worst_difference(decode_jpeg(grey, "a"), expected), 2);
-      // Halved chroma blurs this image; it still is the image and not another.
+      // Subsampled chroma blurs the image; the tolerance still rejects a different image.
       const Bytes half = jpeg_of(width, height, {.is_progressive = is_progressive, .is_subsampled = true});
       EXPECT_LE(worst_difference(decode_jpeg(half, "a"), smooth), 20);
     }
@@ -111,7 +111,7 @@ TEST(Jpeg, DecodesColorAndGrey) {
 }
 
 TEST(Jpeg, MixesInks) {
-  // libjpeg writes Adobe's marker here: the codes are light, not ink.
+  // libjpeg writes Adobe's marker here: the codes are transmittance, not ink.
   const auto expected = [](int x, int y, int c) { return (smooth(x, y, c) * smooth(x, y, 3) + 127) / 255; };
   for (const J_COLOR_SPACE stored : {JCS_CMYK, JCS_YCCK}) {
     EXPECT_LE(worst_difference(decode_jpeg(jpeg_of(40, 30, {JCS_CMYK, stored, 4}), "a"), expected), 5);
@@ -174,7 +174,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedJpeg);
 INSTANTIATE_TEST_SUITE_P(Images, SharedJpeg, testing::ValuesIn(shared_files_ending("data/models", {".jpg"})));
 INSTANTIATE_TEST_SUITE_P(Invalid, SharedJpeg, testing::ValuesIn(shared_files_ending("data/invalid", {".jpg"})));
 
-/// A grey image in as many scans as a coefficient and a bit at a time give: 1 + 63 * 3.
+/// A grey image with one scan per coefficient and bit: 1 + 63 * 3 scans.
 Bytes in_many_scans(int size) {
   std::vector<jpeg_scan_info> scans = {{1, {0}, 0, 0, 0, 0}};
   for (int bit = 2; bit >= 0; --bit)

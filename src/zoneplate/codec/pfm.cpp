@@ -34,14 +34,15 @@ std::vector<std::uint8_t> encode(const Plane<T>& image, const char* kind, std::s
 struct Header {
   bool is_color = false, is_little_endian = false;
   int width = 0, height = 0;
-  std::size_t end = 0;  ///< where the pixels begin
+  std::size_t end = 0;  ///< offset of the pixels
 
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
 };
 
 bool is_space(std::uint8_t c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// The kind, the width, the height and the scale: words with white space between them and one white space at the end.
+/// Parses the header: type, width, height and scale, separated by white space and followed by one white-space
+/// character.
 std::optional<Header> parse_header(std::span<const std::uint8_t> bytes) {
   if (!is_pfm(bytes)) return std::nullopt;
   constexpr std::size_t longest_word = 64;

@@ -10,20 +10,20 @@
 
 namespace zoneplate {
 
-/// A portable float map: RGB floats, little-endian, rows from the bottom up; alpha is omitted.
+/// Encodes a portable float map: RGB floats, little-endian, rows from the bottom up; alpha is omitted.
 std::vector<std::uint8_t> encode_pfm(const LinearImage& image);
-/// The same with one float a pixel.
+/// Encodes a grey portable float map, one float per pixel.
 std::vector<std::uint8_t> encode_pfm(const Plane<float>& image);
 
 /// True for the first bytes of a portable float map.
 bool is_pfm(std::span<const std::uint8_t> bytes);
 
-/// Decodes a portable float map of either kind, colour ("PF") or grey ("Pf"), and either byte order.
+/// Decodes a portable float map, colour ("PF") or grey ("Pf"), in either byte order.
 ///
-/// Units     as stored: the scale of the header states the byte order by its sign, and its magnitude is not applied.
-///           Values that are not finite stay so. Alpha is 1; grey is equal red, green and blue.
-/// Errors    ErrorKind::Input with `name` in front: not a portable float map, another number of bytes than the header states,
-///           more than `max_pixels` pixels.
+/// Units     as stored: the sign of the header's scale is the byte order, and its magnitude is ignored. Values that are
+///           not finite are kept. Alpha is 1; grey gives equal red, green and blue.
+/// Errors    ErrorKind::Input with `name` in front: not a portable float map, another number of bytes than the header
+///           states, more than `max_pixels` pixels.
 /// Source    Debevec, PFM Portable FloatMap Image Format, 2001.
 LinearImage decode_pfm(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);

@@ -38,8 +38,8 @@ TEST(Pfm, RowsRunFromTheBottomUp) {
   const std::string head = "PF\n1 2\n-1.0\n";
   ASSERT_EQ(bytes.size(), head.size() + 24);
   EXPECT_EQ(std::string(bytes.begin(), bytes.begin() + 12), head);
-  EXPECT_EQ(bytes[head.size() + 3], 0x3f);   // 0.5f ends in 3f
-  EXPECT_EQ(bytes[head.size() + 23], 0x40);  // 3.0f in 40
+  EXPECT_EQ(bytes[head.size() + 3], 0x3f);   // the last byte of 0.5f
+  EXPECT_EQ(bytes[head.size() + 23], 0x40);  // the last byte of 3.0f
 }
 
 TEST(Pfm, WhatIsWrittenIsReadAgain) {
@@ -61,7 +61,7 @@ TEST(Pfm, EitherByteOrderAndAnyWhiteSpace) {
               one_and_two_little = {0, 0, 0x80, 0x3f, 0, 0, 0, 0x40};
   for (const char* head : {"Pf\n1 2\n1.0\n", "Pf 1\t2\r\n0.5\n", "Pf\n1\n2\n2e3 "}) {
     const LinearImage image = decode_pfm(file_of(head, one_and_two_big), "a.pfm");
-    EXPECT_EQ(image(0, 1).r, 1) << head;  // the bottom row is the first
+    EXPECT_EQ(image(0, 1).r, 1) << head;  // the bottom row is stored first
     EXPECT_EQ(image(0, 0).r, 2) << head;
   }
   EXPECT_EQ(decode_pfm(file_of("Pf\n2 1\n-1\n", one_and_two_little), "a.pfm")(1, 0).b, 2);
@@ -72,8 +72,8 @@ TEST(Pfm, RefusalsNameTheCause) {
   EXPECT_EQ(error_of(file_of("PF\n2 3\n-1.0\n", pixels)), "no error");
   EXPECT_EQ(error_of(file_of("PF\n2 3\n-1.0\n", pixels), 5), "a.pfm: PFM: 2 x 3 pixels, at most 5 are allowed");
   EXPECT_EQ(error_of(file_of("Pf\n2 3\n-1.0\n", pixels)), "a.pfm: PFM: 72 bytes of pixels, the header states 24");
-  EXPECT_EQ(error_of(file_of("PF\n2 3\n-1.0\r\n", pixels)),  // the pixels would begin a byte early
-            "a.pfm: PFM: 73 bytes of pixels, the header states 72");
+  // The header ends with a single white-space character: the pixels would begin one byte early.
+  EXPECT_EQ(error_of(file_of("PF\n2 3\n-1.0\r\n", pixels)), "a.pfm: PFM: 73 bytes of pixels, the header states 72");
   EXPECT_EQ(error_of(file_of("PF\n2 4\n-1.0\n", pixels)), "a.pfm: PFM: 72 bytes of pixels, the header states 96");
   for (const char* head : {"PF", "PF\n", "P6\n2 3\n-1.0\n", "PF\n2\n-1.0\n", "PF\n0 3\n-1.0\n", "PF\n-2 3\n-1.0\n",
                            "PF\n2 3\n0\n", "PF\n2 3\nnan\n", "PF\n2 3\ninf\n", "PF\n2 3\nx\n", "PF\n2 3\n-1.0x",

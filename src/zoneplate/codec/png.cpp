@@ -21,12 +21,12 @@ namespace {
 
 static_assert(sizeof(Rgba8) == 4 && sizeof(Rgba16) == 8, "rows are handed to libpng as they lie");
 
-/// What libpng reports, kept for the exception that follows when its frames are gone.
+/// The error message of libpng. It is kept until the stack frames of libpng are left, and then thrown as an exception.
 struct Report {
   std::array<char, 256> message{};
 };
 
-/// libpng cannot be left by an exception: it jumps back to `guarded`.
+/// libpng's error handler. An exception must not unwind libpng's frames, so that it jumps back to `guarded`.
 [[noreturn]] void jump_back(png_structp png, png_const_charp message) {
   auto* report = static_cast<Report*>(png_get_error_ptr(png));
   std::strncpy(report->message.data(), message, report->message.size() - 1);
@@ -35,7 +35,7 @@ struct Report {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-/// Runs `body`, in which nothing needs a destructor; false where libpng gave up.
+/// Runs `body`, which must not need destructors; false if libpng reported an error.
 template <class Body>
 bool guarded(png_structp png, Body body) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -43,7 +43,7 @@ bool guarded(png_structp png, Body body) {
   return true;
 }
 
-/// The compressed bytes and how far they are read.
+/// The compressed bytes that are not yet read.
 struct Input {
   std::span<const std::uint8_t> bytes;
 };
@@ -70,7 +70,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// The image in the file's own depth.
+  /// The image at the bit depth of the file, 8 or 16.
   PngImage decode(std::uint64_t max_pixels) {
     check(guarded(png_, [this] { read_header(); }));
     check_size(max_pixels);
@@ -94,7 +94,7 @@ class Reader {
   }
 
   void read_header() {
-    // Only what makes up the image is read: no text, no profiles, no time. Whatever is wrong is an error.
+    // Only chunks that define the image are read: no text, profiles or time. Every defect is an error.
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_set_benign_errors(png_, 0);
@@ -111,7 +111,8 @@ class Reader {
       throw Error(ErrorKind::Input, name_ + ": PNG: " + std::to_string(width) + " x " + std::to_string(height) +
                                         " pixels, at most " + std::to_string(max_pixels) + " are allowed");
     }
-    // Deflate makes at most 1032 bytes of one: a small file that claims more is not worth the memory.
+    // Deflate expands a byte to at most 1032 bytes: a file that claims more is truncated, and no memory is allocated
+    // for it.
     if (png_get_rowbytes(png_, info_) * height / 1032 > size_) {
       throw Error(ErrorKind::Input, name_ + ": PNG: the file is truncated");
     }
@@ -128,7 +129,7 @@ class Reader {
       for (int pass = 0; pass < passes; ++pass) {
         for (int y = 0; y < height; ++y) {
           constexpr int rows_per_check = 16;
-          if (y % rows_per_check == 0) check_deadline();  // it throws from here, not from within libpng
+          if (y % rows_per_check == 0) check_deadline();  // here, because an exception must not unwind libpng's frames
           png_read_row(png_, pixels + static_cast<std::size_t>(y) * stride, nullptr);
         }
       }
@@ -171,7 +172,7 @@ PngImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name
 
 namespace {
 
-/// What is to be written, as libpng describes it.
+/// The image to be written, as libpng describes it.
 struct Rows {
   const void* pixels;
   int width, height;
@@ -226,7 +227,7 @@ class Writer {
   }
 
  private:
-  /// tEXt holds Latin-1; where a text has other letters, iTXt takes its place.
+  /// The texts of the file: tEXt chunks for ASCII, iTXt chunks for others, because tEXt is Latin-1.
   static std::vector<png_text> describe(const PngOptions& options) {
     std::vector<png_text> all;
     for (const auto& [key, value] : options.text) {
@@ -252,7 +253,7 @@ class Writer {
     if (options.is_srgb) png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!text.empty()) png_set_text(png_, info_, text.data(), static_cast<int>(text.size()));
 
-    // Rendered images: rows differ little from the row above, and runs of zeros are what then remains.
+    // The rows of a rendered image differ little from the row above, so that filtering leaves runs of zeros.
     png_set_compression_level(png_, options.is_small ? Z_BEST_COMPRESSION : Z_BEST_SPEED);
     png_set_compression_strategy(png_, options.is_small ? Z_DEFAULT_STRATEGY : Z_RLE);
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, rows.filters);
@@ -274,7 +275,8 @@ class Writer {
   png_infop info_ = nullptr;
 };
 
-/// For small files, filters help with shaded images and hurt with drawn ones: both are tried.
+/// Encodes an image. If it has to be small, the smaller of two encodings is returned: filters shorten shaded images but
+/// lengthen drawings.
 std::vector<std::uint8_t> encode(Rows rows, const PngOptions& options) {
   if (!options.is_small) return Writer().encode(rows, options);
   rows.filters = PNG_FILTER_NONE;
@@ -295,7 +297,7 @@ std::vector<std::uint8_t> encode(const Plane<T>& image, const PngOptions& option
 
 std::uint32_t word_of(Rgba8 c) { return std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b; }
 
-/// The colours of an image, rising, alpha left out; empty where there are more than 256.
+/// The colours of an image without alpha, sorted; empty if there are more than 256.
 std::vector<std::uint32_t> colors_of(const Rgba8Image& image) {
   std::vector<std::uint32_t> colors;
   std::uint32_t last = ~std::uint32_t{0};

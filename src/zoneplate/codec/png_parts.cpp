@@ -15,10 +15,10 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// The size of a part: large enough to amortize a Huffman code of its own, small enough for the code to fit the data.
+// The size of a part: large enough to amortize its own Huffman code, small enough for that code to adapt to the data.
 constexpr std::size_t part_size = std::size_t{1} << 17;
 
-/// Some rows of the image on their way to an IDAT chunk.
+/// A compressed group of rows, the contents of one IDAT chunk.
 struct Part {
   Bytes data;
   std::uint32_t crc = 0;    ///< of the chunk's name and data
@@ -50,7 +50,7 @@ class PartWriter {
     }
 
     Part part{.adler = kernels_.adler(rows.data(), rows.size()), .size = rows.size()};
-    // The stream begins with its method, a window of 32 KiB, and a word on the effort.
+    // The zlib header: the method, a window of 32 KiB, and the compression level.
     if (first_row == 0) part.data = {0x78, 0x01};
     deflate_part(rows, end_row == image_.height(), part.data);
     part.crc = png_checksum(png_checksum(0, Bytes{'I', 'D', 'A', 'T'}), part.data);
@@ -80,7 +80,7 @@ std::vector<std::uint8_t> encode_png_parts(const Rgba8Image& image, const PngOpt
     adler = adler32_combine(adler, part.adler, static_cast<z_off_t>(part.size));
     size += part.data.size() + 12;
   }
-  // The stream ends with the checksum of all that is in it.
+  // The stream ends with the checksum of all filtered rows.
   Bytes sum;
   put_png_word(sum, static_cast<std::uint32_t>(adler));
   parts.back().data.insert(parts.back().data.end(), sum.begin(), sum.end());

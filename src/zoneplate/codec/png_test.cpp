@@ -23,7 +23,7 @@ enum ColorType { Grey = 0, Rgb = 2, Indexed = 3, GreyAlpha = 4, RgbAlpha = 6 };
 
 int channels_of(ColorType type) { return type == Rgb ? 3 : type == GreyAlpha ? 2 : type == RgbAlpha ? 4 : 1; }
 
-/// An image of noise to be written by hand, as independent of libpng as zlib allows.
+/// An image of noise and its encoder, which uses zlib but not libpng.
 struct Noise {
   int width, height, bit_depth;
   ColorType type;
@@ -53,7 +53,7 @@ void append_chunk(Bytes& png, std::string_view name, const Bytes& data) {
   append(png, static_cast<std::uint32_t>(crc32(0, body.data(), static_cast<uInt>(body.size()))));
 }
 
-/// The rows of one pass, each with filter 0 in front, samples packed from the highest bit.
+/// Appends the rows of one interlace pass: each with filter type 0, samples packed from the most significant bit.
 void append_pass(Bytes& raw, const Noise& noise, int x0, int y0, int dx, int dy) {
   if (x0 >= noise.width) return;
   for (int y = y0; y < noise.height; y += dy) {
@@ -121,7 +121,7 @@ Bytes png_of(const Noise& noise) {
   return png;
 }
 
-/// The pixel that the noise stands for, with 16 bits a channel.
+/// The decoded pixel of the noise, with 16 bits per channel.
 Rgba16 wanted_pixel(const Noise& noise, int x, int y) {
   const auto widened = [&](int channel) {
     return static_cast<std::uint16_t>(noise.sample(x, y, channel) * 65535u / noise.greatest());
@@ -154,8 +154,8 @@ void expect_decodes(const Noise& noise) {
     for (int x = 0; x < noise.width; ++x) {
       const Rgba16 expected = wanted_pixel(noise, x, y);
       const auto rounded = [](int code) { return static_cast<std::uint8_t>((2 * code + 257) / 514); };
-      const Rgba8 wanted8{rounded(expected.r), rounded(expected.g), rounded(expected.b), rounded(expected.a)};
-      ASSERT_EQ(image.pixels(x, y), wanted8) << "type " << noise.type << ", " << noise.bit_depth << " bits";
+      const Rgba8 expected8{rounded(expected.r), rounded(expected.g), rounded(expected.b), rounded(expected.a)};
+      ASSERT_EQ(image.pixels(x, y), expected8) << "type " << noise.type << ", " << noise.bit_depth << " bits";
       if (noise.bit_depth == 16) {
         ASSERT_EQ(image.pixels16(x, y), expected);
       }
@@ -234,8 +234,8 @@ TEST(Png, EncodesAndDecodesTheSamePixels) {
   }
 }
 
-/// The names of the chunks in order, and the data of the last with the given name.
-std::pair<std::string, std::string> chunks_of(const Bytes& png, std::string_view asked) {
+/// The names of the chunks in order, and the data of the last one called `chosen`.
+std::pair<std::string, std::string> chunks_of(const Bytes& png, std::string_view chosen) {
   std::string names, data;
   for (std::size_t at = 8; at + 12 <= png.size();) {
     const std::size_t size = (std::size_t{png[at]} << 24) | (std::size_t{png[at + 1]} << 16) |
@@ -243,7 +243,7 @@ std::pair<std::string, std::string> chunks_of(const Bytes& png, std::string_view
     const std::string name(png.begin() + static_cast<std::ptrdiff_t>(at) + 4,
                            png.begin() + static_cast<std::ptrdiff_t>(at) + 8);
     names += name + " ";
-    if (name == asked) {
+    if (name == chosen) {
       data.assign(png.begin() + static_cast<std::ptrdiff_t>(at) + 8,
                   png.begin() + static_cast<std::ptrdiff_t>(at + 8 + size));
     }
@@ -302,12 +302,12 @@ TEST(Png, SaysWhatIsWrong) {
 }
 
 TEST(Png, RefusesEveryFlippedBit) {
-  // Each bit of a file without ancillary chunks is held by the signature, a checksum or a length.
+  // Every bit of a file without ancillary chunks belongs to the signature, to data with a checksum, or to a length.
   const Bytes good = png_of({5, 4, 8, Rgb});
   for (std::size_t i = 0; i < good.size() * 8; ++i) {
     Bytes bad = good;
     bad[i / 8] = static_cast<std::uint8_t>(bad[i / 8] ^ (1 << (i % 8)));
-    // A chunk with another name may be an ancillary one, which is not read; it leaves no image all the same.
+    // A damaged name may make a chunk ancillary, which is skipped; the image data is then missing.
     EXPECT_NE(error_of(bad), "") << "bit " << i;
   }
 }
@@ -324,7 +324,7 @@ TEST(Png, ClaimsWithoutDataCostNothing) {
   EXPECT_EQ(error_of(png), "a.png: PNG: the file is truncated");
 }
 
-/// Gives the chunks that are still there their right checksums, so that damage reaches the decoder behind them.
+/// Corrects the checksums of the remaining chunks, so that damage reaches the decoder behind them.
 void mend_checksums(Bytes& png) {
   for (std::size_t at = 8; at + 12 <= png.size();) {
     const std::size_t size = (std::size_t{png[at]} << 24) | (std::size_t{png[at + 1]} << 16) |
@@ -370,7 +370,7 @@ INSTANTIATE_TEST_SUITE_P(Images, SharedPng, testing::ValuesIn(shared_files_endin
 INSTANTIATE_TEST_SUITE_P(Invalid, SharedPng, testing::ValuesIn(shared_files_ending("data/invalid", {".png"})));
 
 TEST(PngChunk, EndsInTheChecksumOfNameAndData) {
-  // The specification's own end of a file, and the check value of its CRC ("123456789" gives cbf43926).
+  // The IEND chunk of the specification, and the check value of the CRC ("123456789" gives cbf43926).
   Bytes out{1};
   put_png_chunk(out, "IEND", {});
   EXPECT_EQ(out, (Bytes{1, 0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82}));

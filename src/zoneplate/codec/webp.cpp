@@ -13,8 +13,8 @@
 namespace zoneplate {
 namespace {
 
-constexpr float effort = 60;  // of 100, for lossless files: above, time grows and size hardly falls
-constexpr int method = 4;     // of 6, the same trade
+constexpr float effort = 60;  // of 100, for lossless files: more effort takes longer and hardly shrinks the file
+constexpr int method = 4;     // of 6, the same compromise
 
 [[noreturn]] void fail(const std::string& reason) {
   throw Error(ErrorKind::Failed, "an animation cannot be encoded as WebP: " + reason);
@@ -25,7 +25,7 @@ struct Close {
 };
 using Encoder = std::unique_ptr<WebPAnimEncoder, Close>;
 
-/// An image of libwebp, freed at the end.
+/// Owns a WebPPicture.
 class Picture {
  public:
   Picture(const Rgba8Image& image, bool has_alpha) {

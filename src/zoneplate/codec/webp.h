@@ -10,11 +10,11 @@ namespace zoneplate {
 
 /// An animated WebP file.
 ///
-/// Units     WebP counts milliseconds: frame i begins at round(1000 i seconds / per), so that the error does not add
-/// up.
+/// Units     WebP stores whole milliseconds: frame i begins at round(1000 i seconds / per), so that rounding errors do
+///           not accumulate.
 ///
 /// Exact     lossless, including the colours of transparent pixels; the same bytes with the same version of libwebp.
-/// Errors    ErrorKind::Failed with libwebp's reason; sides above 16383 pixels are one.
+/// Errors    ErrorKind::Failed with libwebp's reason, for example sides above 16383 pixels.
 std::vector<std::uint8_t> encode_webp(const Animation& animation);
 
 }  // namespace zoneplate

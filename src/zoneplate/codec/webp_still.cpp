@@ -34,8 +34,8 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   const auto pixels = static_cast<std::uint64_t>(features.width) * static_cast<std::uint64_t>(features.height);
   if (pixels > max_pixels)
     fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");
-  // Few bytes may well be an image of one colour, but what is not one must not take its memory: libwebp's own is
-  // taken as it is written.
+  // A small file can be a valid image of one colour. If it claims many pixels, libwebp first decodes it into its own
+  // buffer, of which only the written pages take memory, so that a corrupt file takes none.
   constexpr std::uint64_t most_per_byte = 256;
   check_deadline();
   if (pixels / most_per_byte > bytes.size()) {
@@ -59,8 +59,8 @@ std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
   if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
     throw Error(ErrorKind::Failed, "libwebp has another version than its headers");
   config.lossless = 1;
-  config.exact = 1;     // colours that alpha hides are kept: filters mix them in
-  config.quality = 70;  // the effort; as libwebp's own short functions have it
+  config.exact = 1;     // keeps the colours of transparent pixels, because filters blend them
+  config.quality = 70;  // the effort, the same as in libwebp's simple API
 
   WebPMemoryWriter writer;
   WebPMemoryWriterInit(&writer);

@@ -15,7 +15,7 @@ namespace zoneplate {
 /// True for the first bytes of a WebP file.
 bool is_webp(std::span<const std::uint8_t> bytes);
 
-/// Width and height as a WebP's header states them.
+/// Width and height as the header of a WebP file states them.
 std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 
 /// Decodes a WebP image.
@@ -23,7 +23,8 @@ std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 /// Errors    ErrorKind::Input with `name` in front: corrupt, animated, more than `max_pixels`.
 Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
-/// A lossless WebP file, including the colours of transparent pixels; without `has_alpha`, alpha is not written.
+/// Encodes a lossless WebP file, including the colours of transparent pixels; without `has_alpha`, alpha is not
+/// written.
 ///
 /// Exact     the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed: sides above 16383 pixels.

@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-// Noise over patches of every alpha, so that nothing of a colour can be guessed from another.
+// Noise with alpha values of all kinds, so that no colour can be predicted from another.
 Rgba8Image make_image() {
   Rgba8Image image(37, 23);
   for (std::uint32_t i = 0; i < image.values().size(); ++i) {
@@ -42,7 +42,7 @@ TEST(WebpStill, RefusesWhatTheFormatCannotHold) {
 }
 
 TEST(WebpStill, AClaimOfManyPixelsTakesNoMemory) {
-  // 16384 x 16384 pixels without loss, of which nothing is there.
+  // A lossless image of 16384 x 16384 pixels without pixel data.
   std::vector<std::uint8_t> bytes = {'R',  'I', 'F', 'F', 26, 0, 0,    0,    'W',  'E',  'B',  'P',
                                      'V',  'P', '8', 'L', 13, 0, 0,    0,    0x2f, 0xff, 0xff, 0xff,
                                      0x0f, 0,   0,   0,   0,  0, 0xff, 0xff, 0xff, 0xff};

@@ -28,7 +28,7 @@ struct Close {
   void operator()(WebPAnimDecoder* decoder) const { WebPAnimDecoderDelete(decoder); }
 };
 
-/// What a player shows, and when each frame ends.
+/// The frames that a player displays, and the end times of the frames.
 struct Played {
   std::vector<Rgba8Image> frames;
   std::vector<int> ends;

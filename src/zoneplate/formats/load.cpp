@@ -28,7 +28,7 @@ constexpr SceneFormat formats[] = {{".gltf", "glTF 2.0, with its buffers and ima
 
 Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
 
-/// Refuses a choice where there is none.
+/// Returns the limits; throws if the options choose a scene, variant or animation, which only glTF files have.
 const LoadLimits& limits_of(const LoadOptions& o) {
   const SceneChoice& c = o.choice;
   if (c.scene || c.animation || !c.variant.empty())
@@ -96,7 +96,7 @@ Scene read_watched(const std::string& name, const LoadOptions& options) {
   return scene;
 }
 
-/// read_watched in a child process with limits on its resources.
+/// Calls read_watched in a child process with limits of its resources.
 Scene read_in_child(const std::string& name, const LoadOptions& options) {
   ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
   LimitedChild child(
@@ -137,7 +137,7 @@ std::vector<std::string> readable_paths(const std::string& name, const LoadOptio
 
 struct SceneSource::OpenFile {
   MappedFileWatch watch;
-  std::unique_ptr<GltfModel> gltf;  ///< null: the file is read anew for each scene
+  std::unique_ptr<GltfModel> gltf;  ///< null: the file is read again for each scene
 };
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {

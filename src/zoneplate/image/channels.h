@@ -8,7 +8,7 @@
 
 namespace zoneplate {
 
-/// A row of pixels as floats: channels × width values, the channels of a pixel contiguous.
+/// The floats of a pixel. A row is an array of channels × width floats, with the channels of a pixel contiguous.
 template <class Pixel>
 inline constexpr std::size_t channels = sizeof(Pixel) / sizeof(float);
 

@@ -9,9 +9,9 @@
 
 namespace zoneplate {
 
-/// The display transform of a pixel, with the background converted.
+/// The parameters of the display transform of a pixel, with the background converted.
 struct DisplayStep {
-  ToneMapping mapping = ToneMapping::None;  ///< None where raw
+  ToneMapping mapping = ToneMapping::None;  ///< None for raw output
   float exposure = 1;
   bool is_encoded = true;
   bool is_transparent = false;
@@ -22,7 +22,7 @@ struct DisplayStep {
 struct TonemapKernels : PerIsa<TonemapKernels> {
   /// n pixels of four floats: Linear in, Display out.
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
-  /// The same of n groups of eight pixels, and quantize8 of that.
+  /// Applies display_row and quantize8 to n groups of eight pixels.
   void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
 };
 

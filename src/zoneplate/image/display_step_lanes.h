@@ -13,7 +13,7 @@ namespace zoneplate {
 /// The constants of the tone curves.
 namespace tone {
 
-/// Light above this counts as this, which keeps every intermediate value finite.
+/// Light is clamped to this value, which keeps every intermediate value finite.
 inline constexpr float greatest = 0x1p24f;
 
 /// Hill's fit: by rows, sRGB to the space of the curve and back, and the curve (v (v + a) - b) / (v (c v + d) + e).
@@ -57,7 +57,7 @@ inline constexpr float filmic_exposure = 2, filmic_white = 11.2f;
 
 }  // namespace tone
 
-/// A colour in each lane.
+/// One colour per lane.
 template <class F>
 struct ColorLanes {
   F r, g, b;
@@ -84,8 +84,8 @@ template <class F>
   return times(tone::aces_out, each(times(tone::aces_in, exposed), curve));
 }
 
-/// Hue is kept: up to `neutral_start` only the light that a dielectric reflects is taken off, above it the peak is
-/// compressed towards 1 and the colour towards white.
+/// Keeps the hue: up to `neutral_start` only the reflectance of a dielectric is subtracted; above it the peak is
+/// compressed towards 1 and the colour is blended towards white.
 template <class F>
 [[gnu::always_inline]] inline ColorLanes<F> map_neutral(const ColorLanes<F>& color) {
   const F start(tone::neutral_start), one(1.0f), f90(tone::neutral_f90);
@@ -156,13 +156,13 @@ template <ToneMapping mapping, class F>
   const F a = clamp_unit(linear.alpha);
   const auto encoded = [&](F x) { return step.is_encoded ? encode_srgb(x) : clamp_unit(x); };
 
-  // Where all is opaque, nothing is divided and nothing shines through: x / 1, x 1 + 0 and a > 0 change no bit.
+  // If all pixels are opaque, the division and the background are skipped: x / 1, x 1 + 0 and a > 0 change no bit.
   if (all(a == one)) {
     const ColorLanes<F> mapped = tone_map<mapping>(each(linear.color, [&](F x) { return x * exposure; }));
     return {step.is_encoded ? each(mapped, encoded) : mapped, one};
   }
 
-  // Where nothing is, there is the background alone.
+  // Empty pixels have the background only.
   if (all(a == zero)) return {{F(step.code[0]), F(step.code[1]), F(step.code[2])}, F(step.code[3])};
   const auto is_seen = a > zero;
   const ColorLanes<F> mapped =
@@ -194,7 +194,7 @@ template <ToneMapping mapping, class F>
 [[gnu::always_inline]] inline void show_pixels(const DisplayStep& step, const Linear8* linear, Rgba8* shown,
                                                std::size_t n) {
   static_assert(sizeof(Rgba8) == 4 && Linear8::size % F::lanes == 0);
-  // 0 to 255; x in [0, 1].
+  // Codes 0 to 255, for x in [0, 1].
   const auto codes = [](F x) { return truncate(x * F(255.0f) + F(0.5f)); };
   for (const Linear8* group = linear; group != linear + n; ++group)
     for (std::size_t k = 0; k < Linear8::size; k += F::lanes, shown += F::lanes) {

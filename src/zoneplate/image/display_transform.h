@@ -9,18 +9,18 @@
 
 namespace zoneplate {
 
-/// make_display of some pixels without the encoding: straight linear light in [0, 1], four floats a pixel.
+/// make_display of some pixels without the encoding: straight linear light in [0, 1], four floats per pixel.
 void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light);
 
-/// make_display of some pixels: straight and encoded, four floats a pixel.
+/// make_display of some pixels: straight and encoded, four floats per pixel.
 void show_encoded(std::span<const Linear> pixels, const DisplayOptions& options, float* encoded);
 
-/// quantize8 of make_display, a few pixels at a time, while they are in the cache.
+/// make_display followed by quantize8, a few pixels at a time, while they are in the cache.
 class DisplayTransform {
  public:
   explicit DisplayTransform(const DisplayOptions& options);
 
-  /// `out` has eight pixels for each group.
+  /// `out` has capacity for eight pixels per group.
   void present(std::span<const Linear8> groups, Rgba8* out) const;
   /// The display-referred colour of empty pixels.
   Rgba8 background() const { return background_; }

@@ -8,7 +8,7 @@ namespace zoneplate {
 
 /// The bits of the 16-bit float (IEEE 754 binary16) nearest to `value`, ties to even.
 ///
-/// Edges     values above 65504, including infinity, become 65504: no pixel becomes infinite; NaN becomes 0.
+/// Edges     values above 65504, including infinity, become 65504, so that no pixel becomes infinite; NaN becomes 0.
 /// Exact     integer arithmetic only.
 constexpr std::uint16_t half_bits(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value), sign = bits >> 16 & 0x8000;
@@ -16,9 +16,9 @@ constexpr std::uint16_t half_bits(float value) {
   if (size > 0x7f800000) return 0;
   if (size >= 0x477fe000) return static_cast<std::uint16_t>(sign | 0x7bff);
   const std::uint32_t exponent = size >> 23;
-  if (exponent < 102) return static_cast<std::uint16_t>(sign);  // below half of the least half
+  if (exponent < 102) return static_cast<std::uint16_t>(sign);  // below half of the least positive half
 
-  // The significand loses 13 bits, more where the result has no leading one (below 2^-14).
+  // The significand loses 13 bits, or more if the result is subnormal (below 2^-14).
   const bool is_small = exponent < 113;
   const std::uint32_t lost = is_small ? 126 - exponent : 13;
   const std::uint32_t from = is_small ? (size & 0x7fffff) | 0x800000 : size - (112u << 23);
@@ -27,7 +27,7 @@ constexpr std::uint16_t half_bits(float value) {
   return static_cast<std::uint16_t>(sign | (kept + rounds_up));
 }
 
-/// A 16-bit float in memory.
+/// A 16-bit float as it is stored.
 struct Half {
   std::uint16_t bits;
   bool operator==(const Half&) const = default;

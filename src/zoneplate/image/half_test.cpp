@@ -18,7 +18,7 @@ TEST(Half, EveryFiniteOneComesBack) {
 
 TEST(Half, MiddlesGoToTheEvenOne) {
   for (std::uint32_t bits = 0; bits < 0x7bff; ++bits) {
-    // Both halves and their middle are exact as floats.
+    // Both half-precision values and their midpoint are exact as floats.
     const auto low = static_cast<std::uint16_t>(bits), high = static_cast<std::uint16_t>(bits + 1);
     const float middle = (half_value(low) + half_value(high)) / 2;
     EXPECT_EQ(half_bits(middle), bits & 1 ? high : low) << bits;

@@ -8,7 +8,7 @@
 
 namespace zoneplate {
 
-/// FNV-1a over the bits of a linear picture.
+/// FNV-1a over the bits of a linear image.
 inline std::uint64_t hash_of(const LinearImage& image) {
   std::uint64_t h = 0xcbf29ce484222325u;
   for (const Linear& c : image.values())

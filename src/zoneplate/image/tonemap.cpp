@@ -79,7 +79,7 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
   const TonemapKernels& kernels = TonemapKernels::of();
   const DisplayStep step = make_step(options);
   DisplayImage display(image.width(), image.height());
-  // Blocks of pixels rather than rows, so that a thin image is shared out as well.
+  // Blocks of pixels and not rows, so that a narrow image is parallelized too.
   parallel_ranges(image.values().size(), 8192, [&](std::size_t begin, std::size_t end) {
     kernels.display_row(step, &image.values()[begin].r, &display.values()[begin].r, end - begin);
   });

@@ -24,10 +24,10 @@ constexpr ToneMapping every_curve[] = {ToneMapping::None, ToneMapping::Aces, Ton
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-void expect_near(float3 found, float3 wanted, float tolerance) {
-  EXPECT_NEAR(found.x, wanted.x, tolerance);
-  EXPECT_NEAR(found.y, wanted.y, tolerance);
-  EXPECT_NEAR(found.z, wanted.z, tolerance);
+void expect_near(float3 found, float3 expected, float tolerance) {
+  EXPECT_NEAR(found.x, expected.x, tolerance);
+  EXPECT_NEAR(found.y, expected.y, tolerance);
+  EXPECT_NEAR(found.z, expected.z, tolerance);
 }
 
 TEST(Tonemap, NoneClamps) {
@@ -35,18 +35,18 @@ TEST(Tonemap, NoneClamps) {
   EXPECT_EQ(tone_map({nan, infinity, -infinity}, ToneMapping::None), (float3{0, 1, 0}));
 }
 
-/// Hill's fit for greys: the rows of both matrices sum to 1 within 1e-5, so that it is the curve alone.
+/// Hill's fit for greys: the rows of both matrices sum to 1 within 1e-5, so that only the curve remains.
 TEST(Tonemap, AcesOfGreyIsItsCurve) {
   for (const double grey : {0.0, 0.01, 0.18, 0.5, 1.0, 4.0, 30.0}) {
     const double v = grey / 0.6;
     const double curve = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
-    const auto wanted = static_cast<float>(std::clamp(curve, 0.0, 1.0));
+    const auto expected = static_cast<float>(std::clamp(curve, 0.0, 1.0));
     const auto x = static_cast<float>(grey);
-    expect_near(tone_map({x, x, x}, ToneMapping::Aces), {wanted, wanted, wanted}, 5e-5f);
+    expect_near(tone_map({x, x, x}, ToneMapping::Aces), {expected, expected, expected}, 5e-5f);
   }
 }
 
-/// A saturated colour, worked out by hand in double precision.
+/// A saturated colour, computed independently in double precision.
 TEST(Tonemap, AcesOfRed) {
   const double v[3] = {0.59719 / 0.6, 0.07600 / 0.6, 0.02840 / 0.6};
   double c[3];
@@ -54,10 +54,10 @@ TEST(Tonemap, AcesOfRed) {
     c[i] = (v[i] * (v[i] + 0.0245786) - 0.000090537) / (v[i] * (0.983729 * v[i] + 0.4329510) + 0.238081);
   }
   const auto unit = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
-  const float3 wanted = {unit(1.60475 * c[0] - 0.53108 * c[1] - 0.07367 * c[2]),
-                         unit(-0.10208 * c[0] + 1.10813 * c[1] - 0.00605 * c[2]),
-                         unit(-0.00327 * c[0] - 0.07276 * c[1] + 1.07602 * c[2])};
-  expect_near(tone_map({1, 0, 0}, ToneMapping::Aces), wanted, 1e-6f);
+  const float3 expected = {unit(1.60475 * c[0] - 0.53108 * c[1] - 0.07367 * c[2]),
+                           unit(-0.10208 * c[0] + 1.10813 * c[1] - 0.00605 * c[2]),
+                           unit(-0.00327 * c[0] - 0.07276 * c[1] + 1.07602 * c[2])};
+  expect_near(tone_map({1, 0, 0}, ToneMapping::Aces), expected, 1e-6f);
 }
 
 TEST(Tonemap, NeutralKeepsBaseColorAndCompressesTheRest) {
@@ -65,7 +65,7 @@ TEST(Tonemap, NeutralKeepsBaseColorAndCompressesTheRest) {
   expect_near(tone_map({0.54f, 0.34f, 0.14f}, ToneMapping::Neutral), {0.5f, 0.3f, 0.1f}, 1e-6f);
   // By hand: least 0.04 gives offset 0.04 - 6.25 0.0016 = 0.03.
   expect_near(tone_map({0.54f, 0.34f, 0.04f}, ToneMapping::Neutral), {0.51f, 0.31f, 0.01f}, 1e-6f);
-  // A grey of 1.04: peak 1, new peak 1 - 0.0576 / 0.48 = 0.88, and a grey has no hue to lose.
+  // A grey of 1.04: peak 1, new peak 1 - 0.0576 / 0.48 = 0.88; a grey has no hue to desaturate.
   expect_near(tone_map({1.04f, 1.04f, 1.04f}, ToneMapping::Neutral), {0.88f, 0.88f, 0.88f}, 1e-6f);
   // (1.04, 0.54, 0.04 + 0.04): peak 1; white = 1 - 1 / (0.15 0.12 + 1).
   const float white = 1 - 1 / 1.018f;
@@ -181,11 +181,11 @@ TEST(MakeDisplay, BackgroundIsShownAsItIs) {
 }
 
 TEST(MakeDisplay, HalfCoveredPixelsMixLight) {
-  // White of half coverage over black, and over white: the mean light.
+  // White with half coverage over black, and over white: the mean of the light.
   const Linear half = {0.5f, 0.5f, 0.5f, 0.5f};
   EXPECT_EQ(shown(half, {}), (Display{encode_srgb(0.5f), encode_srgb(0.5f), encode_srgb(0.5f), 1}));
   EXPECT_EQ(shown(half, {.background = {1, 1, 1, 1}}), (Display{1, 1, 1, 1}));
-  // Over a background of half coverage: alpha 3/4, of which 2/3 are white.
+  // Over a background with half coverage: alpha 3/4, of which 2/3 are white.
   const Display over = shown(half, {.background = {0, 0, 0, 0.5f}});
   EXPECT_FLOAT_EQ(over.a, 0.75f);
   EXPECT_NEAR(over.r, encode_srgb(2.0f / 3), 1e-6f);
@@ -197,7 +197,7 @@ TEST(MakeDisplay, TransparentPicturesKeepStraightColor) {
   EXPECT_EQ(shown({3, 2, 1, 0}, options), (Display{0, 0, 0, 0}));
 }
 
-/// Pixels of every sort: opaque, covered in part, empty, over-bright and broken.
+/// Pixels of all kinds: opaque, partially covered, empty, over-bright and not finite.
 std::vector<float> pixels(std::uint32_t n, std::uint32_t seed) {
   std::vector<float> values(4 * std::size_t{n});
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -231,10 +231,10 @@ TEST(MakeDisplay, EveryInstructionSetGivesTheSameBits) {
     for (std::uint32_t n = 0; n <= 200; ++n) {
       const std::vector<float> in = pixels(n, n);
       const DisplayStep& step = steps[n % steps.size()];
-      std::vector<float> wanted(in.size() + 1, 9), found(in.size() + 1, 9);
-      TonemapKernels::scalar.display_row(step, in.data(), wanted.data(), n);
+      std::vector<float> expected(in.size() + 1, 9), found(in.size() + 1, 9);
+      TonemapKernels::scalar.display_row(step, in.data(), expected.data(), n);
       kernels.display_row(step, in.data(), found.data(), n);
-      EXPECT_EQ(found, wanted) << name_of(isa) << ' ' << n;
+      EXPECT_EQ(found, expected) << name_of(isa) << ' ' << n;
       EXPECT_TRUE(std::all_of(found.begin(), found.end() - 1, [](float x) { return x >= 0 && x <= 1; }));
     }
   }

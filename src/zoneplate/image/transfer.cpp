@@ -14,7 +14,8 @@
 namespace zoneplate {
 namespace {
 
-/// The definition of the decoding curve, to the precision of double: x^2.4 = x^2 (x^2)^(1/5), the root by Newton.
+/// The definition of the decoding curve, in double precision: x^2.4 = x^2 (x^2)^(1/5), with the root by Newton's
+/// method.
 constexpr double decode_precisely(double code) {
   if (code <= 0.04045) return code / 12.92;
   const double x = (code + 0.055) / 1.055, square = x * x;
@@ -31,9 +32,9 @@ constexpr std::array<float, 256> decoded = [] {
   return table;
 }();
 
-/// The least linear value of each 8-bit code, and for runs of 2^16 floats the code at which each run begins.
+/// The least linear value of each 8-bit code; and for each run of 2^16 consecutive floats, the code at its beginning.
 ///
-/// No run from 2^-13 to 1 holds more than one such value, so a code is that of the run or the next.
+/// A run between 2^-13 and 1 contains at most one such value, so that a code is that of the run or the next one.
 struct Thresholds {
   static constexpr std::uint32_t first_bits = 0x39000000;  // 2^-13, below the least value of code 1
   static constexpr std::uint32_t one_bits = 0x3f800000;
@@ -84,7 +85,7 @@ std::uint8_t encode_srgb8(float linear) {
 
 namespace {
 
-/// Rows of four channels side by side, taken as one array; a block is some hundred kilobytes.
+/// The four channels of all rows are processed as one array; a block has some hundred kilobytes.
 template <class Pixel, class Code>
 Plane<Pixel> quantize(const DisplayImage& image, void (*row)(const float*, Code*, std::size_t)) {
   static_assert(sizeof(Display) == 4 * sizeof(float) && sizeof(Pixel) == 4 * sizeof(Code));

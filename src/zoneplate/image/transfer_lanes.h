@@ -17,13 +17,13 @@ inline constexpr float linear_cutoff = 0.0031308f;
 inline constexpr float code_cutoff = 0.04045f;
 inline constexpr float slope = 12.92f;
 inline constexpr float scale = 1.055f;
-inline constexpr float offset = scale - 1;  // exact, so that 1 is kept
+inline constexpr float offset = scale - 1;  // computed, so that 1 is mapped exactly to 1
 inline constexpr float power = 2.4f;
 inline constexpr float inverse_power = 1 / 2.4f;
 
 }  // namespace srgb
 
-/// x clamped to [0, 1]; 0 where it is not a number.
+/// x clamped to [0, 1]; 0 for NaN.
 template <class F>
 [[gnu::always_inline]] inline F clamp_unit(F x) {
   return min(max(x, F(0.0f)), F(1.0f));

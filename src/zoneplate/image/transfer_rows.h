@@ -8,7 +8,7 @@
 
 namespace zoneplate {
 
-/// The transfer functions over arrays; one value is one channel.
+/// The transfer functions on arrays of channel values.
 struct TransferKernels : PerIsa<TransferKernels> {
   /// encode_srgb and decode_srgb of each value.
   void (*encode)(const float* linear, float* code, std::size_t n);

@@ -19,7 +19,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The definition, in precision to spare.
+/// The definition, in extended precision.
 long double true_encode(long double x) {
   return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L;
 }
@@ -72,7 +72,7 @@ TEST(Transfer, EightBitCodesComeBack) {
 
 TEST(Transfer, EightBitCodesAreRoundedExactly) {
   const auto rounded = [](float x) { return static_cast<int>(255 * true_encode(x) + 0.5L); };
-  // Around every place where the code changes, and many values besides.
+  // Values around each change of code, and many others.
   for (int code = 1; code < 256; ++code) {
     const float change = static_cast<float>(true_decode((code - 0.5L) / 255));
     std::uint32_t bits = std::bit_cast<std::uint32_t>(change) - 20;
@@ -123,23 +123,23 @@ TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
         const float u = unit_float(hash(i, n));
         in[i] = i % 17 == 3 ? nan : i % 17 == 5 ? infinity : i % 3 == 0 ? u * 2 - 0.5f : i % 3 == 1 ? u : u * 0.01f;
       }
-      std::vector<float> wanted(n), found(n);
-      TransferKernels::scalar.encode(in.data(), wanted.data(), n);
+      std::vector<float> expected(n), found(n);
+      TransferKernels::scalar.encode(in.data(), expected.data(), n);
       kernels.encode(in.data(), found.data(), n);
-      EXPECT_EQ(found, wanted) << name_of(isa);
-      TransferKernels::scalar.decode(in.data(), wanted.data(), n);
+      EXPECT_EQ(found, expected) << name_of(isa);
+      TransferKernels::scalar.decode(in.data(), expected.data(), n);
       kernels.decode(in.data(), found.data(), n);
-      EXPECT_EQ(found, wanted) << name_of(isa);
+      EXPECT_EQ(found, expected) << name_of(isa);
 
-      // One more code than the kernel may write detects a write past the end.
-      std::vector<std::uint8_t> wanted8(n + 1, 9), found8(n + 1, 9);
-      TransferKernels::scalar.quantize8(in.data(), wanted8.data(), n);
+      // One more code than the kernel may write, to detect a write past the end.
+      std::vector<std::uint8_t> expected8(n + 1, 9), found8(n + 1, 9);
+      TransferKernels::scalar.quantize8(in.data(), expected8.data(), n);
       kernels.quantize8(in.data(), found8.data(), n);
-      EXPECT_EQ(found8, wanted8) << name_of(isa);
-      std::vector<std::uint16_t> wanted16(n + 1, 9), found16(n + 1, 9);
-      TransferKernels::scalar.quantize16(in.data(), wanted16.data(), n);
+      EXPECT_EQ(found8, expected8) << name_of(isa);
+      std::vector<std::uint16_t> expected16(n + 1, 9), found16(n + 1, 9);
+      TransferKernels::scalar.quantize16(in.data(), expected16.data(), n);
       kernels.quantize16(in.data(), found16.data(), n);
-      EXPECT_EQ(found16, wanted16) << name_of(isa);
+      EXPECT_EQ(found16, expected16) << name_of(isa);
     }
   }
 }

@@ -11,9 +11,9 @@ namespace zoneplate {
 
 /// The elementary functions in float, with the same bits on every machine, compiler and instruction set.
 ///
-/// Made of + - * / √, comparisons, conversions and bits only; math/elementary_simd.h has the same in vectors.
-/// Errors are in units in the last place of the result (one ulp is 2^-23 of the power of two below it),
-/// measured against long double over the whole range (elementary_test.cpp holds them).
+/// They use only + - * / √, comparisons, conversions and bit operations; math/elementary_simd.h has the same functions
+/// for vectors. Errors are in units in the last place of the result (one ulp is 2^-23 of the power of two below it),
+/// measured relative to long double over the whole range (checked by elementary_test.cpp).
 ///
 /// Requires  arguments are finite, unless stated otherwise.
 
@@ -22,12 +22,12 @@ namespace elementary {
 /// The integer nearest to x, ties to even; |x| < 2^22.
 constexpr std::int32_t nearest(float x) { return std::bit_cast<std::int32_t>(x + round_shift) - round_shift_bits; }
 
-/// value × 2^k by its exponent bits; both value and result normal.
+/// value × 2^k by adding to the exponent bits; value and result must be normal.
 constexpr float scaled(float value, std::int32_t k) {
   return std::bit_cast<float>(std::bit_cast<std::int32_t>(value) + k * (1 << 23));
 }
 
-/// x = m × 2^e with m in [√½, √2), as s = (m - 1) / (m + 1).
+/// The decomposition x = m × 2^e with m in [√½, √2), and s = (m - 1) / (m + 1).
 struct Log {
   float e, s;
 };
@@ -38,7 +38,7 @@ constexpr Log split_log(float x) {
   return {static_cast<float>(e), d / (d + 2)};
 }
 
-/// x = quarter × π/2 + r with |r| <= π/4.
+/// The decomposition x = quarter × π/2 + r with |r| <= π/4.
 struct Angle {
   std::int32_t quarter;
   float r;
@@ -71,7 +71,7 @@ constexpr float sin_quarter(std::int32_t quarter, float r) {
 
 }  // namespace elementary
 
-/// 2^x. Edges: 0 below -126, infinity from 128. Exact: within 1.5 ulp.
+/// 2^x. Edges: 0 below -126, infinity from 128 on. Exact: within 1.5 ulp.
 constexpr float exp2(float x) {
   using namespace elementary;
   if (!(x >= exp2_low)) return 0;
@@ -85,7 +85,7 @@ constexpr float exp2(float x) {
   return scaled(1 + f * (low + f2 * (middle + f2 * high)), k);
 }
 
-/// e^x. Edges: 0 below -87.3365, infinity from 88.7228. Exact: within 1 ulp.
+/// e^x. Edges: 0 below -87.3365, infinity from 88.7228 on. Exact: within 1 ulp.
 constexpr float exp(float x) {
   using namespace elementary;
   if (!(x >= exp_low)) return 0;
@@ -99,7 +99,7 @@ constexpr float exp(float x) {
   return scaled(1 + (r + r2 * (low + r2 * (middle + r2 * exp_c[4]))), k);
 }
 
-/// The logarithm to base 2. Edges: -infinity below 2^-126, negative x included; 128 at infinity. Exact: within 3 ulp.
+/// The logarithm to base 2. Edges: -infinity below 2^-126, including negative x; 128 for infinity. Exact: within 3 ulp.
 constexpr float log2(float x) {
   using namespace elementary;
   if (!(x >= least_normal)) return std::bit_cast<float>(0xff800000);
@@ -109,7 +109,8 @@ constexpr float log2(float x) {
   return l.e + (l.s * two_log2_e_head + l.s * tail);
 }
 
-/// The logarithm to base 2 with four digits. Requires: x normal, positive. Exact: within 1/3000; at powers of two.
+/// The logarithm to base 2 with four digits. Requires: x normal, positive. Exact: within 1/3000; exact at powers of
+/// two.
 constexpr float coarse_log2(float x) {
   using namespace elementary;
   const std::int32_t bits = std::bit_cast<std::int32_t>(x);
@@ -119,7 +120,7 @@ constexpr float coarse_log2(float x) {
   return e + (t + (t * (t - 1)) * q);
 }
 
-/// The natural logarithm. Edges: as log2. Exact: within 3 ulp.
+/// The natural logarithm. Edges: as for log2. Exact: within 3 ulp.
 constexpr float log(float x) {
   using namespace elementary;
   if (!(x >= least_normal)) return std::bit_cast<float>(0xff800000);
@@ -131,33 +132,33 @@ constexpr float log(float x) {
 
 /// x^y = 2^(y log2 x) for x >= 0.
 ///
-/// Edges     pow(x, 0) = 1; x below 2^-126 (negative x included) counts as 0: 0 for y > 0, infinity for y < 0.
-/// Exact     relative error within (1 + 2 |y log2 x|) 2^-23; within 2^-20 where 2^-3 <= x^y <= 2^3.
+/// Edges     pow(x, 0) = 1; x below 2^-126 (including negative x) counts as 0: 0 for y > 0, infinity for y < 0.
+/// Exact     relative error within (1 + 2 |y log2 x|) 2^-23; within 2^-20 if 2^-3 <= x^y <= 2^3.
 constexpr float pow(float x, float y) { return y == 0 ? 1.0f : exp2(y * log2(x)); }
 
 /// The sine of x radians.
 ///
-/// Edges     |x| above 2^20 counts as 2^20; sin(-0) is +0.
-/// Exact     within 2 ulp or 2^-24, whichever is more, for |x| <= 8192; beyond, as if x were off by 2^-22 x.
+/// Edges     |x| above 2^20 is replaced by 2^20; sin(-0) is +0.
+/// Exact     within the greater of 2 ulp and 2^-24 for |x| <= 8192; beyond, as if x had an error of 2^-22 x.
 constexpr float sin(float x) {
   const elementary::Angle a = elementary::split_angle(x);
   return elementary::sin_quarter(a.quarter, a.r);
 }
 
-/// The cosine of x radians; edges and errors as those of sin.
+/// The cosine of x radians; edges and errors as for sin.
 constexpr float cos(float x) {
   const elementary::Angle a = elementary::split_angle(x);
   return elementary::sin_quarter(a.quarter + 1, a.r);
 }
 
-/// The angle of (x, y) from the x axis, in [-π, π]; the sign of zero counts, as in the C library.
+/// The angle of (x, y) from the x axis, in [-π, π]; the signs of zeros have the same effect as in the C library.
 ///
 /// Requires  |x|, |y| <= 2^126.
 /// Edges     atan2(±0, +0) = ±0; atan2(±0, -0) = ±π.
 /// Exact     within 3 ulp.
 inline float atan2(float y, float x) {
   using namespace elementary;
-  // The first octant, then the turn by π/4 that halves it.
+  // Reduces to the first octant, and by a rotation by π/4 to half of it.
   const float ax = std::abs(x), ay = std::abs(y);
   const bool is_steep = ay > ax;
   const float a = is_steep ? ax : ay, b = is_steep ? ay : ax;

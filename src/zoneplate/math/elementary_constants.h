@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The coefficients of math/elementary.h and its vector twin, lowest power first.
+/// The coefficients of math/elementary.h and its vector equivalent, in ascending order of power.
 ///
-/// Polynomials are fits of least maximal error over the reduced ranges, rounded to float; each one's error
-/// before rounding is below 2^-28. Constants that are subtracted in parts end in zero bits, so that their
-/// products with the quotient are exact.
+/// Polynomials are minimax fits over the reduced ranges, rounded to float; the error of each before rounding is below
+/// 2^-28. Constants that are subtracted in parts end in zero bits, so that their products with the quotient are exact.
 namespace zoneplate::elementary {
 
-/// Added to x, |x| < 2^22, leaves the integer nearest to x in the low bits of the sum.
+/// Adding it to x, |x| < 2^22, leaves the integer nearest to x in the low bits of the sum.
 inline constexpr float round_shift = 0x1.8p23f;
 inline constexpr int round_shift_bits = 0x4b400000;
 
@@ -26,7 +25,7 @@ inline constexpr float log2_e = 0x1.715476p+0f;
 inline constexpr float ln2_head = 0x1.62e0p-1f;
 inline constexpr float ln2_tail = 0x1.0bfbe8p-15f;
 
-/// With s = (m - 1) / (m + 1): (log m - 2 s) / s^3 and (log2 m - 2 s log2 e) / s^3 in powers of s^2.
+/// With s = (m - 1) / (m + 1): (log m - 2 s) / s^3 and (log2 m - 2 s log2 e) / s^3, in powers of s^2.
 inline constexpr float log_c[3] = {0x1.55557ap-1f, 0x1.995ebap-2f, 0x1.31e2f6p-2f};
 inline constexpr float log2_c[3] = {0x1.ec70d2p-1f, 0x1.274c4ep-1f, 0x1.b94d12p-2f};
 /// (log2 m - t) / (t (t - 1)) with t = m - 1 in [0, 1], in powers of t.
@@ -34,7 +33,7 @@ inline constexpr float coarse_log2_c[3] = {-0x1.c35c0ap-2f, 0x1.f0fcb0p-3f, -0x1
 inline constexpr float two_log2_e_head = 0x1.7140p+1f;
 inline constexpr float two_log2_e_tail = 0x1.47652cp-11f;
 inline constexpr float least_normal = 0x1p-126f;
-/// The bits of the float just below √½: a mantissa is taken in [√½, √2).
+/// The bits of the float just below √½, the lower end of the range [√½, √2) of mantissas.
 inline constexpr int root_half_bits = 0x3f3504f3;
 
 /// (sin r - r) / r^3 and (cos r - 1 + r^2 / 2) / r^4 in powers of r^2, |r| <= π/4.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of math/elementary.h, included by *_simd.cpp files only: the same operations in the same order,
-// so the same bits. `d` is a descriptor of float lanes; edges and errors are those of the scalar functions.
+// The vector equivalents of math/elementary.h, included by *_simd.cpp files only: the same operations in the same
+// order, and therefore the same bits. `d` is a descriptor of float lanes; edges and errors are those of the scalar
+// functions.
 #if defined(ZONEPLATE_MATH_ELEMENTARY_SIMD_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ZONEPLATE_MATH_ELEMENTARY_SIMD_H_
 #undef ZONEPLATE_MATH_ELEMENTARY_SIMD_H_
@@ -21,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 using Ints = hn::Vec<hn::RebindToSigned<D>>;
 
-/// a + b × c, rounded twice.
+/// a + b × c with separate rounding of product and sum.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V add_product(D, V a, V b, V c) {
   return hn::Add(a, hn::Mul(b, c));
@@ -33,7 +34,8 @@ HWY_INLINE V horner(D d, V z, const float (&c)[3]) {
   return add_product(d, hn::Set(d, c[0]), z, add_product(d, hn::Set(d, c[1]), z, hn::Set(d, c[2])));
 }
 
-/// x cut off to an integer. Requires |x| < 2^31: x86 then needs one instruction, where ConvertTo sees to the rest too.
+/// x truncated to an integer. Requires |x| < 2^31: x86 then needs one instruction, whereas ConvertTo also handles other
+/// values.
 template <class D>
 HWY_INLINE Ints<D> truncated(D, hn::Vec<D> x) {
   const hn::RebindToSigned<D> di;
@@ -105,7 +107,7 @@ HWY_INLINE hn::Vec<D> sin_quarter(D d, Ints<D> quarter, hn::Vec<D> r) {
   return hn::Xor(v, hn::BitCast(d, sign));
 }
 
-/// value(x), but 0 below `low` and infinity from `high` on.
+/// value(x); 0 below `low`, and infinity from `high` on.
 template <class D, class Value>
 HWY_INLINE hn::Vec<D> between_edges(D d, hn::Vec<D> x, float low, float high, Value value) {
   const auto low_edge = hn::Set(d, low), high_edge = hn::Set(d, high);
@@ -147,7 +149,7 @@ HWY_INLINE hn::Vec<D> exp(D d, hn::Vec<D> x) {
   });
 }
 
-/// `value` where x is at least the least normal number, else -infinity.
+/// `value` if x is at least the least normal number, else -infinity.
 template <class D>
 HWY_INLINE hn::Vec<D> log_or_edge(D d, hn::Vec<D> x, hn::Vec<D> value) {
   const auto edge = hn::BitCast(d, hn::Set(hn::RebindToSigned<D>(), static_cast<std::int32_t>(0xff800000)));

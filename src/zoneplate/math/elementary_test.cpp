@@ -25,7 +25,7 @@ double ulps(float value, long double truth) {
   return static_cast<double>(std::abs(static_cast<long double>(value) - truth) / std::ldexp(1.0L, least));
 }
 
-/// Numbers over [low, high], evenly spread, the ends included.
+/// Evenly spaced numbers in [low, high], including both ends.
 std::vector<float> spread(float low, float high, int count) {
   std::vector<float> values;
   for (int i = 0; i <= count; ++i) {
@@ -35,7 +35,7 @@ std::vector<float> spread(float low, float high, int count) {
   return values;
 }
 
-/// Positive normal numbers of every exponent.
+/// Positive normal numbers with all exponents.
 std::vector<float> positive(std::uint32_t count, std::uint32_t seed) {
   std::vector<float> values;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -106,10 +106,10 @@ TEST(Elementary, PowKeepsItsRelativeError) {
   for (std::uint32_t i = 0; i < bases.size(); ++i) {
     const float x = i % 2 == 0 ? bases[i] : unit_float(hash(i, 3)) + 0x1p-24f;
     const float y = (unit_float(hash(i, 4)) - 0.5f) * (i % 4 < 2 ? 8.0f : 1000.0f);
-    const long double wanted = std::pow(static_cast<long double>(x), static_cast<long double>(y));
-    const double size = std::abs(static_cast<double>(std::log2(wanted)));
+    const long double expected = std::pow(static_cast<long double>(x), static_cast<long double>(y));
+    const double size = std::abs(static_cast<double>(std::log2(expected)));
     if (size > 125) continue;
-    const double error = static_cast<double>(std::abs(static_cast<long double>(pow(x, y)) / wanted - 1));
+    const double error = static_cast<double>(std::abs(static_cast<long double>(pow(x, y)) / expected - 1));
     worst_share = std::max(worst_share, error * 0x1p23 / (1 + 2 * size));
     if (size <= 3) worst_near_one = std::max(worst_near_one, error);
   }
@@ -179,7 +179,7 @@ TEST(Elementary, ArcFunctionsAreWithinThreeUlp) {
   EXPECT_EQ(asin(1), elementary::half_pi);
 }
 
-/// Arguments that reach every branch: all sizes and signs, integers, halves and the edges of the ranges.
+/// Arguments for every branch: all magnitudes and signs, integers, halves and the ends of the ranges.
 std::vector<float> arguments(std::uint32_t seed) {
   std::vector<float> values = {0.0f, -0.0f,     1,         -1,       0.5f,   -126, -126.001f,
                                128,  127.9999f, -87.3365f, 88.7228f, 1e-40f, 1e38f};
@@ -199,15 +199,15 @@ TEST(Elementary, EveryInstructionSetGivesTheSameBits) {
     const ElementaryKernels& kernels = ElementaryKernels::of(isa);
     for (int f = 0; f <= static_cast<int>(Elementary::Asin); ++f) {
       const auto function = static_cast<Elementary>(f);
-      std::vector<float> wanted(a.size()), found(a.size());
-      ElementaryKernels::scalar.evaluate(function, a.data(), b.data(), wanted.data(), a.size());
+      std::vector<float> expected(a.size()), found(a.size());
+      ElementaryKernels::scalar.evaluate(function, a.data(), b.data(), expected.data(), a.size());
       kernels.evaluate(function, a.data(), b.data(), found.data(), a.size());
       std::size_t different = 0;
       for (std::size_t i = 0; i < a.size(); ++i) {
-        const bool is_same = std::bit_cast<std::uint32_t>(wanted[i]) == std::bit_cast<std::uint32_t>(found[i]);
-        if (!is_same && !(std::isnan(wanted[i]) && std::isnan(found[i])) && different++ < 5) {
+        const bool is_same = std::bit_cast<std::uint32_t>(expected[i]) == std::bit_cast<std::uint32_t>(found[i]);
+        if (!is_same && !(std::isnan(expected[i]) && std::isnan(found[i])) && different++ < 5) {
           ADD_FAILURE() << name_of(isa) << " function " << f << " of " << a[i] << ", " << b[i] << ": " << found[i]
-                        << ", expected " << wanted[i];
+                        << ", expected " << expected[i];
         }
       }
       EXPECT_EQ(different, 0u);

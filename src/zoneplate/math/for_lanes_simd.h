@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a row by vectors, included by *_simd.cpp files only.
+// Loops over a row by vectors; included by *_simd.cpp files only.
 #if defined(ZONEPLATE_MATH_FOR_LANES_SIMD_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ZONEPLATE_MATH_FOR_LANES_SIMD_H_
 #undef ZONEPLATE_MATH_FOR_LANES_SIMD_H_
@@ -15,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls some(d, i) for the values i on of a row of n, as many as d has lanes: for whole vectors of eight lanes at most
-/// first, then for single values.
+/// Calls some(d, i) for the values of a row of n, starting at i, as many as d has lanes: first for whole vectors of at
+/// most eight lanes, then for single values.
 template <class T = float, class Some>
 HWY_INLINE void for_lanes(std::size_t n, Some some) {
   const hn::CappedTag<T, 8> full;

@@ -5,8 +5,8 @@
 
 namespace zoneplate {
 
-/// Calls some.operator()<F>(i) along a row of n values: with the vectors of Full while a whole vector
-/// is left, then with One for each remaining value.
+/// Calls some.operator()<F>(i) along a row of n values: with F = Full for whole vectors, then with F = One for each
+/// remaining value.
 template <class Full, class One, class Some>
 [[gnu::always_inline]] inline void for_row(std::size_t n, const Some& some) {
   constexpr std::size_t lanes = Full::lanes;

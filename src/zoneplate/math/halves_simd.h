@@ -3,12 +3,12 @@
 
 #include <hwy/highway.h>
 
-/// Vectors made of parts of two, for the instruction set of the file that includes this.
+/// Vectors composed of parts of two vectors, for the instruction set of the file that includes this header.
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// hn::Combine; of 256 bits and more in one instruction, where that clears the upper half first.
+/// hn::Combine, by one instruction for vectors of at least 256 bits, for which Highway first clears the upper half.
 template <class D, class Half>
 HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
@@ -33,7 +33,8 @@ HWY_INLINE hn::Vec<D> combined(D d, Half upper, Half lower) {
   return hn::Combine(d, upper, lower);
 }
 
-/// What quad(i), quad(i + 4), quad(i + 8) and quad(i + 12) give, four lanes each, side by side: as many as have room.
+/// The concatenation of quad(i), quad(i + 4), quad(i + 8) and quad(i + 12), four lanes each: as many as the vector has
+/// capacity for.
 template <class D, class Quad>
 HWY_INLINE hn::Vec<D> every_fourth_quad(D d, const Quad& quad, int i) {
   if constexpr (hn::MaxLanes(D()) == 4) {
@@ -45,7 +46,7 @@ HWY_INLINE hn::Vec<D> every_fourth_quad(D d, const Quad& quad, int i) {
   }
 }
 
-/// Every second word of each block of 128 bits, from word `first` on, of `lower` and then of `upper`.
+/// Every second word of each block of 128 bits, starting at word `first`, of `lower` followed by `upper`.
 template <int first, class V>
 HWY_INLINE V every_second_word(V upper, V lower) {
   static_assert(first == 0 || first == 1);

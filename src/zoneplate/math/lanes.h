@@ -10,14 +10,16 @@
 
 /// One number with the operations that kernels are written in.
 ///
-/// A stage of shading or another kernel is a template over such a type, in a file `*_lanes.h`: `Lane<float>` makes the
-/// scalar twin, math/lanes_simd.h the vectors, and `Lane<double>` the references of the tests. Every operation rounds
-/// correctly, but for the elementary functions, which are those of math/elementary.h (with double: of the C library).
+/// A shading stage or another kernel is a template over such a type, in a file `*_lanes.h`: `Lane<float>` instantiates
+/// the scalar version, math/lanes_simd.h the vectors, and `Lane<double>` the references of the tests. Every operation
+/// is correctly rounded, except the elementary functions, which are those of math/elementary.h (for double: of the C
+/// library).
 ///
-/// Edges     min and max return their second argument where either is NaN, as on x86.
+/// Edges     min and max return their second argument if either is NaN, as on x86.
 namespace zoneplate::scalar {
 
-/// The elementary functions of a lane's number: of float those of math/elementary.h, of double those of the C library.
+/// The elementary functions of a lane's number: for float those of math/elementary.h, for double those of the C
+/// library.
 namespace number {
 
 using zoneplate::acos, zoneplate::asin, zoneplate::atan2, zoneplate::coarse_log2, zoneplate::cos, zoneplate::exp;
@@ -53,7 +55,7 @@ struct Int {
   Int(std::int32_t x) : v(x) {}
   static Int load(const std::int32_t* p) { return *p; }
   void store(std::int32_t* p) const { *p = v; }
-  /// From and as unsigned numbers of 8 or 16 bits. Requires: in their range.
+  /// Conversion from and to unsigned integers of 8 or 16 bits. Requires: values in their range.
   template <class T>
   static Int load_from(const T* p) {
     return static_cast<std::int32_t>(*p);
@@ -66,17 +68,18 @@ struct Int {
   static void store_zeros(T* p) {
     *p = 0;
   }
-  /// Interleaves four bytes a lane. Requires: each in [0, 255].
+  /// Interleaves four bytes per lane. Requires: each in [0, 255].
   static void store_pixels(Int r, Int g, Int b, Int a, std::uint8_t* p) {
     r.store_as(p), g.store_as(p + 1), b.store_as(p + 2), a.store_as(p + 3);
   }
-  /// Stores values i and on of a list by fours: four lanes of this, then the same four lanes of `second`.
+  /// Stores values i and following of an interleaved list: groups of four lanes of this, followed by the same four
+  /// lanes of `second`.
   void store_by_fours(Int second, std::int16_t* list, int i) const {
     const int first = i / 4 * 8 + i % 4;
     list[first] = static_cast<std::int16_t>(v), list[first + 4] = static_cast<std::int16_t>(second.v);
   }
   static Int gather(const std::int32_t* table, Int i) { return table[i.v]; }
-  /// The same for a table of 16 elements.
+  /// Looks up elements of a table of 16.
   static Int look_up(const std::int32_t* table, Int i) { return table[i.v]; }
   std::int32_t first() const { return v; }
   bool equals(Int other) const { return v == other.v; }
@@ -95,12 +98,12 @@ struct Int {
   friend Int min(Int a, Int b) { return a.v < b.v ? a : b; }
   friend Int max(Int a, Int b) { return a.v > b.v ? a : b; }
   friend Int select(Bool m, Int a, Int b) { return m.v ? a : b; }
-  /// The greatest difference of the lowest three bytes.
+  /// The maximum of the differences of the lowest three bytes.
   friend Int color_difference(Int a, Int b) {
     const auto of = [&](int shift) { return std::abs((a.v >> shift & 255) - (b.v >> shift & 255)); };
     return std::max({of(0), of(8), of(16)});
   }
-  /// a where m, else 0.
+  /// a if m, else 0.
   friend Int where(Bool m, Int a) { return m.v ? a.v : 0; }
 };
 
@@ -114,7 +117,7 @@ struct Lane {
   Lane(T x) : v(x) {}
   static Lane load(const T* p) { return *p; }
   void store(T* p) const { *p = v; }
-  /// Four numbers a lane, one lane after the other: number c of each to or from v[c].
+  /// Four consecutive numbers per lane: number c of each is loaded to, or stored from, v[c].
   static void load_fours(const T* p, Lane (&v)[4]) {
     for (int c = 0; c < 4; ++c) v[c] = p[c];
   }
@@ -122,7 +125,7 @@ struct Lane {
     for (int c = 0; c < 4; ++c) p[c] = v[c].v;
   }
   static Lane gather(const T* table, Int i) { return table[i.v]; }
-  /// out[c]: element c of each lane's quad, which begins at at(lane).
+  /// out[c] is element c of each lane's quad, which starts at at(lane).
   template <class At>
   static void load_quads(const At& at, Lane (&out)[4]) {
     for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(at(0)[c]);

@@ -8,7 +8,8 @@
 #include "zoneplate/math/elementary_simd.h"
 #include "zoneplate/math/halves_simd.h"
 
-/// The vector twin of math/lanes.h, of at most 8 lanes, for the instruction set of the file that includes it.
+/// The vector equivalent of math/lanes.h with at most 8 lanes, for the instruction set of the file that includes this
+/// header.
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -147,7 +148,7 @@ struct FloatVector {
 #if HWY_ARCH_X86
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::Min(a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::Max(a.v, b.v)); }
-#else  // where minima propagate NaN
+#else  // on other architectures, minima propagate NaN
   friend HWY_INLINE Float min(Float a, Float b) { return Float(hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v)); }
   friend HWY_INLINE Float max(Float a, Float b) { return Float(hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v)); }
 #endif

@@ -3,12 +3,12 @@
 
 namespace zoneplate {
 
-/// Three numbers of a stage's lane type (math/lanes.h). Sums are taken in the order x, y, z.
+/// A three-component vector of a stage's lane type (math/lanes.h). Sums are in the order x, y, z.
 template <class F>
 struct Vector {
   F x, y, z;
 
-  /// Loads the vectors of fragment i and on from three arrays.
+  /// Loads the vectors of fragments i and following from three arrays.
   template <class Array>
   [[gnu::always_inline]] static Vector load(const Array& a, int i) {
     return {F::load(a[0] + i), F::load(a[1] + i), F::load(a[2] + i)};
@@ -34,7 +34,7 @@ struct Vector {
   [[gnu::always_inline]] friend Vector select(typename F::Bool m, Vector a, Vector b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
   }
-  /// a / |a|; zero where a is shorter than 1e-18 or longer than 1e19. Requires finite a.
+  /// a / |a|; zero if |a| is below 1e-18 or above 1e19. Requires finite a.
   [[gnu::always_inline]] friend Vector normalize(Vector a) {
     const F square = dot(a, a);
     return a * select(square > F(1e-36f), F(1.0f) / sqrt(square), F(0.0f));

@@ -48,7 +48,7 @@ TEST(Mat, PointsAreMovedAndVectorsAreNot) {
 
 TEST(Mat, InverseUndoes) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
-    // Well conditioned, so that rounding to float is all that is lost.
+    // The matrices are well conditioned, so that the only error is rounding to float.
     const float4x4 m = noise(seed) * scaling({0.3f, 0.3f, 0.3f}) * translation({1, 2, 3});
     float4x4 strong = m;
     for (std::size_t c = 0; c < 4; ++c) strong.column[c] = strong.column[c] + float4x4().column[c] * 3.0f;
@@ -58,7 +58,7 @@ TEST(Mat, InverseUndoes) {
   EXPECT_EQ(inverse(scaling({2, 4, 8})), scaling({0.5f, 0.25f, 0.125f}));
   EXPECT_EQ(inverse(translation({1, 2, 3})), translation({-1, -2, -3}));
   EXPECT_EQ(inverse(scaling({1, 0, 1})), float4x4());
-  // A zero on the diagonal asks for a pivot from another row.
+  // A zero on the diagonal requires a pivot from another row.
   const float4x4 swap = {{float4{0, 1, 0, 0}, float4{1, 0, 0, 0}, float4{0, 0, 1, 0}, float4{0, 0, 0, 1}}};
   EXPECT_EQ(inverse(swap), swap);
 }
@@ -79,11 +79,11 @@ TEST(Mat, NormalsStayPerpendicularAndInFront) {
     const float3 moved = transform_vector(normal_matrix(m), normal);
     EXPECT_NEAR(dot(moved, ma), 0, 1e-6f);
     EXPECT_NEAR(dot(moved, mb), 0, 1e-6f);
-    // The side of the surface is kept: what was in front is in front, mirrored or not.
+    // The side of the surface is preserved, also under mirroring.
     const float side = dot(moved, transform_vector(m, normal));
     EXPECT_GE(side * std::abs(determinant3(m)), 0);
   }
-  // A flattened object has normals still.
+  // A flattened object still has normals.
   EXPECT_EQ(transform_vector(normal_matrix(scaling({1, 0, 1})), {0, 1, 0}), (float3{0, 1, 0}));
 }
 

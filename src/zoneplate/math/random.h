@@ -5,7 +5,7 @@
 
 namespace zoneplate {
 
-/// A counter-based random word: equal keys give equal words, and no generator state is stored.
+/// A counter-based random word: equal keys give equal words, and there is no generator state.
 ///
 /// Exact     integer arithmetic only; the same on every machine.
 /// Source    the 32-bit finaliser of Chris Wellons' hash prospector ("lowbias32", constants found by search).
@@ -18,7 +18,7 @@ constexpr std::uint32_t hash(std::uint32_t a, std::uint32_t b = 0, std::uint32_t
   return mix(a + mix(b + mix(c + mix(d + 0x9e3779b9u))));
 }
 
-/// The word as a number in [0, 1), a multiple of 2^-24.
+/// Converts a word to a number in [0, 1), a multiple of 2^-24.
 constexpr float unit_float(std::uint32_t word) { return static_cast<float>(word >> 8) * 0x1p-24f; }
 
 }  // namespace zoneplate

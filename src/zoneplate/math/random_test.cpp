@@ -16,7 +16,7 @@ TEST(Random, EveryKeyWordCounts) {
   for (std::uint32_t i = 0; i < 16 * 16 * 16 * 16; ++i) {
     words.insert(hash(i & 15, i >> 4 & 15, i >> 8 & 15, i >> 12 & 15));
   }
-  // Among 65536 words of 32 bits one expects half a collision.
+  // Among 65536 words of 32 bits, the expected number of collisions is one half.
   EXPECT_GE(words.size(), 65536u - 5);
   EXPECT_NE(hash(1, 2), hash(2, 1));
 }
@@ -31,7 +31,7 @@ TEST(Random, OneBitOfTheKeyChangesHalfOfTheWord) {
         key[argument] ^= 1u << bit;
         changed += std::popcount(before ^ hash(key[0], key[1], key[2], key[3]));
       }
-      // 32000 coins: the standard deviation is 89; the bound is six of them and the mixer's known bias.
+      // 32000 coin flips: the standard deviation is 89; the bound is six of them plus the known bias of the mixer.
       EXPECT_NEAR(changed, 16000, 600) << argument << ' ' << bit;
     }
   }

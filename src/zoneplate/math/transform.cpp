@@ -50,7 +50,8 @@ float4x4 perspective(float vertical_fov, float aspect, float near, float far) {
   const SineCosine half = sine_cosine(static_cast<double>(vertical_fov) / 2);
   const double t = half.sine / half.cosine;
   const double n = near, f = far;
-  // z_clip = a z_view + b with z/w = 1 at z_view = -n and 0 at -f; in the limit of an infinite far plane a = 0, b = n.
+  // z_clip = a z_view + b with z/w = 1 at z_view = -n and 0 at -f; in the limit of an infinite far plane, a = 0 and b =
+  // n.
   const double a = std::isinf(f) ? 0.0 : n / (f - n);
   const double b = std::isinf(f) ? n : n * f / (f - n);
   return {{float4{static_cast<float>(1 / (t * static_cast<double>(aspect))), 0, 0, 0},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of double for WebAssembly, which Highway 1.0.3 lacks: what our kernels use of them, each operation one
-// instruction of simd128. Included by *_simd.cpp files only; on other instruction sets there is nothing in it.
+// Vectors of double for WebAssembly, which Highway 1.0.3 lacks: the operations that our kernels use, each of which is
+// one instruction of simd128. Included by *_simd.cpp files only; it is empty for other instruction sets.
 #pragma once
 
 #include <hwy/highway.h>

@@ -8,13 +8,13 @@
 
 namespace zoneplate::metrics {
 
-/// The four pairs of 256 × 128 images for which published implementations of FLIP, SSIM and PSNR were run.
-/// Their values are light for FLIP and codes for the others.
+/// The four pairs of 256 × 128 images on which published implementations of FLIP, SSIM and PSNR were run.
+/// Their values are linear light for FLIP and codes for the others.
 struct ChartPair {
   LinearImage reference, test;
 };
 
-/// An image made pixel by pixel of `color_at(x, y)`, a Linear.
+/// An image whose pixels are `color_at(x, y)`, a Linear.
 template <class ColorAt>
 LinearImage make_chart(int width, int height, const ColorAt& color_at) {
   LinearImage image(width, height);
@@ -29,8 +29,8 @@ inline Linear grey(double value) {
   return {v, v, v, 1};
 }
 
-/// 0 an edge drawn hard and drawn soft, 1 a zone plate and its mean, 2 a colour gradient and more red, 3 a
-/// checkerboard and itself moved by a pixel.
+/// Pair 0: a sharp and a soft edge; 1: a zone plate and its mean; 2: a colour gradient and the same with more red; 3: a
+/// checkerboard and the same shifted by a pixel.
 inline ChartPair chart_pair(int which) {
   const auto chart = [](const auto& color_at) { return make_chart(256, 128, color_at); };
   const auto cx = [](int x) { return x - 127.5; };
@@ -60,13 +60,13 @@ inline ChartPair chart_pair(int which) {
   return {chart(board), chart([=](int x, int y) { return board(x + 1, y); })};
 }
 
-/// Light v as light 8 v², for the metrics of unbounded light.
+/// Maps values v to 8 v², for the metrics of unbounded light.
 inline LinearImage brightened(LinearImage image) {
   for (Linear& c : image.values()) c = {8 * c.r * c.r, 8 * c.g * c.g, 8 * c.b * c.b, 1};
   return image;
 }
 
-/// The numbers taken as codes, not as light.
+/// The values as display codes, without conversion from linear light.
 inline DisplayImage as_codes(const LinearImage& image) {
   DisplayImage codes(image.width(), image.height());
   std::ranges::transform(image.values(), codes.values().begin(), [](const Linear& c) {

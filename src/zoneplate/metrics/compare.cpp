@@ -11,7 +11,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// One metric at work on a list of images.
+/// The state of one metric while a list of images is compared.
 struct Measurement {
   const Choice* choice = nullptr;
   bool is_left_out = false;
@@ -22,7 +22,7 @@ bool is_worse(const Metric& metric, double a, double b) { return metric.better =
 
 std::string size_of(const Picture& picture) { return fmt::format("{} × {}", picture.width(), picture.height()); }
 
-/// Why a metric cannot judge two images of these sizes; empty where it can.
+/// The reason why a metric cannot measure images of these sizes; empty if it can.
 std::string objection(const Metric& metric, const Picture& reference, const Picture& test) {
   if (std::min(test.width(), test.height()) < metric.smallest) {
     return fmt::format("has {} pixels, expected {} × {} at least", size_of(test), metric.smallest, metric.smallest);
@@ -35,7 +35,7 @@ std::string objection(const Metric& metric, const Picture& reference, const Pict
   return {};
 }
 
-/// Throws for images of different sizes if no metric allows them.
+/// Throws for images of different sizes unless one of the metrics accepts them.
 void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test, std::size_t index) {
   const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
   const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
@@ -53,7 +53,7 @@ void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string
   m.is_left_out = true;
 }
 
-/// Judges the last frames of the window, of which the newest is image `index`.
+/// Measures the last frames of the window, the newest of which is image `index`.
 void measure(Measurement& m, Frames reference, Frames test, std::size_t index, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
   const auto required = static_cast<std::size_t>(metric.frames);

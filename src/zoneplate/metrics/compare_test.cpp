@@ -43,8 +43,8 @@ TEST(Compare, OnePairByTheUsualMetrics) {
   ASSERT_TRUE(find(c, "mse"));
   EXPECT_EQ(find(c, "mse")->value, 0.0625);
   EXPECT_TRUE(find(c, "ssim"));
-  EXPECT_FALSE(find(c, "ms_ssim"));   // too small
-  EXPECT_FALSE(find(c, "flicker"));   // one frame
+  EXPECT_FALSE(find(c, "ms_ssim"));   // the images are too small
+  EXPECT_FALSE(find(c, "flicker"));   // there is only one frame
   EXPECT_FALSE(find(c, "flip_hdr"));  // not selected
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flicker: change from frame to frame that the reference does not have.
+// Flicker: changes from frame to frame that the reference does not have.
 //
-// A still scene whose edges shimmer scores what shimmers; a moving one scores only what moves otherwise than the
-// reference. Weak on blur, which lowers it: use it together with a measure of sharpness (edge_response).
+// In a static scene it measures shimmering edges; in a moving one, only changes that differ from the reference's.
+// Weakness: blur lowers it, so that it needs a measure of sharpness (edge_response) beside it.
 #include <algorithm>
 #include <cmath>
 

@@ -28,7 +28,7 @@ TEST(Flicker, ForgivesChangeThatTheReferenceHas) {
 }
 
 TEST(Flicker, OfASineIsItsAmplitudeTimesTheDifferenceFilter) {
-  // x_t = a sin(2π f t): the mean square of x_t - x_{t-1} over whole periods is 2 a² sin²(π f).
+  // For x_t = a sin(2π f t), the mean square of x_t - x_{t-1} over whole periods is 2 a² sin²(π f).
   constexpr int period = 8;
   constexpr double amplitude = 0.25;
   std::vector<Picture> still(period + 1, flat(0.5f)), wave;

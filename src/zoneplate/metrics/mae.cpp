@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean absolute error, with the greatest error and where it is: the plainest answer to "how different?".
+// Mean absolute error, with the greatest error and its position: the simplest measure of difference.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// Of a pixel: the mean over its colours of the absolute difference of codes, and the greatest.
+/// The absolute differences of a pixel's codes: their mean over the three colours, and the greatest.
 struct Difference {
   double mean = 0, greatest = 0;
 };
@@ -35,7 +35,7 @@ Score measure(const DisplayImage& reference, const DisplayImage& test) {
     return row;
   });
 
-  // The 99th of 100 pixels in order of error says how bad the bad places are, past a few stray pixels.
+  // The 99th percentile measures the worst regions without a few outliers.
   std::vector<float> sorted(score.map.values().begin(), score.map.values().end());
   const std::size_t rank = (sorted.size() - 1) * 99 / 100;
   std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(rank));

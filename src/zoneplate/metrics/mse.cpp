@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean squared error: the one that everything else is compared to.
+// Mean squared error, the usual baseline for other metrics.
 //
-// Weak where errors are seen: it counts a pixel's error the same alone, in a texture or in a flat sky.
+// Weakness: it ignores visibility: an error counts the same alone, in a texture or in a uniform sky.
 #include "zoneplate/metrics/mse.h"
 
 #include <cmath>

@@ -8,7 +8,7 @@ namespace zoneplate::metrics {
 /// The mean over all pixels and the three colours of the squared difference of two images' codes.
 ///
 /// Requires  equal sizes, at least one pixel.
-/// Edges     transparent images are laid on black; symmetric; 0 exactly where the codes agree.
+/// Edges     transparent images are composited over black; symmetric; exactly 0 if the codes agree.
 /// Units     code², codes in [0, 1].
 double mean_squared_error(const DisplayImage& reference, const DisplayImage& test);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// 2 × 1 pixels; the second differs by ½ in red and by ¼ in blue.
+/// Two images of 2 × 1 pixels; their second pixels differ by ½ in red and by ¼ in blue.
 struct TwoPixels {
   DisplayImage reference{2, 1}, test{2, 1};
   TwoPixels() {
@@ -72,7 +72,7 @@ TEST(PixelMetrics, SequencesPoolTheirErrorsNotTheirDecibels) {
   EXPECT_EQ(pool_psnr(exact), infinity);
 }
 
-// Every metric of images, of itself and of others.
+// Properties of every metric of single images: equal images and different ones.
 DisplayImage noise(std::uint32_t seed, int width, int height) {
   DisplayImage image(width, height);
   for (int y = 0; y < height; ++y) {

@@ -55,7 +55,7 @@ DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::stri
   return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
 }
 
-/// Orders names as people do: runs of digits as numbers.
+/// Natural order of names: runs of digits are compared as numbers.
 bool comes_before(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -84,7 +84,7 @@ bool is_picture_name(const fs::path& path) {
   return std::ranges::find(known, extension) != known.end();
 }
 
-/// The paths of a directory's files for which `accepts(name)`.
+/// The paths of a directory's files whose names `accepts(name)` accepts.
 template <class Accepts>
 std::vector<std::string> files_of(const fs::path& directory, const Accepts& accepts) {
   std::vector<std::string> paths;
@@ -98,7 +98,7 @@ std::vector<std::string> files_of(const fs::path& directory, const Accepts& acce
   return paths;
 }
 
-/// What stands before and after a frame's number in a file name, and the least number of digits.
+/// The text before and after a frame's number in a file name, and the minimum number of digits.
 struct FramePattern {
   std::string before, after;
   std::size_t digits = 1;
@@ -131,7 +131,7 @@ bool is_directory(const std::string& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// The first of `paths` whose stem no path of `others` has.
+/// The first of `paths` whose stem differs from those of all `others`.
 const std::string* find_alone(const std::vector<std::string>& paths, const std::vector<std::string>& others) {
   for (const std::string& path : paths) {
     const auto is_partner = [&](const std::string& other) { return stem_of(other) == stem_of(path); };

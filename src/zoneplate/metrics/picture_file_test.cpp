@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A directory of the test's own, gone with it.
+/// A temporary directory, which the destructor removes.
 class Folder : public testing::Test {
  protected:
   Folder() : path_(fs::temp_directory_path() / ("zoneplate_picture_file_test_" + std::to_string(::getpid()))) {
@@ -131,8 +131,8 @@ TEST_F(PictureFile, DirectoriesPairByName) {
   EXPECT_THROW(pair_pictures(at("a"), at("b/x.png")), Error);
 }
 
-// Images of other renderers, where they lie beside the sources: the decibels between two rasterisers' images of a
-// scene, best and worst of all pairs, as they were published with them.
+// Images of other renderers, if they are present in the shared data: the lowest and the highest decibels between two
+// rasterisers' images of a scene, as published.
 struct PublishedDistance {
   const char* scene;
   double best, worst;

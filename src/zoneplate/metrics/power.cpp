@@ -23,7 +23,8 @@ double power(double x, double y) { return x > 0 ? natural_exp(y * natural_log(x)
 
 double cube_root(double x) {
   if (!(x > 0)) return 0;
-  // A third of the exponent, and of the fraction with it, starts within 6 %; each of Halley's steps triples the digits.
+  // A third of the bit pattern's exponent and fraction is within 6 % of the root; each step of Halley's method triples
+  // the number of correct digits.
   constexpr std::uint64_t two_thirds_of_bias = 0x2a9f7893782da1ce;
   double root = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 3 + two_thirds_of_bias);
   for (int step = 0; step < 3; ++step) {

@@ -3,7 +3,7 @@
 
 namespace zoneplate::metrics {
 
-/// Powers and roots in double, with the same bits on every machine and compiler, as signal/functions.h, which they use.
+/// Powers and roots in double, with the same bits on every machine and compiler; based on signal/functions.h.
 
 /// x to the power of y, x finite. Edges: 0 for x <= 0. Exact: within 1e-15 (1 + |y ln x|), relative.
 double power(double x, double y);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peak signal-to-noise ratio: mean squared error on the scale that papers use.
+// Peak signal-to-noise ratio: mean squared error on a logarithmic scale, as papers report it.
 //
-// Weak as mean squared error is, and the share of empty background moves it: compare only like with like.
+// Weaknesses: those of mean squared error; and the proportion of empty background changes it, so that only values of
+// the same image are comparable.
 #include "zoneplate/metrics/psnr.h"
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peak signal-to-noise ratio of luma: blind to errors of hue alone, closer to what an eye sees of edges.
+// Peak signal-to-noise ratio of luma: it ignores errors of hue, and correlates better with the visibility of edges.
 #include <limits>
 
 #include "zoneplate/metrics/metric.h"

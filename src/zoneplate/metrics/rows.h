@@ -8,7 +8,7 @@
 
 namespace zoneplate::metrics {
 
-/// Calls `body(y)` for rows 0 to height - 1, on any thread.
+/// Calls `body(y)` for rows 0 to height - 1, in parallel.
 template <class Body>
 void for_rows(int height, const Body& body) {
   parallel_for(static_cast<std::size_t>(height), [&](std::size_t y) { body(static_cast<int>(y)); });
@@ -16,7 +16,7 @@ void for_rows(int height, const Body& body) {
 
 /// The sum of `row_value(y)` over rows 0 to height - 1.
 ///
-/// Exact     rows are measured on any thread and added in their order: the same bits for any number of threads.
+/// Exact     rows are evaluated in parallel and added in order: the same bits for any number of threads.
 template <class RowValue>
 double sum_rows(int height, const RowValue& row_value) {
   std::vector<double> rows(static_cast<std::size_t>(height));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The root mean square of squared YIQ colour distances, in decibels: how renderers are compared with the images
-// in glTF's render fidelity collection, where two rasterisers of the same scene differ by -16 to -35 dB.
+// The root mean square of squared YIQ colour distances, in decibels: the measure of glTF's render fidelity collection,
+// where two rasterisers' images of a scene differ by -16 to -35 dB.
 //
-// It squares the distance twice, so a few wrong pixels outweigh a slight error everywhere.
-// Not symmetric: pixels that are empty in the test image do not count.
+// The distance is squared twice, so that a few wrong pixels outweigh a slight error everywhere. It is not symmetric:
+// pixels that are empty in the test image are ignored.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,17 +16,17 @@
 namespace zoneplate::metrics {
 namespace {
 
-// The greatest distance, between black and white, codes 0 to 255.
+// The greatest possible distance of codes in 0 to 255.
 constexpr double greatest_distance = 35215;
 
-/// An image's codes in 0 to 255, on white.
+/// An image's codes in 0 to 255, composited over white.
 Codes codes_on_white(Display c) {
   const double alpha = c.a;
   const auto blend = [alpha](double code) { return 255 + (255 * code - 255) * alpha; };
   return {blend(c.r), blend(c.g), blend(c.b)};
 }
 
-/// Squared distance of two colours, weighted as the eye weighs luma and the two chromas.
+/// Squared distance of two colours, weighted by the eye's sensitivity to luma and the two chromas.
 double distance(Codes p, Codes q) {
   const double r = p.r - q.r, g = p.g - q.g, b = p.b - q.b;
   const double y = r * 0.29889531 + g * 0.58662247 + b * 0.11448223;
@@ -60,7 +60,7 @@ std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& 
   return score;
 }
 
-/// The root mean square over frames of what the decibels stand for.
+/// The root mean square over frames of the values behind the decibels.
 double pool(std::span<const double> frames) {
   double sum = 0;
   for (const double decibels : frames) sum += natural_exp(decibels * 2 * std::numbers::ln10 / 10);

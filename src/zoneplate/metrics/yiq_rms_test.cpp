@@ -17,7 +17,7 @@ std::optional<Score> yiq(const DisplayImage& reference, const DisplayImage& test
 constexpr Display black = {0, 0, 0, 1}, white = {1, 1, 1, 1}, nothing = {0, 0, 0, 0};
 
 TEST(YiqRms, BlackAndWhiteDifferByLumaAlone) {
-  // (255)² × 0.5053 of the 35215 that the scale calls the greatest; the decibels are 10 log10 of that ratio.
+  // (255)² × 0.5053 relative to the scale's 35215; the decibels are 10 log10 of that ratio.
   const Score score = *yiq(DisplayImage(3, 2, black), DisplayImage(3, 2, white));
   EXPECT_NEAR(score.value, 10 * std::log10(0.5053 * 255 * 255 / 35215), 1e-6);
 }
@@ -26,7 +26,7 @@ TEST(YiqRms, OnlyWhatTheTestShowsCounts) {
   DisplayImage reference(2, 1, black), test(2, 1, black);
   test(1, 0) = nothing;
   EXPECT_EQ(yiq(reference, test)->value, -std::numeric_limits<double>::infinity());
-  EXPECT_GT(yiq(test, reference)->value, -10);  // black beside nothing on white
+  EXPECT_GT(yiq(test, reference)->value, -10);  // black beside transparent, which is white
   EXPECT_FALSE(yiq(reference, DisplayImage(2, 1, nothing)));
 }
 

@@ -35,7 +35,7 @@ Error write_error(const std::string& path, const std::string& cause) {
   return Error(ErrorKind::Output, (path == "-" ? "standard output" : path) + ": cannot be written: " + cause);
 }
 
-/// Closes what it holds; -1 holds nothing.
+/// Owns a file descriptor and closes it; -1 means none.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -58,7 +58,7 @@ int open_retrying(const char* path, int flags, mode_t mode = 0) {
   return fd;
 }
 
-/// Reads up to `count` bytes, fewer only at the end of the file.
+/// Reads up to `count` bytes; fewer only at the end of the file.
 std::size_t read_some(int fd, std::uint8_t* out, std::size_t count, const std::string& path) {
   std::size_t done = 0;
   while (done < count) {
@@ -80,7 +80,7 @@ Error too_large(const std::string& path, std::uint64_t limit) {
   return read_error(path, "larger than the limit of " + std::to_string(limit) + " bytes");
 }
 
-/// Reads to the end into a buffer that doubles.
+/// Reads to the end of the file into a buffer whose capacity doubles.
 std::span<const std::uint8_t> read_all(int fd, const std::string& path, std::uint64_t limit) {
   std::size_t capacity = std::size_t{1} << 16, size = 0;
   auto buffer = std::make_unique<std::uint8_t[]>(capacity);
@@ -105,11 +105,12 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
   if (S_ISDIR(status.st_mode)) throw read_error(path, "it is a directory");
 
-  // A file with a known size is mapped; other inputs are read.
+  // A file of known size is mapped; other inputs are read.
   if (S_ISREG(status.st_mode) && status.st_size > 0 && !is_stdin) {
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit) throw too_large(path, limit);
-    // Writable and private, though nothing is written: so the system counts it as data of the process.
+    // The mapping is writable and private although it is never written, because the kernel then counts it as data of
+    // the process (RLIMIT_DATA).
     void* place = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, fd, 0);
     if (place != MAP_FAILED) {
       bytes_ = {static_cast<const std::uint8_t*>(place), size};
@@ -148,11 +149,11 @@ FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
 
 namespace {
 
-/// The names of the temporary files being written, for remove_temporaries alone.
+/// The names of the temporary files that are being written, for remove_temporaries.
 ///
-/// A signal handler has no argument through which to receive them, so this is the one hidden state of the library:
-/// a fixed table whose entries change hands by one atomic word each. A name that finds no entry, or is too long for
-/// one, is written without: then only a fatal signal can leave it behind.
+/// A signal handler has no parameter for them, so that this is the library's only global state: a fixed table whose
+/// entries change owners by one atomic variable each. A file whose name finds no free entry, or is too long for one, is
+/// written without an entry; then a fatal signal leaves it behind.
 enum class Entry { Free, Filling, Live, Removing };
 struct Slot {
   std::atomic<Entry> entry{Entry::Free};
@@ -174,18 +175,18 @@ Slot* enter(const std::string& path) {
 }
 
 void leave(Slot* slot) {
-  // An entry that a signal handler is removing is freed by the handler.
+  // An entry whose file is being removed by a signal handler is freed by the handler.
   Entry expected = Entry::Live;
   if (slot) slot->entry.compare_exchange_strong(expected, Entry::Free);
 }
 
 }  // namespace
 
-/// A new file in the folder of `target`, which replaces it by `commit`, or is removed.
+/// A new file in the folder of `target`, which `commit` renames to `target`; otherwise the destructor removes it.
 class FileWriter::Temporary {
  public:
   Temporary(const std::filesystem::path& target, const std::string& name) : target_(target.string()) {
-    // Only part of a very long name is used, so that the temporary name is not too long either.
+    // Only part of a very long name is used, so that the temporary name does not exceed the limit.
     const std::string stem = "." + target.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
     for (int attempt = 0; attempt < 100; ++attempt) {
       const std::string suffix = attempt == 0 ? ".tmp" : "." + std::to_string(attempt) + ".tmp";
@@ -227,7 +228,7 @@ class FileWriter::Temporary {
 
 namespace {
 
-/// While it lives, a write to a closed pipe is an error of this thread and not a signal.
+/// During its lifetime, a write to a closed pipe is an error of the call and not a signal.
 class PipeSignalBlocked {
  public:
   PipeSignalBlocked() {
@@ -266,7 +267,7 @@ void write_all(int fd, std::span<const std::uint8_t> bytes, const std::string& n
   }
 }
 
-/// Opens what is there (a device, a pipe) and writes into it.
+/// Opens an existing device or pipe and writes to it.
 void write_in_place(const std::string& path, std::span<const std::uint8_t> bytes) {
   Descriptor file(open_retrying(path.c_str(), O_WRONLY | O_TRUNC));
   if (file.fd() < 0) throw write_error(path, cause_of(errno));
@@ -274,13 +275,14 @@ void write_in_place(const std::string& path, std::span<const std::uint8_t> bytes
   if (::close(file.release()) != 0 && errno != EINTR) throw write_error(path, cause_of(errno));
 }
 
-/// The descriptors of the process and its devices are never replaced by a new file, even where they lead to one.
+/// True for descriptors of the process and for devices, which are never replaced by a new file, even if they refer to a
+/// regular one.
 bool is_process_or_device(const std::filesystem::path& path) {
   const std::string name = path.string();
   return name.starts_with("/proc/") || (name.starts_with("/dev/") && !name.starts_with("/dev/shm/"));
 }
 
-/// The name at the end of a chain of symbolic links, whether it exists or not.
+/// The target of a chain of symbolic links, which need not exist.
 std::filesystem::path follow_links(const std::string& name) {
   std::filesystem::path path = name;
   for (int links = 0; links < 40; ++links) {
@@ -297,7 +299,7 @@ void check_name(const std::string& path) {
   if (path.empty() || path.find('\0') != std::string::npos) throw write_error(path, "not a file name");
 }
 
-/// `status`: of what is there already; null where nothing is.
+/// Throws if `target` cannot be replaced. `status` is that of the existing file, or null if there is none.
 void check_target(const std::string& path, const std::filesystem::path& target, const struct stat* status) {
   if (status && S_ISDIR(status->st_mode)) throw write_error(path, "it is a directory");
   if (status && ::access(path.c_str(), W_OK) != 0) throw write_error(path, cause_of(errno));
@@ -319,7 +321,7 @@ FileWriter::FileWriter(std::string path) : path_(std::move(path)) {
   check_target(path_, target, is_there ? &status : nullptr);
   if (is_written_in_place(target, is_there ? &status : nullptr)) return;
 
-  // The new file takes over the permissions of the one that it replaces, where the file system lets it.
+  // The new file takes over the permissions of the replaced one, if the file system supports that.
   file_ = std::make_unique<Temporary>(target, path_);
   if (is_there) static_cast<void>(::fchmod(file_->fd(), status.st_mode & 07777));
 }

@@ -46,7 +46,7 @@ std::string error_of(ErrorKind kind, Body body) {
   return "";
 }
 
-/// An empty directory of this test alone.
+/// A fixture with an empty temporary directory.
 class File : public testing::Test {
  protected:
   void SetUp() override {
@@ -219,7 +219,7 @@ TEST_F(File, ReportsAClosedPipe) {
             0);
 }
 
-/// Lets this process write at most `bytes` into a file, as a disk that fills up does.
+/// Limits the size of files that this process writes, to simulate a full disk.
 void limit_file_size(rlim_t bytes) {
   const rlimit limit{bytes, bytes};
   ::setrlimit(RLIMIT_FSIZE, &limit);
@@ -244,7 +244,7 @@ TEST_F(File, LeavesNothingBehindWhenTheDiskIsFull) {
 
 TEST_F(File, LeavesNothingBehindWhenASignalEndsTheProcess) {
   EXPECT_EQ(exit_code_in_child([&] {
-              // The signal comes in the middle of the writing, when the temporary file is there.
+              // The signal arrives during writing, while the temporary file exists.
               ::signal(SIGXFSZ, [](int) {
                 remove_temporaries();
                 ::_exit(7);

@@ -13,7 +13,7 @@ struct Package {
   const char *file, *package;
 };
 /// In the order of Library: the versions whose headers the program was built with (cmake/sonames.cmake), and the
-/// packages of Debian 12 that hold them.
+/// packages of Debian 12 that contain them.
 constexpr Package packages[] = {{soname_assimp, "libassimp5"},
                                 {soname_meshoptimizer, "libmeshoptimizer2d"},
                                 {soname_openexrcore, "libopenexr-3-1-30"},
@@ -36,7 +36,7 @@ SharedLibrary::SharedLibrary(Library library, const std::string& place) : librar
 
 SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
   const char* const file = package_of(library_).file;
-  // The handle of a library that is open already.
+  // The library is open already: RTLD_NOLOAD returns its handle.
   if (void* const address = ::dlsym(::dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD), symbol))
     return reinterpret_cast<AnyFunction>(address);
   throw Error(ErrorKind::Input, place_ + ": the library " + file + " has no function " + symbol);

@@ -12,11 +12,11 @@ namespace zoneplate {
 /// a small image.
 enum class Library { Assimp, Meshoptimizer, OpenExr, Zstd };
 
-/// Thrown in a sandboxed child, which has no right to load code, for a library that its parent had not opened. It is no
-/// Error, so that what goes on without a texture that cannot be read does not go on without one that can.
+/// Thrown in a sandboxed child, which must not load code, for a library that its parent did not open. It is not an
+/// Error, so that code which continues without an unreadable texture does not omit a readable one.
 class LibraryNeeded : public std::runtime_error {
  public:
-  /// `message`: the error where the library is not installed.
+  /// `message` is the error message if the library is not installed.
   LibraryNeeded(Library library, const std::string& message) : std::runtime_error(message), library_(library) {}
   Library library() const { return library_; }
 
@@ -24,18 +24,18 @@ class LibraryNeeded : public std::runtime_error {
   Library library_;
 };
 
-/// Opens a library for the rest of the process; its later children have it open too. False where it is not installed.
+/// Opens a library for the rest of the process; later child processes inherit it. False if it is not installed.
 bool open_library(Library library);
 
 /// The functions of an open library.
 class SharedLibrary {
  public:
-  /// Opens the library if it is not open yet. `place` begins error messages.
+  /// Opens the library if it is not open yet. `place` is the prefix of error messages.
   ///
-  /// Errors    ErrorKind::Input naming the library and its package where it is not installed; LibraryNeeded.
+  /// Errors    ErrorKind::Input naming the library and its package if it is not installed; LibraryNeeded.
   SharedLibrary(Library library, const std::string& place);
 
-  /// Errors    ErrorKind::Input where the library has no such function.
+  /// Errors    ErrorKind::Input if the library has no such function.
   template <class Function>
   void find(Function*& function, const char* symbol) const {
     function = reinterpret_cast<Function*>(address_of(symbol));

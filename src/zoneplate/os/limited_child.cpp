@@ -22,10 +22,10 @@
 namespace zoneplate {
 namespace {
 
-/// A fact of the process, as its number is: written once, before the child has a second thread.
+/// Whether this process is a LimitedChild; written once, before the child starts a second thread.
 bool is_child = false;
 
-/// The first byte of an answer: this, or the kind of the error whose message follows.
+/// The first byte of an answer: this value, or the kind of the error whose message follows.
 constexpr std::uint8_t good = 255;
 
 void write_whole(int pipe, const void* data, std::size_t size) {
@@ -70,7 +70,7 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
       throw Error(ErrorKind::Failed, task.place + ": the system has no filter for system calls");
     with_threads(threads, [&] {
       task.work(answer);
-      ::_exit(0);  // the kernel ends the other threads sooner than they could be joined
+      ::_exit(0);  // _exit ends the other threads faster than they could be joined
     });
   } catch (const Error& error) {
     if (!answer.is_begun()) send_error(pipe, error.kind(), error.what());
@@ -155,7 +155,7 @@ std::size_t LimitedChild::read_some(void* out, std::size_t size) {
   return done;
 }
 
-/// The child has closed its end of the pipe: it has ended, is about to, or means harm.
+/// Called when the child has closed its end of the pipe: waits for its end, kills it after a second, and throws.
 void LimitedChild::fail() {
   int status = 0;
   const Stopwatch patience;

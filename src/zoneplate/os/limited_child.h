@@ -10,11 +10,11 @@
 
 namespace zoneplate {
 
-/// Where a child process writes its answer.
+/// The stream to which a child process writes its answer.
 class ChildAnswer {
  public:
   explicit ChildAnswer(int pipe) : pipe_(pipe) {}
-  /// Never returns if the reader is gone.
+  /// Does not return if the reader is gone.
   void write(const void* data, std::size_t size);
   bool is_begun() const { return is_begun_; }
 
@@ -23,29 +23,31 @@ class ChildAnswer {
   bool is_begun_ = false;
 };
 
-/// True in the process of a LimitedChild, where work needs no further child.
+/// True in the process of a LimitedChild, in which work does not need another child.
 bool is_limited_child();
 
-/// Work on untrusted data in a child process, a copy of this one.
+/// Runs work on untrusted data in a child process, a fork of this one.
 ///
-/// The child has limits on memory and time and the sandbox of sandbox.h; it ends with its parent, and is killed with
-/// this object. `work` makes its result first and writes it then: an Error that it throws before it writes is thrown
-/// here again, by the first `read`.
-/// Errors    ErrorKind::Input with `place` in front where the child crashes, runs out of memory or time, or makes a
-///           system call that a reader does not need; ErrorKind::Failed where no process can be started.
+/// The child has limits of memory and time and the sandbox of sandbox.h; it ends with its parent, and is killed by the
+/// destructor. `work` computes its result first and then writes it: an Error that it throws before the first write is
+/// rethrown in the parent by the first `read`.
+/// Errors    ErrorKind::Input with `place` in front if the child crashes, exceeds its memory or time, or makes a system
+///           call that reading does not need; ErrorKind::Failed if no process can be started.
 class LimitedChild {
  public:
   struct Limits {
-    std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes beyond what the process has now
-    double seconds = 60;                            ///< of each thread's processor
-    std::string options;                            ///< that raise the limits, as errors name them; may be empty
-    std::function<void()> check_time;  ///< called while the parent waits; throws when it has waited too long
-    bool is_sandboxed = true;          ///< false: the limits alone
-    std::optional<std::vector<std::string>> readable = {};  ///< files and folders; nothing: all that its user may read
-    std::string worker = "its reader";                      ///< the subject of errors about the child's end
+    std::uint64_t memory = std::uint64_t{1} << 30;  ///< bytes beyond the memory that the process has at the start
+    double seconds = 60;                            ///< processor time per thread
+    /// The options that raise the limits, for error messages; may be empty.
+    std::string options;
+    std::function<void()> check_time;  ///< called while the parent waits; throws when its own limit is exceeded
+    bool is_sandboxed = true;          ///< false: only the limits apply
+    std::optional<std::vector<std::string>> readable = {};  ///< files and folders; nothing: all that the user may read
+    /// The subject of error messages about the end of the child.
+    std::string worker = "its reader";
   };
 
-  /// `open` runs in the child before its rights are taken, to open libraries.
+  /// `open` runs in the child before the sandbox is entered, to open libraries.
   LimitedChild(std::string place, Limits limits, const std::function<void(ChildAnswer&)>& work,
                const std::function<void()>& open = {});
   ~LimitedChild();

@@ -20,7 +20,7 @@
 namespace zoneplate {
 namespace {
 
-/// What the parent says of a child that does this.
+/// The parent's error message for a child with this work.
 std::string complaint_about(const std::function<void(ChildAnswer&)>& work, const LimitedChild::Limits& limits = {},
                             const std::function<void()>& open = {}) {
   try {

@@ -14,8 +14,8 @@
 namespace zoneplate {
 namespace {
 
-/// The mappings, for the signal's handler, which has no argument through which to receive them. An entry with size 0 is
-/// free, or about to be filled.
+/// The mappings, which are global because the signal handler has no parameter for them. An entry of size 0 is free or
+/// being filled.
 struct Mapping {
   std::atomic<std::uintptr_t> begin{0};
   std::atomic<std::size_t> size{0};
@@ -26,7 +26,8 @@ constinit std::atomic<std::uint32_t> losses{0};
 
 struct sigaction before {};
 
-// Replaces the pages from the lost one to the end of the mapping by zeros: the file was truncated, or its disk failed.
+// Replaces the pages from the lost one to the end of the mapping by zeros, if the file was truncated or its disk
+// failed.
 void replace_lost(int, siginfo_t* info, void*) {
   constexpr std::uintptr_t page = 4096;
   const int error = errno;
@@ -43,7 +44,7 @@ void replace_lost(int, siginfo_t* info, void*) {
     errno = error;
     return;
   }
-  ::sigaction(SIGBUS, &before, nullptr);  // and comes again
+  ::sigaction(SIGBUS, &before, nullptr);  // the fault is repeated and handled by the previous action
   errno = error;
 }
 

@@ -7,24 +7,25 @@
 
 namespace zoneplate {
 
-/// From now on what a mapped file (FileBytes) loses while it is read, because it is cut off meanwhile or its disk
-/// fails, reads as 0; without this call it ends the process (SIGBUS).
+/// From this call on, bytes of a mapped file (FileBytes) that become unreadable, because the file is truncated or its
+/// disk fails, read as 0; without it they end the process (SIGBUS).
 ///
-/// For programs: the signal is the whole process's. Of memory that is not a FileBytes's it does what it did before.
+/// For programs, not libraries: the signal handler is global. Faults in other memory are handled by the previous
+/// action.
 void survive_truncated_mappings();
 
 /// Reports whether all bytes that were read since its construction existed.
 class MappedFileWatch {
  public:
   MappedFileWatch();
-  /// Errors    ErrorKind::Input naming `file`, if any mapped file lost bytes since this watch began.
+  /// Errors    ErrorKind::Input naming `file`, if any mapped file has lost bytes since the construction.
   void check(const std::string& file) const;
 
  private:
   std::uint32_t before_;
 };
 
-/// Between these calls the mapping is a FileBytes's. One that finds no room among many is not watched.
+/// Registers a mapping of FileBytes until leave_mapping. If the table is full, the mapping is not guarded.
 void enter_mapping(const void* begin, std::size_t size);
 void leave_mapping(const void* begin);
 

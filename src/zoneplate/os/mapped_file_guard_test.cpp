@@ -15,7 +15,7 @@
 namespace zoneplate {
 namespace {
 
-// In a process of its own, for the signal is all of a process's.
+// In a child process, because the signal handler is global.
 TEST(LostBytes, OfAFileThatIsCutOffReadAsZeroAndAreToldOf) {
   const std::string path = testing::TempDir() + "cut-" + std::to_string(::getpid());
   save_bytes(path, std::vector<std::uint8_t>(1 << 16, 7));
@@ -34,7 +34,7 @@ TEST(LostBytes, OfAFileThatIsCutOffReadAsZeroAndAreToldOf) {
     } catch (const Error& error) {
       said = error.what();
     }
-    MappedFileWatch().check(path);  // begun after the loss
+    MappedFileWatch().check(path);  // a watch that starts after the loss
     ::_exit(has_first && has_rest && said == path + ": cannot be read: bytes were lost meanwhile" ? 0 : 1);
   }
   int status = -1;

@@ -11,9 +11,9 @@
 namespace zoneplate {
 namespace {
 
-/// The sixth of the seven numbers of /proc/self/statm, which counts the pages of data and stack; 0 where there is none.
+/// The sixth of the seven numbers of /proc/self/statm, the pages of data and stack; 0 if it is not available.
 std::uint64_t pages_of_data() {
-  char text[256];  // seven numbers of 20 digits at most
+  char text[256];  // seven numbers of at most 20 digits
   const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (statm < 0) return 0;
   const ssize_t size = ::read(statm, text, sizeof text);

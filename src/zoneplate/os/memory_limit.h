@@ -5,10 +5,10 @@
 
 namespace zoneplate {
 
-/// From now on this process may have `bytes` more of memory that it can write to than it has now, whoever allocates
-/// it; past that, allocations fail. Files that FileBytes maps count. A later call replaces the limit.
+/// Limits the writable memory of this process to `bytes` more than it has now, for all allocations; beyond it,
+/// allocations fail. Files mapped by FileBytes count. A later call replaces the limit.
 ///
-/// For programs: the limit is the whole process's (RLIMIT_DATA), and passes to its children.
+/// For programs, not libraries: the limit is that of the whole process (RLIMIT_DATA), and child processes inherit it.
 void limit_memory(std::uint64_t bytes);
 
 }  // namespace zoneplate

@@ -15,7 +15,7 @@ namespace {
 TEST(MemoryLimit, AFailedAllocationNamesWhatGrew) {
   rlimit old{};
   ASSERT_EQ(::getrlimit(RLIMIT_DATA, &old), 0);
-  const Rgba8Image image(2048, 2048);  // 16 MB, and 43 MB of levels
+  const Rgba8Image image(2048, 2048);  // 16 MB, and 43 MB of mip levels
   limit_memory(std::uint64_t{24} << 20);
   std::string what;
   try {

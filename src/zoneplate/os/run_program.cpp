@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::string_view usual_folders = "/usr/local/bin:/usr/bin:/bin";
 
-/// The folders of PATH, then the usual ones. Those that are not absolute are ignored: a program must not depend on
-/// the working directory.
+/// The folders of PATH, followed by the default ones. Relative folders are ignored, because the found program must not
+/// depend on the working directory.
 std::string search_path() {
   const char* const variable = std::getenv("PATH");
   std::string out;
@@ -38,7 +38,7 @@ std::string search_path() {
   return out;
 }
 
-/// A file that is closed at the end.
+/// Owns a file descriptor and closes it.
 class File {
  public:
   explicit File(int number = -1) : number_(number) {}
@@ -60,8 +60,8 @@ class File {
   throw Error(ErrorKind::Failed, program + ": " + what);
 }
 
-/// A file in memory that holds `text`, read from its start: unlike a pipe it takes everything at once, and a child
-/// that dies early leaves no broken pipe.
+/// An in-memory file that contains `text`, positioned at its start: unlike a pipe it accepts everything at once, and no
+/// SIGPIPE is raised if a child ends early.
 File file_of(const std::string& program, const std::string& text) {
   File file(::memfd_create("zoneplate", MFD_CLOEXEC));
   for (std::size_t at = 0; at < text.size();) {
@@ -92,7 +92,7 @@ std::string path_of(const std::string& program) {
   fail(program, "is not installed");
 }
 
-/// A child that is killed and forgotten unless it was waited for.
+/// A child process. The destructor kills it unless it has ended.
 class Child {
  public:
   Child(const std::string& program, const std::vector<std::string>& arguments, int in, int out, int complaints) {
@@ -121,7 +121,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// True once it has ended; `code` is then its exit code.
+  /// True if the child has ended; `code` is then its exit code.
   bool has_ended(int& code) {
     int status = 0;
     if (::waitpid(id_, &status, WNOHANG) == 0) return false;

@@ -10,19 +10,19 @@ namespace zoneplate {
 
 /// The results of a program that has ended.
 struct ProgramResult {
-  int code = 0;                   ///< its exit code; 128 + n where signal n ended it
+  int code = 0;                   ///< exit code; 128 + n if signal n ended the program
   std::vector<std::uint8_t> out;  ///< all of stdout
   std::string complaint;          ///< the first line of stderr
 };
 
 struct ProgramLimits {
-  int milliseconds = 20000;                  ///< then it is killed
-  std::size_t bytes = std::size_t{1} << 28;  ///< of stdout; then it is killed
+  int milliseconds = 20000;                  ///< the program is killed after this time
+  std::size_t bytes = std::size_t{1} << 28;  ///< maximum size of stdout; the program is killed when it exceeds it
 };
 
-/// A file without a name among the temporary ones, which ends with this object.
+/// An unnamed temporary file, which exists as long as this object.
 ///
-/// Errors    ErrorKind::Failed naming `owner`, where there is no room for it.
+/// Errors    ErrorKind::Failed naming `owner` if it cannot be created or written.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string owner);
@@ -40,14 +40,14 @@ class ScratchFile {
   std::uint64_t size_ = 0;
 };
 
-/// Runs a program of the system's folders on `input` as its stdin, without a shell.
+/// Runs an installed program without a shell, with `input` as its stdin.
 ///
-/// It is looked for in the absolute folders of PATH, then in /usr/local/bin, /usr/bin and /bin. Its environment is
-/// these folders and the C locale in UTF-8: no HOME, so that no settings of a user count. Errors    ErrorKind::Failed
-/// naming the program where it cannot be started or goes past a limit.
+/// The program is searched in the absolute folders of PATH, then in /usr/local/bin, /usr/bin and /bin. Its environment
+/// has only these folders and the C locale in UTF-8: without HOME, so that settings of the user have no effect.
+/// Errors    ErrorKind::Failed naming the program if it cannot be started or exceeds a limit.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits = {});
-/// The same with a file as its stdin, read from its beginning.
+/// Runs a program with a file as its stdin, read from the beginning.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const ScratchFile& input,
                         const ProgramLimits& limits = {});
 

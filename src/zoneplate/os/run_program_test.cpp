@@ -25,13 +25,13 @@ TEST(Child, GivesInputAnswersAndCode) {
   const ProgramResult failed = run_child("ls", {"/no/such/file"}, "");
   EXPECT_NE(failed.code, 0);
   EXPECT_TRUE(contains(failed.complaint, "No such file")) << failed.complaint;
-  // Nothing of the environment comes along.
+  // The child does not inherit the environment.
   ::setenv("ZONEPLATE_CHILD_TEST", "seen", 1);
   const ProgramResult variables = run_child("env", {}, "");
   EXPECT_FALSE(contains(std::string(variables.out.begin(), variables.out.end()), "ZONEPLATE_CHILD_TEST"));
 }
 
-/// A folder with a program that prints its own name, and PATH as it was before.
+/// A fixture with a folder that contains a program which prints its own name; it restores PATH.
 class ChildInPath : public testing::Test {
  protected:
   ChildInPath() : before_(std::getenv("PATH") ? std::getenv("PATH") : "") {
@@ -58,7 +58,7 @@ TEST_F(ChildInPath, IsFoundThereAndNeverByAFolderThatIsNotAbsolute) {
     EXPECT_THROW(run_child("zoneplate-test-program", {}, ""), Error) << path;
   }
   ::unsetenv("PATH");
-  EXPECT_EQ(run_child("true", {}, "").code, 0);  // the usual folders hold it
+  EXPECT_EQ(run_child("true", {}, "").code, 0);  // found in the default folders
 }
 
 TEST(Child, EndsWhatDoesNotEnd) {

@@ -19,7 +19,7 @@
 namespace zoneplate {
 namespace {
 
-/// Calls that reading, allocating and threads need, whatever their arguments.
+/// System calls that reading, allocation and threads need, with any arguments.
 constexpr int allowed_calls[] = {
     SCMP_SYS(read),
     SCMP_SYS(readv),
@@ -69,16 +69,16 @@ constexpr int allowed_calls[] = {
     SCMP_SYS(getdents64),
 };
 
-/// Calls that are answered with an error, since their callers manage without them.
+/// System calls that fail with an error, because their callers have a fallback.
 struct RefusedCall {
   int number, error;
 };
 constexpr RefusedCall refused_calls[] = {
-    {SCMP_SYS(clone3), ENOSYS},  // a filter cannot see its arguments; the C library calls `clone` next
+    {SCMP_SYS(clone3), ENOSYS},  // a filter cannot inspect its arguments; the C library falls back to `clone`
     {SCMP_SYS(openat2), ENOSYS}, {SCMP_SYS(prlimit64), EPERM},  {SCMP_SYS(ioctl), ENOTTY},
     {SCMP_SYS(fcntl), EPERM},    {SCMP_SYS(faccessat2), ENOSYS}};
 
-/// A filter for system calls that is released at the end.
+/// Owns a filter for system calls.
 class Filter {
  public:
   Filter() : filter_(::seccomp_init(SCMP_ACT_KILL_PROCESS)) {
@@ -113,12 +113,12 @@ class Filter {
   bool is_complete_ = false;
 };
 
-/// The rights over files that the first version of Landlock supports.
+/// The file-system rights that the first version of Landlock supports.
 constexpr std::uint64_t first_rights = (std::uint64_t{1} << 13) - 1;
 
 long landlock_version() { return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION); }
 
-/// Confines this process to reading these files and folders. A path that does not exist is left out.
+/// Confines this process to reading these files and folders. A path that does not exist is ignored.
 void limit_files(const std::vector<std::string>& readable) {
   constexpr std::uint64_t reading = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
   landlock_ruleset_attr all{};
@@ -130,7 +130,7 @@ void limit_files(const std::vector<std::string>& readable) {
     if (file < 0) continue;
     landlock_path_beneath_attr rule{.allowed_access = reading, .parent_fd = file};
     if (::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) != 0) {
-      rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;  // all that a file, which is no folder, may have
+      rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;  // the only one of these rights that is valid for a file
       ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
     }
     ::close(file);

@@ -9,8 +9,8 @@
 namespace zoneplate {
 namespace {
 
-constexpr int least_width_em = 20;   // of a figure, so that a title has room over a small image
-constexpr int hairline_share = 110;  // of 255: how dark an image's outline is
+constexpr int least_width_em = 20;   // minimum width of a figure, so that a title fits over a small image
+constexpr int hairline_share = 110;  // of 255: darkness of an image's outline
 constexpr double title_scale = 1.5;  // documented in the header
 
 struct Faces {
@@ -21,7 +21,7 @@ struct Faces {
   Typeface text, heading, title;
 };
 
-/// A text in its lines, ready to be drawn.
+/// A text broken into lines, ready to be drawn.
 struct Block {
   const Typeface* face = nullptr;
   std::vector<std::string> lines;
@@ -29,7 +29,7 @@ struct Block {
   int height() const { return static_cast<int>(lines.size()) * face->leading(); }
 };
 
-/// A panel with its caption in lines; where the caption has more than one line of its own, the first is a heading.
+/// A panel whose caption is broken into lines; if the caption itself has several lines, the first is a heading.
 struct Placed {
   const Panel* panel = nullptr;
   Block heading, text;
@@ -48,7 +48,7 @@ Placed placed(const Faces& faces, const Panel& panel) {
           block(faces.text, has_heading ? caption.substr(end + 1) : caption, width)};
 }
 
-/// The image drawn on, from the top down.
+/// The image of the figure, which is drawn from top to bottom.
 class Sheet {
  public:
   Sheet(int width, int height, const FigureStyle& style) : image_(width, height, opaque(style.paper)), style_(style) {}
@@ -76,7 +76,7 @@ class Sheet {
  private:
   static Rgba8 opaque(Rgba8 c) { return {c.r, c.g, c.b, 255}; }
 
-  /// True for an image whose rim is paper all around, as a plot's.
+  /// True for an image whose border has the background colour, such as a plot.
   bool fades_into_paper(const Rgba8Image& picture) const {
     const auto is_paper = [&](Rgba8 c) { return c.a == 0 || c == opaque(style_.paper); };
     const int w = picture.width(), h = picture.height();
@@ -87,7 +87,7 @@ class Sheet {
     return true;
   }
 
-  /// One pixel outside of the image, so that light images end somewhere.
+  /// Draws an outline of one pixel around the image, so that the edges of light images are visible.
   void outline(const Rgba8Image& picture, int left, int top) {
     const Rgba8 line = laid_over(opaque(style_.paper), style_.ink, hairline_share);
     const auto set = [&](int x, int y) {
@@ -133,7 +133,7 @@ Rgba8Image compose(const Figure& figure, const FigureStyle& style) {
   }
   const Block title = block(faces.title, figure.title, inner), text = block(faces.text, figure.text, inner);
 
-  // Everything that stands gets the gap below it; the one at the top is the margin.
+  // Each element is followed by a gap; the first gap is the top margin.
   int height = gap;
   for (const Block* b : {&title, &text})
     if (!b->lines.empty()) height += b->height() + gap;

@@ -28,7 +28,7 @@ bool holds(const Rgba8Image& image, const Rgba8Image& part, int left, int top) {
   return true;
 }
 
-/// The first column and row, and the last ones, in which anything differs from the paper.
+/// The bounding box of the pixels that differ from the background.
 struct Extent {
   int left = 1 << 20, top = 1 << 20, right = -1, bottom = -1;
 };

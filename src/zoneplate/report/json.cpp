@@ -6,7 +6,7 @@
 
 namespace zoneplate {
 
-// One overload for each kind of value.
+// One overload for each alternative of the value.
 struct JsonWriter {
   using Out = nlohmann::ordered_json;
 
@@ -18,7 +18,7 @@ struct JsonWriter {
   static Out write(std::int64_t value) { return value; }
   static Out write(std::uint64_t value) { return value; }
   static Out write(double value) { return value; }
-  // Widened through its own shortest text: 0.1f is 0.1, not 0.10000000149.
+  // Converted to double through its shortest decimal text: 0.1f is 0.1, not 0.10000000149.
   static Out write(float value) {
     return std::isfinite(value)
                ? Out::parse(

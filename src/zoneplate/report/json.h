@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// A JSON value to be written. Members of an object stay in the order in which they were added.
+/// A JSON value to be written. Members of an object keep the order of their insertion.
 ///
 /// Requires  strings are UTF-8; invalid bytes are written as U+FFFD.
 /// Edges     NaN and infinities are written as null.
@@ -25,7 +25,7 @@ class Json {
   Json(std::int64_t value) : value_(value) {}
   Json(std::uint64_t value) : value_(value) {}
   Json(double value) : value_(value) {}
-  /// Written with the fewest digits that give the same float again.
+  /// Written with the fewest digits that convert back to the same float.
   Json(float value) : value_(value) {}
   Json(const char* value) : value_(std::string(value)) {}
   Json(std::string_view value) : value_(std::string(value)) {}
@@ -33,7 +33,7 @@ class Json {
   Json(Array value) : value_(std::move(value)) {}
   Json(Object value) : value_(std::move(value)) {}
 
-  /// One line, without a line end; or, indented, several.
+  /// `text` is one line without a line end; `indented` has several lines.
   std::string text() const;
   std::string indented() const;
 

@@ -6,7 +6,8 @@
 
 namespace zoneplate {
 
-/// JSON that the program wrote, read by a library that is not ours. (Compiled once: the parser takes long to build.)
+/// Parses JSON written by the program with an independent library. (Compiled once, because the parser takes long to
+/// compile.)
 nlohmann::json parsed_json(std::string_view text);
 
 }  // namespace zoneplate

@@ -14,19 +14,19 @@
 namespace zoneplate {
 namespace {
 
-// Sizes in pixels for a plot of the default size; half of each is still read without effort.
+// Sizes in pixels for a plot of the default size; texts are legible at half of these sizes.
 constexpr int text_px = 17, title_px = 20, label_px = 12;
 constexpr int margin_px = 10, heading_px = 30, key_row_px = 22, sample_px = 46, axes_px = 100;
-constexpr double letter_em = 0.58;  // of DejaVu Sans, in the mean
+constexpr double letter_em = 0.58;  // mean width of a letter of DejaVu Sans
 constexpr double line_px = 2.4, dash_px = 1.6, point_size = 1.1;
 
-/// One of gnuplot's terminals, and the sizes in its units that give the same layout as in the others.
+/// A gnuplot terminal, and the sizes in its units that result in the same layout for all terminals.
 struct Terminal {
   const char* name;
   const char* more;
-  double font;         ///< of a pixel: SVG's unit is the pixel, Cairo's the point at 96 dots an inch
-  double point;        ///< of a mark's size
-  double key_spacing;  ///< for rows of key_row_px
+  double font;         ///< units per pixel: SVG uses pixels, Cairo points at 96 dots per inch
+  double point;        ///< factor of a mark's size
+  double key_spacing;  ///< spacing for rows of key_row_px
 };
 constexpr Terminal svg = {"svg", "dynamic", 1, 0.55, 0.86}, cairo = {"pngcairo", "", 0.75, 1, 1.12};
 
@@ -36,7 +36,7 @@ constexpr Rgba8 grey = {130, 130, 130};
 
 std::string hex(Rgba8 c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
-// A word of gnuplot's in which nothing is special: between single quotes, of which it must hold none.
+// A gnuplot string in single quotes, in which no characters are special; single quotes in the text are replaced.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -46,7 +46,8 @@ std::string quoted(const std::string& text) {
   return out + '\'';
 }
 
-// A word of a data block in which nothing is special: between double quotes, of which it must hold none.
+// A gnuplot string in double quotes for a data block, in which no characters are special; double quotes in the text are
+// replaced.
 std::string label_of(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -103,7 +104,7 @@ std::string drawing_of(const Curve& curve, const std::string& block, std::size_t
   return text;
 }
 
-/// 1, 2 and 5 of each decade, where decades alone would leave a logarithmic axis nearly bare.
+/// Ticks at 1, 2 and 5 of each decade if a logarithmic axis would have too few ticks at decades alone.
 std::string ticks_of(char name, const Axis& axis) {
   if (!axis.is_logarithmic || !(axis.low > 0) || axis.high >= 1000 * axis.low)
     return fmt::format("set {}tics autofreq\n", name);
@@ -127,7 +128,7 @@ std::string axis_of(char name, const Axis& axis) {
   return text;
 }
 
-// Data have 10 digits, far finer than the resolution of an image, and independent of errors in the last bits.
+// Data have 10 digits: far more than an image resolves, and few enough to hide errors in the last bits.
 std::string data_of(const Curve& curve, const std::string& block) {
   std::string text = block + " << EOD\n";
   assert(curve.labels.empty() || curve.labels.size() == curve.points.size());
@@ -141,7 +142,7 @@ std::string data_of(const Curve& curve, const std::string& block) {
   return text + "EOD\n";
 }
 
-// The key in columns as wide as its longest name.
+// The layout of the key: columns as wide as its longest name.
 struct Key {
   int columns = 1, rows = 0;
 };
@@ -152,7 +153,7 @@ Key key_of(const Plot& plot, int width) {
     if (curve.name.empty() || curve.points.empty()) continue;
     const auto is_start = [](char c) {
       return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-    };  // of a letter in UTF-8
+    };  // the number of letters, in UTF-8
     longest =
         std::max(longest, static_cast<std::size_t>(std::count_if(curve.name.begin(), curve.name.end(), is_start)));
     ++names;
@@ -163,7 +164,7 @@ Key key_of(const Plot& plot, int width) {
   return {columns, (names + columns - 1) / columns};
 }
 
-// Title and key stand left above the plot whose top is `top` pixels from the top of a sheet `height` high.
+// The title and key above a plot; the plot's top is `top` pixels below the top of a sheet of height `height`.
 std::string heading_of(const Plot& plot, const PlotSize& size, int top, int height, const Terminal& terminal) {
   const Key key = key_of(plot, size.width);
   const auto from_top = [&](int y) { return fmt::format("screen {:.6f}", 1 - static_cast<double>(top + y) / height); };
@@ -224,7 +225,7 @@ std::string script_of(std::span<const Plot> plots, int columns, const PlotSize& 
 
 std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const PlotSize& size,
                                 const Terminal& terminal) {
-  // `-d` keeps settings of the machine's out.
+  // `-d` ignores initialization files of the machine and the user.
   const ProgramResult answer = [&] {
     try {
       return run_child("gnuplot", {"-d", "-"}, script_of(plots, columns, size, terminal));

@@ -17,30 +17,29 @@ namespace zoneplate {
 struct Curve {
   enum class Mark {
     Line,
-    Dashed,  ///< thinner, and behind the other curves: a reference, a limit
+    Dashed,  ///< thinner, and behind the other curves: for references and limits
     Points,
     LineAndPoints,
     Stems,  ///< a line from 0 to each point
-    Steps,  ///< level from each point to the next
-    Area,   ///< filled lightly down to 0, with its outline
+    Steps,  ///< horizontal from each point to the next
+    Area,   ///< lightly filled down to 0, with an outline
   };
 
-  std::string name;  ///< in the key; empty: none
+  std::string name;  ///< name in the key; empty: not in the key
   std::vector<std::pair<double, double>> points;
   Mark mark = Mark::Line;
   /// Index into the palette; -1: the index of the curve; `grey`: for background information.
   int color = -1;
-  double opacity = 0.25;                 ///< of an Area
-  std::vector<std::string> labels = {};  ///< next to the points, one for each, or none; some may be empty
+  double opacity = 0.25;                 ///< opacity of an Area
+  std::vector<std::string> labels = {};  ///< texts next to the points: one per point (some may be empty), or none
   enum class Beside { RightAbove, LeftBelow } labels_are = Beside::RightAbove;
   static constexpr int grey = -2;
 };
 
 struct Axis {
   std::string label;  ///< with its unit: "frequency (cycles per pixel)"
-  double low = 0,
-         high =
-             0;  ///< both 0: the range of the data; a logarithmic axis of less than three decades has ticks at 1, 2, 5
+  /// Both 0: the range of the data. A logarithmic axis of less than three decades has ticks at 1, 2 and 5.
+  double low = 0, high = 0;
   bool is_logarithmic = false;
 };
 
@@ -51,15 +50,14 @@ struct Plot {
 };
 
 struct PlotSize {
-  int width = 720, height = 440;  ///< pixels of the PNG; the SVG has the same shape
+  int width = 720, height = 440;  ///< pixels of the PNG; the SVG has the same aspect ratio
 };
 
-/// The plot as the text of an SVG file, or as an image; legible at half size.
+/// Draws the plot as the text of an SVG file, or as an image; legible at half size.
 ///
-/// Drawn by gnuplot, a program of its own, in a child process with a time limit. Texts are shown as they are,
-/// but for ' which becomes ’.
-/// Exact     no time stamp; the same bytes wherever gnuplot and its fonts are the same.
-/// Errors    ErrorKind::Failed naming gnuplot and its package where it is not installed or does not answer.
+/// The plot is drawn by gnuplot in a child process with a time limit. Texts are unchanged, except that ' becomes ’.
+/// Exact     no time stamp; the same bytes with the same versions of gnuplot and its fonts.
+/// Errors    ErrorKind::Failed naming gnuplot and its package if it is not installed or fails.
 std::string plot_svg(const Plot& plot, const PlotSize& size = {});
 Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {});
 
@@ -71,7 +69,7 @@ Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSiz
 
 /// A palette for colour-blind readers, in the order of the curves.
 ///
-/// Source    Okabe and Ito, Color Universal Design, 2008; without its yellow, which is lost on white.
+/// Source    Okabe and Ito, Color Universal Design, 2008; without its yellow, which is hardly visible on white.
 std::span<const Rgba8> plot_palette();
 
 }  // namespace zoneplate

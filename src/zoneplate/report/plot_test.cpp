@@ -37,7 +37,7 @@ TEST(Plot, ALevelLineHasItsColourLengthAndPlace) {
   ASSERT_EQ(image.width(), 400);
   ASSERT_EQ(image.height(), 300);
   EXPECT_EQ(image(0, 0), (Rgba8{255, 255, 255, 255}));
-  // The line crosses the whole plot in one or two full rows near the middle of it.
+  // The line crosses the whole plot in one or two full rows near its middle.
   int rows = 0, longest = 0, place = 0;
   for (int y = 0; y < 300; ++y) {
     const auto row = image.row(y);

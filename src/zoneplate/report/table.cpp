@@ -9,7 +9,7 @@
 namespace zoneplate {
 namespace {
 
-/// Code points, which is what a terminal's column is for the letters that tables have.
+/// The number of code points, which for the letters of tables is the number of a terminal's columns.
 std::size_t length_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; }));
@@ -47,7 +47,7 @@ std::string table_text(const Table& table) {
 }
 
 Rgba8Image table_picture(const Table& table, const FigureStyle& style, int least_width) {
-  constexpr int rule_share = 110;  // of 255: how dark the line under the head is
+  constexpr int rule_share = 110;  // of 255: darkness of the line below the header
   const Typeface text(Typeface::Weight::Regular, style.text_px), head(Typeface::Weight::Bold, style.text_px);
   const auto widths = widths_of(table, [&](const std::string& cell, bool is_head) {
     return static_cast<int>((is_head ? head : text).width(cell) + 1);

@@ -8,18 +8,19 @@
 
 namespace zoneplate {
 
-/// Rows of words and numbers under a head. The first column is left-aligned, the others, numbers, right-aligned.
+/// Rows of words and numbers below a header row. The first column is left-aligned, the others, which have numbers,
+/// right-aligned.
 ///
-/// Requires  every row is as long as the head.
+/// Requires  every row has as many cells as the header.
 struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// For a terminal: columns two spaces apart, each line ended.
+/// The table for a terminal: columns two spaces apart, each line terminated.
 std::string table_text(const Table& table);
 
-/// For a figure, in its style; at least `least_width` wide, its rim is paper.
+/// The table for a figure, in its style; at least `least_width` wide, with a border in the background colour.
 Rgba8Image table_picture(const Table& table, const FigureStyle& style, int least_width = 0);
 
 }  // namespace zoneplate

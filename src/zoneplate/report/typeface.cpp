@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* package = "fonts-dejavu-core";
 constexpr const char* files[] = {"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"};
-/// Where Debian, Arch, Fedora, Gentoo and Alpine, and an administrator put them.
+/// Font folders of Debian, Arch, Fedora, Gentoo and Alpine, and of local installations.
 constexpr const char* folders[] = {"/usr/share/fonts/truetype/dejavu/",       "/usr/share/fonts/TTF/",
                                    "/usr/share/fonts/dejavu-sans-fonts/",     "/usr/share/fonts/dejavu/",
                                    "/usr/local/share/fonts/truetype/dejavu/", "/usr/local/share/fonts/"};
-constexpr double leading_em = 1.4;  // DejaVu's letters are tall: the usual 1.2 looks crowded
+constexpr double leading_em = 1.4;  // DejaVu's letters are tall: the usual 1.2 would be too narrow
 constexpr char32_t replacement = 0xfffd;
 
-/// Takes the first code point off `text`.
+/// Takes the first code point from the front of `text`.
 char32_t take(std::string_view& text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -41,7 +41,7 @@ char32_t take(std::string_view& text) {
   return is_well ? code : replacement;
 }
 
-/// Calls use(glyph, pen) for every letter of a line, the pen in 1/64 pixel; answers where the pen ends.
+/// Calls use(glyph, pen) for every letter of a line, with the pen in 1/64 pixel; returns the final position of the pen.
 template <class Use>
 FT_Pos set_line(FT_Face face, std::string_view line, Use use) {
   FT_Pos pen = 0;
@@ -59,7 +59,7 @@ FT_Pos set_line(FT_Face face, std::string_view line, Use use) {
   return pen;
 }
 
-/// The number of bytes of a word that fit, at least its first letter.
+/// The number of bytes of a word that fit into the width, at least its first letter.
 std::size_t fitting(const Typeface& face, std::string_view word, int width) {
   std::string_view rest = word;
   take(rest);
@@ -70,7 +70,7 @@ std::size_t fitting(const Typeface& face, std::string_view word, int width) {
     if (face.width(word.substr(0, longer)) > width) break;
     size = longer;
   }
-  // In its second half a name is rather parted at a joint: "Spheres|.glb", "two-|squares", "Metal|Rough".
+  // In its second half, a word is preferably broken at a joint: "Spheres|.glb", "two-|squares", "Metal|Rough".
   const auto is_joint = [word](std::size_t i) {
     const char before = word[i - 1], after = word[i];
     return before == '-' || before == '_' || before == '/' || after == '.' ||
@@ -114,7 +114,7 @@ Typeface::Typeface(Weight weight, int px) : px_(px) {
 
 int Typeface::leading() const { return static_cast<int>(leading_em * px_ + 0.5); }
 
-// The line's height is that of the font's letters, centred in the leading.
+// The height of the letters according to the font, centred in the leading.
 int Typeface::ascent() const {
   const auto pixels = [this](FT_Short units) {
     return static_cast<double>(units) * px_ / static_cast<double>(face_->units_per_EM);
@@ -137,7 +137,7 @@ std::vector<std::string> Typeface::wrapped(std::string_view text, int width) con
 
     std::string line;
     while (!rest.empty()) {
-      // A word is taken with the spaces before it, which are dropped where a line begins.
+      // A word is taken with the preceding spaces, which are dropped at the beginning of a line.
       std::size_t size = std::min(rest.find(' ', std::min(rest.find_first_not_of(' '), rest.size())), rest.size());
       std::string_view word = rest.substr(0, size);
       if (this->width(line + std::string(word)) > width) {

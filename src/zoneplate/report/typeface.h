@@ -13,9 +13,9 @@ struct FT_FaceRec_;
 
 namespace zoneplate {
 
-/// DejaVu Sans at one size: lines of text in images.
+/// DejaVu Sans at one size, for lines of text in images.
 ///
-/// Letters are positioned to 1/64 pixel along the line, kerned, and to whole pixels across it.
+/// Letters are positioned to 1/64 pixel along the line, with kerning, and to whole pixels across it.
 /// Shape     text is UTF-8; invalid bytes and characters that the font lacks are drawn as the replacement character.
 /// Units     pixels.
 /// Exact     the same bits on every machine with the same versions of the font and of FreeType.
@@ -23,18 +23,18 @@ class Typeface {
  public:
   enum class Weight { Regular, Bold };
 
-  /// Errors    ErrorKind::Failed naming the font's file and package where it cannot be read.
+  /// Errors    ErrorKind::Failed naming the font's file and package if it cannot be read.
   Typeface(Weight weight, int px);
 
   int ascent() const;   ///< from the top of a line to its baseline
   int leading() const;  ///< from one baseline to the next
   double width(std::string_view line) const;
 
-  /// The text in lines of at most this width, parted at spaces and line ends; a longer word is parted at
-  /// a joint (after a hyphen, before an ending or a capital), or anywhere.
+  /// Breaks the text into lines of at most this width, at spaces and line ends. A longer word is broken at a joint
+  /// (after a hyphen, before an extension or a capital), or anywhere.
   std::vector<std::string> wrapped(std::string_view text, int width) const;
 
-  /// Draws one line, whose left end and top are given, mixing ink and paper in linear light; the image clips it.
+  /// Draws one line at the given left end and top, blending ink and background in linear light; clipped to the image.
   void draw(Rgba8Image& picture, int left, int top, std::string_view line, Rgba8 ink) const;
 
  private:
@@ -47,7 +47,7 @@ class Typeface {
   int px_;
 };
 
-/// `over` laid over `under` with this much coverage of a pixel, in linear light; `under` is opaque.
+/// Blends `over` onto `under` with this coverage of a pixel, in linear light; `under` is opaque.
 Rgba8 laid_over(Rgba8 under, Rgba8 over, int coverage255);
 
 }  // namespace zoneplate

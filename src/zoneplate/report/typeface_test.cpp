@@ -63,7 +63,7 @@ TEST(Typeface, KernsAndScales) {
   EXPECT_GT(Typeface(Typeface::Weight::Bold, 64).width("Hamburg"), face.width("Hamburg"));
 }
 
-// The letter I of a grotesque is a bar: its ink is its width times its height, wherever it stands.
+// The letter I of a sans-serif font is a rectangle: its ink is its width times its height, at any position.
 TEST(Typeface, DrawsCoverageInLinearLight) {
   const Typeface face(Typeface::Weight::Regular, 100);
   const auto ink_of = [&](std::string_view before) {
@@ -87,7 +87,7 @@ TEST(Typeface, ShowsWhatIsNotUtf8AndClips) {
     EXPECT_FALSE(is_blank(picture));
   }
   Rgba8Image tiny(4, 4, paper);
-  face.draw(tiny, -10, -12, "Wide letters, mostly outside", black);  // stays inside: the plane asserts
+  face.draw(tiny, -10, -12, "Wide letters, mostly outside", black);  // clipped: the plane asserts the bounds
   EXPECT_FALSE(is_blank(tiny));
 }
 

@@ -11,7 +11,7 @@
 namespace zoneplate {
 namespace {
 
-// The fit is computed in double, so that boxes of any size that a float can hold pass through the same formulas.
+// The fit is computed in double, so that boxes of any size representable in float use the same formulas.
 struct Point {
   double x = 0, y = 0, z = 0;
 };
@@ -34,7 +34,8 @@ struct Axes {
 };
 
 Axes view_axes(const AutoFit& fit) {
-  // The front of a model is +Z; where that is up, -Y is (+Y where -Z is up), as if it had been turned upright.
+  // The front of a model is +Z; if +Z is up, the front is -Y (if -Z is up, +Y), as if the model had been rotated
+  // upright.
   Point up = to_point(fit.up);
   up = dot(up, up) > 0 ? normalize(up) : Point{0, 1, 0};
   const Point towards = std::abs(up.z) > 0.999 ? Point{0, up.z > 0 ? -1.0 : 1.0, 0} : Point{0, 0, 1};
@@ -48,14 +49,15 @@ Axes view_axes(const AutoFit& fit) {
   return {right, cross(back, right), back};
 }
 
-/// The points along the camera's axes, from the middle of their box.
+/// The coordinates of points along the camera's axes, relative to the centre of their box.
 struct Places {
   std::vector<double> x, y, z;
 };
 
-/// Where the eye must stand sideways so that the slopes (v - e) / (distance - z) reach equally far to both sides.
+/// The coordinate of the eye for which the slopes (v - e) / (distance - z) have equal maxima on both sides.
 ///
-/// The sum of the greatest and the least slope falls strictly with e: bisection, to the last bit that matters.
+/// The sum of the greatest and the least slope is strictly decreasing in e; it is solved by bisection to the last
+/// significant bit.
 double centred(std::span<const double> v, std::span<const double> z, double distance) {
   const auto lopsided = [&](double e) {
     double low = (v[0] - e) / (distance - z[0]), high = low;
@@ -73,7 +75,7 @@ double centred(std::span<const double> v, std::span<const double> z, double dist
   return (left + right) / 2;
 }
 
-/// The least distance at which every point's slope can be within ±`slope` of the axis.
+/// The least distance at which the slopes of all points can be within ±`slope` of the axis.
 double distance_for(std::span<const double> v, std::span<const double> z, double slope) {
   double right = v[0] + slope * z[0], left = -v[0] + slope * z[0];
   for (std::size_t i = 1; i < v.size(); ++i) {
@@ -83,7 +85,7 @@ double distance_for(std::span<const double> v, std::span<const double> z, double
   return (right + left) / (2 * slope);
 }
 
-/// Puts the camera at `eye`, given along its own axes from `origin`.
+/// Moves the camera to `eye`, which is relative to `origin` and along the camera's own axes.
 void place(Camera& camera, const Axes& axes, Point origin, Point eye) {
   const Point at = origin + axes.right * eye.x + axes.above * eye.y + axes.back * eye.z;
   const float3 r = to_float3(axes.right), a = to_float3(axes.above), b = to_float3(axes.back), t = to_float3(at);
@@ -94,7 +96,7 @@ void place(Camera& camera, const Axes& axes, Point origin, Point eye) {
 }  // namespace
 
 float4x4 Camera::clip_from_camera(float picture_aspect) const {
-  // All that the file's own frame shows is in the image: a wider image adds at the sides, a narrower one above.
+  // The image contains the file's own frame: a wider image adds pixels at the sides, a narrower one above and below.
   const bool narrower = aspect > 0 && picture_aspect < aspect;
   if (is_orthographic) {
     const float height = narrower ? half_height * aspect / picture_aspect : half_height;
@@ -131,8 +133,8 @@ Camera fit_camera(std::span<const float3> points, float picture_aspect, const Au
   const double share = 1 - 2 * static_cast<double>(fit.margin);
   const double aspect = picture_aspect;
 
-  // Points without extent across the view (a line seen end on) would have no distance or height of their own: a
-  // thousandth of their size is the least.
+  // Points without extent across the view (a line parallel to the view axis) would give a distance or height of 0: the
+  // minimum is a thousandth of their size.
   const double least = diagonal / 1000;
   Point eye;
   if (fit.is_orthographic) {

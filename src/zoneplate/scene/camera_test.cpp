@@ -9,7 +9,7 @@
 namespace zoneplate {
 namespace {
 
-/// How far the corners of a box reach in the image, in [-1, 1] of its half size, and in depth.
+/// The extent of a box's corners in the image, in [-1, 1] of half its size, and in depth.
 struct Reach {
   float left = 2, right = -2, bottom = 2, top = -2, front = -1, behind = 2;
 };
@@ -33,7 +33,7 @@ Box box_of(float3 low, float3 high) {
   return b;
 }
 
-/// The tightest side touches the margin, the image is centred both ways, all is between near and far.
+/// The tightest side touches the margin, the image is centred in both directions, and all is between near and far.
 void expect_fits(const Box& box, float aspect, const AutoFit& fit) {
   const Reach r = reach_of(box, fit_camera(box, aspect, fit), aspect);
   const float limit = 1 - 2 * fit.margin;
@@ -64,7 +64,7 @@ TEST(FitCamera, WorksForBoxesOfAnySize) {
 TEST(FitCamera, WorksForFlatBoxesAndLines) {
   expect_fits(box_of({-1, 0, -1}, {1, 0, 1}), 1.5f, {});
   expect_fits(box_of({0, 0, 0}, {0, 5, 0}), 1.5f, {});
-  // Seen end on, a line has no extent: it is in the image, before the eye.
+  // A line parallel to the view axis has no extent: it is in the image, in front of the eye.
   const Box line = box_of({0, 0, -1}, {0, 0, 1});
   for (const bool orthographic : {false, true}) {
     const Camera camera = fit_camera(line, 1, {.azimuth = 0, .elevation = 0, .is_orthographic = orthographic});
@@ -94,7 +94,7 @@ TEST(FitCamera, LooksFromTheFrontRightAndAbove) {
   EXPECT_NEAR(back.y, std::sin(0.3490659f), 1e-6f);
   EXPECT_NEAR(back.z, std::cos(0.3490659f) * std::cos(0.5235988f), 1e-6f);
 
-  // With +Z up the same view is from -Y and +X.
+  // If +Z is up, the same view is from -Y and +X.
   const Camera z_up = fit_camera(box, 1, {.up = {0, 0, 2}});
   const float3 z_back = xyz(z_up.world_from_camera.column[2]);
   EXPECT_NEAR(z_back.x, back.x, 1e-6f);
@@ -108,7 +108,7 @@ TEST(Camera, KeepsTheFilesOwnFrameInThePicture) {
   Camera camera;
   camera.vertical_fov = 1, camera.aspect = 2;
   const float4x4 own = camera.clip_from_camera(2);
-  // A wider image keeps the height, a narrower one the width; pixels stay square.
+  // A wider image keeps the height, a narrower one the width; pixels remain square.
   const float4x4 wide = camera.clip_from_camera(3), narrow = camera.clip_from_camera(1);
   EXPECT_FLOAT_EQ(wide.column[1].y, own.column[1].y);
   EXPECT_FLOAT_EQ(narrow.column[0].x, own.column[0].x);

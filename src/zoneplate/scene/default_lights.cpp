@@ -4,7 +4,7 @@
 namespace zoneplate {
 namespace {
 
-// Where each light stands as seen from the camera (x right, y up, z towards the viewer), and its illuminance.
+// The position of each light relative to the camera (x right, y up, z towards the viewer), and its illuminance.
 struct Lamp {
   const char* name;
   float3 from;

@@ -27,7 +27,7 @@ TEST(DefaultLights, AreAKeyAFillAndABackLightOfUnitDirection) {
 }
 
 TEST(DefaultLights, TurnWithTheCamera) {
-  // A camera that looks along +X: what was -Z for the camera is +X in the world.
+  // A camera that looks along +X: the camera's -Z is +X in the world.
   Camera camera;
   camera.world_from_camera = {{float4{0, 0, 1, 0}, float4{0, 1, 0, 0}, float4{-1, 0, 0, 0}, float4{5, 6, 7, 1}}};
   const Light straight = in_world_space(default_lights()[0], Camera().world_from_camera);

@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// A mesh in the plane z = 0, seen from both sides without light, that faces an orthographic camera.
+/// A scene with a mesh in the plane z = 0, unlit and double-sided, that faces an orthographic camera.
 inline Scene facing_scene(Mesh mesh, Material material = {}) {
   Scene scene;
   material.model = ShadingModel::Unlit;

@@ -10,13 +10,13 @@
 
 namespace zoneplate {
 
-/// Gives equal keys the number of the first of them.
+/// Maps each key to the number of the first equal key.
 ///
-/// A key is `words` words, which are equal where the keys are. The table is open, and a key looks at a few slots only;
-/// one that finds neither itself nor a free slot there goes into an ordered map. The answers depend on neither hash
-/// nor table, so that keys which were made to collide cost a logarithm and change nothing.
-/// Cost      8 to 16 bytes a key that is expected; some 100 bytes for each that finds no slot, of which files that mean
-///           well have a handful.
+/// A key consists of `words` 32-bit words. The table uses open addressing with a limited number of probes; a key that
+/// finds neither itself nor a free slot is inserted into an ordered map. The results depend on neither hash nor table;
+/// keys chosen to collide cost a logarithm and change nothing.
+/// Cost      8 to 16 bytes per expected key; about 100 bytes for each key without a slot, of which ordinary files have
+///           only a few.
 template <std::size_t words>
 class FirstOfEqual {
  public:
@@ -24,7 +24,7 @@ class FirstOfEqual {
 
   explicit FirstOfEqual(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 1), none) {}
 
-  /// The number that was inserted before with an equal key, otherwise `number` itself, which is inserted.
+  /// The number that was inserted first with an equal key; otherwise `number`, which is inserted.
   ///
   /// Requires  `is_equal(other)` returns whether the key of an inserted number is equal to this one's; `make_key()`
   ///           returns this key.
@@ -36,11 +36,11 @@ class FirstOfEqual {
       if (slot == none) return slot = number;
       if (is_equal(slot)) return slot;
     }
-    // Slots are never freed: an equal key finds all of these taken by others, too.
+    // Slots are never freed, so that an equal key finds all of these slots taken as well.
     return crowded_.try_emplace(make_key(), number).first->second;
   }
 
-  /// How many keys found no slot.
+  /// The number of keys without a slot.
   std::size_t crowded() const { return crowded_.size(); }
 
  private:

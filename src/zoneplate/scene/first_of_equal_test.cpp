@@ -10,7 +10,7 @@ namespace {
 
 using Table = FirstOfEqual<1>;
 
-/// For each key the number of the first equal one, by a table with this hash.
+/// For each key, the number of the first equal one, computed by a table with this hash.
 template <class Hash>
 std::vector<std::uint32_t> first_by(const std::vector<std::uint32_t>& keys, Hash hash_of, std::size_t& crowded) {
   Table table(keys.size());
@@ -40,10 +40,10 @@ TEST(FirstOfEqual, GivesTheSameNumbersWhateverTheHash) {
   EXPECT_EQ(first_by(
                 keys, [](std::uint32_t) { return std::size_t{7}; }, crowded),
             expected);
-  EXPECT_EQ(crowded, first.size() - 64);  // all but those that found a slot
+  EXPECT_EQ(crowded, first.size() - 64);  // all keys except those with a slot
 }
 
-/// An open table would look at 2 * 10^10 slots.
+/// An open-addressing table without the limit would take 2 * 10^10 probes.
 TEST(FirstOfEqual, KeysThatAllCollideTakeLittleMore) {
   std::vector<std::uint32_t> keys(200000);
   for (std::uint32_t i = 0; i < keys.size(); ++i) keys[i] = i;

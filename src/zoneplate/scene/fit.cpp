@@ -17,7 +17,7 @@ constexpr std::size_t direction_count = 22, block = 1024;
 using Directions = std::array<float3, direction_count>;
 using Reach = std::array<float, direction_count>;
 
-// The point that lies farthest in each direction.
+// The farthest point in each direction.
 struct Farthest {
   Reach reach;
   std::array<float3, direction_count> point{};
@@ -39,7 +39,7 @@ Directions view_directions(const Camera& camera, float picture_aspect, float mar
   return directions;
 }
 
-// The vertices of one mesh in the world.
+// The vertices of one mesh in world space.
 struct Placed {
   const Mesh& mesh;
   std::span<const std::uint8_t> is_used;
@@ -69,7 +69,7 @@ Reach reach_of(const Placed& placed, std::size_t begin, std::size_t end, const D
   return out;
 }
 
-// Of the vertices that reach so far, the one that a primitive uses first. They are seldom more than one place.
+// Of the vertices with exactly this extent, the one that a primitive uses first. Usually they are at one position.
 float3 first_used_at(const Placed& placed, float3 direction, float reach, const std::vector<std::size_t>& blocks) {
   std::optional<float3> found;
   bool is_one = true;

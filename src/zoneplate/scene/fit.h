@@ -5,9 +5,9 @@
 
 namespace zoneplate {
 
-/// The camera that shows all of a scene in the given direction, as near as the margin allows.
+/// The camera that contains a whole scene in the given direction, as close as the margin allows.
 ///
-/// It is `fit_camera` of the vertices that lie farthest to each side, seen at the field of view and at fractions of it.
+/// It is `fit_camera` of the farthest vertices on each side, for the slopes of the field of view and fractions of them.
 ///
 /// Exact     the tightest side touches the margin, as for all vertices; the other one is centred within 2% of the
 ///           image.

@@ -12,14 +12,14 @@
 namespace zoneplate {
 namespace {
 
-// A thousand points in a long tilted shape, whose box is much larger than what it holds.
+// A thousand points in a long tilted shape, whose bounding box is much larger than the shape.
 Scene cloud() {
   Scene scene = point_scene(1000, {-1, 2, 0.5f}, [](float a, float b, float c) {
     return float3{4 * a + b, 3 * a - c, 2 * b - a};
   });
   Mesh& mesh = scene.meshes[0];
   for (std::uint32_t i = 0; i < 1000; ++i) mesh.index.push_back(i);
-  mesh.position.push_back({100, 100, 100});  // no primitive uses it
+  mesh.position.push_back({100, 100, 100});  // unused by primitives
   return scene;
 }
 
@@ -52,7 +52,7 @@ TEST(FitScene, AnEmptySceneHasACamera) {
   EXPECT_GT(camera.far, camera.near);
 }
 
-// Placements of one mesh are ignored where they cannot matter; meshes of their own are not.
+// Instances of a shared mesh that cannot affect the result are skipped; instances with their own meshes are not.
 TEST(FitScene, SharedMeshesChangeNoBit) {
   Scene shared = cloud();
   shared.instances.clear();

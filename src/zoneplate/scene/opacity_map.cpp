@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-/// Clamped to [0, 1]; 0 where it is not a number.
+/// Clamps to [0, 1]; NaN gives 0.
 float unit(float value) { return value > 0 ? std::min(value, 1.0f) : 0.0f; }
 
 bool is_whole(Rgba8 p) { return p.a == 255; }
@@ -21,7 +21,7 @@ float alpha_of(Rgba8 p) { return static_cast<float>(p.a) / 255; }
 float alpha_of(Rgba16 p) { return static_cast<float>(p.a) / 65535; }
 float alpha_of(float4 p) { return unit(p.w); }
 
-/// In the steps of the texel's type.
+/// The luma, quantized as the texel's type.
 template <class Texel>
 float luma_of(Texel p) {
   const std::uint32_t code = (p.r * 2126u + p.g * 7152u + p.b * 722u + 5000u) / 10000u;
@@ -38,13 +38,13 @@ Rgba16 widened(Rgba8 p) {
   return {wide(p.r), wide(p.g), wide(p.b), wide(p.a)};
 }
 
-/// Integer values are not converted to linear light: their encoding is unknown here.
+/// Integer values are not converted to linear light, because their encoding is unknown.
 TexelKind kind_of(const TexelImage* color, const TexelImage& map) {
   if (color == nullptr || color->kind() == TexelKind::Light) return color == nullptr ? map.kind() : color->kind();
   return map.kind() == TexelKind::Codes8 ? color->kind() : TexelKind::Codes16;
 }
 
-/// The image with each texel's alpha set to that of the map's texel in the same place.
+/// The image with each texel's alpha replaced by the opacity of the map's texel at the same position.
 template <class Texel, class Map>
 Plane<Texel> cut_by(Plane<Texel> image, const Plane<Map>& map) {
   const auto texels = map.values();
@@ -61,7 +61,7 @@ Plane<Texel> cut_by(Plane<Texel> image, const Plane<Map>& map) {
   return image;
 }
 
-/// The image's texels in a type with as many bits or more.
+/// The image's texels in a type with at least as many bits.
 template <class Texel>
 Plane<Texel> widened_image(const TexelImage& image) {
   if constexpr (std::is_same_v<Texel, Rgba16>) {

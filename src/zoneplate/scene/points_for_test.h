@@ -9,8 +9,8 @@
 
 namespace zoneplate {
 
-/// A mesh of `count` points, twice: where it is, and moved by `offset`. Point i is at position(a, b, c) of three random
-/// numbers in [0, 1); mesh.index is left to be filled.
+/// A mesh of `count` points with two instances: one with the identity and one translated by `offset`. Point i is at
+/// position(a, b, c) for three random numbers in [0, 1); mesh.index is empty.
 template <class Position>
 Scene point_scene(std::uint32_t count, float3 offset, Position position) {
   Scene scene;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t block = 1 << 15;
 
-/// The floats of a vector, all of which belong to some vertex.
+/// The floats of the vectors of vertices [begin, end).
 template <class V>
 std::span<const float> floats_of(const std::vector<V>& values, std::size_t begin, std::size_t end) {
   if (values.empty()) return {};
@@ -20,7 +20,7 @@ std::span<const float> floats_of(const std::vector<V>& values, std::size_t begin
   return {reinterpret_cast<const float*>(values.data()) + begin * each, (end - begin) * each};
 }
 
-/// Sums of x - x, which is 0 for finite x, else not a number: four of them, so that they do not wait for each other.
+/// Sums x - x, which is 0 for finite x and NaN otherwise, with four independent accumulators.
 bool all_finite(std::span<const float> values) {
   float sums[4] = {0, 0, 0, 0};
   std::size_t i = 0;

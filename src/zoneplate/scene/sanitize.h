@@ -7,7 +7,8 @@
 
 namespace zoneplate {
 
-/// Sets vertices that are not finite to zero and drops the primitives that use one; returns the number of dropped ones.
+/// Replaces vertices that are not finite by zero and drops the primitives that use one; returns the number of dropped
+/// primitives.
 ///
 /// Exact     the same bits for any number of threads.
 std::uint64_t drop_not_finite(Mesh& mesh);

@@ -8,9 +8,10 @@
 
 namespace zoneplate {
 
-/// Calls `body(begin, end)` over consecutive ranges that cover [0, count), one after the other on this thread.
+/// Calls `body(begin, end)` for consecutive ranges that cover [0, count), in order on this thread, for long loops that
+/// cannot be parallelized.
 ///
-/// Errors    those of `check_deadline`, which is called before each range: for long loops that cannot be shared.
+/// Errors    those of `check_deadline`, which is called before each range.
 template <class Body>
 void serial_ranges(std::size_t count, const Body& body) {
   constexpr std::size_t grain = std::size_t{1} << 14;

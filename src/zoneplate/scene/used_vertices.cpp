@@ -14,10 +14,10 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t instances_per_range = 4096;
-/// The number of vertices that cost as much as a box.
+/// The number of vertices whose transformation costs as much as that of a box.
 constexpr std::size_t few_vertices = 64;
 
-/// As much as dot(axis, transform_point(m, p)), computed in floats, is for any point p of the box, or a little more.
+/// An upper bound of dot(axis, transform_point(m, p)), computed in floats, for all points p of the box.
 double most_along(const float4x4& m, const Box& box, float3 axis) {
   const std::array<double, 3> low{box.low.x, box.low.y, box.low.z}, high{box.high.x, box.high.y, box.high.z};
   double most = 0, magnitude = 0;
@@ -29,7 +29,7 @@ double most_along(const float4x4& m, const Box& box, float3 axis) {
     most += i == 3 ? along : std::max(along * low[i], along * high[i]);
     magnitude += i == 3 ? amount : amount * std::max(std::abs(low[i]), std::abs(high[i]));
   }
-  // Of the terms eight floats are rounded at most, one after the other, each by 2^-24 of all that is summed.
+  // At most eight terms are rounded successively to float, each with an error of 2^-24 of the sum of magnitudes.
   constexpr double rounding = 0x1p-20, least = 1e-36;
   return most + rounding * magnitude + least;
 }
@@ -42,7 +42,7 @@ std::span<const std::uint8_t> UsedVertices::of(int mesh) {
   if (!is_used.empty() || m.position.empty()) return is_used;
   is_used.resize(m.position.size());
   constexpr std::size_t block = 1 << 16;
-  // Threads may mark the same vertex, with the same value.
+  // Several threads may mark the same vertex, with the same value.
   parallel_ranges(m.index.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) std::atomic_ref(is_used[m.index[i]]).store(1, std::memory_order_relaxed);
   });
@@ -90,7 +90,7 @@ float UsedVertices::reach(const Instance& instance, float3 axis) {
   return most;
 }
 
-/// For each axis the instance whose box reaches farthest along it. Requires the boxes of all meshes.
+/// For each axis, the instance whose box has the greatest extent along it. Requires the boxes of all meshes.
 std::vector<std::size_t> UsedVertices::farthest_by_box(std::span<const float3> axes) const {
   struct Best {
     double most = -std::numeric_limits<double>::infinity();
@@ -128,7 +128,7 @@ std::vector<std::size_t> UsedVertices::reaching(std::span<const float3> axes) {
     return out;
   }
   for (const Instance& instance : instances) local(instance.mesh);
-  std::vector<float> least;  // some vertex reaches so far along each axis
+  std::vector<float> least;  // for each axis, the extent of some vertex
   const std::vector<std::size_t> farthest = farthest_by_box(axes);
   for (std::size_t a = 0; a < axes.size(); ++a) least.push_back(reach(instances[farthest[a]], axes[a]));
 

@@ -18,17 +18,17 @@ class UsedVertices {
   explicit UsedVertices(const Scene& scene)
       : scene_(scene), is_used_(scene.meshes.size()), local_(scene.meshes.size()) {}
 
-  /// 1 for each vertex of a mesh that is used, else 0.
+  /// For each vertex of a mesh, 1 if it is used, else 0.
   std::span<const std::uint8_t> of(int mesh);
 
   /// The bounds of the used vertices of all instances in the world.
   Box bounds();
 
-  /// The instances, in their order, that may hold a vertex which lies farthest along one of the axes, by
-  /// dot(axis, transform_point(world_from_object, position)): of every other one no vertex reaches as far as some
-  /// vertex of these, or it is the same as the one before it.
+  /// The instances, in order, that may have a vertex with the greatest dot(axis, transform_point(world_from_object,
+  /// position)) for one of the axes. An omitted instance has a smaller extent along all axes, or is the same as the
+  /// previous one.
   ///
-  /// Cost      linear in instances and in the vertices of meshes, and of one instance for each axis.
+  /// Cost      linear in instances and in the vertices of meshes, and of one instance per axis.
   std::vector<std::size_t> reaching(std::span<const float3> axes);
 
  private:
@@ -39,7 +39,7 @@ class UsedVertices {
 
   const Scene& scene_;
   std::vector<std::vector<std::uint8_t>> is_used_;
-  std::vector<std::optional<Box>> local_;  ///< of each mesh the bounds in its own space
+  std::vector<std::optional<Box>> local_;  ///< the bounds of each mesh in its own space
 };
 
 }  // namespace zoneplate

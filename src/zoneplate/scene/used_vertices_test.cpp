@@ -15,7 +15,7 @@
 namespace zoneplate {
 namespace {
 
-/// 100,000 vertices, of which primitives use those in odd places.
+/// 100,000 vertices, of which primitives use those with odd indices.
 Scene many() {
   Scene scene = point_scene(100000, {0, 0, 7}, [](float a, float b, float c) { return float3{a, b, c}; });
   Mesh& mesh = scene.meshes[0];
@@ -40,7 +40,7 @@ TEST(UsedVertices, AreThoseOfPrimitives) {
     });
 }
 
-/// A lump of 300 vertices at very many places, some of them the same.
+/// Instances of a mesh of 300 vertices at very many positions, some of them equal.
 Scene forest(std::uint32_t trees) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
@@ -68,7 +68,7 @@ TEST(UsedVertices, PlacementsThatCannotReachFarthestAreLeftOut) {
   const std::vector<std::size_t> some = used.reaching(axes);
   EXPECT_LT(some.size(), 200u);
   for (const float3 axis : axes) {
-    // The first instance that has a vertex which lies farthest.
+    // The first instance that has a vertex with the greatest extent.
     float most = -1e9f;
     std::size_t first = 0;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)

@@ -44,7 +44,7 @@ bool is_number_of(int i, std::size_t count) { return i >= 0 && static_cast<std::
 
 bool has_unit_length(float3 n) { return std::abs(dot(n, n) - 1) <= 2e-5f; }
 
-/// Finite and not negative, which a number that is none is not.
+/// Finite and not negative; false for NaN.
 bool is_amount(float x) { return x >= 0 && x <= std::numeric_limits<float>::max(); }
 bool are_amounts(float3 v) { return is_amount(v.x) && is_amount(v.y) && is_amount(v.z); }
 bool is_share(float x) { return x >= 0 && x <= 1; }
@@ -149,7 +149,7 @@ const char* flaw_of(const AnimationSpan& a, const Scene&) {
   return all_finite({a.begin, a.end}) && a.begin <= a.end ? nullptr : "a time out of range";
 }
 
-/// The greatest coordinates, by their amount, of the vertices that a primitive uses.
+/// The greatest absolute coordinates of the vertices that a primitive uses.
 float3 reach_of(const Mesh& m) {
   float3 reach;
   serial_ranges(m.index.size(), [&](std::size_t begin, std::size_t end) {
@@ -161,7 +161,7 @@ float3 reach_of(const Mesh& m) {
   return reach;
 }
 
-/// Whether every vertex within reach is finite in the world too, whatever the order of the sums.
+/// Whether every vertex within `reach` is finite in the world too, for any order of the sums.
 bool stays_finite(const float4x4& m, float3 reach) {
   const auto bound = [&](float x, float y, float z, float moved) {
     return std::abs(double{x}) * reach.x + std::abs(double{y}) * reach.y + std::abs(double{z}) * reach.z +

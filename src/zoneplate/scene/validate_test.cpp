@@ -54,7 +54,7 @@ TEST(FindFlaw, NumbersOfMaterialsAreWithinWhatShadingTakes) {
   };
   EXPECT_EQ(with([](Material& m) { m.base_color.x = NAN; }), "material 0: a base colour out of range");
   EXPECT_EQ(with([](Material& m) { m.base_color.w = 1.5f; }), "material 0: a base colour out of range");
-  EXPECT_EQ(with([](Material& m) { m.base_color.y = 3; }), "");  // MTL has such
+  EXPECT_EQ(with([](Material& m) { m.base_color.y = 3; }), "");  // valid in MTL
   EXPECT_EQ(with([](Material& m) { m.emissive.z = INFINITY; }), "material 0: a colour out of range");
   EXPECT_EQ(with([](Material& m) { m.ambient.x = -1; }), "material 0: a colour out of range");
   for (float Material::*factor : {&Material::alpha_cutoff, &Material::normal_scale, &Material::occlusion_strength,

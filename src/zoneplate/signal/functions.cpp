@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// c[0] + u (c[1] + u (c[2] + ...)), written from the highest power down.
+/// c[0] + u (c[1] + u (c[2] + ...)), with the coefficients in descending order of power.
 template <std::size_t n>
 double polynomial(const double (&highest_first)[n], double u) {
   double sum = highest_first[0];
@@ -20,7 +20,7 @@ double polynomial(const double (&highest_first)[n], double u) {
   return sum;
 }
 
-// Taylor polynomials for |t| <= π/4; the first term left out is below 1e-17.
+// Taylor polynomials for |t| <= π/4; the first omitted term is below 1e-17.
 constexpr double sine_terms[] = {1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
                                  1.0 / 362880.0,          -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
 constexpr double cosine_terms[] = {1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0,
@@ -45,7 +45,7 @@ constexpr double ln2_low = 0x1.cf79abc9e3b39p-40;
 }  // namespace
 
 SineCosine sin_cos_pi(double x) {
-  // The sign of x is set aside, so that the sine is odd and the cosine even to the bit.
+  // Computed from |x|, so that the sine is exactly odd and the cosine exactly even.
   const double a = std::abs(x);
   if (!(a < 0x1p52)) return {0, 1};
   const double quarter = std::floor(2 * a + 0.5);
@@ -74,7 +74,7 @@ double natural_exp(double x) {
   const double r = (x - k * ln2_high) - k * ln2_low;
   double e = 1;
   for (int i = 14; i >= 1; --i) e = 1 + e * (r / i);
-  // 2^k is made of two factors, so that k = 1024 does not overflow before its time.
+  // 2^k is the product of two factors, because 2^1024 itself would overflow.
   const int half = static_cast<int>(k) / 2, rest = static_cast<int>(k) - half;
   const auto power = [](int p) { return std::bit_cast<double>(static_cast<std::uint64_t>(p + 1023) << 52); };
   return e * power(half) * power(rest);
@@ -100,7 +100,8 @@ double natural_log(double x) {
 double angle_of(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y);
   if (ax == 0 && ay == 0) return 0;
-  // In the first octant: t = low / high in [0, 1]; atan t = atan c + atan((t - c) / (1 + t c)), c the nearest quarter.
+  // In the first octant: t = low / high in [0, 1]; atan t = atan c + atan((t - c) / (1 + t c)), where c is t rounded to
+  // a quarter.
   const double low = ax < ay ? ax : ay, high = ax < ay ? ay : ax;
   const double t = low / high;
   if (!(t <= 1)) return 0;
@@ -119,7 +120,7 @@ double angle_of(double y, double x) {
 double error_function(double x) {
   const double a = std::abs(x);
   if (!(a < 6)) return x < 0 ? -1 : 1;
-  // erf x = 2/√π e^(-x²) Σ 2^k x^(2k+1) / (1 · 3 ··· (2k+1)): every term is positive, so nothing cancels.
+  // erf x = 2/√π e^(-x²) Σ 2^k x^(2k+1) / (1 · 3 ··· (2k+1)): every term is positive, so that there is no cancellation.
   double term = a, sum = a;
   for (int k = 1; k < 200 && term > sum * 0x1p-60; ++k) {
     term *= 2 * a * a / (2 * k + 1);

@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-/// A position given in [0, 1), rounded down to 1/256.
+/// A position with coordinates in [0, 1), rounded down to 1/256.
 SamplePosition at(double x, double y) {
   const auto cell = [](double v) {
     return static_cast<std::uint8_t>(std::clamp(static_cast<int>(std::floor(v * 256)), 0, 255));
@@ -18,7 +18,7 @@ SamplePosition at(double x, double y) {
   return {cell(x), cell(y)};
 }
 
-/// A position given in sixteenths of a pixel from its centre, as the standard patterns are.
+/// A position in sixteenths of a pixel from the pixel's centre, the unit of the standard patterns.
 SamplePosition sixteenths(int x, int y) {
   return {static_cast<std::uint8_t>(128 + 16 * x), static_cast<std::uint8_t>(128 + 16 * y)};
 }
@@ -32,8 +32,8 @@ double radical_inverse(unsigned base, unsigned i) {
   return value;
 }
 
-/// The second dimension of Sobol's sequence (the first is van der Corput's), by its direction numbers: each is the one
-/// before XOR itself shifted right by one.
+/// The second dimension of Sobol's sequence (the first is van der Corput's). Each direction number is the previous one
+/// XOR the previous one shifted right by one.
 double sobol_y(unsigned i) {
   std::uint32_t bits = 0, direction = 0x80000000u;
   for (; i > 0; i >>= 1) {
@@ -44,7 +44,8 @@ double sobol_y(unsigned i) {
 }
 
 SamplePattern rotated_grid(int n) {
-  // The n × n grid turned by atan(1/n) on the torus: all n² rows and columns are distinct. n = 2 is the standard 4.
+  // The n × n grid rotated by atan(1/n) on the torus: all n² rows and columns are distinct. n = 2 is the standard
+  // pattern of 4.
   const int count = n * n;
   SamplePattern out;
   for (int i = 0; i < count; ++i) out.push_back(at((i + 0.5) / count, ((n - 1 - i % n) * n + i / n + 0.5) / count));
@@ -52,7 +53,7 @@ SamplePattern rotated_grid(int n) {
 }
 
 SamplePattern rooks(int count) {
-  // Row j gets the column of its bit-reversed (or, in general, golden-ratio) rank, so that no row or column is shared.
+  // The column of row j is the rank of element j of the golden-ratio sequence: no two samples share a row or column.
   std::vector<int> order(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) order[static_cast<std::size_t>(i)] = i;
   const auto key = [](int i) {
@@ -107,7 +108,8 @@ SamplePattern named_pattern(const std::string& name, int samples) {
   if (name == "rotated") return rotated_grid(root);
   if (name == "nrooks") return rooks(samples);
   SamplePattern out;
-  // Sobol's points lie at the corners of the cells of which each has one; the first one at the pixel's own.
+  // Each point of Sobol's sequence is at the corner of its cell, the first at that of the pixel; all are moved to the
+  // middles.
   const double half_cell = 0.5 / std::bit_ceil(static_cast<unsigned>(samples));
   for (unsigned i = 0; i < static_cast<unsigned>(samples); ++i) {
     if (name == "halton")

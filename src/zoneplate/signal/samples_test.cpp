@@ -13,7 +13,7 @@ namespace zoneplate {
 namespace {
 
 TEST(Samples, StandardPatternsAreSparse) {
-  // In every standard pattern no two samples share a row or a column of the 1/16 lattice.
+  // In every standard pattern, all samples have distinct rows and distinct columns of the 1/16 lattice.
   for (const int n : {2, 4, 8, 16}) {
     std::set<int> rows, columns;
     for (const SamplePosition s : standard_pattern(n)) {
@@ -36,7 +36,7 @@ TEST(Samples, RotatedGridOfFourIsTheStandardPattern) {
 }
 
 TEST(Samples, PatternsAreStratified) {
-  // Every one of n rows and n columns holds exactly one sample.
+  // Each of n rows and n columns contains exactly one sample.
   for (const char* name : {"rotated", "nrooks"})
     for (const int n : {4, 16, 64}) {
       std::set<int> rows, columns;
@@ -49,8 +49,8 @@ TEST(Samples, PatternsAreStratified) {
 }
 
 TEST(Samples, SobolHasOneInTheMiddleOfEveryCell) {
-  // 2^k samples: one in each cell of every lattice of 2^a × 2^(k - a), none on a cell's border, so that their mean is
-  // the pixel's middle, and no sample lies at the pixel's corner, which is as much its neighbours'.
+  // 2^k samples: one in each cell of every lattice of 2^a × 2^(k - a) cells and none on a cell's border, so that their
+  // mean is the pixel's centre, and no sample is at the pixel's corner, which neighbouring pixels share.
   for (int k = 0; k <= 7; ++k) {
     const int n = 1 << k;
     const SamplePattern pattern = named_pattern("sobol", n);
@@ -68,7 +68,7 @@ TEST(Samples, SobolHasOneInTheMiddleOfEveryCell) {
     EXPECT_EQ(x, 128 * n);
     EXPECT_EQ(y, 128 * n);
   }
-  // Of other numbers: the first ones of the next power of two.
+  // Other counts take the first samples of the next power of two.
   const SamplePattern eight = named_pattern("sobol", 8), five = named_pattern("sobol", 5);
   EXPECT_TRUE(std::ranges::equal(five, std::span(eight).first(5)));
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axial coverage: 64 visibility samples along the pixel's row and column measure how far its triangle reaches; the
-// pixel is blended with its neighbour by the length beyond the triangle's edge.
+// Axial coverage: 64 visibility samples along the pixel's row and column measure the extent of its triangle; the pixel
+// is blended with its neighbour by the length beyond the triangle's edge.
 //
 // One-dimensional coverage as in geometry buffer antialiasing (`gbaa`), but of visible surfaces: hidden edges and
 // intersections are handled correctly, at the cost of 64 visibility samples per pixel. Exact to 1/32 pixel for
 // horizontal and vertical edges, within an eighth of a pixel for oblique ones, for any contrast, with one shaded sample
-// per pixel. Weak at corners, and without effect on aliasing of shading. With `edges=triangles` the edges of all
-// triangles count: where triangles are smaller than a pixel, the nearest edge lies inside the surface and hides the
-// outline beyond it, so that outlines of fine meshes are mottled. With `edges=surfaces` only edges count at which a
-// surface ends or bends.
+// per pixel. Weaknesses: corners; no effect on aliasing of shading. With `edges=triangles` the edges of all triangles
+// count: where triangles are smaller than a pixel, the nearest edge is inside the surface and hides the outline beyond
+// it, so that outlines of fine meshes are mottled. With `edges=surfaces` only edges count at which a surface ends or
+// bends.
 //
 // Source: after Persson, Geometry Buffer Anti-Aliasing, SIGGRAPH 2011 course.
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 constexpr int places = 32;  // sample positions along each axis, those along the row first
 constexpr int half = places / 2;
 
-/// The samples from the centre to one of the pixel's sides: `half` positions, the first of them at `begin`.
+/// The samples from the centre to one side of the pixel: `half` positions, the first of them at `begin`.
 struct Way {
   int begin, step;
   int dx, dy;  ///< offset of the neighbour beyond that side
@@ -36,7 +36,7 @@ class Places {
  public:
   explicit Places(const Frame& frame) : frame_(frame) {}
 
-  /// The number of samples on the way from the first one that have its triangle: `half` if there is no edge.
+  /// The number of consecutive samples from the first one that have its triangle: `half` if there is no edge.
   int run(const Way& way, int x, int y) const {
     const std::uint32_t own = triangle(way, 0, x, y);
     int length = 1;
@@ -44,8 +44,8 @@ class Places {
     return length;
   }
 
-  /// The number of samples on the way that belong to the surface of the first one, whether or not the neighbour shows
-  /// the same surface.
+  /// The number of consecutive samples that belong to the surface of the first one; `is_alike` states whether the
+  /// neighbour has the same surface.
   int run_of_surface(const Way& way, int x, int y, bool is_alike) const {
     int bend = half;
     float greatest = -1;
@@ -66,15 +66,15 @@ class Places {
   }
   float depth(const Way& way, int i, int x, int y) const { return frame_.sample_depth[sample(way, i)](x, y); }
 
-  /// The change of depth at sample i of the way, computed towards one side; 0 for empty samples.
+  /// The difference of depth between sample i and the next one towards `side`; 0 for empty samples.
   float slope(const Way& way, int i, int side, int x, int y) const {
     const int axis = way.begin / places * places, other = way.begin + way.step * (i + side) - axis;
     if (other < 0 || other >= places || triangle(way, i + side, x, y) == Frame::no_id) return 0;
     return (depth(way, i + side, x, y) - depth(way, i, x, y)) * static_cast<float>(side);
   }
 
-  /// True if depth is discontinuous between samples i - 1 and i: it changes by more than on either side. Where a round
-  /// surface turns away from the eye its depth changes by up to 1 / (√2 - 1) times the step before.
+  /// True if depth is discontinuous between samples i - 1 and i: its difference is greater than those on both sides. At
+  /// the silhouette of a curved surface, depth differences grow by a factor of up to 1 / (√2 - 1) per step.
   bool is_torn(const Way& way, int i, int x, int y) const {
     constexpr float most = 3, rounding = 0x1p-20f;
     const float z = depth(way, i - 1, x, y), next = depth(way, i, x, y);
@@ -131,8 +131,8 @@ class Axial : public Resolver {
     }
   };
 
-  /// Chooses the nearest edge of the four ways; of equal ones the first of left, right, up, down. With edges of
-  /// surfaces, edges towards pixels that show another surface come first.
+  /// Selects the nearest edge in the four directions; of equally near ones the first of left, right, up, down. With
+  /// edges of surfaces, edges towards pixels with another surface take precedence.
   Linear pixel(const Places& seen, int x, int y) const {
     Nearest nearest, among_alike;
     for (const Way& way : ways) {
@@ -154,7 +154,7 @@ class Axial : public Resolver {
     return color_(x, y) * (1 - share) + color_(nearest.x, nearest.y) * share;
   }
 
-  /// True if two pixels show the same material of the same object with normals less than 60 degrees apart.
+  /// True if two pixels have the same material of the same object, and normals less than 60 degrees apart.
   bool are_alike(int x, int y, int i, int j) const {
     constexpr float least_cosine = 0.5f;
     return object_(x, y) == object_(i, j) && material_(x, y) == material_(i, j) &&

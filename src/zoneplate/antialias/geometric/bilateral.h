@@ -13,10 +13,11 @@ struct BilateralScales {
 };
 
 struct SraaKernels : PerIsa<SraaKernels> {
-  /// Adds the contributions of n shaded pixels to n samples: their colours times their weights, and the weights.
+  /// Adds the contributions of n shaded pixels to n samples: their weighted colours to `sum`, and the weights to
+  /// `weight`.
   ///
-  /// Shape     four floats a pixel, one of `weight`: geometry as in Frame::sample_geometry, colours r, g, b, a.
-  /// Edges     the weight is 1 if pixel and sample are both empty, and 0 if one of them is.
+  /// Shape     four floats per pixel, one of `weight`: geometry as in Frame::sample_geometry, colours r, g, b, a.
+  /// Edges     the weight is 1 if pixel and sample are both empty, and 0 if only one of them is.
   void (*add)(const float* sample, const float* centre, const float* color, const BilateralScales& scales, float* sum,
               float* weight, std::size_t n);
 };

@@ -7,7 +7,7 @@
 /// The kernel of antialias/geometric/bilateral.h over a lane type of math/lanes.h.
 namespace zoneplate::stages {
 
-/// The weight of what is shaded at one place for another. Each is a normal and a distance, all 0 where nothing is.
+/// The weight of one point's colour for another point. Each is a normal and a distance, all 0 for an empty point.
 template <class F>
 [[gnu::always_inline]] inline F likeness(const F (&a)[4], const F (&b)[4], const BilateralScales& scales) {
   const F zero(0.0f), one(1.0f);

@@ -8,8 +8,8 @@
 
 namespace zoneplate::antialias {
 
-/// A method of two rounds: the first renders colours at one sample per pixel, the second renders other data of the same
-/// view without shading (Content); both are combined to the image. A pixel depends on its eight neighbours.
+/// A method with two passes: the first renders colours at one sample per pixel, the second renders other data of the
+/// same view without shading (Content); the image is computed from both. A pixel depends on its eight neighbours.
 class ColorThenData : public Resolver {
  public:
   Request request(const FrameContext&) final {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Geometry buffer antialiasing: each pixel stores the distance to the nearest edge of its triangle along its row or
-// column. Where that edge, or an edge stored by a neighbour, crosses the pixel, it is blended with the neighbour's
+// column. If that edge, or an edge stored by a neighbour, crosses the pixel, the pixel is blended with the neighbour's
 // colour by the fraction beyond the edge.
 //
 // One shaded sample and two stored numbers per pixel. Exact for straight horizontal or vertical edges up to the
-// rounding of 16-bit floats, within an eighth of a pixel for oblique ones, for any contrast. Weak where triangles are
-// small: a pixel stores one edge. Of objects thinner than a pixel it smooths one side only; near an outline the nearest
-// edge may lie inside the surface, so that outlines of fine meshes are mottled, and so are outlines by hidden or
-// intersecting triangles (which `axial` handles correctly).
+// rounding of 16-bit floats, within an eighth of a pixel for oblique ones, for any contrast. Weaknesses: small
+// triangles, because a pixel stores only one edge; of objects thinner than a pixel, only one side is smoothed. Near an
+// outline the nearest edge may be inside the surface, so that outlines of fine meshes are mottled; so are outlines near
+// hidden or intersecting triangles (which `axial` handles correctly).
 //
 // Source: Persson, Geometry Buffer Anti-Aliasing, SIGGRAPH 2011 course, and his demo of July 2011 (humus.name),
-// GBAA.shd: the neighbours' order, comparisons and the bilinear fetch are the demo's. Its fetch mixes linear light, as
-// here.
+// GBAA.shd: the neighbours' order, comparisons and the bilinear fetch are the demo's. Its fetch interpolates linear
+// light, as here.
 #include "zoneplate/antialias/geometric/gbaa.h"
 
 #include <algorithm>

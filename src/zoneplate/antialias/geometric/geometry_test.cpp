@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What methods that know geometry at more places than they shade must keep, on rendered scenes.
+// Properties of methods whose geometry has a higher sampling rate than shading, on rendered scenes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ Scene half_plane(float slope) {
   return scene;
 }
 
-/// The share of the pixel's middle column that lies below the line.
+/// The fraction of the pixel's middle column that is below the line.
 float one_dimensional_coverage(float slope, int x, int y) {
   const float line = 60 + slope * (static_cast<float>(x) + 0.5f - 80);
   return std::clamp(static_cast<float>(y) + 1 - line, 0.0f, 1.0f);
@@ -50,12 +50,12 @@ void expect_one_dimensional_coverage(const char* method, float slope, float tole
 }
 
 TEST(Gbaa, AHalfPlaneIsItsOneDimensionalCoverage) {
-  // Distances below one have errors of 2^-12 in 16-bit floats at most; the snap does not change this line's ends.
+  // Distances below one have errors of at most 2^-12 in 16-bit floats; snapping does not move this line's ends.
   for (const float slope : {0.0f, 0.05f, 0.3f, 0.8f}) expect_one_dimensional_coverage("gbaa", slope, 0x1p-12f + 1e-5f);
 }
 
 TEST(Gbaa, ATriangleIsItsOneDimensionalCoverageButAtItsCorners) {
-  const double p[3][2] = {{20.25, 10.5}, {61.5, 109.75}, {140.75, 33.125}};  // counter-clockwise as seen, y down
+  const double p[3][2] = {{20.25, 10.5}, {61.5, 109.75}, {140.75, 33.125}};  // counter-clockwise in the image, y down
   Mesh mesh;
   for (const auto& c : p) mesh.position.push_back({static_cast<float>(c[0] - 80), static_cast<float>(60 - c[1]), 0});
   mesh.index = {0, 1, 2};
@@ -65,14 +65,14 @@ TEST(Gbaa, ATriangleIsItsOneDimensionalCoverageButAtItsCorners) {
   int partial[3] = {};
   for (int y = 1; y < 119; ++y)
     for (int x = 1; x < 159; ++x) {
-      // How far inside of each edge the centre is, along the axis that the edge's normal is nearer to.
+      // The distances from the centre to the edges, positive inside, along the axis nearest to each edge's normal.
       double inside[3];
       for (int k = 0; k < 3; ++k) {
         const double *a = p[k], *b = p[(k + 1) % 3], dx = b[0] - a[0], dy = b[1] - a[1];
         inside[k] = -(dx * (y + 0.5 - a[1]) - dy * (x + 0.5 - a[0])) / std::max(std::abs(dx), std::abs(dy));
       }
       std::ranges::sort(inside);
-      // Near a corner a second edge is near.
+      // Near a corner, a second edge is near.
       if (inside[1] < 4) continue;
       const double share = std::clamp(inside[0] + 0.5, 0.0, 1.0);
       ASSERT_NEAR(own(x, y).a, share, 0x1p-12 + 1e-5) << x << "," << y;
@@ -95,12 +95,12 @@ TEST(Gbaa, TheDistancesOfNeighboursAreLookedUpAsPublished) {
   };
   const float2 no{none, none};
   EXPECT_EQ(offset(no, no, no, no, no), no);
-  // The pixel's own edge comes first.
+  // The pixel's own edge takes precedence.
   EXPECT_EQ(offset({-0.25f, none}, {0.75f, none}, no, no, no), (float2{-0.25f, none}));
   EXPECT_EQ(offset({none, 0.125f}, no, no, {none, 0.75f}, no), (float2{none, 0.125f}));
-  // An edge of its own beyond the pixel is none in it.
+  // An edge of its own beyond the pixel does not count.
   EXPECT_EQ(offset({0.625f, none}, no, no, no, no), no);
-  // Each neighbour's edge counts on the pixel's side of it and within the pixel.
+  // A neighbour's edge counts if it is on the pixel's side of the neighbour and within the pixel.
   EXPECT_EQ(offset(no, {0.75f, none}, no, no, no), (float2{-0.25f, none}));
   EXPECT_EQ(offset(no, no, {-0.875f, none}, no, no), (float2{0.125f, none}));
   EXPECT_EQ(offset(no, no, no, {none, 0.625f}, no), (float2{none, -0.375f}));
@@ -109,13 +109,13 @@ TEST(Gbaa, TheDistancesOfNeighboursAreLookedUpAsPublished) {
   EXPECT_EQ(offset(no, {1.25f, none}, no, no, no), no);
   EXPECT_EQ(offset(no, {-0.75f, none}, no, no, no), no);
   EXPECT_EQ(offset(no, {none, 0.75f}, no, no, no), no);
-  // The last of left, right, above and below wins.
+  // The last of left, right, above and below takes precedence.
   EXPECT_EQ(offset(no, {0.75f, none}, {-0.875f, none}, no, no), (float2{0.125f, none}));
   EXPECT_EQ(offset(no, {0.75f, none}, {-0.875f, none}, {none, 0.625f}, {none, -0.75f}), (float2{none, 0.25f}));
 }
 
 TEST(Gbaa, AlphaTestedEdgesAreSmoothed) {
-  // A square whose alpha falls along x: seen as far as x = 80.3.
+  // A square whose alpha decreases along x: visible up to x = 80.3.
   Mesh mesh;
   mesh.position = {{-80, 60, 0}, {-80, -60, 0}, {80, -60, 0}, {80, 60, 0}};
   mesh.color = {{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}, {1, 1, 1, 0}};
@@ -135,14 +135,14 @@ TEST(Gbaa, AlphaTestedEdgesAreSmoothed) {
 }
 
 TEST(Axial, AHalfPlaneIsItsOneDimensionalCoverage) {
-  // 1/64 is half of the distance of two samples.
+  // 1/64 is half the distance between two samples.
   for (const float slope : {0.0f, 0.05f, 0.3f, 0.8f})
     for (const char* method : {"axial", "axial:edges=triangles"})
       expect_one_dimensional_coverage(method, slope, 1 / 64.0f + 1e-4f);
 }
 
 TEST(Axial, EdgesWithinASurfaceDoNotHideWhereItEnds) {
-  // A sphere of triangles smaller than pixels, as bright everywhere: its outline is all that there is to be smoothed.
+  // A sphere of triangles smaller than pixels, with constant colour, so that only its outline needs smoothing.
   Scene scene = *make_builtin_scene("sphere:triangles=20000");
   scene.cameras.push_back(fit_camera(scene.bounds(), 4 / 3.0f, {}));
   for (Material& material : scene.materials) material.model = ShadingModel::Unlit;
@@ -160,7 +160,7 @@ TEST(Gbaa, IsForTrianglesLargerThanPixels) {
     return mean_error(shot(scene, "gbaa"), truth) / mean_error(shot(scene, "none"), truth);
   };
   EXPECT_LT(gain("sphere:triangles=200"), 0.8);
-  // Its weakness: inner edges of smaller ones hide the outline.
+  // The weakness of the method: inner edges of smaller triangles hide the outline.
   EXPECT_GT(gain("sphere:triangles=20000"), 1);
 }
 
@@ -185,7 +185,7 @@ TEST(Sraa, OfOneSurfaceOnNothingItIsMultisampling) {
   }
 }
 
-/// Two walls that meet in the column of pixels 80, one black and one white, with given normals and depths.
+/// Two walls that meet at pixel column 80, one black and one white, with given normals and depths.
 Scene two_walls(float3 left_normal, float3 right_normal, float right_z) {
   Mesh mesh;
   for (const float left : {-400.0f, 0.0f}) {
@@ -204,7 +204,7 @@ Scene two_walls(float3 left_normal, float3 right_normal, float right_z) {
   return scene;
 }
 
-/// What a row of pixels across two such walls becomes, if the weight of one wall's colour on the other is `across`.
+/// The expected row of pixels across two such walls, if the weight of one wall's colour on the other is `across`.
 std::vector<double> reconstructed_row(const SamplePattern& pattern, double radius, double across) {
   std::vector<double> out;
   for (int x = 0; x < 160; ++x) {
@@ -233,17 +233,17 @@ TEST(Sraa, WeightsAreThePublishedOnes) {
   const float cosine = 0.98f, sine = std::sqrt(1 - cosine * cosine);
   const float3 front{0, 0, 1}, turned{sine, 0, cosine};
   const SamplePattern four = standard_pattern(4);
-  // Alike: a colour's border is blurred by the radius.
+  // Equal surfaces: a border between colours is blurred by the radius.
   expect_row(shot(two_walls(front, front, 0), "sraa"), reconstructed_row(four, 1, 1));
   expect_row(shot(two_walls(front, front, 0), "sraa:radius=1.5"), reconstructed_row(four, 1.5, 1));
   // Normals: exp(-scale (1 - N·N')).
   expect_row(shot(two_walls(front, turned, 0), "sraa"), reconstructed_row(four, 1, std::exp(-40 * 0.02)));
   expect_row(shot(two_walls(front, turned, 0), "sraa:scale=100"), reconstructed_row(four, 1, std::exp(-100 * 0.02)));
-  // Depths: the walls are 5 and 4.9 away; exp(-scale depth 0.1 / 4.9).
+  // Depths: the walls are at distances 5 and 4.9; exp(-scale depth 0.1 / 4.9).
   expect_row(shot(two_walls(front, front, 0.1f), "sraa"), reconstructed_row(four, 1, std::exp(-40 * 10 * 0.1 / 4.9)));
   expect_row(shot(two_walls(front, front, 0.1f), "sraa:depth=1"),
              reconstructed_row(four, 1, std::exp(-40 * 0.1 / 4.9)));
-  // Of the two the greater unlikeness counts.
+  // The greater of both dissimilarities counts.
   expect_row(shot(two_walls(front, turned, 0.1f), "sraa:depth=1"),
              reconstructed_row(four, 1, std::exp(-40 * 0.1 / 4.9)));
 }
@@ -285,7 +285,7 @@ TEST(GeometryMethods, ShadeOnceAPixel) {
     for (const char* method : {"sraa", "sraa:n=16", "idsraa", "gbaa", "axial", "axial:edges=triangles"})
       EXPECT_EQ(count(method).shaded, once) << name << " " << method;
     EXPECT_GT(count("msaa:n=4").shaded, once) << name;
-    // The geometry of a sample is evaluated once, that of the centre too.
+    // The geometry of each sample and of the centre is evaluated once.
     EXPECT_LE(count("sraa").geometric, 5u * 160 * 120) << name;
     EXPECT_LE(count("gbaa").geometric, 160u * 120) << name;
     EXPECT_EQ(count("idsraa").geometric, 0u) << name;
@@ -307,7 +307,7 @@ TEST(GeometryMethods, CropsThreadsAndInstructionSetsLeaveNoTrace) {
       LinearImage whole;
       with_threads(1, [&] { whole = shot(scene, method); });
       RenderOptions options{.width = 160, .height = 120};
-      options.crop = Crop{50, 39, 32, 23};  // with a halo of 1
+      options.crop = Crop{50, 39, 32, 23};  // with an apron of 1
       LinearImage part;
       with_threads(3, [&] { part = shot(scene, method, options); });
       for (int y = 1; y < 22; ++y)
@@ -319,7 +319,7 @@ TEST(GeometryMethods, CropsThreadsAndInstructionSetsLeaveNoTrace) {
   }
 }
 
-/// Changed bits are a reviewed change.
+/// Golden hashes: a change of bits has to be reviewed.
 TEST(GeometryMethods, PicturesHaveTheirBits) {
   struct Golden {
     const char *scene, *method;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Subpixel reconstruction by triangle id: each pixel is shaded once, at its centre. Triangle ids are rendered at more
-// samples, and each sample takes the colour of nearby shaded pixels that show its triangle.
+// samples, and each sample takes the colour of nearby shaded pixels with the same triangle.
 //
-// A variant of subpixel reconstruction antialiasing that compares triangle ids instead of normals and depths; a sample
+// A variant of subpixel reconstruction antialiasing that compares triangle ids instead of normals and depths. A sample
 // whose triangle is shaded in no pixel nearby takes the colour of the pixel with the most similar depth. With one
-// colour per triangle the result equals multisampling. Weak where surfaces are smaller than a pixel, and like
-// multisampling without effect on aliasing of shading. Blended surfaces appear as sampled at the pixel's centre.
+// colour per triangle the result is the same as multisampling. Weaknesses: surfaces smaller than a pixel; and, as in
+// multisampling, aliasing of shading is not reduced. Blended surfaces are sampled at the pixel's centre.
 //
 // Source: after Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011.
 #include <algorithm>
@@ -17,13 +17,13 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// The neighbouring pixels, the nearest first; with equal differences of depth the first is taken.
+/// Offsets of the neighbouring pixels, nearest first; of equal differences of depth the first is used.
 struct Offset {
   int x, y;
 };
 constexpr Offset around[] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
 
-/// Colours of pixels, and triangles of samples, the first of which are the pixels' centres.
+/// The colours of pixels, and the triangles of samples, the first of which are the pixels' centres.
 class Reconstruction {
  public:
   Reconstruction(const LinearImage& color, const Frame& frame) : color_(color), frame_(frame) {}
@@ -49,7 +49,7 @@ class Reconstruction {
   float depth(std::size_t s, int x, int y) const { return frame_.sample_depth[s](x, y); }
   bool is_inside(int x, int y) const { return x >= 0 && y >= 0 && x < color_.width() && y < color_.height(); }
 
-  /// The mean of the neighbouring pixels that show the sample's triangle, or without any the one of most similar depth.
+  /// The mean of the neighbouring pixels that have the sample's triangle, or else the one of most similar depth.
   Linear sample(std::size_t s, int x, int y) const {
     const std::uint32_t sample_id = triangle(s, x, y);
     const float z = depth(s, x, y);
@@ -61,7 +61,7 @@ class Reconstruction {
       if (!is_inside(i, j)) continue;
       const Linear& color = color_(i, j);
       if (triangle(0, i, j) == sample_id) sum = sum + color, ++count;
-      // Reversed depth is proportional to 1 / distance: relative differences equal those of distances.
+      // Reversed depth is proportional to 1 / distance, so that relative differences are those of distances.
       const float other = depth(0, i, j), greater = std::max(z, other);
       const float unlike = greater > 0 ? std::abs(z - other) / greater : 0;
       if (unlike < least) least = unlike, nearest = color;
@@ -86,7 +86,7 @@ class IdSraa : public ColorThenData {
     request.samples = pattern_;
     request.content = Content::Visibility;
     request.planes.samples = true;
-    request.centroid = Centroid::First;  // the alpha test at the pixel's centre if the triangle covers it
+    request.centroid = Centroid::First;  // the alpha test is evaluated at the pixel's centre if the triangle covers it
     return request;
   }
   LinearImage combined(const LinearImage& color, const Frame& data) const override {

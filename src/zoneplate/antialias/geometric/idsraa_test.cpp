@@ -26,7 +26,7 @@ TEST(IdSraa, WithOneColourATriangleItIsMultisampling) {
                      std::abs(p.a - q.a) > 1e-5f;
       }
       EXPECT_GT(partial, 100) << name;
-      // Only a corner thinner than a pixel is shaded nowhere around.
+      // Only the samples of corners thinner than a pixel may find no shaded neighbour of their triangle.
       EXPECT_LE(differing, 8) << name << " " << own;
     }
 }
@@ -50,7 +50,7 @@ TEST(IdSraa, PicturesWithinASurfaceKeepTheirBits) {
       ASSERT_EQ(a.values()[i], b.values()[i]) << i;
     }
   }
-  // Only the diagonals of the board and its rim are shared, and there colours change.
+  // Colours change only on shared edges: the diagonals and the border of the board.
   EXPECT_GT(mixed, 100u);
   EXPECT_GT(within, 18000u);
   EXPECT_GT(changed, 200u);

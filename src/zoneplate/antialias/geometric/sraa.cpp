@@ -3,13 +3,13 @@
 // more samples, and each sample takes a mean of the shaded colours around it, weighted by the similarity of surfaces.
 //
 // Geometry is rendered at n samples per pixel and at its centre, without shading: normals are interpolated from the
-// vertices, without normal maps. Weak where surfaces are narrower than a pixel: a surface that is shaded in no pixel
-// nearby gets the colour of another one; and inside a surface colours are blurred over about a pixel.
+// vertices, without normal maps. Weaknesses: surfaces narrower than a pixel: a surface that is shaded in no pixel
+// nearby gets the colour of another one; and inside a surface, colours are blurred over about a pixel.
 //
 // Source: Chajdas, McGuire, Luebke, Subpixel Reconstruction Antialiasing for Deferred Shading, I3D 2011: weights
-// exp(-scale max(1 - N·N', depth scale |z - z'|)) of their published kernel. It leaves both scales to the scene. Here
-// depths are compared relative to the nearer one, so that one scale serves scenes of any size; the scales' defaults
-// and the radius are ours. Blended surfaces are not in the geometry: their outlines stay as they were shaded.
+// exp(-scale max(1 - N·N', depth scale |z - z'|)) of their published kernel, which leaves both scales to the scene.
+// Here depths are compared relative to the nearer one, so that one scale is valid for scenes of any size; the default
+// scales and the radius are ours. Blended surfaces are not in the geometry: their outlines are not antialiased.
 #include "zoneplate/antialias/geometric/bilateral.h"
 
 #include <algorithm>
@@ -27,15 +27,15 @@ namespace {
 
 struct Bilateral {
   BilateralScales scales;
-  double radius;  ///< pixels, from a sample to the centres whose colours count
+  double radius;  ///< maximum distance in pixels from a sample to the centres that contribute
 };
 
-/// A pixel near a sample, relative to the sample's own.
+/// A neighbouring pixel, relative to the sample's own.
 struct Offset {
   int x, y;
 };
 
-/// The pixels of the 3 × 3 neighbourhood whose centres lie within the radius, row by row.
+/// The pixels of the 3 × 3 neighbourhood whose centres are within the radius, row by row.
 std::vector<Offset> offsets_around(SamplePosition sample, double radius) {
   std::vector<Offset> out;
   for (int y = -1; y <= 1; ++y)
@@ -46,7 +46,7 @@ std::vector<Offset> offsets_around(SamplePosition sample, double radius) {
   return out;
 }
 
-/// Colours of pixels and geometry of samples, the first of which are the pixels' centres.
+/// The colours of pixels, and the geometry of samples, the first of which are the pixels' centres.
 class Reconstruction {
  public:
   Reconstruction(const LinearImage& color, const std::vector<LinearImage>& geometry, const SamplePattern& pattern,
@@ -59,7 +59,7 @@ class Reconstruction {
     for (const SamplePosition sample : pattern) around_.push_back(offsets_around(sample, bilateral.radius));
   }
 
-  /// Fills row y, which is 0 before, with the means of its pixels' samples.
+  /// Stores the means of the pixels' samples in row y, which is initially 0.
   void row(int y, std::span<Linear> out) const {
     const std::size_t width = out.size();
     std::vector<Linear> sum(width);
@@ -88,8 +88,8 @@ class Reconstruction {
                  weight + (begin - first), static_cast<std::size_t>(end - begin));
   }
 
-  /// A sample that is similar to no centre within the radius is compared with all 3 × 3 pixels around it; if it is
-  /// similar to none, it takes its own pixel's colour.
+  /// A sample that is dissimilar to all centres within the radius is compared with all 3 × 3 pixels around it; if it is
+  /// dissimilar to all of those, it takes its own pixel's colour.
   Linear other_mean(std::size_t s, int x, int y) const {
     Linear sum{0, 0, 0, 0};
     float weight = 0;

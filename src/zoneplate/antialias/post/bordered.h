@@ -10,10 +10,11 @@
 
 namespace zoneplate::antialias {
 
-/// A plane with `border` more values on every side, which repeat the outermost ones, so that searches need no bounds.
+/// A plane with `border` more values on every side, which repeat the outermost ones, so that searches need no bounds
+/// checks.
 ///
-/// Shape     rows are `stride()` apart; at(x, y) is valid for x in [-border, width + border + 32) and y in
-///           [-border, height + border). The 32 at the end let vectors read past a row.
+/// Shape     rows are `stride()` apart; at(x, y) is valid for x in [-border, width + border + 32) and y in [-border,
+///           height + border). The 32 values at the end let vectors read past a row.
 /// Requires  the rows are written first, then `extend` is called.
 template <class T>
 class Bordered {

@@ -7,17 +7,17 @@
 
 namespace zoneplate::antialias {
 
-/// The order of filtering and tone mapping, which matters for colours beyond white.
+/// The order of filtering and tone mapping, which matters for colours brighter than white.
 enum class FilterOrder {
   Scene,    ///< filter in scene-linear light, then tone-map the mean
   Display,  ///< tone-map each colour, then filter display-linear light
 };
 
-/// Converts scene-linear colours to display-linear light: exposed, tone-mapped, in [0, 1], not encoded.
+/// Converts scene-linear colours to display-linear light: exposed and tone-mapped to [0, 1], not encoded.
 class DisplayLight {
  public:
   explicit DisplayLight(const DisplayOptions& options) : options_(options) {}
-  /// Premultiplied in, premultiplied out.
+  /// Argument and result are premultiplied.
   Linear operator()(Linear color) const;
 
  private:

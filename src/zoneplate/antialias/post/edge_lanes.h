@@ -6,7 +6,7 @@
 /// Edges as bytes, over a lane type of math/lanes.h.
 namespace zoneplate::stages {
 
-/// Stores 1 where `first` plus 2 where `second`, a byte a lane.
+/// Stores 1 if `first` plus 2 if `second`, one byte per lane.
 template <class F>
 [[gnu::always_inline]] inline void store_edges(typename F::Bool first, typename F::Bool second, std::uint8_t* edges) {
   using Int = typename F::Int;

@@ -12,11 +12,11 @@
 
 namespace zoneplate::antialias {
 
-/// Which borders of a pixel are edges.
+/// The borders of a pixel that are edges.
 enum : std::uint8_t { left_edge = 1, top_edge = 2 };
 using EdgePlane = Bordered<std::uint8_t>;
 
-/// Makes rows with `fill(y, row)` and edges of them with `detect(rows, edges)`, blocks of rows in parallel.
+/// Computes rows with `fill(y, row)` and edges from them with `detect(rows, edges)`, in parallel for blocks of rows.
 template <class T, class Fill, class Detect>
 void detect_edges(EdgePlane& edges, const Fill& fill, const Detect& detect) {
   constexpr std::size_t rows = 32;

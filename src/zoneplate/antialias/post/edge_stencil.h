@@ -3,7 +3,7 @@
 
 namespace zoneplate {
 
-/// Rows of which an edge row is made: two above, one above, the row itself, one below.
+/// The rows that an edge row is computed from: two above, one above, the row itself, one below.
 ///
 /// Shape     valid from two values before the first to 33 after the last.
 template <class T>

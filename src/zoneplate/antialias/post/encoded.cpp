@@ -37,7 +37,7 @@ Display from_unorm8(Rgba8 c) {
           static_cast<float>(c.a) / 255};
 }
 
-/// Calls `body(i)` for every pixel, blocks of pixels in parallel.
+/// Calls `body(i)` for every pixel, in parallel for blocks of pixels.
 template <class Body>
 void for_pixels(std::size_t count, const Body& body) {
   constexpr std::size_t grain = 16384;

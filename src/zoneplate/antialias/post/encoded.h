@@ -12,8 +12,8 @@ namespace zoneplate::antialias {
 
 /// The values that a method blends; transparent images are premultiplied in the same values.
 enum class Mixing {
-  Encoded,  ///< of sRGB-encoded values
-  Linear,   ///< of linear light
+  Encoded,  ///< sRGB-encoded values
+  Linear,   ///< linear light
 };
 
 using EncodedFilter = std::function<Rgba8Image(const Rgba8Image&)>;
@@ -42,10 +42,10 @@ Rgba8 encode_pixel(Linear light);
 /// The pixel (1 - t) a + t b, computed in linear light.
 Rgba8 mix_linear(Rgba8 a, Rgba8 b, float t);
 
-/// Rows of one block of work: the image is cut the same way for every number of threads.
+/// Rows of one block of work, independently of the number of threads.
 inline constexpr std::size_t rows_a_block = 16;
 
-/// Calls `body(y)` for every row of an image, blocks of rows in parallel.
+/// Calls `body(y)` for every row of an image, in parallel for blocks of rows.
 void for_rows(int height, const std::function<void(int)>& body);
 
 /// Copies row y of an image into another one of its size. (std::ranges::copy takes one pixel at a time.)
@@ -53,8 +53,8 @@ inline void copy_row(const Rgba8Image& from, Rgba8Image& to, int y) {
   std::memcpy(to.row(y).data(), from.row(y).data(), from.row(y).size_bytes());
 }
 
-/// Allocates an image of the size of `like`, or takes `memory` where it has that size already. The values are unset
-/// leftovers in the second case and zero in the first.
+/// Returns `memory` if it has the size of `like`, with its previous values; else a new image of that size, which is
+/// zero.
 Rgba8Image sized_like(const Rgba8Image& like, Rgba8Image memory);
 
 }  // namespace zoneplate::antialias

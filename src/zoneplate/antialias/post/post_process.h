@@ -10,7 +10,7 @@ namespace zoneplate::antialias {
 
 /// The request of a method that filters the display-referred image.
 ///
-/// Units     `reach`: the filter's radius in pixels.
+/// Units     `reach` is the filter's radius in pixels.
 Request display_referred_request(int reach);
 
 /// A method that only filters the display-referred image in 8 bits (filter_encoded).

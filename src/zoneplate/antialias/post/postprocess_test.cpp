@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every method that works on the shown image must keep, whatever it does.
+// Properties of all methods that filter the display-referred image.
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/charts_for_test.h"
@@ -10,33 +10,33 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// A method, and the share of an intricate chart's pixels that may differ when the chart is mirrored left to right,
-/// upside down or on its diagonal, in thousandths. Where that is not 0 the method's own definition prefers a side.
-/// `border` is how many pixels of a small image may differ where the image goes on as its border does, beside where
-/// an edge meets the border: a method may end an edge there.
+/// A method, and the maximum fraction of an intricate chart's pixels, in thousandths, that may differ if the chart is
+/// mirrored left to right, upside down or on its diagonal. If it is not 0, the definition of the method prefers one
+/// side. `border` is the number of pixels of a small image that may differ from those of an image that continues its
+/// border, beside pixels at which an edge meets the border: a method may end an edge there.
 struct Case {
   const char* text;
   int left_right, up_down, diagonal, border = 0;
 };
 const Case cases[] = {
-    // Of two equal gradients the upper or left one is taken, and of two equal directions the horizontal one.
+    // Of equal gradients the upper or left one is used, and of equal directions the horizontal one.
     {"fxaa", 0, 0, 4},
     {"fxaa:preset=39,threshold=overkill,mix=light", 0, 0, 4},
-    // The nudge to the north-east luma turns the direction of level and upright edges.
+    // The offset of the north-east luma rotates the direction of horizontal and vertical edges.
     {"fxaa:preset=console", 70, 70, 90},
-    // Diagonals are looked for from top edges, and of two equal axes the vertical one is mixed.
+    // Diagonals are searched from top edges, and of equal axes the vertical one is blended.
     {"smaa", 16, 14, 15},
     {"smaa:preset=medium,edges=color", 6, 6, 3, 2},
     {"smaa:preset=ultra", 18, 15, 16},
-    // A border's contrast is judged from the pixel on its right or below it.
+    // The contrast of a border is evaluated at the pixel on its right or below it.
     {"mlaa", 5, 6, 0},
     {"mlaa:mix=codes,steps=8", 5, 6, 0},
     {"mlaa:kind=reshetov", 0, 0, 0, 4},
     {"cmaa2", 0, 0, 0},
     {"cmaa2:preset=ultra,sharp=1", 0, 0, 0, 5},
-    // The horizontal blur has weight 1, the vertical one 1/2; of the long ones the horizontal one is applied last.
+    // The horizontal blur has weight 1, the vertical one 1/2; of the long blurs the horizontal one is applied last.
     {"dlaa", 0, 0, 65},
-    // Of two equal gradients the upper or left one is taken, and of two equal directions the horizontal one.
+    // Of equal gradients the upper or left one is used, and of equal directions the horizontal one.
     {"ddaa", 4, 2, 4},
     {"ddaa:threshold=extreme", 4, 2, 4},
 };
@@ -73,7 +73,7 @@ TEST(PostProcess, ConstantPicturesKeepTheirBits) {
     }
 }
 
-// An image of any size gives what it gives within a larger one that continues its border pixels.
+// An image of any size gives the same result as within a larger one that continues its border pixels.
 TEST(PostProcess, PicturesOfAnySizeAreThoseOfTheirContinuation) {
   for (const Case& c : cases)
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {7, 8}, {31, 17}, {65, 5}, {0, 0}}) {
@@ -167,7 +167,7 @@ TEST(PostProcess, MirroredPicturesGiveMirroredResults) {
 }
 
 TEST(PostProcess, TransparentPicturesKeepTheirColourAtTheEdge) {
-  // An opaque disc of one colour on nothing: its rim becomes transparent, and nowhere darker or brighter.
+  // An opaque disc of one colour on transparency: its rim becomes transparent, but neither darker nor brighter.
   for (const Rgba8 color : {Rgba8{255, 180, 60}, Rgba8{2, 2, 2}, Rgba8{250, 250, 250}}) {
     const Rgba8Image disc = make_codes(48, 48, [&](int x, int y) {
       return (x - 23) * (x - 23) + (y - 24) * (y - 24) < 300 ? color : Rgba8{0, 0, 0, 0};
@@ -177,7 +177,7 @@ TEST(PostProcess, TransparentPicturesKeepTheirColourAtTheEdge) {
       int mixed = 0;
       for (const Rgba8 p : out.values()) {
         mixed += p.a > 0 && p.a < 255;
-        // What the rim adds to any background is off by no more than two roundings of a bright code.
+        // The error of the rim composited over any background is at most two roundings of a bright code.
         for (const auto channel : {&Rgba8::r, &Rgba8::g, &Rgba8::b})
           EXPECT_NEAR(p.a / 255.0f * (decode_srgb8(p.*channel) - decode_srgb8(color.*channel)), 0, 0.01f) << c.text;
       }

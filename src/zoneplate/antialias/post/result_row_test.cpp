@@ -26,7 +26,7 @@ TEST(ResultRow, KernelsCopyEveryByteAndNoOther) {
 }
 
 TEST(ResultRow, ResultsOfAnySizeGetWhatTheRowHolds) {
-  // The second one is of those that go past the caches.
+  // The second size is written past the caches.
   for (const auto& size : {std::pair{31, 7}, {2053, 1025}}) {
     const int width = size.first, height = size.second;
     const Rgba8Image image = make_codes(width, height, [](int x, int y) {

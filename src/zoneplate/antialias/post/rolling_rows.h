@@ -17,14 +17,14 @@ namespace zoneplate::antialias {
 template <class T>
 class RollingRows {
  public:
-  /// A window that begins at row `first` of an image.
+  /// Creates a window that begins at row `first` of an image.
   RollingRows(int width, int height, int reach, int first)
       : height_(height), reach_(reach), first_(first), made_(first - reach), values_(width, rows, reach) {}
 
   std::ptrdiff_t stride() const { return values_.stride(); }
   const T* at(int x, int y) const { return values_.at(x, y - first_); }
 
-  /// Computes the rows within reach of row y that are not computed yet, by `make(row of the image, values)`.
+  /// Computes the missing rows within reach of row y, by `make(row of the image, values)`.
   template <class Make>
   void make_around(int y, const Make& make) {
     if (y == first_ + rows) begin_at(y);
@@ -37,7 +37,7 @@ class RollingRows {
  private:
   static constexpr int rows = 32;
 
-  /// Makes row y the first of the window, and moves the computed rows within its reach.
+  /// Makes row y the first one of the window, and moves the computed rows within its reach.
   void begin_at(int y) {
     const auto count = static_cast<std::size_t>(made_ - (y - reach_)) * static_cast<std::size_t>(stride());
     std::memmove(values_.at(-reach_, -reach_), values_.at(-reach_, y - reach_ - first_), count * sizeof(T));

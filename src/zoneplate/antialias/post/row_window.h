@@ -7,7 +7,7 @@
 
 namespace zoneplate::antialias {
 
-/// The last four rows derived from an image, each with two values before it and 33 after it that repeat the outermost.
+/// The last four rows derived from an image, each with two values before and 33 after it that repeat the outermost.
 template <class T>
 class RowWindow {
  public:

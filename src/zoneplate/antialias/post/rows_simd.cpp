@@ -30,7 +30,7 @@ void stream(const std::uint8_t* from, std::uint8_t* to, std::size_t n) {
   hwy::FlushStream();
 }
 
-// Every product and sum is a whole number below 2^24, so that floats are exact.
+// All products and sums are integers below 2^24, which floats represent exactly.
 template <class D>
 HWY_INLINE void luma_some(D d, const std::uint8_t* rgba, float* luma, std::size_t i) {
   const hn::RebindToSigned<D> di;

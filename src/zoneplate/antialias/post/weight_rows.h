@@ -27,7 +27,7 @@ struct TakenWeights {
   std::uint8_t above, below, left, right;
 };
 
-/// A row of weights, most of them zero, with a flag for each block that has others.
+/// A row of weights, most of which are zero, with a flag for each block that has others.
 ///
 /// Edges     the last pixel's weights are repeated beyond it.
 class WeightRow {
@@ -74,7 +74,7 @@ class WeightRow {
   std::vector<std::uint8_t> has_any_;
 };
 
-/// The last pass of SMAA and MLAA: out(x, y) is mix(x, y, taken) where weights are not zero, otherwise image(x, y).
+/// The last pass of SMAA and MLAA: out(x, y) is mix(x, y, taken) if any weight is not zero, otherwise image(x, y).
 ///
 /// `weigh(y, row)` stores a row's weights in a cleared row; it is called once or twice for each row.
 template <class Weigh, class Mix>

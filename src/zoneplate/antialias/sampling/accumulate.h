@@ -22,11 +22,11 @@ struct AccumulateKernels : PerIsa<AccumulateKernels> {
   void (*spread)(const float* in, std::size_t step, const float* across, int taps, const float* down,
                  float* const* rows, int row_count, std::size_t n);
 
-  /// color / weight of n pixels; if `is_max3`, mapped back from map_max3. `color` and `weight` are padded, `out` is
-  /// not.
+  /// color / weight of n pixels; if `is_max3`, with the inverse mapping of map_max3. `color` and `weight` are padded,
+  /// `out` is not.
   void (*mean)(const float* color, const float* weight, bool is_max3, float* out, std::size_t n);
 
-  /// The greatest mean that is mapped back: 2^21 times white.
+  /// The upper limit of means before the inverse mapping: 2^21 times white.
   static constexpr float greatest_mapped = 1 - 0x1p-21f;
   static constexpr float luma[3] = {0.2126f, 0.7152f, 0.0722f};  ///< Rec.709
 };

@@ -17,7 +17,7 @@ template <class F>
   for (int k = 0; k < 3; ++k) c[k] = c[k] * by;
 }
 
-/// Calls change(pixels, i) for whole vectors of n pixels of four floats, in place.
+/// Calls change(pixels, i) in place for whole vectors of n pixels of four floats.
 template <class F, class Change>
 [[gnu::always_inline]] inline void change_pixels(float* color, std::size_t n, const Change& change) {
   for (std::size_t i = 0; i < n; i += F::lanes) {

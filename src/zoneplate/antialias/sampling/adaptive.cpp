@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adaptive supersampling: four samples per pixel, and many more where those differ.
 //
-// Where the first samples are similar, the pixel is their mean; elsewhere it is supersampled, with the bits of ssaa.
-// Costs little more than four samples in smooth regions. Weak on details that all four samples miss: a wire or a
-// highlight between them is not detected.
+// If the first samples are similar, the pixel is their mean; otherwise it is supersampled, with the same bits as ssaa.
+// It costs little more than four samples in smooth regions. Weakness: details that all four samples miss, such as a
+// wire or a highlight between them.
 //
-// Source: Mitchell, Generating Antialiased Images at Low Sampling Densities, SIGGRAPH 1987: contrast
-// (max - min) / (max + min) of a colour, against 0.4 for red, 0.3 for green, 0.6 for blue.
+// Source: Mitchell, Generating Antialiased Images at Low Sampling Densities, SIGGRAPH 1987: contrast (max - min) / (max
+// + min) of a colour, compared with 0.4 for red, 0.3 for green, 0.6 for blue.
 #include <algorithm>
 
 #include "zoneplate/antialias/post/encoded.h"

@@ -3,7 +3,7 @@
 //
 // A pixel stores the colours of as many surfaces as it has slots, in the order of drawing. If another surface is drawn,
 // the one with the fewest samples is dropped, and its samples are unknown until they are drawn again. Smooth where two
-// surfaces meet, at the memory cost of the slots. Weak where more surfaces than slots share a pixel, even temporarily:
+// surfaces meet, at the memory cost of the slots. Weakness: pixels with more surfaces than slots, even temporarily:
 // fine meshes and corners lose surfaces, and which ones depends on the order.
 //
 // Source: NVIDIA, Coverage-Sampled Antialiasing, 2006; AMD, EQAA Modes for AMD 6900 Series Graphics Cards, 2011, with a

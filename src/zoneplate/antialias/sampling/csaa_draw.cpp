@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multisampling first; then the triangles are drawn again in order, to find the samples that few slots would have kept.
+// Multisampling first; then the triangles are processed again in order, to determine the samples that the slots would
+// have kept.
 #include "zoneplate/antialias/sampling/csaa_draw.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ struct Sampled {
   std::vector<Plane<std::uint32_t>> triangle;
 };
 
-/// The pixels of one tile, through the order of drawing.
+/// The slots of one tile's pixels during drawing.
 class TileHistory {
  public:
   TileHistory(const Bins& bins, const Target& target, const Sampled& sampled, std::size_t slots)
@@ -107,7 +108,7 @@ class TileHistory {
     return true;
   }
 
-  /// The samples of the tile's pixel that are the triangle's in the image.
+  /// The samples of the tile's pixel that the triangle owns in the image.
   std::uint32_t kept_samples(int x, int y, std::int32_t id) const {
     const int px = x_ + x - target_.x, py = y_ + y - target_.y;
     if (px < 0 || py < 0 || px >= target_.width || py >= target_.height) return 0;
@@ -132,7 +133,7 @@ class TileHistory {
   std::vector<CoverageSlots> pixels_;
 };
 
-/// The known samples of every pixel, a bit each.
+/// The known samples of every pixel, one bit each.
 Plane<std::uint16_t> known_samples(const Bins& bins, const Target& target, const Sampled& sampled, std::size_t slots) {
   Plane<std::uint16_t> known(target.width, target.height,
                              static_cast<std::uint16_t>((1u << target.samples.size()) - 1));
@@ -186,7 +187,7 @@ void CoverageSlots::draw(std::int32_t surface, std::uint32_t samples, std::size_
   if (kept > slots) {
     const auto end = slots_.begin() + static_cast<std::ptrdiff_t>(kept);
     const auto fewer = [](const Slot& p, const Slot& q) { return std::popcount(p.samples) < std::popcount(q.samples); };
-    // The last of the least.
+    // The last of the slots with the fewest samples.
     auto least = slots_.begin();
     for (auto i = least + 1; i != end; ++i)
       if (!fewer(*least, *i)) least = i;

@@ -19,23 +19,23 @@ struct Drawn {
   float depth;
 };
 
-/// The order of drawing, a total order that is independent of threads: by id; for one id pieces before samples, pieces
-/// by their shape and samples by pixel, sample and depth. Requires: depths are not NaN.
+/// A total order of drawing that is independent of threads: by id; within an id, pieces before samples; pieces by their
+/// shape, samples by pixel, sample and depth. Requires: depths are not NaN.
 bool comes_before(const Drawn& p, const Drawn& q);
 
-/// The slots of a pixel: the surfaces that were drawn into it, each with its samples, at most one surface a slot.
+/// The slots of a pixel: the surfaces drawn into it, at most one per slot, each with its samples.
 class CoverageSlots {
  public:
   static constexpr std::size_t most = 8;
 
-  /// All samples belong to the background.
+  /// Initially all samples belong to the background.
   explicit CoverageSlots(std::uint32_t all_samples) { slots_[0] = {background, all_samples}, count_ = 1; }
 
-  /// Assigns these samples to a surface. Without a free slot the surface with the fewest samples is dropped, of equal
-  /// ones the latest: its samples are unknown until they are drawn again.
+  /// Assigns these samples to a surface. Without a free slot the surface with the fewest samples is dropped (of equal
+  /// ones, the latest): its samples are unknown until they are drawn again.
   void draw(std::int32_t surface, std::uint32_t samples, std::size_t slots);
 
-  /// The samples that are known; at least one.
+  /// The known samples; at least one.
   std::uint32_t known() const;
 
  private:
@@ -50,10 +50,10 @@ class CoverageSlots {
 
 /// Draws the colour of a frame with coverage and depth samples, and `slots` colours per pixel.
 ///
-/// Surfaces take slots in the order of drawing. An alpha-tested surface takes a slot only for samples that remain
-/// visible to the end, because alpha is tested at no others. A blended surface takes no slot; it is composited over the
+/// Surfaces take slots in the order of drawing. An alpha-tested surface takes a slot only for samples at which it
+/// remains visible, because alpha is tested at no others. A blended surface takes no slot; it is composited over the
 /// slots.
-/// Exact     with as many slots as surfaces the result equals multisampling.
+/// Exact     with as many slots as surfaces, the result is that of multisampling.
 void draw_with_slots(const CustomDraw& drawing, const SamplePattern& samples, std::size_t slots);
 
 }  // namespace zoneplate::antialias

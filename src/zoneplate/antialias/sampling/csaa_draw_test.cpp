@@ -20,7 +20,7 @@ std::size_t differing(const LinearImage& a, const LinearImage& b) {
   return count;
 }
 
-/// The triangles of every mesh from the last to the first.
+/// The triangles of every mesh in reverse order.
 Scene drawn_backwards(Scene scene) {
   for (Mesh& mesh : scene.meshes) {
     std::vector<std::uint32_t> index;
@@ -37,15 +37,15 @@ TEST(CoverageSlots, TheSmallestIsForgottenUntilItsSamplesAreDrawnAgain) {
   CoverageSlots pixel(0xff);
   pixel.draw(1, 0b00001111, 2);
   EXPECT_EQ(pixel.known(), 0xffu);
-  pixel.draw(2, 0b01110000, 2);  // of the background one sample is left: it goes
+  pixel.draw(2, 0b01110000, 2);  // the background is left with one sample and is dropped
   EXPECT_EQ(pixel.known(), 0b01111111u);
-  pixel.draw(3, 0b10000000, 2);  // the newcomer is the smallest
+  pixel.draw(3, 0b10000000, 2);  // the new surface has the fewest samples and is dropped
   EXPECT_EQ(pixel.known(), 0b01111111u);
-  pixel.draw(4, 0b11110000, 2);  // over 2 and what nothing was known of
+  pixel.draw(4, 0b11110000, 2);  // covers the samples of 2 and the unknown ones
   EXPECT_EQ(pixel.known(), 0xffu);
-  pixel.draw(5, 0b00000011, 2);  // 1 and 5 are equal: the last to come goes
+  pixel.draw(5, 0b00000011, 2);  // 1 and 5 have equally many samples: the later one is dropped
   EXPECT_EQ(pixel.known(), 0b11111100u);
-  pixel.draw(4, 0b00000001, 2);  // another piece of a surface needs no slot of its own
+  pixel.draw(4, 0b00000001, 2);  // another piece of a surface with a slot needs no additional one
   EXPECT_EQ(pixel.known(), 0b11111101u);
 }
 
@@ -57,8 +57,7 @@ TEST(CoverageSlots, OneSlotIsTheLargest) {
   EXPECT_EQ(pixel.known(), 0b0111u);
 }
 
-// Whatever order the threads left: pieces of one triangle that are records, and others that are samples, at place 0
-// too.
+// The order is independent of threads, for pieces of one triangle and for samples, including those at position 0.
 TEST(Csaa, TheOrderOfDrawingIsTotal) {
   Triangle shapes[2] = {};
   shapes[0].min_x = 5;
@@ -72,7 +71,7 @@ TEST(Csaa, TheOrderOfDrawingIsTotal) {
 }
 
 TEST(Csaa, SlotsAreFilledInTheOrderOfDrawing) {
-  // Small triangles too, which the renderer keeps as samples.
+  // Includes small triangles, which the renderer stores as samples.
   for (const char* name : {"wires", "sphere:triangles=20000"}) {
     Scene scene = *make_builtin_scene(name);
     if (scene.cameras.empty()) scene.cameras.push_back(fit_camera(scene.bounds(), 4 / 3.0f, {}));

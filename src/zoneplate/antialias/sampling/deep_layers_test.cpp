@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light behind many layers, whatever the method: values above 1 are seen through what would hide those below.
+// Light behind many layers, for all methods: values above 1 are visible through layers that would hide darker ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ Material emitting(float strength, AlphaMode mode, float alpha) {
   return m;
 }
 
-/// What is behind, and black layers of alpha ½ over it, each of two triangles that are larger than the image. Tilted
-/// ones cut through each other, so that no block and no row has one order.
+/// A quad behind `layers` black layers of alpha ½, each of two triangles larger than the image. Tilted layers intersect
+/// each other, so that the order differs within blocks and rows.
 Scene veiled(Material behind, int layers, bool is_tilted) {
   Mesh quad;
   quad.position = {{-9, -8, 0}, {9, -8.5f, 0}, {8, 9, 0}, {-9.5f, 9, 0}};
@@ -48,7 +48,7 @@ Scene veiled(Material behind, int layers, bool is_tilted) {
   return scene;
 }
 
-/// Equal within the precision of half floats.
+/// Tests for equality within the precision of half floats.
 void expect_near(const LinearImage& image, const LinearImage& expected, const char* method) {
   for (std::size_t i = 0; i < image.values().size(); ++i) {
     const Linear p = image.values()[i], q = expected.values()[i];
@@ -84,7 +84,7 @@ TEST(DeepLayers, SoIsABlendedOne) {
       }
 }
 
-// The same memory of layers for every method: no more of them are held at once than there is room for.
+// With a small capacity for layers, which are then processed in many parts, all methods give the same image.
 TEST(DeepLayers, AreTheSameInOnePartAndInMany) {
   const Scene scene = veiled(emitting(100, AlphaMode::Blend, 0.75f), 30, true);
   for (const char* method : sampled_methods) {

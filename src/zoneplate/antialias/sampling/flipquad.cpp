@@ -28,7 +28,7 @@ class FlipQuad : public Resolver {
     request.halo = 1;
     return request;
   }
-  /// The last column and row have no samples on the sides beyond them.
+  /// The last column and row have no samples on their far sides.
   LinearImage resolve(Frame& frame) override {
     LinearImage out(frame.color.width(), frame.color.height());
     // Across a side the pattern is mirrored: the pixel's lower side is the upper one of the pixel below.

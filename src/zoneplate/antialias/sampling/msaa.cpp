@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Multisampling: coverage and depth at every sample, shading once per surface and pixel.
 //
-// Smooths the edges of geometry at little more than the cost of one sample; has no effect on aliasing inside surfaces
-// (textures, highlights). Visibility is stored per sample and shading is deferred: a pixel where two surfaces meet
-// blends their two colours and never the background's (the black edge of renderers with one depth per pixel). Edges by
-// alpha tests are not smoothed, unless alpha is converted to coverage.
+// It smooths the edges of geometry at little more than the cost of one sample; it has no effect on aliasing inside
+// surfaces (textures, highlights). Visibility is stored per sample and shading is deferred: a pixel where two surfaces
+// meet blends their two colours and never the background's (the black edge of renderers with one depth per pixel).
+// Edges of alpha tests are not smoothed, unless alpha is converted to coverage.
 //
 // Source: Akeley, RealityEngine Graphics, SIGGRAPH 1993; patterns of Direct3D 11.1 and Vulkan. A surface that owns
-// every sample is shaded at the pixel's centre, any other at the mean of its samples (centroid sampling:
+// every sample is shaded at the pixel's centre, any other at the mean of its samples (centroid sampling;
 // raster/coverage/centroid.h has this and other rules), so that a plane has the same colours for any tessellation.
 // Sharpened alpha: Golus, Anti-aliased Alpha Test: The Esoteric Alpha To Coverage, 2017.
 #include "zoneplate/antialias/sampling/sample_accumulator.h"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quincunx: two samples per pixel, its centre and a corner; corner samples are shared by four pixels.
 //
-// Five samples at the cost of two, with a blur over three by three half-pixels: edges are smooth, but textures soft,
+// Five samples at the cost of two, with a blur over three by three half-pixels: edges are smooth but textures soft,
 // which is why hardware abandoned it.
 //
-// Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre weighs ½, each corner ⅛.
+// Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre has weight ½, each corner
+// ⅛.
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/render/method.h"
 

@@ -16,11 +16,11 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t room = 8;             // pixels that kernels may touch beyond a row
-constexpr std::size_t rows_of_a_part = 32;  // that one thread fills
-constexpr int greatest_reach = 4;           // of a filter of radius 4
+constexpr std::size_t room = 8;             // pixels beyond a row that kernels may access
+constexpr std::size_t rows_of_a_part = 32;  // rows per thread
+constexpr int greatest_reach = 4;           // reach of a filter of radius 4
 
-/// The kernel's values at a sample's distances from the centres of the pixels around, the farthest to the left first.
+/// The kernel's values at a sample's distances from the centres of the neighbouring pixels, the leftmost first.
 std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
   const int reach = filter.reach();
   if (!filter.kernel) return {1};
@@ -32,7 +32,7 @@ std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
 
 }  // namespace
 
-/// Samples of a row as they count and what they count, between zeros as far as a filter reaches beyond the image.
+/// The mapped samples of a row and their weights, padded with zeros as far as a filter reaches beyond the image.
 class SampleRow {
  public:
   SampleRow(int width, int reach)
@@ -105,7 +105,7 @@ void SampleAccumulator::add(const Frame& frame, std::span<const SamplePosition> 
   });
 }
 
-/// Rows [first, last) of the sums get what all samples give them.
+/// Adds the contributions of all samples to rows [first, last) of the sums.
 void SampleAccumulator::add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last) {
   const int reach = filter_.reach();
   SampleRow row(width_, reach);
@@ -144,7 +144,7 @@ LinearImage SampleAccumulator::light() const {
 
 DisplayImage SampleAccumulator::display_referred(DisplayImage image, const DisplayOptions& display) const {
   if (!filter_.is_display_referred()) return image;
-  // Encoded values are not encoded again.
+  // Averages of encoded values are encoded already.
   return make_display(light(), {.is_transparent = true, .raw = display.raw || filter_.weight == SampleWeight::Encoded});
 }
 

@@ -15,19 +15,19 @@ enum class SampleWeight {
   Karis,    ///< weighted by 1 / (1 + luma × exposure)
   Max3,     ///< mapped by c / (1 + max(c)), the mean mapped back
   Display,  ///< display-referred: tone-mapped over the background, linear
-  Encoded,  ///< the same, sRGB-encoded: what the resolve of an 8-bit framebuffer without sRGB conversion averages
+  Encoded,  ///< display-referred and sRGB-encoded, as in the resolve of an 8-bit framebuffer without sRGB conversion
 };
 
 /// The filter by which a method averages samples.
 struct ResolveFilter {
   SampleWeight weight = SampleWeight::Even;
-  std::optional<Kernel> kernel;  ///< in pixels; none: the unweighted mean of the pixel's own samples
+  std::optional<Kernel> kernel;  ///< in pixels; without a kernel, the unweighted mean of the pixel's own samples
 
-  /// True for the plain mean, which the renderer computes itself.
+  /// True for the unweighted mean, which the renderer computes itself.
   bool is_plain() const { return weight == SampleWeight::Even && !kernel; }
   /// The filter's radius in whole pixels.
   int reach() const;
-  /// True where the mean is of values after tone mapping.
+  /// True if the mean is of values after tone mapping.
   bool is_display_referred() const { return weight == SampleWeight::Display || weight == SampleWeight::Encoded; }
 };
 
@@ -35,8 +35,8 @@ struct ResolveFilter {
 /// select.
 ///
 /// `radius` is the filter's, in pixels; 0: the kernel's own radius.
-/// Errors    ErrorKind::Usage for a radius without a filter, or for sRGB-encoded averaging with a weight of scene-linear
-///           values.
+/// Errors    ErrorKind::Usage for a radius without a filter, or for sRGB-encoded averaging with a weight for
+///           scene-linear values.
 inline constexpr std::string_view resolve_names[] = {"box", "karis", "max3", "display"};
 inline constexpr std::string_view filter_names[] = {"pixel",       "box",      "tent",     "gaussian",       "mitchell",
                                                     "catmull-rom", "b-spline", "lanczos3", "blackman-harris"};
@@ -62,9 +62,9 @@ ResolveFilter resolve_filter_of(std::string_view method, const Settings& setting
 
 class SampleRow;
 
-/// Accumulates samples of one frame or several. A filter is applied along the rows first, then down the columns.
+/// Accumulates samples of one or several frames. A filter is applied along the rows first, then along the columns.
 ///
-/// Edges     there are no samples beyond the image's sides; the weights of the others are divided by their sum.
+/// Edges     there are no samples outside the image; the weights of the others are divided by their sum.
 /// Exact     in float, in the order of samples, then rows, each row from left to right; the same bits for any number of
 ///           threads and any instruction set.
 /// Cost      width + height of the filter in products per sample and channel, not width × height.
@@ -74,18 +74,18 @@ class SampleAccumulator {
  public:
   explicit SampleAccumulator(ResolveFilter filter) : filter_(std::move(filter)) {}
 
-  /// Adds a frame's samples, which lie at `positions`.
+  /// Adds a frame's samples, whose positions are `positions`.
   void add(const Frame& frame, std::span<const SamplePosition> positions);
   bool is_empty() const { return sum_.empty(); }
 
-  /// The mean in linear light; the premultiplied mean of display-referred values for a display-referred filter.
+  /// The mean in linear light; for a display-referred filter, the premultiplied mean of display-referred values.
   LinearImage light() const;
-  /// The mean of the display-referred colours, in place of `image`, for a display-referred filter; else `image`.
+  /// The mean of the display-referred colours for a display-referred filter; else `image`.
   DisplayImage display_referred(DisplayImage image, const DisplayOptions& display) const;
 
  private:
   struct Taps {
-    std::vector<float> across, down;  ///< by distance, the farthest to the left or above first
+    std::vector<float> across, down;  ///< by distance, the leftmost or uppermost first
   };
   void begin(int width, int height);
   void add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last);
@@ -93,8 +93,8 @@ class SampleAccumulator {
 
   ResolveFilter filter_;
   int width_ = 0, height_ = 0;
-  std::size_t stride_ = 0;           ///< pixels a row, in whole vectors
-  std::vector<float> sum_, weight_;  ///< four floats a pixel, and one
+  std::size_t stride_ = 0;           ///< pixels per row, a multiple of whole vectors
+  std::vector<float> sum_, weight_;  ///< four floats and one float per pixel
 };
 
 }  // namespace zoneplate::antialias

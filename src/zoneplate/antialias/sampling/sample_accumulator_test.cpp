@@ -14,7 +14,7 @@ namespace {
 
 constexpr Linear grey(float v) { return {v, v, v, 1}; }
 
-/// A frame whose samples are the same in every pixel.
+/// A frame in which all pixels have the same samples.
 Frame frame_of(const std::vector<Linear>& samples, int side = 7) {
   Frame frame;
   for (const Linear& c : samples) frame.sample_color.emplace_back(side, side, c);
@@ -32,10 +32,10 @@ const SamplePattern two = {{64, 128}, {192, 128}};
 TEST(SampleAccumulator, ResolvesAreWhatTheyAreByHand) {
   const Frame frame = frame_of({grey(0), grey(1)});
   EXPECT_FLOAT_EQ(accumulated({}, frame, two).light()(3, 3).g, 0.5f);
-  // Weights 1 and ½; and 0 and ½ on average a quarter, mapped back ¼ / ¾.
+  // Karis: weights 1 and ½. Max3: the mean of 0 and ½ is ¼, and the inverse mapping gives ¼ / ¾.
   EXPECT_FLOAT_EQ(accumulated({.weight = SampleWeight::Karis}, frame, two).light()(3, 3).g, 1 / 3.0f);
   EXPECT_FLOAT_EQ(accumulated({.weight = SampleWeight::Max3}, frame, two).light()(3, 3).g, 1 / 3.0f);
-  // A colour of one channel: the greatest counts, luma does not.
+  // A colour of one channel: Max3 depends on the greatest channel, Karis on luma.
   const Frame blue = frame_of({grey(0), Linear{0, 0, 1, 1}});
   EXPECT_FLOAT_EQ(accumulated({.weight = SampleWeight::Max3}, blue, two).light()(3, 3).b, 1 / 3.0f);
   EXPECT_NEAR(accumulated({.weight = SampleWeight::Karis}, blue, two).light()(3, 3).b, 1 / (2 + 0.0722), 1e-6);
@@ -49,7 +49,8 @@ TEST(SampleAccumulator, WhatIsShownIsAveragedAsItIsShown) {
     EXPECT_NEAR(image(3, 3).g, encode_srgb(0.5f), 1e-6) << sun;
     EXPECT_EQ(image(3, 3).a, 1);
   }
-  // Half of nothing over a background: as the background's light says; transparent: half there, in its own colour.
+  // Half a pixel of transparency over a background: blended with the background's light. In a transparent image: alpha
+  // ½, with its own colour.
   Frame frame = frame_of({grey(1), Linear{0, 0, 0, 0}});
   frame.display.background = {0, 0, 0, 1};
   EXPECT_NEAR(accumulated({.weight = SampleWeight::Display}, frame, two)
@@ -70,7 +71,7 @@ TEST(SampleAccumulator, EncodedValuesAreAveragedAfterToneMapping) {
   };
   for (const float sun : {1.0f, 100.0f})
     EXPECT_EQ(mean(frame_of({grey(0), grey(sun)})), (Display{0.5f, 0.5f, 0.5f, 1}));
-  // Of a background with its value; of a transparent image premultiplied.
+  // Over a background: its encoded value is averaged; in a transparent image: premultiplied values are.
   Frame frame = frame_of({grey(1), Linear{0, 0, 0, 0}});
   frame.display.background = {0.2f, 0.4f, 0, 1};
   EXPECT_EQ(mean(frame), (Display{0.6f, 0.7f, 0.5f, 1}));
@@ -97,7 +98,7 @@ TEST(SampleAccumulator, FiltersReachAsFarAsTheirRadius) {
   Frame frame = frame_of({Linear{0, 0, 0, 0}}, 9);
   frame.sample_color[0](4, 4) = grey(1);
   const SamplePattern centre = {SamplePosition{}};
-  // A tent of radius 2 at 0 and 1 pixels: 1 and ½ of a sum of 2 in each direction.
+  // A tent of radius 2 at distances of 0 and 1 pixels: 1 and ½ of a sum of 2 in each direction.
   ResolveFilter wide{.weight = {}, .kernel = stretched(make_kernel("tent"), 2 / make_kernel("tent").radius)};
   EXPECT_EQ(wide.reach(), 2);
   const LinearImage image = accumulated(wide, frame, centre).light();
@@ -105,7 +106,7 @@ TEST(SampleAccumulator, FiltersReachAsFarAsTheirRadius) {
   EXPECT_FLOAT_EQ(image(5, 4).g, 0.125f);
   EXPECT_FLOAT_EQ(image(3, 5).g, 0.0625f);
   EXPECT_FLOAT_EQ(image(6, 4).g, 0);
-  // A sample at the pixel's right is nearer to the right neighbour.
+  // A sample at the pixel's right side is closer to the right neighbour.
   const LinearImage right = accumulated(wide, frame, {{224, 128}}).light();
   EXPECT_GT(right(5, 4).g, right(3, 4).g);
   EXPECT_GT(right(4, 4).g, right(5, 4).g);
@@ -126,7 +127,7 @@ TEST(SampleAccumulator, RoundsAddUpAndThreadsLeaveNoTrace) {
   EXPECT_EQ(rounds.light(), many);
 }
 
-/// Every kernel of the set on rows of n pixels, one after the other.
+/// The results of every kernel of the set on rows of n pixels, concatenated.
 std::vector<float> kernel_results(const AccumulateKernels& kernels, std::size_t n) {
   std::vector<float> color(4 * (n + 12)), weight(n + 12), out;
   for (std::size_t i = 0; i < 4 * n; ++i) color[8 + i] = unit_float(hash(static_cast<std::uint32_t>(i), 7)) * 3 - 0.5f;
@@ -166,7 +167,8 @@ TEST(SampleAccumulator, KernelsGiveTheScalarTwinsBits) {
 }
 
 TEST(SampleAccumulator, IsTheSumOfAllProducts) {
-  // As the definition says, pixel by pixel, on an image narrower than the filter and on one of several parts.
+  // Compared with the definition, pixel by pixel, on an image narrower than the filter and on one that is cut into
+  // several parts.
   for (const int side : {3, 70}) {
     Frame frame = frame_of({grey(0), grey(0)}, side);
     for (std::uint32_t s = 0; s < 2; ++s)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What methods that sample more than once a pixel must keep, on rendered scenes.
+// Properties of methods with several samples per pixel, on rendered scenes.
 #include <gtest/gtest.h>
 
 #include "zoneplate/antialias/shots_for_test.h"
@@ -29,7 +29,7 @@ double greatest_difference(const LinearImage& a, const LinearImage& b) {
   return most;
 }
 
-/// One quad over the whole image, there as far as its alpha says.
+/// One quad over the whole image with constant alpha.
 Scene veil(float alpha) {
   Material material;
   material.alpha_mode = AlphaMode::Mask;
@@ -41,7 +41,7 @@ Scene veil(float alpha) {
 }
 
 TEST(Ssaa, ABoxOverThePixelIsThePlainMean) {
-  // 64 samples in four rounds: their footprint is that of all together.
+  // 64 samples in four rounds: their footprint is that of all samples together.
   for (const char* scene : {"cyclic", "checkerboard"})
     EXPECT_LT(greatest_difference(shot(scene, "ssaa:n=8"), shot(scene, "ssaa:n=8,filter=box,radius=0.5")), 2e-6);
   const Scene scene = *make_builtin_scene("cyclic");
@@ -63,7 +63,7 @@ TEST(Adaptive, IsSupersampledWhereSamplesDisagreeAndOnlyThere) {
   for (std::size_t i = 0; i < own.values().size(); ++i) {
     const Linear c = own.values()[i];
     if (c == fine.values()[i] && !(c == coarse.values()[i])) ++refined;
-    // The coarse samples' sums run in another order than the rotated grid's.
+    // The coarse samples' sums have another order than those of the rotated grid.
     else if (c == fine.values()[i] || std::abs(c.g - coarse.values()[i].g) < 1e-6f)
       ++plain;
   }
@@ -81,7 +81,7 @@ TEST(Adaptive, WhereNothingDisagreesOneRoundIsEnough) {
 
 TEST(Csaa, WithASlotForEachSurfaceItIsMultisampling) {
   EXPECT_LT(greatest_difference(shot("cyclic", "csaa:n=8,slots=8"), shot("cyclic", "msaa:n=8")), 1e-6);
-  // With two slots only pixels of three surfaces and more suffer.
+  // With two slots, only pixels of three or more surfaces differ.
   const LinearImage two = shot("cyclic", "csaa:n=8,slots=2"), all = shot("cyclic", "msaa:n=8");
   int differing = 0;
   for (std::size_t i = 0; i < all.values().size(); ++i)
@@ -91,7 +91,7 @@ TEST(Csaa, WithASlotForEachSurfaceItIsMultisampling) {
   EXPECT_THROW(make_resolver(methods(), "csaa:n=4,slots=8"), Error);
 }
 
-/// A fan of `parts` triangles around (0.3, 0.2) whose colour is a linear function of the place.
+/// A fan of `parts` triangles around (0.3, 0.2) whose colour is a linear function of the position.
 Scene slope_of(int parts) {
   Mesh mesh;
   const auto add = [&](float x, float y) {
@@ -110,13 +110,15 @@ Scene slope_of(int parts) {
 }
 
 TEST(Msaa, APlaneLooksTheSameHoweverManyTrianglesItIsMadeOf) {
-  // Where a pixel is shared, places rounded to 1/256 pixel are all that differs: two pixels of the image are 1e-3.
+  // In pixels with several triangles, the only difference is the rounding of positions to 1/256 pixel: two pixels of
+  // the image are 1e-3.
   for (const char* n : {"4", "8"}) {
     const std::string mean = std::string("msaa:n=") + n, first = mean + ",centroid=first";
     EXPECT_LT(greatest_difference(shot(slope_of(4), mean), shot(slope_of(40), mean)), 5e-6) << n;
     EXPECT_GT(greatest_difference(shot(slope_of(4), first), shot(slope_of(40), first)), 5e-5) << n;
   }
-  // At the pixel's centre nothing can be seen of a plane's triangles either, but their own sides do not count.
+  // With shading at the pixel's centre, the triangles of a plane are not visible either, except at the plane's own
+  // sides.
   const std::string centre = "msaa:n=4,centroid=centre";
   EXPECT_LT(greatest_difference(shot(slope_of(4), centre), shot(slope_of(8), centre)), 5e-4);
 }
@@ -126,7 +128,7 @@ TEST(SharedSamples, SmoothEdgesAndKeepFlatColours) {
   for (const char* method : {"quincunx", "flipquad"}) {
     const LinearImage own = shot("cyclic", method);
     EXPECT_LT(mean_error(own, truth), 0.75 * mean_error(none, truth)) << method;
-    // Away from edges nothing changes: most of the image.
+    // Away from edges, which is most of the image, nothing changes.
     int same = 0;
     for (std::size_t i = 0; i < own.values().size(); ++i)
       same += std::abs(own.values()[i].g - none.values()[i].g) < 1e-6f;
@@ -165,7 +167,8 @@ TEST(AlphaToCoverage, SamplesAndSharpAreNearerToSupersamplingThanATestAPixelAndP
   const double tested = error("msaa:n=8");
   EXPECT_LT(error("msaa:n=8,alpha=samples"), 0.85 * tested);
   EXPECT_LT(error("msaa:n=8,alpha=sharp"), 0.95 * tested);
-  // Alpha between 0 and 1 beside a leaf's outline counts as a veil, which the reference's test of alpha does not show.
+  // Alpha between 0 and 1 near a leaf's outline becomes partial coverage, which the reference's alpha test does not
+  // have.
   const double coverage = error("msaa:n=8,alpha=coverage");
   EXPECT_GT(coverage, 1.3 * tested);
   EXPECT_LT(coverage, 1.7 * tested);

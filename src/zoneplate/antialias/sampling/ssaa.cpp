@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Supersampling: shades every sample of a pattern and averages them in linear light.
 //
-// Converges to the box-filtered image as the number of samples grows, at proportional cost. Weak where an edge follows
+// It converges to the box-filtered image as the number of samples grows, at proportional cost. Weakness: edges along
 // the grid: a nearly vertical edge has n levels of coverage on an n × n grid, not n². The mean of Halton points differs
 // from the pixel's centre, and shifts the image by that offset.
 //
-// Source: Crow, The Aliasing Problem in Computer-Generated Shaded Images, CACM 20(11), 1977. The patterns are
-// those of signal/samples.h, the filters those of signal/filter/kernel.h.
+// Source: Crow, The Aliasing Problem in Computer-Generated Shaded Images, CACM 20(11), 1977. The patterns are those of
+// signal/samples.h, the filters those of signal/filter/kernel.h.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t samples_a_round = 16;  // so that no more of them need be stored at a time
+constexpr std::size_t samples_a_round = 16;  // limits the number of stored samples
 
 class Ssaa : public Resolver {
  public:
@@ -72,7 +72,7 @@ class Ssaa : public Resolver {
   SamplePattern pattern_;
   ResolveFilter filter_;
   SampleAccumulator accumulator_;
-  std::size_t taken_ = 0;  // samples of the pattern that are in the sums
+  std::size_t taken_ = 0;  // samples of the pattern that are already in the sums
 };
 
 constexpr std::string_view patterns[] = {"grid", "rotated", "halton", "sobol", "nrooks"};

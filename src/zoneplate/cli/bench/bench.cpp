@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate bench: frames of the benchmark scenes, timed stage by stage.
+// zoneplate bench: times the frames of the benchmark scenes, stage by stage.
 #include <fmt/format.h>
 
 #include <iterator>
@@ -20,8 +20,8 @@ namespace {
 
 struct BenchArgs {
   std::vector<std::string> scenes;
-  BenchWork work;   // but for the scene and the samples
-  int samples = 0;  // 0: 1 and 4
+  BenchWork work;   // all but the scene and the samples
+  int samples = 0;  // 0: both 1 and 4
   int threads = 0;
   Isa isa = current_isa();
   std::string peer = "zoneplate";
@@ -66,7 +66,7 @@ Json timing_json(const BenchArgs& args, const BenchWork& work, const BenchTiming
                       {"stages_of_best_ms", stages_json(t)}};
 }
 
-// A stage's share of the frame; what happens on all threads at once counts a thread's share of it.
+// One stage's time and throughput; the time of stages that run on all threads is divided by the number of threads.
 std::string stage_text(const char* name, double ms, double count, const char* unit, double bytes,
                        const MachineLimits& limits) {
   std::string text = fmt::format("  {:<11}{:9.3f} ms", name, ms);

@@ -25,7 +25,7 @@ TEST(Bench, TellsOneLineOfJsonASceneAndNumberOfSamples) {
     EXPECT_GT(json["median_ms"].get<double>(), 0);
     EXPECT_GE(json["median_ms"].get<double>(), json["min_ms"].get<double>());
     EXPECT_GT(json["min_ms_by_stage"]["tiles"].get<double>(), 0);
-    // What the tiles' stages take is the time of all threads, within the tiles' own.
+    // The times of the tiles' stages are sums over all threads, within the time of the tiles.
     const auto& stages = json["stages_of_best_ms"];
     EXPECT_GT(stages["vertices"].get<double>(), 0);
     EXPECT_GT(stages["triangles"].get<double>(), 0);

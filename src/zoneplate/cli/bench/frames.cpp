@@ -21,7 +21,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// Busy time of all processors, from /proc/stat in hundredths of a second; 0 where there is none.
+// Busy time of all processors in milliseconds, from /proc/stat, whose unit is 10 ms; 0 if it is not available.
 double machine_busy_ms() {
   std::ifstream stat("/proc/stat");
   std::string name;
@@ -30,7 +30,7 @@ double machine_busy_ms() {
   return (user + nice + system + irq + soft + steal) * 10;
 }
 
-// The clear colour of other renderers of these scenes.
+// The background colour of other renderers' versions of these scenes.
 float4 background_of(const std::string& scene) {
   return scene.starts_with("city") ? float4{0.45f, 0.60f, 0.80f, 1} : float4{0.10f, 0.12f, 0.15f, 1};
 }

@@ -8,12 +8,12 @@
 
 namespace zoneplate::cli {
 
-/// The frames to be measured, and the time budget.
+/// The measured frames, and the time budget.
 struct BenchWork {
   std::string scene;
   int samples = 1;
   int2 size{1920, 1080};
-  int anisotropy = 0;  ///< of the base colours' texture filters; 0: the scene's own
+  int anisotropy = 0;  ///< anisotropy of the base colours' texture filters; 0: the scene's own
   int frames = 30, warm_up = 2;
   double budget_ms = 4000;  ///< no frame starts after this time, except the first three
 };
@@ -21,12 +21,12 @@ struct BenchWork {
 /// The times of frames of one scene.
 struct BenchTiming {
   std::vector<double> frame_ms;
-  double first_ms = 0;                   ///< of the first frame, which includes page faults
+  double first_ms = 0;                   ///< time of the first frame, which includes page faults
   double processor_ms = 0;               ///< CPU time of all threads, per frame
   double others_busy = 0;                ///< mean number of processors that other programs used
   double geometry_ms = 0, tiles_ms = 0;  ///< minima
   double encode_ms = 0;                  ///< PNG encoding, the minimum of three
-  int anisotropy = 1;                    ///< the maximum of the base colours' texture filters
+  int anisotropy = 1;                    ///< maximum anisotropy of the base colours' texture filters
   RenderCounts best;                     ///< of the fastest frame
 };
 

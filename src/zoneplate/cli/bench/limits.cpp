@@ -54,7 +54,7 @@ double least_ms(int turns, const std::function<void()>& work) {
   return least;
 }
 
-/// Eight words a gather, at random places of a table, in nanoseconds.
+/// The time per gather of eight words at random positions of a table, in nanoseconds.
 double gather_ns(std::size_t table_bytes, const std::uint32_t* table) {
   constexpr std::size_t indices = std::size_t{1} << 16;
   std::vector<std::int32_t> index(indices);
@@ -69,7 +69,7 @@ double gather_ns(std::size_t table_bytes, const std::uint32_t* table) {
 
 MachineLimits measure_limits() {
   MachineLimits out;
-  // Four times as large as the largest cache of most machines.
+  // Four times the size of the largest cache of most machines.
   constexpr std::size_t size = std::size_t{1} << 27;
   RawMemory memory;
   std::byte* bytes = memory.reserve(size);
@@ -80,7 +80,7 @@ MachineLimits measure_limits() {
   };
   const double gigabytes = static_cast<double>(share * threads) * 1e-9;
   out.write_gb_s = gigabytes / least_ms(5, on_all(share, [&](std::byte* p) { std::memset(p, 1, share); })) * 1e3;
-  std::atomic<std::uint32_t> result = 0;  // so that nothing is left out; of all threads
+  std::atomic<std::uint32_t> result = 0;  // sum over all threads, so that no load is optimized away
   const LimitKernels& kernels = LimitKernels::of();
   out.read_gb_s = gigabytes * 1e3 / least_ms(5, on_all(share, [&](std::byte* p) {
                                                result =
@@ -89,7 +89,7 @@ MachineLimits measure_limits() {
   const std::size_t part = frame_bytes / threads / 128 * 128;
   out.clear_ms = least_ms(31, on_all(part, [&](std::byte* p) { std::memset(p, 0, part); }));
   out.first_touch_ms = least_ms(3, [&] {
-    // A new piece each time, of pages of usual size.
+    // Newly allocated memory each time, with pages of default size.
     const std::vector<char> fresh(frame_bytes, 1);
     result = static_cast<std::uint32_t>(fresh.back());
   });

@@ -17,7 +17,7 @@ HWY_INLINE std::uint32_t total(V v) {
   return sum;
 }
 
-// Four sums at a time, so that none waits for another.
+// Four independent sums, so that the additions do not wait for each other.
 template <class Load>
 HWY_INLINE std::uint32_t sum_of(std::size_t n, const Load& load) {
   const hn::CappedTag<std::uint32_t, 8> d;

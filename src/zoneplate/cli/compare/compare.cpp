@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate compare: antialiasing methods on scenes, each measured against one reference.
+// zoneplate compare: measures antialiasing methods on scenes against one reference.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ constexpr const char* notes =
     "Memory is the increase of the process's resident memory in the first turn. All other results are the same on\n"
     "every machine.\n";
 
-/// The options of `render` that apply here, and the verb's own.
+/// The applicable options of `render`, and the verb's own.
 Syntax compare_syntax(CompareArgs& args) {
   Syntax syntax{.verb = "compare",
                 .summary = "Render scenes with many antialiasing methods and measure each against a reference",
@@ -93,7 +93,7 @@ bool is_method(std::string_view text) {
   return std::ranges::any_of(antialias::methods(), [&](const Method& m) { return m.name == name; });
 }
 
-/// Every method with its defaults and with each of its variants.
+/// Every method with its defaults and all of its variants.
 std::vector<std::string> all_methods() {
   std::vector<std::string> out;
   for (const Method& m : antialias::methods()) {
@@ -116,8 +116,8 @@ std::vector<std::string> methods_of(const std::string& text) {
   return out;
 }
 
-/// The reference that suits every scene. `analytic` is exact for edges, but it shades each surface of a pixel once and
-/// tests alpha on a grid, so that textures, highlights and masks alias as in the methods under test.
+/// The reference that is valid for all scenes. `analytic` is exact for edges, but it shades each surface of a pixel
+/// once and tests alpha on a grid, so that textures, highlights and alpha tests are aliased as in the tested methods.
 constexpr const char* best_reference = "converged";
 
 std::vector<metrics::Choice> metrics_of(const std::string& text) {
@@ -164,7 +164,7 @@ void add_files(const SceneTrials& scene, std::vector<OutputFile>& files) {
   files.push_back({scene.name + "/cost.svg", bytes_of(plot_svg(cost_plot(scene)))});
 }
 
-/// "models/chair.glb" and "wheel:spokes=7" as names of folders, each once.
+/// Converts "models/chair.glb" and "wheel:spokes=7" to unique names of folders.
 std::string folder_name(const std::string& scene, const std::vector<SceneTrials>& before) {
   const std::string stem = is_builtin_scene(scene) ? scene : std::filesystem::path(scene).stem().string();
   const std::string own = file_name_of(stem);
@@ -240,7 +240,7 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
     scene.name = folder_name(name, scenes);
     progress.begin(name + ", images", done++ / steps);
     add_files(scene, files);
-    // Images that are written already are freed.
+    // Frees images that are already encoded.
     for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
     scenes.push_back(std::move(scene));
   }

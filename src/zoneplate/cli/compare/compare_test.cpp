@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verb as scripts meet it, and what it measures with. Runs the built program.
+// Tests of the verb that run the built program, and of the functions that it measures with.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -56,7 +56,7 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
       EXPECT_GT(method["shaded_samples"], 100);
       EXPECT_GE(method["worst_regions"].size(), 1u);
     }
-    // More samples, less error; and each costs what it says.
+    // More samples have less error, and the costs are those of the methods.
     EXPECT_GT(scene["methods"][0]["metrics"]["flip"]["value"], scene["methods"][1]["metrics"]["flip"]["value"]);
     EXPECT_GT(scene["methods"][0]["metrics"]["edge_error"]["value"],
               scene["methods"][1]["metrics"]["edge_error"]["value"]);
@@ -69,7 +69,7 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   const std::string csv = text_of("out/compare.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
   EXPECT_TRUE(contains(csv, "triangles,,\"ssaa:pattern=halton,samples=8\","));
-  // The nearest is the first, and on the front.
+  // The most accurate method is the first, and on the Pareto front.
   const std::string table = text_of("out/compare.md");
   EXPECT_TRUE(table.starts_with("| method | mean | triangles | cyclic | near axis % | samples/px | MB | ms |\n|---|"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
@@ -86,7 +86,7 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
           .out);
   for (const char* name : {"psnr", "flip", "edge_error"})
     EXPECT_EQ(json["scenes"][0]["methods"][0]["metrics"][name]["value"], own["metrics"][name]["value"]) << name;
-  // An image is a reference too; and against itself a method is without error.
+  // An image can be a reference too; compared with itself a method has no error.
   const ProgramAnswer again =
       run("compare cyclic --aa fxaa --size 64x48 --reference out/cyclic/fxaa.png -o self --json");
   ASSERT_EQ(again.code, 0) << again.out;
@@ -110,11 +110,11 @@ TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
   const auto stage = [&](std::size_t method, const char* name) {
     return scene["methods"][method]["stage_ms"][name].get<double>();
   };
-  EXPECT_EQ(stage(0, "filter"), 0);  // the tiles make the image
+  EXPECT_EQ(stage(0, "filter"), 0);  // the tiles produce the image directly
   EXPECT_GT(stage(1, "filter"), 0.05);
   EXPECT_GT(stage(1, "display"), 0);
   EXPECT_GT(stage(2, "resolve"), 0);
-  // The title of a run of one scene names the scene, and the cost of the reference follows its name.
+  // The title of a run with one scene contains the scene, and the cost of the reference follows its name.
   EXPECT_TRUE(contains(text_of("out/cost.svg"), "teapot: error against cost"));
   EXPECT_TRUE(contains(text_of("out/compare.txt"), "against ssaa:n=2 ("));
   EXPECT_TRUE(contains(text_of("out/compare.txt"), " shaded samples per pixel)\n"));
@@ -144,7 +144,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   expect("triangles --reference exact.png -o out", 3, "exact.png: no such file");
   expect("triangles --metric flop -o out", 2, "unknown metric 'flop'; did you mean 'flip'?");
   expect("triangles --aa none -o none/out", 4, "no directory");
-  // Whatever the others are: these would take minutes to be drawn.
+  // Invalid names are reported first: these scenes would take minutes to render.
   const std::string slow = "city --turns 100 --aa ssaa:n=16 -o out --size 4096x4096 ";
   expect(slow + "missing.glb", 3, "missing.glb");
   expect(slow + "sphere:triangels=9", 2, "scene sphere: unknown parameter 'triangels'");
@@ -161,7 +161,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
 
 TEST_F(CompareVerb, RefusesNamesThatNoFolderCanHave) {
   const std::string slow =
-      "compare city --turns 100 --aa ssaa:n=16 --size 4096x4096 -o ";  // not before minutes of work
+      "compare city --turns 100 --aa ssaa:n=16 --size 4096x4096 -o ";  // an error before minutes of work
   save_bytes((place / "file").string(), {});
   ProgramAnswer answer = run(slow + "file");
   EXPECT_EQ(answer.code, 4);
@@ -180,7 +180,7 @@ TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
   const std::string one = std::string("compare triangles --aa none -o out") + small;
   ASSERT_EQ(run(one).code, 0);
   EXPECT_EQ(text_of(".out.tmp/notes.txt"), "p");
-  // Of runs at the same time one makes the folder, whole; the others say that it is there.
+  // Of several simultaneous runs one creates the complete folder; the others report that it exists.
   fs::remove_all(place / "out");
   std::vector<std::thread> runs;
   std::array<ProgramAnswer, 4> answers;
@@ -197,8 +197,8 @@ TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
   EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 2);  // out and .out.tmp
 }
 
-// Where a surface's texture has no smaller levels, exact edges are not enough: the default reference samples surfaces
-// too.
+// If a surface's texture has no mip levels, exact edges are not sufficient: the default reference also samples
+// surfaces.
 TEST_F(CompareVerb, TheDefaultReferenceIsRightInsideOfSurfacesToo) {
   const ProgramAnswer answer =
       run("compare tiles --aa analytic,converged:samples=256 --turns 1 --size 64x48 -o out --json");

@@ -34,7 +34,7 @@ Rgba8Image with_mark(Rgba8Image picture, const Place& place) {
   return picture;
 }
 
-/// The FLIP error map in false colours, bright at the greatest error.
+/// The FLIP error map in false colours; large errors are bright.
 Rgba8Image painted(const Plane<float>& map) { return metrics::paint_magma(map); }
 
 /// The method's text with spaces after commas, where lines may break.
@@ -57,7 +57,7 @@ struct Dot {
 
 Plot plot_of(const std::string& title, std::vector<Dot> dots) {
   std::ranges::stable_sort(dots, {}, &Dot::ms);
-  // The area to the left of the front and below it is empty, and has room for names.
+  // The region to the left of and below the front is empty, so that labels fit there.
   Curve front{
       .name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1, .labels_are = Curve::Beside::LeftBelow};
   Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
@@ -70,14 +70,14 @@ Plot plot_of(const std::string& title, std::vector<Dot> dots) {
     curve.labels.push_back(is_named ? d.method : "");
     if (d.is_on_front && is_named) last_error = d.error, last_ms = d.ms;
   }
-  // The names of many methods would overlap; only those on the front are printed.
+  // The names of many methods would overlap; then only those on the front are labelled.
   constexpr std::size_t few = 16;
   if (dots.size() > few) others.labels.clear();
   const bool is_logarithmic = std::ranges::all_of(dots, [](const Dot& d) { return d.error > 0; });
   Plot plot{.title = title,
             .x = {.label = "CPU time per frame (ms)", .is_logarithmic = true},
             .y = {.label = "mean FLIP × 1000", .is_logarithmic = is_logarithmic}};
-  // Room for the names on both sides.
+  // Margins for the labels on both sides.
   if (!dots.empty()) plot.x.low = dots.front().ms / 2.5, plot.x.high = dots.back().ms * (dots.size() > few ? 1.3 : 2.5);
   if (is_logarithmic && !dots.empty()) {
     const auto [least, most] = std::ranges::minmax(dots, {}, &Dot::error);

@@ -14,14 +14,14 @@ namespace zoneplate::cli {
 /// one below the other.
 Rgba8Image worst_picture(const SceneTrials& scene, const Trial& trial);
 
-/// The whole scene with the region of the greatest mean error marked, and that region by every method, enlarged 8
-/// times, in ascending order of error.
+/// The whole scene with the region of the greatest mean error marked, and that region rendered by every method,
+/// enlarged 8 times, in ascending order of error.
 Rgba8Image crops_picture(const SceneTrials& scene);
 
 /// Error against CPU time, with the Pareto front and the names of its methods.
 Plot cost_plot(const SceneTrials& scene);
 
-/// The same for the means over several scenes.
+/// The plot of the means over several scenes.
 Plot cost_plot(const std::vector<MethodMeans>& means);
 
 }  // namespace zoneplate::cli

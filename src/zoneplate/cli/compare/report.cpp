@@ -69,7 +69,7 @@ std::string reference_cost(const SceneTrials& scene) {
                      *scene.reference_processor_ms, static_cast<double>(scene.reference_shaded) / pixels);
 }
 
-/// The methods with fewer turns because of their time: a minimum of fewer times is less reliable.
+/// A note on methods with fewer turns because of their time: a minimum over fewer turns is less reliable.
 std::string fewer_turns(const SceneTrials& scene) {
   std::string text;
   for (const Trial& t : scene.trials)

@@ -15,7 +15,7 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr double budget_ms = 1500;  // time of one method after which no further turn starts
+constexpr double budget_ms = 1500;  // no further turn of a method starts after this time
 constexpr int worst_count = 3;
 
 Rgba8Image opaque(Rgba8Image image) {
@@ -32,7 +32,7 @@ metrics::Picture picture_of(const Rgba8Image& codes) {
   return metrics::make_picture(std::move(display));
 }
 
-/// Renders one method's turns, like consecutive frames of a program.
+/// Renders the turns of one method, like consecutive frames of a program.
 Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
   Trial trial{.method = method};
   std::optional<Renderer> renderer;
@@ -110,7 +110,7 @@ std::vector<Place> worst_places(const Plane<float>& error, int count) {
   constexpr int side = Place::side;
   std::vector<Place> found;
   if (error.width() < side || error.height() < side) return found;
-  // Sums over the rectangle from the corner, so that a square's is four of them.
+  // A summed-area table: the sum over a square follows from four entries.
   Plane<double> sums(error.width() + 1, error.height() + 1);
   for (int y = 0; y < error.height(); ++y) {
     double row = 0;

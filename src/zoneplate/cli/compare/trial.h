@@ -12,11 +12,11 @@
 
 namespace zoneplate::cli {
 
-/// A square region of an image, of `Place::side` pixels, by its upper left corner.
+/// A square region of an image with sides of `Place::side` pixels, given by its upper left corner.
 struct Place {
   static constexpr int side = 24;
   int x = 0, y = 0;
-  double error = 0;  ///< mean FLIP there
+  double error = 0;  ///< mean FLIP of the region
 };
 
 /// One method's image of one scene, with its cost and its error against the reference.
@@ -24,9 +24,9 @@ struct Trial {
   std::string method;
   Rgba8Image picture;
   std::uint64_t pixels = 0;             ///< of the image
-  std::vector<double> frame_ms;         ///< of each turn, from the prepared scene to the 8-bit image
-  std::vector<double> processor_ms;     ///< CPU time of all threads, which other programs disturb less
-  RenderCounts counts;                  ///< of the turn of least time
+  std::vector<double> frame_ms;         ///< time of each turn, from the prepared scene to the 8-bit image
+  std::vector<double> processor_ms;     ///< CPU time of all threads, which other programs affect less
+  RenderCounts counts;                  ///< of the fastest turn
   std::optional<std::uint64_t> memory;  ///< increase of resident memory in the first turn, bytes
   std::vector<metrics::Result> results;
   Plane<float> error_map;  ///< FLIP
@@ -44,14 +44,14 @@ struct Trial {
 /// The trials of one scene.
 struct SceneTrials {
   std::string scene;               ///< a file or a built-in scene
-  std::string name;                ///< of its folder
+  std::string name;                ///< name of its folder
   std::string failure, complaint;  ///< the class of artifacts that a built-in scene shows, and its description
   std::string reference;           ///< a method's text, or a file
   Rgba8Image reference_picture;
   std::optional<double> reference_ms;  ///< nothing for a file
   std::optional<double> reference_processor_ms;
   std::uint64_t reference_shaded = 0;
-  int turns = 0;       ///< of each method, if its time budget suffices
+  int turns = 0;       ///< turns of each method, if its time budget suffices
   Place common_worst;  ///< the region of the greatest mean error over all methods
   std::vector<Trial> trials;
 };
@@ -65,17 +65,17 @@ struct TrialOptions {
   std::vector<metrics::Choice> metrics;
 };
 
-/// A scene that is ready to be rendered.
+/// A scene ready for rendering.
 struct TrialSetup {
   PreparedScene scene;
   Camera camera;
   RenderSettings settings;
 };
 
-/// Renders a scene by every method and by the reference, and measures the methods. `progress` is called with each
+/// Renders a scene with every method and the reference, and measures the methods. `progress` is called with each
 /// method's text before it is rendered.
 ///
-/// The metrics measure images with 8 bits per channel, as they are written.
+/// The metrics are applied to the 8-bit images that are written.
 /// Errors    those of methods and files; ErrorKind::Input if the reference has another size.
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
                        const std::function<void(const std::string&)>& progress);

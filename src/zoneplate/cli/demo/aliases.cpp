@@ -15,7 +15,7 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr double frequency = 0.9;  // cycles a sample
+constexpr double frequency = 0.9;  // cycles per sample
 constexpr int shown_samples = 10;
 constexpr const char* shown_kernel = "lanczos3";
 
@@ -24,7 +24,7 @@ struct Reduction {
   int from, to;
   double factor() const { return static_cast<double>(from) / to; }
 };
-/// The reductions that are measured; fewer at small sizes.
+/// The measured reductions; smaller ones at small sizes.
 std::array<Reduction, 2> reductions(const DemoSize& size) {
   const int share = size.panel < 200 ? 1 : 2;
   return {{{128 * share, 64 * share}, {185 * share, 50 * share}}};

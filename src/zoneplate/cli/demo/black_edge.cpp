@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The black edge: the artifact of one colour per pixel with four coverage samples.
 //
-// Both errors are reproduced on purpose from the renderer's samples, in the order of drawing.
+// Both errors are reproduced intentionally from the renderer's samples, in the order of drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Frame sampled(const Scene& scene, int width, int height) {
   return render(PreparedScene(scene), camera_of(scene, width, height), request, options);
 }
 
-/// Draws the triangles one after the other, the nearer one first, into a colour buffer without samples.
+/// Draws the triangles one after the other, the nearer one first, into a colour buffer with one colour per pixel.
 /// `draw(pixel, color, coverage)` draws a triangle's colour with this coverage into a pixel.
 template <class Draw>
 LinearImage drawn(const Frame& frame, Draw draw) {
@@ -56,14 +56,15 @@ LinearImage blended(const Frame& frame) {
                [](Linear before, Linear color, float coverage) { return before * (1 - coverage) + color * coverage; });
 }
 
-/// One colour for each sample: the mean of the visible colours.
+/// The correct image with one colour per sample: the mean of the visible colours.
 LinearImage cured(const Frame& frame) {
   LinearImage out = frame.color;
   for (Linear& c : out.values()) c.a = 1;
   return out;
 }
 
-/// The pixels that the two triangles cover completely: how many are too dark, and how dark.
+/// Statistics of the pixels that the two triangles cover completely: the number of dark pixels, and the least
+/// brightness.
 struct Darkness {
   int pixels = 0, dark = 0;
   float least = 1;  ///< smallest brightness relative to the correct one

@@ -12,9 +12,9 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr double range_db = 130;  // of the spectra shown
+constexpr double range_db = 130;  // dynamic range of the displayed spectra
 
-/// A disk as an out-of-focus lens makes it, its rim antialiased by 16 × 16 points a pixel; the sum is 1.
+/// A disk, the blur of an out-of-focus lens, antialiased with 16 × 16 points per pixel; the sum is 1.
 Plane<float> disk(int radius) {
   constexpr int points = 16;
   const int n = 2 * radius + 3;
@@ -48,7 +48,7 @@ double greatest(const Plane<float>& a, const Plane<float>& b) {
   return most;
 }
 
-/// The kernel in the middle of an empty image of this size.
+/// The kernel in the middle of an otherwise empty image of this size.
 Plane<float> placed(const Plane<float>& kernel, int side) {
   Plane<float> plane(side, side);
   for (int y = 0; y < kernel.height(); ++y)
@@ -77,14 +77,14 @@ Spectrum product(Spectrum a, const Spectrum& b) {
   return a;
 }
 
-/// The greatest value as white.
+/// Scales a plane so that its greatest value is white.
 Plane<float> brightened(Plane<float> plane) {
   const float peak = *std::max_element(plane.values().begin(), plane.values().end());
   for (float& v : plane.values()) v /= peak;
   return plane;
 }
 
-/// The difference of both results.
+/// A phrase for the difference of both results.
 std::string agreement(double most) { return most == 0 ? "the same bits" : "the greatest difference is " + small(most); }
 
 Lesson make(const DemoSize& size) {

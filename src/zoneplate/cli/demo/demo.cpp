@@ -85,7 +85,7 @@ void save_lesson(const Lesson& lesson, const DemoSize& size, const std::vector<s
   save_bytes(files[1], webp);
 }
 
-/// Words in lines of a terminal, each indented.
+/// Wraps words for a terminal; all lines are indented.
 std::string paragraph(std::string_view words, std::string_view indent) {
   constexpr std::size_t columns = 100;
   std::string text;
@@ -103,7 +103,7 @@ std::string paragraph(std::string_view words, std::string_view indent) {
   return text + '\n';
 }
 
-/// The files that a lesson is written into: an image, or an animation in both formats.
+/// The output files of a lesson: an image, or an animation in both formats.
 std::vector<std::string> files_of(const Demo& demo, const std::string& path) {
   if (!demo.is_animated) return {path};
   return {path, std::filesystem::path(path).replace_extension(".webp").string()};

@@ -18,11 +18,11 @@ struct DemoSize {
   FigureStyle style() const;
 };
 
-/// A lesson: a figure, or the frames of an animated one. The text of the first is also printed to stdout.
+/// A lesson: a figure, or the frames of an animated one. The text of the first frame is also printed to stdout.
 ///
 /// Exact     the same bits on every machine and number of threads.
 struct Lesson {
-  std::vector<Figure> frames;  ///< one: a still image
+  std::vector<Figure> frames;  ///< one frame: a still image
   int seconds = 1, per = 24;   ///< a frame is displayed for seconds / per
   std::vector<Table> tables;   ///< the figure's tables, for the text
 };

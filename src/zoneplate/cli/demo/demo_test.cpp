@@ -121,7 +121,7 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
   EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
 }
 
-// The table holds each kernel's figures near their theory, and lanczos3 keeps what is promised of it.
+// The table has each kernel's measured aliasing close to its theory, and lanczos3 keeps its limits.
 TEST(Demo, AliasesHaveEveryKernelBesideItsTheory) {
   const Lesson lesson = demo_of("aliases").make(small);
   const Table& table = lesson.tables.at(0);

@@ -20,10 +20,10 @@ struct Grid {
 };
 constexpr std::array<Grid, 3> grids = {{{"ssaa:n=2", 2}, {"ssaa:n=4", 4}, {"ssaa:n=8", 8}}};
 
-/// The differences of an image from the exact one.
+/// The differences between an image and the exact one.
 struct Errors {
   Plane<float> map;  ///< the greatest difference of a channel, in linear light, times the gain
-  double rms = 0;    ///< over the pixels that more than one surface shares
+  double rms = 0;    ///< over the pixels that contain more than one surface
 };
 
 Errors errors_of(const LinearImage& picture, const LinearImage& exact, const LinearImage& centres) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jaggies: one sample a pixel gives a coverage of 0 or 1; the mean of several samples approximates the coverage.
+// Jaggies: one sample per pixel gives a coverage of 0 or 1; the mean of several samples approximates the coverage.
 #include <fmt/format.h>
 
 #include <array>

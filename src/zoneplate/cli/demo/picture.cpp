@@ -22,9 +22,9 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr float background_code = 0.2f;        // as `zoneplate render` has it
-constexpr int least_plot_width = 720;          // plots have letters of one size, made for this
-constexpr Rgba8 mark_color{255, 196, 0, 255};  // of crops: on light and on dark
+constexpr float background_code = 0.2f;        // the default of `zoneplate render`
+constexpr int least_plot_width = 720;          // the size for which the fixed letter size of plots is designed
+constexpr Rgba8 mark_color{255, 196, 0, 255};  // outline of crops, visible on light and dark backgrounds
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 
 namespace zoneplate::cli {
 
-// Functions with which lessons make their images.
+// Functions that create the images of lessons.
 
 /// Renders the scene with its own camera (or the whole-scene view), opaque, in linear light over the default dark grey.
 LinearImage shoot(const Scene& scene, const std::string& method, int width, int height, RenderCounts* counts = nullptr,
@@ -43,26 +43,26 @@ Plane<float> luminance_of(const LinearImage& light);
 /// The centred spectrum, logarithmic over `range_db`, in false colours.
 Rgba8Image spectrum_picture(const Spectrum& spectrum, double range_db = 100);
 
-/// A square crop around a position, enlarged `factor` times to `side` pixels and kept inside the image; the last pixels
-/// are cut if `side` is no multiple of `factor`.
+/// A square crop around a position, enlarged `factor` times to `side` pixels and moved inside the image; the last
+/// pixels are cut off if `side` is not a multiple of `factor`.
 Rgba8Image crop_of(const Rgba8Image& picture, int centre_x, int centre_y, int factor, int side);
 
-/// The image with the outline of that crop.
+/// The image with an outline around that crop.
 Rgba8Image marked(Rgba8Image picture, int centre_x, int centre_y, int factor, int side);
 
 /// A sign such as = between two images of this height, on the figure's background.
 Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& style);
 
-/// The plot at this size; below the minimum size of its letters, the plot of that size reduced.
+/// The plot at this size; below the size for which its letters are designed, a plot of that size is reduced.
 Rgba8Image plot_at(const Plot& plot, int width, int height);
 
-/// Root of the mean squared difference.
+/// Root mean square difference.
 double rms_difference(const Plane<float>& a, const Plane<float>& b);
 
-/// "−12.3", with a true minus sign.
+/// Formats a number with a true minus sign: "−12.3".
 std::string number(double value, int decimals);
 
-/// "1,234,567".
+/// Formats a count with separators: "1,234,567".
 std::string counted(std::uint64_t count);
 
 }  // namespace zoneplate::cli

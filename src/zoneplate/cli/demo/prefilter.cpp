@@ -32,19 +32,19 @@ Plane<float> difference(Plane<float> a, const Plane<float>& b) {
 
 double rms(const Plane<float>& plane) { return rms_difference(plane, Plane<float>(plane.width(), plane.height())); }
 
-/// The level of the second against the first.
+/// The level of the second relative to the first.
 std::string decibels(double first, double second) {
   return number(20 / 2.302585092994046 * (natural_log(second) - natural_log(first)), 1) + "\u00a0dB";
 }
 
-/// A large image at reduced size: sampled; sampled, then filtered; filtered, then sampled.
+/// A large image reduced in three ways: sampled; sampled, then filtered; filtered, then sampled.
 std::array<Plane<float>, 3> made_small(const Plane<float>& large, int side) {
   const auto taken = [side](const Plane<float>& plane) { return resample_nearest(plane, side, side); };
   return {taken(large), blurred(taken(large), sigma), taken(blurred(large, sigma * step))};
 }
 
-/// The result of each way for the frequencies above the small image's Nyquist limit. The steps are linear, so that all
-/// of it is aliasing.
+/// The result of each way for the frequencies above the small image's Nyquist limit only. The steps are linear, so that
+/// all of it is aliasing.
 std::array<double, 3> aliases_of(const Plane<float>& large, int side) {
   const Plane<float> held = resample_ideal(resample_ideal(large, side, side), large.width(), large.height());
   const auto rest = made_small(difference(large, held), side);

@@ -14,8 +14,8 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr double bandwidth = 1;                       // Hz
-constexpr double shown_seconds = 4, shown_hertz = 5;  // to both sides
-constexpr double taken_seconds = 200;                 // to both sides: what lies beyond is below 3e-6
+constexpr double shown_seconds = 4, shown_hertz = 5;  // on both sides
+constexpr double taken_seconds = 200;                 // on both sides: the remainder is below 3e-6
 
 /// A pulse whose spectrum is a triangle, 1 at frequency 0 and 0 at the bandwidth, low-pass filtered at `limit`.
 struct Pulse {
@@ -30,7 +30,7 @@ struct Pulse {
 };
 static_assert(bandwidth == 1, "the pulse is written for it");
 
-/// The sampling of the pulse.
+/// A way of sampling the pulse.
 struct Way {
   double rate;
   bool is_filtered;
@@ -53,14 +53,14 @@ Samples taken(const Way& way) {
   return samples;
 }
 
-/// The samples' own spectrum, by its sum; they are even.
+/// The samples' spectrum, computed as a sum; the samples are symmetric.
 double spectrum_of(const Samples& samples, double f) {
   double sum = 0;
   for (std::size_t i = 0; i < samples.values.size(); ++i) sum += samples.values[i] * cos_pi(2 * f * samples.time(i));
   return sum / samples.rate;
 }
 
-/// The only function with these samples and no frequency above half the rate.
+/// The only function with these samples and without frequencies above half the rate.
 double rebuilt(const Samples& samples, double t) {
   double sum = 0;
   for (std::size_t i = 0; i < samples.values.size(); ++i)

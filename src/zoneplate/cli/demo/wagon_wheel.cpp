@@ -17,24 +17,26 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int spokes = 12, steps = 40;  // steps a spoke: a mean of them is within 0.1 % of an open shutter's integral
-constexpr int shown_speed = 36;         // steps a frame: 0.9 spokes
-constexpr int frames = 10;              // after which the wheel has turned by whole spokes and the animation repeats
+// Steps per spoke: their mean is within 0.1 % of the integral over an open shutter.
+constexpr int spokes = 12, steps = 40;
+constexpr int shown_speed = 36;  // steps per frame: 0.9 spokes
+// The number of frames after which the wheel has turned by whole spokes and the animation repeats.
+constexpr int frames = 10;
 static_assert(frames * shown_speed % steps == 0);
-constexpr std::array speeds = {4, 10, 20, 30, 36, 40, 44, 50};  // of the table, in steps a frame
+constexpr std::array speeds = {4, 10, 20, 30, 36, 40, 44, 50};  // speeds of the table, in steps per frame
 
 struct Motion {
   double apparent = 0, contrast = 0;
 };
 
-/// Films the wheel at a speed, shutter closed and shutter open, and measures both.
+/// Films the wheel at a speed, with closed and open shutter, and measures both.
 Motion measured(const WheelFilm& film, int speed) {
   std::vector<std::vector<double>> closed, open;
   for (int frame = 0; frame <= frames; ++frame) closed.push_back(spoke_profile(film, film.at(frame * speed)));
   for (int frame = 0; frame < 2; ++frame) open.push_back(spoke_profile(film, exposed(film, frame * speed, speed)));
   double sum = 0;
   for (std::size_t i = 0; i < frames; ++i) {
-    // A turn by half a spoke has no direction: only its size counts.
+    // A turn by half a spoke has no direction: only its magnitude counts.
     const double d = displacement(closed[i], closed[i + 1]);
     sum += std::abs(d) > 0.49 ? std::abs(d) : d;
   }

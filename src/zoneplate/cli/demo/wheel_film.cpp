@@ -14,7 +14,7 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int places = 128;  // of a profile
+constexpr int places = 128;  // angles of a profile
 constexpr float3 axle{0, 0.5f, 0};
 constexpr float inner = 0.20f, outer = 0.38f;  // radii between hub and rim
 constexpr int rings = 10;
@@ -92,7 +92,7 @@ double displacement(const std::vector<double>& a, const std::vector<double>& b) 
   const auto at = [&](int d) { return correlation[static_cast<std::size_t>(wrapped(d, n))]; };
   const int peak = static_cast<int>(std::max_element(correlation.begin(), correlation.end()) - correlation.begin());
 
-  // Between the places: the top of the parabola through the three highest.
+  // Interpolated between angles: the vertex of the parabola through the three highest values.
   const double before = at(peak - 1), top = at(peak), after = at(peak + 1), bend = before - 2 * top + after;
   const double offset = bend < 0 ? 0.5 * (before - after) / bend : 0;
   const double spokes = (peak + offset) / n;

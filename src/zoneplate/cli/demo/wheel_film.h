@@ -8,10 +8,10 @@
 
 namespace zoneplate::cli {
 
-/// The built-in wheel, rendered at every `1 / steps` of a spoke. All animations of it use these images, since a turn by
-/// one spoke gives the same image.
+/// The built-in wheel, rendered at every `1 / steps` of a spoke. All animations use these images, because a turn by one
+/// spoke gives the same image.
 ///
-/// Units     turns in steps; positive is clockwise, like a wheel that rolls to the right.
+/// Units     turns in steps; positive is clockwise, as of a wheel that rolls to the right.
 struct WheelFilm {
   int spokes = 12, steps = 40;
   Camera camera;

@@ -28,7 +28,7 @@ TEST(WheelFilm, FindsADisplacementByCorrelation) {
   EXPECT_NEAR(fundamental(wave(0.123, 6)), 0.2, 1e-12);
 }
 
-// What the lesson promises, measured in rendered frames and not by its own formulas.
+// The statements of the lesson, measured in rendered frames and not by its own formulas.
 TEST(WheelFilm, AtNineTenthsOfASpokeAFrameTheWheelRollsBackwards) {
   const WheelFilm film = film_wheel(12, 40, 160);
   constexpr int speed = 36;  // 0.9 of 40
@@ -44,7 +44,8 @@ TEST(WheelFilm, AtNineTenthsOfASpokeAFrameTheWheelRollsBackwards) {
   EXPECT_NEAR(theory, 0.109, 0.0005);
   EXPECT_NEAR(open / closed, theory, 0.05 * theory);
 
-  // A slow wheel is seen as it is, and a whole spoke a frame leaves no contrast at all.
+  // The apparent motion of a slow wheel is its actual motion; a motion by a whole spoke during the exposure leaves no
+  // contrast.
   EXPECT_NEAR(displacement(spoke_profile(film, film.at(0)), spoke_profile(film, film.at(8))), 0.2, 0.002);
   EXPECT_LT(fundamental(spoke_profile(film, exposed(film, 3, 40))), 0.003 * closed);
 }

@@ -26,9 +26,9 @@ namespace zoneplate::cli {
 struct SequenceArgs {
   std::optional<int> turntable, count, first, last;
   int jump = 1;
-  double rate = 24;  ///< frames a second
+  double rate = 24;  ///< frames per second
   bool is_film = false;
-  std::optional<double> shutter;  ///< degrees of a frame's time that it is open
+  std::optional<double> shutter;  ///< degrees of a frame's time during which the shutter is open
   int shutter_samples = 16;
 
   bool is_sequence() const { return turntable || count || first || last || is_film; }
@@ -37,7 +37,7 @@ struct SequenceArgs {
 /// The arguments of `zoneplate render`.
 struct RenderArgs {
   std::string input, output;
-  std::vector<std::string> inputs;  ///< all of them; `input` is the first
+  std::vector<std::string> inputs;  ///< all inputs; `input` is the first
   std::string manifest;
   Shard shard;
   bool skip_existing = false;
@@ -65,24 +65,24 @@ struct RenderArgs {
   float hdri_rotation = 0, hdri_intensity = 1;
   std::vector<const Aov*> aovs;
   LoadOptions load;
-  std::optional<float3> up;  ///< the scene's upward axis; none: what its format means
-  int threads = 0;           ///< 0: usable_processors(), base/processors.h
-  Isa isa = current_isa();   ///< of every kernel of the run
-  double max_seconds = std::numeric_limits<double>::infinity();  ///< for a whole item
-  bool is_sandboxed = true;                                      ///< where the kernel has sandboxes
+  std::optional<float3> up;                                      ///< the scene's up axis; nothing: that of its format
+  int threads = 0;                                               ///< 0: usable_processors(), base/processors.h
+  Isa isa = current_isa();                                       ///< instruction set of every kernel of the run
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< limit of a whole item
+  bool is_sandboxed = true;                                      ///< if the kernel supports sandboxes
   bool prints_json = false;
   Verbosity verbosity = Verbosity::Normal;
-  std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
+  std::optional<ProgressKind> progress;  ///< nothing: a bar on a terminal
 
   bool is_batch() const { return inputs.size() > 1 || !manifest.empty(); }
   /// The output's name with an extension for its format, also for stdout.
   std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };
 
-/// The longest side of an image, in pixels: the reach of the rasterizer's fixed-point coordinates.
+/// The longest side of an image, in pixels: the range of the rasterizer's fixed-point coordinates.
 inline constexpr int max_side = 16384;
 
-/// The options of the verb, which set `args`. It keeps a reference to it.
+/// The options of the verb, which set `args`. The result refers to `args`.
 Syntax render_syntax(RenderArgs& args);
 
 /// Checks the arguments of one image or sequence after parsing, and completes them.
@@ -98,7 +98,7 @@ void check_environment(RenderArgs& args);
 /// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
 
-/// True where there is a file of that name.
+/// True if a file of that name exists.
 bool exists(const std::string& path);
 
 /// Parses and checks the whole command line of the verb; nothing after printing the help.

@@ -20,7 +20,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// A line of the manifest that is not empty, and what messages call it.
+// A non-empty line of the manifest, and its name for messages.
 struct Line {
   std::string text, place;
 };
@@ -41,7 +41,7 @@ std::vector<Line> lines_of(const std::string& path) {
   return lines;
 }
 
-// The jobs of a manifest: each has the options of the command line, overridden by its own.
+// Parses the jobs of a manifest: each has the options of the command line, overridden by its own.
 class Jobs {
  public:
   explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
@@ -89,15 +89,15 @@ class Jobs {
 
   const RenderArgs& common_;
   RenderArgs args_;
-  Syntax syntax_;  ///< whose options set args_
+  Syntax syntax_;  ///< its options set args_
 };
 
-// Does items in their order. Those that follow each other with one model are done together, in one process.
+// Processes items in order. Consecutive items with one model are processed together, in one process.
 class Batch {
  public:
   explicit Batch(const RenderArgs& common) : common_(common) {}
 
-  // Adds the item that `make` returns; where it throws, the item has failed.
+  // Adds the item that `make` returns; if it throws, the item has failed.
   template <class Make>
   void add(const std::string& name, const Make& make) {
     try {
@@ -124,7 +124,7 @@ class Batch {
     std::string name;
     RenderArgs args;
   };
-  static constexpr std::size_t most_together = 64;  // results appear while a long batch runs
+  static constexpr std::size_t most_together = 64;  // limits the delay of results in a long batch
 
   void flush() {
     std::vector<Item> items = std::exchange(items_, {});
@@ -184,7 +184,7 @@ class Batch {
   }
 
   const RenderArgs& common_;
-  std::vector<Item> items_;  ///< with one model, not done yet
+  std::vector<Item> items_;  ///< pending items, all with one model
   std::uint64_t count_ = 0, failed_ = 0;
 };
 

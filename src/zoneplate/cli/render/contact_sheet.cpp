@@ -21,12 +21,12 @@ namespace zoneplate::cli {
 namespace {
 
 struct SheetArgs {
-  RenderArgs render;  ///< of one cell
+  RenderArgs render;  ///< arguments of one cell
   std::string output, title;
-  int columns = 0;  ///< 0: the number that makes the sheet closest to 4:3
+  int columns = 0;  ///< 0: the number with which the aspect ratio is closest to 4:3
 };
 
-// File names without their folders, if they are distinct.
+// File names without their folders, if these are distinct.
 std::vector<std::string> short_names(const std::vector<std::string>& inputs) {
   std::map<std::string, int> count;
   const auto last = [](const std::string& name) { return name.substr(name.find_last_of('/') + 1); };
@@ -40,7 +40,7 @@ Rgba8Image blank(const SheetArgs& args) {
   return Rgba8Image(args.render.options.width, args.render.options.height, {255, 255, 255, 255});
 }
 
-// Runs in the item's process: the model's image, as RGBA values.
+// Runs in the item's process: renders the model's image, as RGBA values.
 std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   Scene scene;
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });

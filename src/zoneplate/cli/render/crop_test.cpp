@@ -27,7 +27,7 @@ TEST(Crop, HasTheWholesBitsAfterMethodsThatLookAround) {
   const fs::path folder(name);
   for (const std::string method : {"none", "fxaa", "smaa", "smaa:mode=s2x", "mlaa:kind=reshetov", "cmaa2", "dlaa"}) {
     const Rgba8Image whole = rendered(folder, {"--aa", method});
-    // Through the spout; and at the image's corner, where the halo is cut.
+    // Through the spout; and at the image's corner, where the apron is clipped.
     for (const auto& [x, y, w, h] : {std::array{75, 28, 31, 26}, {0, 0, 40, 50}, {100, 60, 20, 30}}) {
       const std::string crop = fmt::format("{},{},{},{}", x, y, w, h);
       const Rgba8Image part = rendered(folder, {"--aa", method, "--crop", crop, "--aov", "depth"});

@@ -15,7 +15,8 @@
 namespace zoneplate::cli {
 namespace {
 
-// One thread and no stamps: the same version of ffmpeg writes the same bytes. MP4 goes through a pipe in fragments.
+// Options of ffmpeg: one thread and no time stamps, so that the same version of ffmpeg writes the same bytes. MP4 is
+// written to a pipe in fragments.
 const std::vector<std::string>& codec_of(const std::string& extension) {
   static const std::vector<std::string> mp4 = {
       "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16", "-pix_fmt", "yuv420p",
@@ -30,7 +31,7 @@ const std::vector<std::string>& codec_of(const std::string& extension) {
 }  // namespace
 
 Animation film_of(double rate) {
-  // A frame's length as a fraction of whole numbers.
+  // The duration of a frame as a fraction of integers.
   Animation film;
   const bool is_whole = rate == std::floor(rate);
   film.seconds = is_whole ? 1 : 1000;

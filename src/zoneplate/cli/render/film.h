@@ -11,9 +11,9 @@
 
 namespace zoneplate::cli {
 
-/// A film without frames, whose frames last 1 / rate seconds.
+/// An animation without frames, whose frames last 1 / rate seconds.
 ///
-/// Errors    ErrorKind::Usage for a rate that is no fraction of small whole numbers.
+/// Errors    ErrorKind::Usage for a rate that is not a fraction of small integers.
 Animation film_of(double rate);
 
 /// True for the name of a GIF, MP4 or WebM film, which the program ffmpeg encodes.
@@ -22,20 +22,20 @@ bool is_encoded_by_ffmpeg(const std::string& output);
 /// The bytes of an APNG or WebP film.
 std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output);
 
-/// A film that ffmpeg encodes. Its frames wait in a temporary file without a name, not in memory.
+/// A film that ffmpeg encodes. Its frames are stored in an unnamed temporary file, not in memory.
 class FfmpegFilm {
  public:
-  /// `timing`: of the frames, which it does not hold.
+  /// `timing` is the timing of the frames; its own frames are ignored.
   FfmpegFilm(std::string output, int width, int height, const Animation& timing);
 
-  /// Adds pixels in the order of the frames, RGBA, 8 bits a channel, rows from the top; in parts of any size.
+  /// Appends pixels in the order of the frames, RGBA, 8 bits per channel, rows from the top; in parts of any size.
   ///
-  /// Errors    ErrorKind::Failed where the folder for temporary files is full.
+  /// Errors    ErrorKind::Failed if the folder for temporary files is full.
   void add(std::span<const std::uint8_t> pixels) { frames_.append(pixels); }
 
   /// The bytes of the animation.
   ///
-  /// Errors    ErrorKind::Failed with ffmpeg's first line of complaint, or where it is not installed.
+  /// Errors    ErrorKind::Failed with the first line of ffmpeg's errors, or if it is not installed.
   std::vector<std::uint8_t> encode() const;
 
  private:

@@ -9,7 +9,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// Where a name has its number, and how many digits that has at least.
+// The position of a name's placeholder for the number, and the minimum number of digits.
 struct Place {
   std::size_t begin = 0, size = 0;
   int digits = 1;

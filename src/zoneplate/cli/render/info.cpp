@@ -161,7 +161,7 @@ std::string info_text(const std::string& input, const Scene& scene) {
   return text;
 }
 
-// The text to be printed, and the warnings.
+// Serializes the text to be printed, and the warnings.
 std::vector<std::uint8_t> packed_info(const std::string& input, const Scene& scene, bool prints_json) {
   Packer out;
   out.text(prints_json ? info_json(input, scene).text() + '\n' : info_text(input, scene));

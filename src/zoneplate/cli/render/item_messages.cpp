@@ -32,7 +32,7 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// The bytes of one message, which cannot be read past their end.
+/// The bytes of one message; reading beyond its end throws.
 class Body {
  public:
   Body(const std::string& place, std::uint64_t size, const ItemEvents::Read& source)
@@ -43,7 +43,7 @@ class Body {
     source_(out);
     left_ -= out.size();
   }
-  /// All that is left, in memory that grows with what has arrived.
+  /// The rest of the message; memory is allocated as data arrive.
   std::vector<std::uint8_t> rest() {
     constexpr std::uint64_t most = std::uint64_t{1} << 30, part = 1 << 20;
     if (left_ > most) fail("too long");

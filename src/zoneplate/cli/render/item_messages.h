@@ -16,24 +16,24 @@
 
 namespace zoneplate::cli {
 
-// Messages from an item's process (item_process.h) to the parent process: a header of a fixed size, then the number of
-// bytes that it states. The receiver validates all of it.
+// Messages from an item's process (item_process.h) to the parent process: a header of fixed size, followed by the
+// number of bytes that it states. The receiver does not trust them.
 
-/// The sending end. Any thread may send.
+/// The sender of messages; thread-safe.
 class ItemSender {
  public:
-  /// Takes the bytes of each message in their order.
+  /// Writes the bytes of each message, in order.
   using Write = std::function<void(std::span<const std::uint8_t>)>;
   explicit ItemSender(Write write) : write_(std::move(write)) {}
 
-  /// `stage` begins, when the share `done` of the whole work, in [0, 1], is behind.
+  /// Reports that `stage` begins when the fraction `done` of the whole work, in [0, 1], is complete.
   void progress(std::string_view stage, double done);
-  /// The limit on the time to read no longer applies.
+  /// Reports that reading is complete, so that its time limit no longer applies.
   void has_read();
-  /// A whole file. `frame`: its number in a sequence, or -1; `layer`: its place among the data passes, or -1 for the
-  /// image. The receiver makes the file's name of them.
+  /// Sends a whole file. `frame` is its number in a sequence, or -1; `layer` is its index among the data passes, or -1
+  /// for the image. The receiver determines the file's name from both.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
-  /// A frame of a film that the receiver encodes.
+  /// Sends a frame of a film that the receiver encodes.
   void film_frame(const Rgba8Image& image);
   /// A prepared environment for the cache, by its key (environment_file.h).
   void environment(std::uint64_t key, std::span<const std::uint8_t> bytes);
@@ -42,7 +42,7 @@ class ItemSender {
   void failure(ErrorKind kind, const std::string& message);
   void needs_library(Library library, const std::string& message);
 
-  /// Whether the job at work has called has_read.
+  /// Whether the current job has called has_read.
   bool is_past_reading() const { return is_past_reading_; }
   void begin_job() { is_past_reading_ = false; }
 
@@ -58,8 +58,8 @@ class ItemSender {
   bool is_past_reading_ = false;
 };
 
-/// The handlers of the receiver. A member may be null: such messages are errors of the sender, except progress, which
-/// is then ignored.
+/// The handlers of the receiver. A member may be null: such messages are then errors of the sender, except progress,
+/// which is ignored.
 struct ItemEvents {
   using Read = std::function<void(std::span<std::uint8_t>)>;  ///< fills the span with the message's next bytes
   std::function<void(std::string_view stage, double done)> progress;
@@ -70,11 +70,10 @@ struct ItemEvents {
   std::function<void(Library library, const std::string& message)> needs_library;
 };
 
-/// Receives one message from `source` and acts on it; the result of the job, if it was that.
+/// Receives one message from `source` and calls its handler. Returns the result of the job if the message is one.
 ///
-/// Errors    the error that the message carries; ErrorKind::Failed naming `place` for bytes that are no message, and
-/// for
-///           results and texts past 1 GB; what `source` and the events throw.
+/// Errors    the error in the message; ErrorKind::Failed naming `place` for invalid messages, and for results and texts
+///           larger than 1 GB; exceptions of `source` and the handlers.
 std::optional<std::vector<std::uint8_t>> receive_message(const std::string& place, const ItemEvents& events,
                                                          const ItemEvents::Read& source);
 

@@ -16,7 +16,7 @@ namespace zoneplate::cli {
 
 namespace {
 
-/// A process that does not end by itself when its time is up has so much longer, in seconds.
+/// Seconds after the time limit at which a process that has not ended is killed.
 constexpr double grace = 0.5;
 
 std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.6g} MB", static_cast<double>(bytes) / (1 << 20)); }
@@ -53,7 +53,7 @@ void ItemProcess::check_time() const {
 void ItemProcess::start(std::size_t first) {
   LimitedChild::Limits limits;
   limits.memory = limits_.load.memory;
-  limits.seconds = std::numeric_limits<double>::infinity();  // the wall clock is watched here
+  limits.seconds = std::numeric_limits<double>::infinity();  // the parent measures the elapsed time instead
   limits.options = "--max-memory, --max-seconds";
   limits.check_time = [this] { check_time(); };
   limits.is_sandboxed = limits_.is_sandboxed;
@@ -63,7 +63,7 @@ void ItemProcess::start(std::size_t first) {
                                           [this, first](ChildAnswer& answer) { work_on(first, answer); });
 }
 
-/// In the child. The first job that fails ends the process, so that every job begins in a sound one.
+/// Runs in the child. The first failing job ends the process, so that no job starts in a damaged one.
 void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
   ItemSender sender([&](std::span<const std::uint8_t> bytes) { answer.write(bytes.data(), bytes.size()); });
   for (std::size_t job = first; job < jobs_; ++job) {
@@ -76,7 +76,7 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     } catch (const LibraryNeeded& needed) {
       sender.needs_library(needed.library(), needed.what());
     } catch (const Error& error) {
-      // Errors after reading, or while rendering, do not contain the model's name.
+      // Errors after reading and rendering errors do not contain the model's name.
       const std::string message = error.what();
       const bool needs_name = sender.is_past_reading() || error.kind() == ErrorKind::Failed;
       const bool is_named = !needs_name || message.find(limits_.name) != message.npos;
@@ -91,7 +91,7 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
   }
 }
 
-/// A failure while the model is read is an error of the input; later, of rendering.
+/// A failure of the process while the model is read is an error of the input; later it is an error of rendering.
 void ItemProcess::read(std::span<std::uint8_t> out) {
   try {
     child_->read(out.data(), out.size());

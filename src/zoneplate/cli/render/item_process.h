@@ -19,33 +19,32 @@ namespace zoneplate::cli {
 
 /// The limits of an item's process.
 struct ItemLimits {
-  std::string name;                                          ///< of the item's model, which begins errors
-  LoadLimits load;                                           ///< memory holds for all of the item's work
-  double seconds = std::numeric_limits<double>::infinity();  ///< for the whole item, on the wall clock
-  bool is_sandboxed = true;                                  ///< where the kernel has sandboxes
+  std::string name;                                          ///< the item's model, the prefix of error messages
+  LoadLimits load;                                           ///< its memory limit applies to all work of the item
+  double seconds = std::numeric_limits<double>::infinity();  ///< elapsed time limit of the whole item
+  bool is_sandboxed = true;                                  ///< if the kernel supports sandboxes
   std::optional<std::vector<std::string>> readable = {};     ///< files and folders; nothing: every file
 };
 
-/// Does the work of one item, or of several with one model, in a process of its own: a sandboxed copy of this one
-/// (os/limited_child.h) with a limit on its memory and its time.
+/// Runs the work of one item, or of several items with one model, in a separate process: a sandboxed fork of this one
+/// (os/limited_child.h) with limits of memory and time.
 ///
-/// Whatever happens to that process, this one goes on. It writes nothing itself: files arrive here as bytes. A library
-/// that turns out to be needed is opened here, and the job begins again.
+/// A crash of that process does not affect this one. It writes no files itself: they arrive here as bytes. If it needs
+/// a library, that is opened here, and the job is restarted.
 class ItemProcess {
  public:
-  /// Does job `i` and returns its result.
+  /// Runs job `i` and returns its result.
   using Work = std::function<std::vector<std::uint8_t>(std::size_t job, ItemSender& sender)>;
 
   ItemProcess(ItemLimits limits, std::size_t jobs, Work work);
   ~ItemProcess();
 
-  /// The result of the next job. The first call starts the process. The events has_read and needs_library are added
+  /// The result of the next job. The first call starts the process. The handlers has_read and needs_library are added
   /// here.
   ///
-  /// Errors    what the job throws; ErrorKind::Input before it has read its model, and ErrorKind::Failed after that,
-  /// where
-  ///           its process ran out of memory or time or was ended by a signal; what the events throw. The next call
-  ///           goes on with the job after it, in a new process.
+  /// Errors    exceptions of the job; if its process runs out of memory or time or is ended by a signal,
+  ///           ErrorKind::Input while it reads its model and ErrorKind::Failed after that; exceptions of the handlers.
+  ///           The next call continues with the following job, in a new process.
   std::vector<std::uint8_t> next(ItemEvents events);
 
  private:
@@ -64,13 +63,13 @@ class ItemProcess {
   bool has_read_ = false;
 };
 
-/// Reads a model within the limit on the time to read one. Of an item's process.
+/// Reads a model with the limit of import time. Called in an item's process.
 ///
-/// Errors    ErrorKind::Input naming the model and the option when the time is up; what `read` throws.
+/// Errors    ErrorKind::Input naming the model and the option if the time is exceeded; exceptions of `read`.
 void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read);
 
-/// Warns, once a process, where files are read without a sandbox because the kernel has none, and returns whether items
-/// are to be sandboxed.
+/// Warns, once per process, if files are read without a sandbox because the kernel does not support it; returns whether
+/// items are sandboxed.
 bool uses_sandbox(bool is_requested);
 
 }  // namespace zoneplate::cli

@@ -142,7 +142,7 @@ TEST(ItemProcess, MemoryIsNamedByWhatGrew) {
   EXPECT_EQ(ending_of(grow_late), (Ending{ErrorKind::Failed,
                                           "model.xyz: screen vertices need more memory than the limit "
                                           "of 64 MB (--max-memory)"}));
-  // What a library allocates is counted too.
+  // Allocations of libraries count too.
   const auto grow_by_malloc = [](ItemSender&) {
     for (int i = 0; i < 128; ++i)
       if (void* const memory = std::malloc(1 << 20); !memory) throw Error(ErrorKind::Input, "malloc failed");
@@ -236,7 +236,7 @@ TEST(ItemMessages, BytesThatAreNoMessageAreAnError) {
   }
   EXPECT_THROW(receive({sent.begin(), sent.end() - 1}), Error);
   sent.clear();
-  sender.file(1, 2, Bytes(150));  // of which the receiver takes 100
+  sender.file(1, 2, Bytes(150));  // the receiver reads 100 of these bytes
   EXPECT_THROW(receive(sent), Error);
 }
 

@@ -29,7 +29,7 @@ ItemLimits limits_of(const std::vector<RenderArgs>& items) {
           .readable = std::move(readable)};
 }
 
-// Passes `size` bytes on in parts, so that a large file is never whole in memory here.
+// Passes `size` bytes on in parts, so that a large file is never in memory as a whole.
 template <class Take>
 void for_parts(std::uint64_t size, const ItemEvents::Read& read, Take take) {
   std::vector<std::uint8_t> part(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1 << 20)));

@@ -8,16 +8,16 @@
 
 namespace zoneplate::cli {
 
-/// Items with one model (`model_key`), done one after the other in a process of their own (item_process.h); their files
-/// are written here.
+/// Items with one model (`model_key`), which are processed one after the other in a separate process (item_process.h);
+/// this class writes their files.
 class RenderItems {
  public:
   /// Requires  at least one item.
   explicit RenderItems(std::vector<RenderArgs> items);
 
-  /// Does the next item.
+  /// Processes the next item.
   ///
-  /// Errors    of reading, rendering and writing it; the item after it can be done all the same.
+  /// Errors    those of reading, rendering and writing it; the following items can still be processed.
   Summary next();
 
  private:

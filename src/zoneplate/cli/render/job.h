@@ -12,15 +12,15 @@
 
 namespace zoneplate::cli {
 
-/// Reads, renders and encodes what the arguments of one image, or one sequence, describe, in the process of the
-/// item; keeps the last model between jobs.
+/// Reads, renders and encodes one image or one sequence according to the arguments, in the process of the item. The
+/// last model is kept for the next job.
 class RenderJobs {
  public:
-  /// Sends the files to `out`. The threads are those of the caller.
+  /// Runs a job and sends its files to `out`, with the threads of the caller.
   Summary run(RenderArgs args, ItemSender& out);
 
  private:
-  /// The model of the arguments; nothing where it is `scene_` already.
+  /// Reads the model of the arguments; nothing if it is already in `scene_`.
   std::optional<Scene> read(const RenderArgs& args);
 
   std::string key_;  ///< of the model that is loaded

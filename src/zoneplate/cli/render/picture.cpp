@@ -24,7 +24,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// "#333333", as F3D shows models by default; the homework's scene is defined on black.
+// "#333333", the default background of F3D; the scene "triangles" is defined on black.
 float4 background_of(const RenderArgs& args) {
   if (args.background) return *args.background;
   return args.input == "triangles" ? float4{0, 0, 0, 1} : default_background;
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& d
   return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
 }
 
-// The encoded values in the order of memory, rows from the top.
+// The encoded values in memory order, rows from the top.
 template <class T>
 std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
   static_assert(std::endian::native == std::endian::little, "16 bits are written low byte first");
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> raw_of(const Plane<T>& image) {
   return {first, first + image.values().size_bytes()};
 }
 
-// The data passes, in files of their own or in the image's.
+// Adds the data passes, as separate files or as channels of the image's file.
 void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, const std::string& output,
                 Rendered& out) {
   DataChannels data;
@@ -70,9 +70,10 @@ void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, 
   if (is_exr(output)) out.exr = exr_of(out.linear, data);
 }
 
-// The planes of a frame and its copies on the way to a file, in bytes a pixel: see Frame, DisplayImage, Rgba8Image.
+// Checks the memory of a frame's planes and of its copies for encoding, in bytes per pixel: see Frame, DisplayImage,
+// Rgba8Image.
 void check_memory(const RenderArgs& args, const Request& request) {
-  constexpr std::uint64_t bytes_per_sample = 24;  // where every sample is stored: colour, depth, triangle
+  constexpr std::uint64_t bytes_per_sample = 24;  // if every sample is stored: colour, depth, triangle
   const bool has_matte =
       std::ranges::any_of(args.aovs, [](const Aov* a) { return a->plane == &Planes::sample_triangles; });
   const std::uint64_t bytes_per_pixel = (args.aovs.empty() ? 44 : 136) +

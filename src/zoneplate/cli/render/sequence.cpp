@@ -18,7 +18,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int most_frames = 100'000;
-// Which frames are made, of which animation.
+// The frames to render, and their animation.
 class Plan {
  public:
   Plan(const RenderArgs& args, SceneSource& source) : args_(args), source_(source) {
@@ -92,12 +92,12 @@ class Plan {
   const RenderArgs& args_;
   SceneSource& source_;
   SceneChoice choice_;
-  double end_ = 0;              // of the animation, in seconds
-  std::optional<Scene> still_;  // where nothing is animated
+  double end_ = 0;              // end of the animation, in seconds
+  std::optional<Scene> still_;  // the scene, if it is not animated
   std::vector<int> frames_;
 };
 
-// A frame, its shutter open from its moment on.
+// Renders a frame; its shutter opens at the frame's time.
 Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, const std::string& output,
                       Renderer& renderer, Summary& summary) {
   RenderSettings settings = settings_of(args, output);
@@ -173,7 +173,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
         out.file(frame, -1, encode_picture(*picture, output));
         for (const LayerFile& file : picture->layers) out.file(frame, file.aov, file.bytes);
       };
-      // PNG takes all threads by itself.
+      // PNG encoding uses all threads itself.
       if (extension_of(output) == ".png")
         send();
       else

@@ -6,14 +6,14 @@
 
 namespace zoneplate::cli {
 
-/// Every `count`th item of a list, from number `index` on.
+/// Every `count`th item of a list, starting with number `index`.
 struct Shard {
   std::uint64_t index = 0, count = 1;
   bool has(std::uint64_t item) const { return item % count == index; }
 };
 
-/// "i/n" with i from 0 to n - 1, or "auto": what Slurm (an array's task) or Kubernetes (an indexed job's, with the
-/// number after a slash: "auto/8") say in the environment.
+/// Parses "i/n" with i from 0 to n - 1, or "auto", which uses the environment variables of Slurm (an array's task) or
+/// Kubernetes (the index of an indexed job, with the count after a slash: "auto/8").
 ///
 /// Errors    ErrorKind::Usage.
 Shard parse_shard(const std::string& text);

@@ -18,13 +18,13 @@ struct Summary {
   std::vector<std::pair<std::string, double>> times;
   std::vector<std::string> warnings;
   int frames = 1;
-  std::uint64_t peak_memory = 0;  ///< resident, of the process that did the work, in bytes
+  std::uint64_t peak_memory = 0;  ///< peak resident memory of the process that did the work, in bytes
 };
 
-/// The summary as bytes, for the program's own process.
+/// Serializes the summary for the parent process.
 std::vector<std::uint8_t> pack_summary(const Summary& summary);
 
-/// Errors    ErrorKind::Failed where the bytes end too early.
+/// Errors    ErrorKind::Failed if the bytes end early.
 Summary unpack_summary(std::span<const std::uint8_t> bytes);
 
 }  // namespace zoneplate::cli

@@ -7,7 +7,8 @@
 
 namespace zoneplate::cli {
 
-// The border rule `zero` puts black beyond an image, not transparency: colour is filtered by it, alpha by `clamp`.
+// With the border rule `zero`, pixels outside the image are black but not transparent: colour is filtered with `zero`,
+// alpha with `clamp`.
 
 inline Plane<float> alpha_of(const LinearImage& image) {
   Plane<float> out(image.width(), image.height());

@@ -19,20 +19,20 @@ struct SignalArgs {
   std::string report = "zoneplate-signal";  ///< "format" of the JSON
   std::string output;  ///< a file, "-" for stdout, or empty: numbers only
   bool prints_json = false;
-  bool uses_codes = false;  ///< work on display codes instead of linear light
+  bool uses_codes = false;  ///< operates on display codes instead of linear light
   int threads = 0;
 };
 
-/// --output, --json and --threads; `output_meaning` is the help text of --output.
+/// The options --output, --json and --threads; `output_meaning` is the help text of --output.
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
 
-/// --codes, for those who change images.
+/// The option --codes, for subcommands that change images.
 Option codes_option(SignalArgs& args);
 
-/// --border with the rules that the subcommand allows, the default first: "clamp, reflect".
+/// The option --border with the supported rules, the default first: "clamp, reflect".
 Option border_option(Border& border, const std::string& rules);
 
-/// The one operand of a subcommand.
+/// The single operand of a subcommand.
 ///
 /// Errors    ErrorKind::Usage for none or more than one; the message names `what`.
 const std::string& only_operand(const Syntax& syntax, const std::string& what);
@@ -40,29 +40,30 @@ const std::string& only_operand(const Syntax& syntax, const std::string& what);
 /// The section of the help about IMAGE and the patterns.
 std::string image_notes();
 
-/// Refuses an output that does not end in .png (or, for a plot, .svg; for a result, .pfm or .exr) and is not "-".
+/// Throws for an output whose name does not end in .png (or, for a plot, .svg; for a result, .pfm or .exr) and is not
+/// "-".
 void check_picture_name(const std::string& path);
 void check_result_name(const std::string& path);
 void check_plot_name(const std::string& path);
 
 void save_picture(const std::string& path, const Rgba8Image& picture);
 
-/// Writes a result: to .pfm and .exr its values as they are, in floats, premultiplied, neither clamped nor shifted; to
-/// any other name the display image `picture()`.
+/// Writes a result: to .pfm and .exr the values as premultiplied floats, neither clamped nor shifted; to any other name
+/// the display image `picture()`.
 void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture);
 
 /// The outputs of save_result, for the help.
 inline constexpr const char* result_meaning =
     "The image to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 
-/// The plots in the format of the output's extension.
+/// Writes the plots in the format of the output's extension.
 void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
 
 /// Prints the results to stdout, as text or as one line of JSON with "format" and "version" before the members of
 /// `json`. Where the image is written to stdout, JSON goes to stderr instead and text is omitted.
 void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json);
 
-/// "1,3,5": whole numbers in [low, high], at least one.
+/// Parses "1,3,5": integers in [low, high], at least one.
 std::vector<int> parse_whole_list(const std::string& text, int low, int high);
 
 }  // namespace zoneplate::cli

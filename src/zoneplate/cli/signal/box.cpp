@@ -14,7 +14,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int greatest_width = 999;
-constexpr int steps = 2000;              // of a curve
+constexpr int steps = 2000;              // points of a curve
 constexpr double half_power = 0.442946;  // sinc(x)² = ½
 
 struct BoxArgs : SignalArgs {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal convolve: an image or a list of numbers with a kernel, in space, by its spectrum, or both.
+// zoneplate signal convolve: convolution of an image or a list of numbers with a kernel, in space, by its spectrum, or
+// both.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -58,10 +59,11 @@ LinearImage convolved(const LinearImage& image, const KernelChoice& kernel, Bord
 }
 
 struct Results {
-  LinearImage image;  ///< the one that is written
+  LinearImage image;  ///< the image that is written
   double space_ms = 0, frequency_ms = 0;
-  std::optional<Difference> apart;  ///< of the two ways
-  std::optional<Difference> bare;   ///< of the product of the bare spectra, which is the rule wrap, from this rule
+  std::optional<Difference> apart;  ///< difference of the two computations
+  /// Difference between this border rule and the product of the unpadded spectra, which is the rule wrap.
+  std::optional<Difference> bare;
 };
 
 Results convolved(const ConvolveArgs& args, const LinearImage& image, const KernelChoice& kernel) {
@@ -123,17 +125,18 @@ Json::Object json_of(const std::string& input, const ConvolveArgs& args, const L
 }
 
 Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
-  // Weights of sum 0 remove the mean: the result is signed.
+  // The result of a kernel with sum 0 is signed.
   return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
 }
 
-/// The weights as grey levels among weights of 0, the greatest white; where some are negative mid-grey is 0.
+/// The weights as grey levels, surrounded by weights of 0; the greatest is white. If some are negative, mid-grey is 0.
 Rgba8Image kernel_picture(const Plane<float>& weights, int2 size) {
   float low = 0, greatest = 0;
   for (const float w : weights.values()) low = std::min(low, w), greatest = std::max(greatest, std::abs(w));
   const auto level = [&](float w) { return low < 0 ? 0.5f + 0.5f * w / greatest : greatest > 0 ? w / greatest : 0.0f; };
 
-  // Squares in the middle, as large as leaves a margin; where there are more weights than pixels, the nearest.
+  // Squares in the middle, as large as a margin allows; if there are more weights than pixels, the nearest weight is
+  // used.
   const double cell =
       0.75 * std::min(static_cast<double>(size.x) / weights.width(), static_cast<double>(size.y) / weights.height());
   const auto place = [&](int x, int pixels, int count) {
@@ -164,7 +167,7 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
                      const KernelChoice& kernel, const LinearImage& result) {
   const Spectrum of_image = fourier(luminance(image)), of_result = fourier(luminance(result));
   const Spectrum of_kernel = spectrum_of(kernel.weights, image.width(), image.height());
-  // On this scale the third image is the sum of the other two, in decibels below their palest.
+  // With a common scale in decibels, the third image is the sum of the other two.
   const double image_peak = strongest_magnitude(of_image), kernel_peak = strongest_magnitude(of_kernel);
   return compose(
       {.title = fmt::format("{} with {}", title_of(input), kernel.name),

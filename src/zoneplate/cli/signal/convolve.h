@@ -12,13 +12,13 @@ enum class Via { Space, Frequency, Both };
 
 struct ConvolveArgs : SignalArgs {
   KernelChoice kernel = parse_kernel_choice("gaussian:sigma=2");
-  std::optional<Plane<double>> values;  ///< one row, in place of an image
+  std::optional<Plane<double>> values;  ///< one row, instead of an image
   Via via = Via::Space;
   Border border = Border::Clamp;
   bool is_side_by_side = false;
 };
 
-/// The convolution of `values`: printed, and drawn where there is an output.
+/// Prints the convolution of `values`, and plots it if there is an output.
 ///
 /// Errors    ErrorKind::Usage for a kernel of more than one row.
 void convolve_row(const ConvolveArgs& args);

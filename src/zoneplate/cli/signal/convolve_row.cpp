@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Convolution of one row of numbers, as in a textbook exercise.
+// Convolution of one row of numbers.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@ TEST_F(SignalConvolve, TheRowOfTheCourse) {
   const Words words{"--values", "1 3 5 3 7 1 3 8 6 4", "--kernel", "1/4 1/2 1/4"};
   const auto row = json(run_signal_convolve, words);
   EXPECT_EQ(row["kernel"].get<Numbers>(), (Numbers{0.25, 0.5, 0.25}));
-  // By hand: (1 + 2·3 + 5) / 4 = 3, ...; the ends are repeated.
+  // By hand: (1 + 2·3 + 5) / 4 = 3, ...; the border is repeated.
   EXPECT_EQ(row["result"].get<Numbers>(), (Numbers{1.5, 3, 4, 4.5, 4.5, 3, 3.75, 6.25, 6, 4.5}));
   Words zero = words;
   zero.insert(zero.end(), {"--border", "zero", "--via", "both"});
@@ -40,7 +40,7 @@ TEST_F(SignalConvolve, BothWaysAgreeForEveryBorderAndTheBareProductOnlyForWrap) 
       EXPECT_FALSE(found.contains("difference_of_bare_product"));
       continue;
     }
-    // It is wrong at the border, and there alone: 2σ·3 = 6 pixels deep.
+    // It differs only near the border: within 2σ·3 = 6 pixels.
     const auto& bare = found["difference_of_bare_product"];
     EXPECT_GT(bare["greatest"].get<double>(), 0.01) << border;
     const int x = bare["x"], y = bare["y"];
@@ -53,7 +53,7 @@ TEST_F(SignalConvolve, WritesThePicture) {
   out(run_signal_convolve, {"bricks:size=32", "--kernel", at("identity.txt"), "-o", at("same.png")});
   out(run_signal_convolve, {"bricks:size=32", "--kernel", "1", "-o", at("one.png")});
   EXPECT_EQ(picture("same.png"), picture("one.png"));
-  // Sobel's kernel sums to 0: differences, around mid-grey.
+  // Sobel's kernel sums to 0: the result is differences, around mid-grey.
   out(run_signal_convolve, {"edge:size=32,angle=0", "--kernel", "-1 0 1", "-o", at("edges.png")});
   const Rgba8Image edges = picture("edges.png");
   EXPECT_EQ(edges(5, 5).r, 128);
@@ -62,7 +62,7 @@ TEST_F(SignalConvolve, WritesThePicture) {
 }
 
 TEST_F(SignalConvolve, WritesValuesByTheEndingOfTheOutput) {
-  // Sobel's differences are -0.75 and 0.75: as an image they are clamped around mid-grey, as values they are signed.
+  // Sobel's differences are -0.75 and 0.75: an image is clamped around mid-grey, values are signed.
   const Words words{"edge:size=32,angle=0", "--kernel", "-2 0 2", "-o"};
   for (const char* name : {"edges.pfm", "edges.exr"}) {
     Words all = words;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal decimate: every n-th pixel, with and without filtering first.
+// zoneplate signal decimate: every n-th pixel, with and without a filter before.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct DecimateArgs : SignalArgs {
   bool compares_all = false;
 };
 
-/// Both ways of making an image smaller.
+/// An image, decimated without and with a filter.
 struct Pair {
   LinearImage image, naive, filtered;
 };
@@ -51,7 +51,7 @@ std::vector<Figures> measure(const DecimateArgs& args, const Pair& pair) {
   return rows;
 }
 
-// Nothing at all is -400 dB: shown as "none".
+// No energy is -400 dB, displayed as "none".
 std::string shown_db(double db) { return db <= -399 || !std::isfinite(db) ? "none" : fmt::format("{:.1f}", db); }
 
 std::string text_of(const std::string& input, const Pair& pair, const std::vector<Figures>& rows) {
@@ -94,7 +94,7 @@ Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const P
   const auto image = [&](const LinearImage& of, const std::string& caption) {
     return Panel{fitted(shown(of, args.uses_codes)), caption};
   };
-  // One scale for all: the amplitude of a wave is its magnitude over the number of pixels.
+  // A common scale: the amplitude of a wave is its magnitude divided by the number of pixels.
   constexpr double range_db = 50;
   const auto pixels = [](const Spectrum& of) { return static_cast<double>(of.width) * of.height(); };
   const Spectrum whole = fourier(luminance(pair.image));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal filter: an image without the low, the high or a band of its frequencies.
+// zoneplate signal filter: removes the low, the high or a band of the frequencies of an image.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using Pass = FrequencyFilter::Pass;
 
-// The least frequency that a filter may cut at, and a little more than the corner of the spectrum.
+// The lowest cut-off frequency, and a highest one slightly above the corner of the spectrum.
 constexpr double least_cut = 1e-6, greatest_cut = 1;
 
 struct FilterArgs : SignalArgs {
@@ -29,7 +29,7 @@ struct FilterArgs : SignalArgs {
   Border border = Border::Reflect;
   bool is_side_by_side = false;
 
-  /// The mean is gone: the image is of differences, and shown around mid-grey.
+  /// True if the filter removes the mean: the result is differences, displayed around mid-grey.
   bool loses_mean() const { return response(filter, 0) < 0.5; }
 };
 
@@ -87,10 +87,10 @@ Plot response_plot(const FilterArgs& args) {
           .curves = {curve, {"Nyquist frequency", {{0.5, 0}, {0.5, 1.1}}, Curve::Mark::Dashed, Curve::grey}}};
 }
 
-// A little less than paper, so that a figure draws the image's outline.
+// Slightly darker than the background, so that a figure outlines the image.
 constexpr float white = 254.0f / 255;
 
-/// The response as applied to the transform: a factor for every bin, black 0 and white 1.
+/// The response as multiplied with the transform: a factor for every bin, black is 0 and white is 1.
 Rgba8Image response_picture(const FilterArgs& args, int width, int height) {
   LinearImage image(width, height);
   for (int y = 0; y < height; ++y)
@@ -109,7 +109,7 @@ Rgba8Image picture_of(const FilterArgs& args, const LinearImage& result) {
 Rgba8Image figure_of(const std::string& input, const FilterArgs& args, const LinearImage& before,
                      const LinearImage& after) {
   const Spectrum was = fourier(luminance(before)), is = fourier(luminance(after));
-  const MagnitudeScale scale{.peak = strongest_magnitude(was)};  // one for both, so that they can be compared
+  const MagnitudeScale scale{.peak = strongest_magnitude(was)};  // a common scale for comparison
   const Rgba8Image plot = plot_picture(response_plot(args), {panel_px, panel_px * 3 / 4});
   const std::string around = args.loses_mean() ? " The mean is removed: mid-grey is 0." : "";
   const std::string shape =

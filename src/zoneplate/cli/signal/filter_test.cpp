@@ -23,7 +23,7 @@ TEST_F(SignalFilter, KeepsOrTakesAWaveByItsFrequency) {
         Case{"--band-stop", "0.2:0.3", 0}, Case{"--band-stop", "0.3:0.4", 1}, Case{"--low-pass", "0.25", 0.25}})
     EXPECT_NEAR(left(json(run_signal_filter, {wave, "--border", "wrap", c.option, c.value})), c.factor, 1e-6)
         << c.option << c.value;
-  // Butterworth and Gaussian are one half at their cut.
+  // The response of Butterworth and Gaussian filters is one half at the cut-off frequency.
   for (const char* shape : {"gaussian", "butterworth:order=4"})
     EXPECT_NEAR(left(json(run_signal_filter, {wave, "--border", "wrap", "--low-pass", "0.25", "--shape", shape})), 0.25,
                 1e-6);
@@ -32,8 +32,8 @@ TEST_F(SignalFilter, KeepsOrTakesAWaveByItsFrequency) {
 TEST_F(SignalFilter, WritesWhatIsLeft) {
   out(run_signal_filter, {"sine:size=64,frequency=0.25", "--border", "wrap", "--low-pass", "0.1", "-o", at("low.png")});
   const Rgba8Image low = picture("low.png");
-  for (const Rgba8& c : low.values()) EXPECT_EQ(c, (Rgba8{188, 188, 188, 255}));  // the mean, ½ of light
-  // Without its mean the wave swings by ½ around mid-grey.
+  for (const Rgba8& c : low.values()) EXPECT_EQ(c, (Rgba8{188, 188, 188, 255}));  // the mean, ½ in linear light
+  // Without its mean the wave has an amplitude of ½ around mid-grey.
   out(run_signal_filter,
       {"sine:size=64,frequency=0.25", "--border", "wrap", "--high-pass", "0.1", "-o", at("high.png")});
   const Rgba8Image high = picture("high.png");
@@ -43,7 +43,7 @@ TEST_F(SignalFilter, WritesWhatIsLeft) {
 }
 
 TEST_F(SignalFilter, ThinksInLightUnlessTold) {
-  // A fine checkerboard of 0.05 and 0.8 of light has the mean 0.425: code 174; the mean of the codes is 149.
+  // A fine checkerboard of 0.05 and 0.8 in linear light has the mean 0.425, code 174; the mean of the codes is 149.
   const Words words{"checkerboard:size=32,cell=1", "--border", "wrap", "--low-pass", "0.1", "-o", at("mean.png")};
   out(run_signal_filter, words);
   EXPECT_EQ(picture("mean.png")(5, 5).r, 174);

@@ -15,7 +15,7 @@
 namespace zoneplate::cli {
 namespace {
 
-// Kernels are small compared with images; a larger one is a mistake, and would take hours in space.
+// Kernels are small compared with images; a larger one is most likely an error, and would take hours in space.
 constexpr int greatest_side = 4097;
 constexpr std::uint64_t greatest_file = 1 << 24;
 

@@ -8,25 +8,26 @@
 
 namespace zoneplate::cli {
 
-/// The --kernel of `zoneplate signal convolve`.
+/// The value of --kernel of `zoneplate signal convolve`.
 ///
-/// A name of the list (`gaussian:sigma=2`), numbers ("1/4 1/2 1/4"; rows end at a semicolon or line end), or a file of
-/// such numbers, in which # begins a comment.
+/// A name of the list (`gaussian:sigma=2`), numbers ("1/4 1/2 1/4"; rows are separated by semicolons or line ends), or
+/// a file of such numbers, in which # starts a comment.
 struct KernelChoice {
   std::string name;
-  std::vector<double> taps;  ///< of a name: the same along rows and columns; else empty
-  Plane<float> weights;      ///< all of it
+  std::vector<double> taps;  ///< taps of a named kernel, the same for rows and columns; else empty
+  Plane<float> weights;      ///< the two-dimensional kernel
 
   bool is_separable() const { return !taps.empty(); }
   double sum() const;
 };
 
-/// Errors    ErrorKind::Usage for text that is none of these, ErrorKind::Input for a file that holds something else.
+/// Errors    ErrorKind::Usage for any other text, ErrorKind::Input for a file with other contents.
 KernelChoice parse_kernel_choice(const std::string& text);
 
-/// "1 3/4 -.5": numbers and fractions at spaces and commas; rows at semicolons and line ends, all of one length.
+/// Parses "1 3/4 -.5": numbers and fractions separated by spaces and commas; rows separated by semicolons and line
+/// ends, all of the same length.
 ///
-/// Errors    ErrorKind::Usage naming the text that is no number.
+/// Errors    ErrorKind::Usage naming the text that is not a number.
 Plane<double> parse_number_rows(const std::string& text);
 
 }  // namespace zoneplate::cli

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
 
-/// Every pixel through value_of(code), a function of a straight code, and times its alpha.
+/// Maps every pixel by value_of(code), a function of a straight code, and premultiplies it.
 template <class Code, class ValueOf>
 LinearImage premultiplied(const Plane<Code>& codes, float greatest, const ValueOf& value_of) {
   LinearImage out(codes.width(), codes.height());

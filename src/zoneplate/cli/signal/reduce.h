@@ -8,7 +8,7 @@
 
 namespace zoneplate::cli {
 
-/// The image on another grid by a kernel's name, "nearest" or "ideal" (signal/filter/resample.h).
+/// Resamples the image with a kernel's name, "nearest" or "ideal" (signal/filter/resample.h).
 LinearImage resampled(const LinearImage& image, int width, int height, const std::string& kernel, Border border);
 
 /// Errors    ErrorKind::Usage for an unknown name.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal resample: an image on another grid.
+// zoneplate signal resample: resamples an image on another grid.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct ResampleArgs : SignalArgs {
   bool is_side_by_side = false;
 };
 
-// "640x480", "640,480", "0.5", "50%".
+// Parses "640x480", "640,480", "0.5" or "50%".
 int2 size_from(const std::string& text, int width, int height) {
   if (text.find_first_of("x,") != std::string::npos) return parse_size(text, greatest_side);
   const bool is_percent = text.ends_with('%');

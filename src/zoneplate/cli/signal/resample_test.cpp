@@ -25,7 +25,7 @@ TEST_F(SignalResample, TakesSizesAndFactors) {
 }
 
 TEST_F(SignalResample, MixesLightUnlessTold) {
-  // Half of 0.05 and half of 0.8 of light is 0.425: code 174. Codes 63 and 231 mix to 147.
+  // The mean of 0.05 and 0.8 in linear light is 0.425, code 174. The mean of codes 63 and 231 is 147.
   const Words words{"checkerboard:size=32,cell=1", "--size", "0.5", "--kernel", "box", "-o", at("r.png")};
   out(run_signal_resample, words);
   const Rgba8Image light = picture("r.png");
@@ -41,7 +41,7 @@ TEST_F(SignalResample, NearestPicksAndIdealKeepsWaves) {
   out(run_signal_resample, {"checkerboard:size=32,cell=4", "--size", "2", "--kernel", "nearest", "-o", at("n.png")});
   out(run_signal_resample, {"checkerboard:size=64,cell=8", "--size", "1", "--kernel", "nearest", "-o", at("m.png")});
   EXPECT_EQ(picture("n.png"), picture("m.png"));
-  // A wave of 8 pixels, twice as large, is the wave of 16 pixels, half a pixel of the old grid being a quarter off.
+  // A wave of period 8, enlarged twice, has period 16; half a pixel of the old grid becomes a shift of a quarter.
   out(run_signal_resample, {"sine:size=32,frequency=0.125", "--size", "2", "--kernel", "ideal", "-o", at("i.png")});
   const Rgba8Image wave = picture("i.png");
   const auto light = [](int x) { return 0.5 + 0.5 * std::cos(2 * M_PI * ((x + 0.5) / 2 - 0.5) / 8); };
@@ -50,7 +50,7 @@ TEST_F(SignalResample, NearestPicksAndIdealKeepsWaves) {
 }
 
 TEST_F(SignalResample, KeepsTransparencyPremultiplied) {
-  // Transparent red beside opaque green: half of each is green, half covered.
+  // Transparent red next to opaque green: the mean is green with half coverage.
   Rgba8Image image(2, 2, {0, 255, 0, 255});
   image(0, 0) = image(0, 1) = {255, 0, 0, 0};
   save_bytes(at("a.png"), encode_png(image));
@@ -59,8 +59,8 @@ TEST_F(SignalResample, KeepsTransparencyPremultiplied) {
 }
 
 TEST_F(SignalResample, BordersAreCutAsPillowDoes) {
-  // The row 0 64 128 255 in grey, 4 pixels to 8, by Pillow's resize(BILINEAR) and (LANCZOS) of an "F" image:
-  // tent weights at the border 1 alone; elsewhere 3/4 and 1/4.
+  // Enlarges the row 0 64 128 255 in grey from 4 pixels to 8, compared with Pillow's resize(BILINEAR) and (LANCZOS) of
+  // an "F" image: the tent's weights are 1 at the border; elsewhere 3/4 and 1/4.
   Rgba8Image row(4, 1);
   for (int x = 0; x < 4; ++x) {
     constexpr std::uint8_t codes[] = {0, 64, 128, 255};
@@ -72,7 +72,7 @@ TEST_F(SignalResample, BordersAreCutAsPillowDoes) {
   const LinearImage cut = load_signal(at("cut.pfm"), false);
   const double bilinear[] = {0, 16, 48, 80, 112, 159.75, 223.25, 255};
   for (int x = 0; x < 8; ++x) EXPECT_NEAR(255.0 * static_cast<double>(cut(x, 0).r), bilinear[x], 1e-3) << x;
-  // Of lanczos3 the five or six taps inside are divided by their sum; outside there is nothing, as if repeated.
+  // The five or six taps of lanczos3 inside the image are divided by their sum; outside there are none, as if repeated.
   for (const char* border : {"cut", "clamp"})
     out(run_signal_resample, {at("row.png"), "--size", "8x1", "--kernel", "lanczos3", "--codes", "--border", border,
                               "-o", at(border + std::string(".pfm"))});
@@ -135,8 +135,8 @@ TEST_F(SignalDecimate, MeasuresTheAcceptedFigures) {
 }
 
 TEST_F(SignalDecimate, DroppingPixelsTurnsAFineWaveIntoACoarseOne) {
-  // 0.4375 cycles per pixel, every second pixel: 0.875 becomes 0.125 a pixel, 8 pixels long, at full contrast; filtered
-  // it is grey.
+  // A wave of 0.4375 cycles per pixel at every second pixel: 0.875 is aliased to 0.125 cycles per pixel, a period of 8
+  // pixels at full contrast; filtered it is grey.
   out(run_signal_decimate,
       {"sine:size=64,frequency=0.4375", "--naive", at("n.png"), "--filtered", at("f.png"), "-o", at("both.png")});
   const Rgba8Image naive = picture("n.png"), filtered = picture("f.png");

@@ -16,7 +16,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr double least = 1e-9, greatest = 1e9;
-constexpr int steps = 1500;  // of a curve
+constexpr int steps = 1500;  // points of a curve
 constexpr int aliases_shown = 6;
 
 struct SampleArgs : SignalArgs {
@@ -26,7 +26,7 @@ struct SampleArgs : SignalArgs {
   double apparent() const { return apparent_frequency(frequency, rate); }
 };
 
-// Two periods of the slower wave, but some samples and no thicket of the faster one.
+// Two periods of the slower wave, limited so that there are some samples and the faster wave remains legible.
 double duration_of(const SampleArgs& args) {
   const double slow = std::abs(args.apparent());
   const double preferred = slow > 0 ? 2 / slow : 8 / args.rate;
@@ -59,7 +59,7 @@ Plot waves_plot(const SampleArgs& args) {
   return plot;
 }
 
-// The spectrum of the example: a triangle that ends at the frequency.
+// The spectrum of the example: a triangle whose bandwidth is the frequency.
 double spectrum_at(const SampleArgs& args, double f) { return std::max(0.0, 1 - std::abs(f) / args.frequency); }
 
 Plot copies_plot(const SampleArgs& args) {

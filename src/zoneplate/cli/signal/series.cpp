@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal series: a wave built up from its harmonics.
+// zoneplate signal series: a wave as the sum of its harmonics.
 #include "zoneplate/signal/fourier/series.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int greatest_term = 9999;
-constexpr int steps = 2000;  // of a curve over one period
+constexpr int steps = 2000;  // points of a curve over one period
 
 struct SeriesArgs : SignalArgs {
   std::vector<int> terms = {1, 3, 5, 15};
@@ -25,8 +25,8 @@ struct SeriesArgs : SignalArgs {
 /// The error of the partial sum of the harmonics 1 to `highest`.
 struct Sum {
   int highest = 0;
-  double greatest = 0;  ///< of the sum; the waves reach 1
-  double rms = 0;       ///< of the omitted harmonics, by Parseval
+  double greatest = 0;  ///< maximum of the sum; the waves have a maximum of 1
+  double rms = 0;       ///< root mean square of the omitted harmonics, by Parseval
 };
 
 double jump_of(Wave wave) { return wave == Wave::Triangle ? 0 : 2; }
@@ -34,8 +34,8 @@ double jump_of(Wave wave) { return wave == Wave::Triangle ? 0 : 2; }
 // The mean square of the waves: 1 for the square, 1/3 for the others.
 double mean_square(Wave wave) { return wave == Wave::Square ? 1 : 1.0 / 3; }
 
-// Where the sum is greatest. The derivative of the sums is a Dirichlet kernel, whose zero next to the jump is half a
-// period of the next harmonic away from it; the triangle's harmonics are all at their peak at its tip.
+// The position of the sum's maximum. The derivative of the sum is a Dirichlet kernel, whose first zero after the jump
+// is half a period of the next harmonic away; the triangle's harmonics all have their maximum at its tip.
 double summit(Wave wave, int highest) {
   if (wave == Wave::Triangle) return 0.25;
   const int last = wave == Wave::Square && highest % 2 == 0 ? highest - 1 : highest;
@@ -70,7 +70,7 @@ Plot sums_plot(Wave wave, const SeriesArgs& args) {
   return plot;
 }
 
-// Only as many harmonics as can be distinguished are drawn.
+// Limits the number of harmonics to a legible one.
 Plot harmonics_plot(Wave wave, const SeriesArgs& args) {
   const int last = std::clamp(*std::max_element(args.terms.begin(), args.terms.end()), 5, 40);
   Curve bars{"amplitude of the harmonic", {}, Curve::Mark::Stems, 0}, fall{"", {}, Curve::Mark::Dashed, Curve::grey};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands that draw plots from numbers alone: series, sample, box.
+// Tests of the subcommands that draw plots from numbers alone: series, sample, box.
 #include "zoneplate/signal/fourier/series.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
@@ -15,7 +15,7 @@ TEST_F(SignalSeries, OvershootsByGibbs) {
   EXPECT_NEAR(found["sums"][0]["greatest"].get<double>(), 4 / M_PI, 1e-5);
   EXPECT_NEAR(found["sums"][0]["missing_rms"].get<double>(), std::sqrt(1 - 8 / (M_PI * M_PI)), 1e-9);
   for (const std::size_t i : {1u, 2u}) EXPECT_NEAR(found["sums"][i]["overshoot_of_jump"].get<double>(), 0.08949, 1e-4);
-  // The summit is where it is said to be: no other place is higher.
+  // The sum is greatest at the reported position.
   for (const auto& [name, wave] :
        {std::pair{"square", Wave::Square}, {"sawtooth", Wave::Sawtooth}, {"triangle", Wave::Triangle}})
     for (const int highest : {1, 4, 9}) {

@@ -21,7 +21,7 @@ namespace {
 
 std::uint8_t code8(double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 1.0) * 255 + 0.5); }
 
-/// The greatest of the values that fall on each pixel of a smaller plane.
+/// The maximum of the values that fall on each pixel of a smaller plane.
 Plane<float> greatest_in(const Plane<float>& plane, int2 size) {
   Plane<float> out(size.x, size.y);
   for (int y = 0; y < plane.height(); ++y)
@@ -44,7 +44,7 @@ double greatest_power(const Spectrum& spectrum, bool with_mean) {
   return greatest;
 }
 
-// 1 at the scale's peak, 0 at its end.
+// Levels that are 1 at the scale's peak and 0 at its end.
 Plane<float> levels_of(const Spectrum& spectrum, const MagnitudeScale& scale) {
   Plane<float> levels = centred_log_magnitude(spectrum, whole_range_db);
   const double peak = scale.peak > 0 ? scale.peak : strongest_magnitude(spectrum);
@@ -92,7 +92,7 @@ Plane<float> luminance(const LinearImage& image) {
 
 double strongest_magnitude(const Spectrum& spectrum) {
   const double power = greatest_power(spectrum, false);
-  // Rounding leaves something in every bin of a constant.
+  // Rounding leaves a small magnitude in every bin of a constant.
   const double mean = power_of(spectrum.half.empty() ? Complex{} : spectrum.half(0, 0));
   return std::sqrt(power > 1e-24 * mean ? power : mean);
 }

@@ -29,7 +29,7 @@ TEST(SignalShow, ALineOfALargeSpectrumIsNotLost) {
 }
 
 TEST(SignalShow, PhasesAreNotMixed) {
-  // The middle 512 of 514: the mean is at its middle, as in the whole.
+  // The central 512 of 514 bins: the mean is at the centre, as in the whole spectrum.
   const Spectrum spectrum = spectrum_of("impulse:size=514");
   const Rgba8Image whole = paint_phase(spectrum), panel = phase_panel(spectrum);
   ASSERT_EQ(panel.width(), 512);
@@ -43,7 +43,7 @@ TEST(SignalShow, TitlesNameFilesNotFolders) {
 }
 
 TEST(SignalShow, LevelsAreDecibelsBelowThePeak) {
-  // A wave of amplitude ½ and one of a hundredth of it: 40 dB.
+  // A wave of amplitude ½ and one with a hundredth of it: 40 dB.
   Plane<float> plane = luminance(make_pattern("sine:size=64,frequency=0.25"));
   const Plane<float> weak = luminance(make_pattern("sine:size=64,frequency=0.125"));
   for (std::size_t i = 0; i < plane.values().size(); ++i) plane.values()[i] += weak.values()[i] / 100;
@@ -57,7 +57,7 @@ TEST(SignalShow, LevelsAreDecibelsBelowThePeak) {
   expect_level({.range_db = 80}, 16, 1);
   expect_level({.range_db = 80}, 8, 0.5f);
   expect_level({.range_db = 160}, 8, 0.75f);
-  // On the scale of a wave ten times as strong everything is 20 dB lower.
+  // On the scale of a wave ten times as strong, all levels are 20 dB lower.
   const MagnitudeScale stronger{80, 10 * strongest_magnitude(spectrum)};
   expect_level(stronger, 16, 0.75f);
   expect_level(stronger, 8, 0.25f);

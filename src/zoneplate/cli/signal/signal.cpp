@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal: spectra, filters and sampling. A table of subcommands, each in a file of its own.
+// zoneplate signal: spectra, filters and sampling. The table of subcommands, each of which has its own file.
 #include "zoneplate/cli/signal/signal.h"
 
 #include <vector>

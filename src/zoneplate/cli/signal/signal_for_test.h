@@ -20,7 +20,7 @@ namespace zoneplate::cli {
 
 using Words = std::vector<std::string>;
 
-/// Runs subcommands of `signal` in this process, in a folder of their own, and reads what they leave behind.
+/// Fixture that runs subcommands of `signal` in this process, in a temporary folder, and reads their output.
 class SignalVerb : public testing::Test {
  protected:
   SignalVerb() : folder_(std::filesystem::temp_directory_path() / ("zoneplate_signal_" + std::to_string(::getpid()))) {
@@ -39,7 +39,7 @@ class SignalVerb : public testing::Test {
     return {file.bytes().begin(), file.bytes().end()};
   }
 
-  /// What the subcommand prints.
+  /// The output of the subcommand on stdout.
   template <class Run>
   static std::string out(Run run, const Words& words) {
     testing::internal::CaptureStdout();
@@ -56,7 +56,7 @@ class SignalVerb : public testing::Test {
     words.emplace_back("--json");
     return parsed_json(out(run, words));
   }
-  /// The message of the error that is thrown, which has to be of this kind.
+  /// The message of the thrown error, which must be of this kind.
   template <class Run>
   static std::string refusal(Run run, const Words& words, ErrorKind kind = ErrorKind::Usage) {
     try {

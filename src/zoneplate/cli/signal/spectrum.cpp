@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate signal spectrum: which frequencies an image holds.
+// zoneplate signal spectrum: the frequencies of an image.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ struct SpectrumArgs : SignalArgs {
   Shown shown = Shown::Magnitude;
 };
 
-/// The wave that is strongest in a spectrum, the mean left out.
+/// The strongest wave of a spectrum, without the mean.
 struct Wave {
   double fx = 0, fy = 0, amplitude = 0;
 
@@ -39,8 +39,9 @@ struct Wave {
 
 /// The statistics of an image.
 struct Summary {
-  double mean = 0, deviation = 0;           ///< of the luminance that was transformed
-  double coarse = 0, fine = 0, corner = 0;  ///< shares of the variance: below ¼, from ¼ to ½, beyond ½ cycle per pixel
+  double mean = 0, deviation = 0;  ///< of the transformed luminance
+  /// Fractions of the variance: below ¼, from ¼ to ½, above ½ cycle per pixel.
+  double coarse = 0, fine = 0, corner = 0;
   Wave strongest;
 };
 
@@ -50,7 +51,8 @@ struct Analysis {
   Summary summary;
 };
 
-// A window spreads the mean over the bins next to frequency 0: they are no waves. Four cover every window of ours.
+// A window spreads the mean over the bins next to frequency 0, which therefore are not waves. Four bins are sufficient
+// for all windows.
 constexpr int window_reach = 4;
 
 Wave strongest_wave(const Spectrum& spectrum, bool is_windowed, double gain) {

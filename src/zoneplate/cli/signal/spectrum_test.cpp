@@ -11,7 +11,7 @@ namespace {
 using SignalSpectrum = SignalVerb;
 
 TEST_F(SignalSpectrum, FindsTheWaveOfASine) {
-  // 32 of 128 bins in x, 16 in y: frequency √5/16 towards atan(1/2).
+  // 32 of 128 bins in x, 16 in y: the frequency √5/16 at the angle atan(1/2).
   const double angle = std::atan(0.5) * 180 / M_PI, frequency = std::sqrt(5.0) / 16;
   const auto spec = "sine:size=128,frequency=" + std::to_string(2 * frequency) + ",angle=" + std::to_string(angle);
   for (const Words& window : {Words{}, Words{"--window", "hann"}, Words{"--periodic"}}) {
@@ -20,7 +20,7 @@ TEST_F(SignalSpectrum, FindsTheWaveOfASine) {
     const auto json = SignalVerb::json(run_signal_spectrum, words);
     EXPECT_NEAR(json["strongest"]["fx"].get<double>(), 0.25, 1e-9);
     EXPECT_NEAR(json["strongest"]["fy"].get<double>(), 0.125, 1e-9);
-    // The smooth part takes a little of a wave that does not end where it began.
+    // The smooth part contains a little of a wave with a fractional number of periods.
     EXPECT_NEAR(json["strongest"]["amplitude"].get<double>(), 0.5, window == Words{"--periodic"} ? 0.01 : 1e-4);
     EXPECT_NEAR(json["strongest"]["degrees"].get<double>(), angle, 1e-6);
   }
@@ -45,7 +45,7 @@ TEST_F(SignalSpectrum, DrawsAWaveAsTwoPointsAroundTheMiddle) {
 }
 
 TEST_F(SignalSpectrum, ShowsPhaseInARingOfColours) {
-  // An impulse in the middle of an even size: the phase is π (kx + ky), white and black in turns.
+  // An impulse in the middle of an even size: the phase is π (kx + ky), alternately white and black.
   out(run_signal_spectrum, {"impulse:size=16", "--phase", "-o", at("p.png")});
   const Rgba8Image image = picture("p.png");
   for (int y = 0; y < 16; ++y)
@@ -56,7 +56,7 @@ TEST_F(SignalSpectrum, TheRadialProfileOfNoiseIsFlat) {
   const auto json = SignalVerb::json(run_signal_spectrum, {"noise:size=128", "--radial"});
   const auto power = json["radial"]["power"].get<std::vector<double>>();
   ASSERT_EQ(power.size(), json["radial"]["frequency"].size());
-  // White noise of variance 1/12 has 1/12 over the number of pixels in every bin.
+  // White noise of variance 1/12 has a power of 1/12 over the number of pixels in every bin.
   for (std::size_t i = 8; i < 60; ++i) EXPECT_NEAR(power[i] * 12 * 128 * 128, 1, 0.35) << i;
   EXPECT_TRUE(contains(out(run_signal_spectrum, {"noise:size=32", "--radial"}), "frequency"));
 }

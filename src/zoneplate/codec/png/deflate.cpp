@@ -9,12 +9,13 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t shortest_run = 4, longest_run = 258;  // a run of three is three literals
+constexpr std::size_t shortest_run = 4, longest_run = 258;  // a run of three is encoded as three literals
 constexpr std::size_t end_of_block = 256, first_length = 257, literal_symbols = 286;
-// Four literals and what waits for a whole byte fit into 64 bits.
+// The limit allows four literals and up to seven pending bits in 64 bits.
 constexpr int longest_literal_code = 14;
 
-/// Bits to be appended: the code, reversed, because Huffman codes go from their first bit on.
+/// A Huffman code as it is appended: bit-reversed, because DEFLATE stores Huffman codes from their most significant
+/// bit.
 struct Code {
   std::uint16_t bits = 0;
   std::uint8_t length = 0;
@@ -22,7 +23,7 @@ struct Code {
 
 class BitWriter {
  public:
-  /// Requires  room for everything that will be put, and eight bytes more.
+  /// Requires  capacity for all bits that will be put, and eight bytes more.
   explicit BitWriter(std::uint8_t* at) : at_(at) {}
 
   /// Requires  length <= 56.
@@ -47,7 +48,7 @@ class BitWriter {
   int count_ = 0;
 };
 
-/// Literals, and then how often the last byte is repeated.
+/// A number of literals, followed by a number of repetitions of the last one.
 struct Piece {
   std::uint32_t literals, run;
 };
@@ -58,11 +59,11 @@ std::uint64_t word_at(const std::uint8_t* p) {
   return word;
 }
 
-/// The first place in [from, size) at which a run of repetitions begins, or size.
+/// The index of the first run of repetitions at or after `from`, or `size`.
 std::size_t find_run(const std::uint8_t* p, std::size_t from, std::size_t size) {
   constexpr std::uint64_t ones = 0x0101010101010101u, high = ones << 7;
   std::size_t i = std::max<std::size_t>(from, 1);
-  // Eight bytes against the ones before them: a byte of `same` is 0x80 where they are equal.
+  // Compares eight bytes with their predecessors: a byte of `same` is 0x80 where they are equal.
   for (; i + 8 <= size; i += 9 - shortest_run) {
     const std::uint64_t differ = word_at(p + i) ^ word_at(p + i - 1);
     const std::uint64_t same = ~(((differ & ~high) + ~high) | differ) & high;
@@ -94,7 +95,7 @@ std::vector<Piece> find_pieces(std::span<const std::uint8_t> bytes) {
   return pieces;
 }
 
-/// A length between 3 and 258: its symbol, and the bits that follow.
+/// The encoding of a length between 3 and 258: its symbol and the extra bits.
 struct RunLength {
   std::uint16_t symbol;
   std::uint8_t extra_bits, extra;
@@ -113,11 +114,11 @@ constexpr std::array<RunLength, longest_run + 1> make_run_lengths() {
 }
 constexpr std::array<RunLength, longest_run + 1> run_lengths = make_run_lengths();
 
-/// Calls use(length) for the lengths between 3 and 258 that a run is cut into.
+/// Splits a run into lengths between 3 and 258 and calls use(length) for each.
 template <class Use>
 void cut_run(std::size_t run, Use use) {
   while (run > 0) {
-    // What is left after the last whole piece must not be too short for a length.
+    // The remainder after the last full length must not be shorter than 3.
     const std::size_t length = run <= longest_run ? run : run < longest_run + 3 ? run - 3 : longest_run;
     use(length);
     run -= length;
@@ -127,7 +128,7 @@ void cut_run(std::size_t run, Use use) {
 using Counts = std::array<std::uint32_t, literal_symbols>;
 
 Counts count_symbols(std::span<const std::uint8_t> bytes, const std::vector<Piece>& pieces) {
-  // Four tables: equal neighbours do not wait for each other.
+  // Four tables, so that increments of the same symbol do not depend on each other.
   std::uint32_t literals[4][256] = {};
   Counts counts{};
   const std::uint8_t* p = bytes.data();
@@ -144,9 +145,10 @@ Counts count_symbols(std::span<const std::uint8_t> bytes, const std::vector<Piec
   return counts;
 }
 
-/// The codes of given lengths: shorter ones first, of equal length in the order of their symbols.
+/// Assigns canonical codes to lengths: shorter codes first, equal lengths in the order of their symbols.
 void make_codes(std::span<const std::uint8_t> lengths, std::span<Code> codes) {
-  std::array<std::uint32_t, 17> next{};  // the number of codes that are one shorter; then the next code of that length
+  // next[i] is first the number of codes of length i - 1, then the next code of length i.
+  std::array<std::uint32_t, 17> next{};
   for (const std::uint8_t length : lengths) ++next[length + 1u];
   next[1] = 0;
   for (std::size_t length = 1; length < next.size(); ++length) next[length] = 2 * (next[length] + next[length - 1]);
@@ -159,7 +161,7 @@ void make_codes(std::span<const std::uint8_t> lengths, std::span<Code> codes) {
   }
 }
 
-/// The code's lengths as they stand in front of a block, themselves in a Huffman code, zeros in runs.
+/// The code lengths in front of a block: they are Huffman-coded themselves, with runs of zeros.
 class LengthTable {
  public:
   explicit LengthTable(std::span<const std::uint8_t> lengths) {
@@ -182,7 +184,7 @@ class LengthTable {
     for (const Entry& e : entries_) ++counts[e.symbol];
     std::array<std::uint8_t, 19> lengths{};
     huffman_lengths(counts, 7, lengths);
-    // Decoders require a complete code here too.
+    // Decoders require this code to be complete as well.
     if (std::count(lengths.begin(), lengths.end(), 0) == 18) lengths[lengths[0] == 0 ? 0 : 1] = 1;
     std::array<Code, 19> codes{};
     make_codes(lengths, codes);
@@ -220,7 +222,7 @@ void write_pieces(std::span<const std::uint8_t> bytes, const std::vector<Piece>&
     cut_run(piece.run, [&](std::size_t length) {
       const RunLength& run = run_lengths[length];
       const Code code = codes[run.symbol];
-      // The one distance there is, 1, is a single bit 0.
+      // The only distance is 1; its code is a single 0 bit.
       out.put(code.bits | std::uint64_t{run.extra} << code.length, code.length + run.extra_bits + 1);
     });
     p += piece.literals + piece.run;
@@ -250,7 +252,7 @@ void huffman_lengths(std::span<const std::uint32_t> counts, int limit, std::span
       return p.count != q.count ? p.count < q.count : p.symbol < q.symbol;
     });
 
-    // The two least of the leaves and of the sums, which rise as well, become a sum.
+    // Merges the two smallest of the leaves and of the inner nodes; both sequences are sorted by count.
     std::size_t leaf = 0, sum = leaves, end = leaves;
     const auto take = [&] {
       const bool is_leaf = sum == end || (leaf < leaves && node[leaf].count <= node[sum].count);
@@ -260,12 +262,12 @@ void huffman_lengths(std::span<const std::uint32_t> counts, int limit, std::span
     };
     while (end < 2 * leaves - 1) {
       const std::uint64_t first = take();
-      // The sum that is being made counts for nothing yet.
+      // take() does not see node[end] yet, because its index is `end`.
       node[end].count = first + take();
       ++end;
     }
 
-    // A sum's depth is found before those below it, which then keep theirs where their count was.
+    // Replaces counts by depths. A parent precedes its children in this order, so that its count is its depth already.
     node[end - 1].count = 0;
     std::uint64_t deepest = 0;
     for (std::size_t i = end - 1; i-- > 0;) {
@@ -286,7 +288,7 @@ void deflate_part(std::span<const std::uint8_t> bytes, bool is_last, std::vector
   std::array<Code, literal_symbols> codes{};
   make_codes(std::span(lengths).first(literal_symbols), codes);
 
-  // Counted, so that no write needs to look whether there is room.
+  // The size is computed in advance, so that writes need no bounds check.
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < literal_symbols; ++i)
     bits += std::uint64_t{counts[i]} * (lengths[i] + (i > 256 ? 6u : 0u));
@@ -297,7 +299,7 @@ void deflate_part(std::span<const std::uint8_t> bytes, bool is_last, std::vector
   std::size_t used = literal_symbols;
   while (lengths[used - 1] == 0) --used;
   const bool has_runs = used > first_length;
-  lengths[used] = has_runs ? 1 : 0;  // of the distance
+  lengths[used] = has_runs ? 1 : 0;  // the length of the distance code
   BitWriter writer(out.data() + before);
   writer.put(is_last ? 1 : 0, 1);
   writer.put(2, 2);
@@ -306,7 +308,7 @@ void deflate_part(std::span<const std::uint8_t> bytes, bool is_last, std::vector
   LengthTable(std::span(lengths).first(used + 1)).write(writer);
   write_pieces(bytes, pieces, codes, writer);
   if (!is_last) {
-    // An empty stored block reaches to the next byte.
+    // An empty stored block aligns the output to a byte.
     writer.put(0, 3);
     writer.end_of_byte();
     writer.put(0xffff0000u, 32);

@@ -15,7 +15,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What zlib makes of a raw DEFLATE stream; fails the test where it is not one, whole and nothing after it.
+/// Decompresses a raw DEFLATE stream with zlib; the test fails if the stream is invalid, incomplete or followed by
+/// other bytes.
 Bytes inflated(const Bytes& stream, std::size_t size) {
   Bytes out(size + 1);
   z_stream z{};
@@ -37,7 +38,7 @@ Bytes deflated(const Bytes& bytes) {
   return out;
 }
 
-/// Bytes below `range`, each repeated at random up to `longest` times.
+/// Bytes below `range`, each repeated a random number of times, at most `longest`.
 Bytes noise(std::size_t size, std::uint32_t range, std::uint32_t longest, std::uint32_t seed) {
   Bytes out;
   for (std::uint32_t i = 0; out.size() < size; ++i) {
@@ -49,7 +50,7 @@ Bytes noise(std::size_t size, std::uint32_t range, std::uint32_t longest, std::u
 }
 
 TEST(Deflate, ZlibReadsEveryLengthOfRun) {
-  // One run between other bytes, of each length, begun at each place of a word.
+  // One run between other bytes, of each length and at each offset within a word.
   for (std::size_t run = 1; run <= 540; ++run) {
     Bytes bytes(run % 11, 1);
     std::iota(bytes.begin(), bytes.end(), std::uint8_t{2});
@@ -81,11 +82,11 @@ TEST(Deflate, PartsMakeOneStream) {
 TEST(Deflate, RunsCostNextToNothingAndNoiseLittleMoreThanItself) {
   EXPECT_LT(deflated(Bytes(131072, 0)).size(), 200u);
   EXPECT_LT(deflated(noise(131072, 256, 1, 3)).size(), 131072u + 400u);
-  // Two bits a byte would do; to write runs of four as runs, which pays elsewhere, costs an eighth here.
+  // The entropy is two bits per byte; encoding runs of four as runs, which pays for other data, costs an eighth here.
   EXPECT_LT(deflated(noise(131072, 4, 1, 3)).size(), 131072u / 4 * 9 / 8);
 }
 
-/// Twice to the power of minus the length, summed in units of 2^-32: 2^32 for a complete code.
+/// The sum of 2^-length over all codes, in units of 2^-32: 2^32 for a complete code.
 std::uint64_t kraft_sum(const std::vector<std::uint8_t>& lengths) {
   std::uint64_t sum = 0;
   for (const std::uint8_t length : lengths)
@@ -94,7 +95,7 @@ std::uint64_t kraft_sum(const std::vector<std::uint8_t>& lengths) {
 }
 
 TEST(HuffmanLengths, AreTheBestOnes) {
-  // Known by hand: 45 13 12 16 9 5 needs 224 bits (Cormen et al.).
+  // An example by Cormen et al.: 45 13 12 16 9 5 takes 224 bits.
   const std::vector<std::uint32_t> counts = {45, 13, 12, 0, 16, 9, 5};
   std::vector<std::uint8_t> lengths(7);
   huffman_lengths(counts, 15, lengths);
@@ -106,7 +107,7 @@ TEST(HuffmanLengths, AreTheBestOnes) {
 }
 
 TEST(HuffmanLengths, KeepTheLimit) {
-  // Fibonacci's numbers make the deepest tree there is.
+  // Fibonacci numbers give the deepest tree.
   std::vector<std::uint32_t> counts = {1, 1};
   while (counts.size() < 40) counts.push_back(counts[counts.size() - 1] + counts[counts.size() - 2]);
   for (const int limit : {6, 7, 14, 15, 39}) {
@@ -121,7 +122,7 @@ TEST(HuffmanLengths, KeepTheLimit) {
 }
 
 TEST(Deflate, ManyDepthsOfCode) {
-  // Counts by Fibonacci need codes longer than the limit; zlib must find them whole.
+  // Fibonacci counts need codes longer than the limit; zlib must accept the limited code as complete.
   Bytes bytes;
   std::size_t a = 1, b = 1;
   for (std::uint8_t symbol = 0; symbol < 22; ++symbol) {

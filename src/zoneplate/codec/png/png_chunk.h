@@ -12,14 +12,14 @@ namespace zoneplate {
 
 // Chunks of PNG and APNG files (PNG specification, third edition, section 5.3).
 
-/// Appends a number of four bytes, big-endian.
+/// Appends a four-byte big-endian number.
 inline void put_png_word(std::vector<std::uint8_t>& out, std::uint32_t value) {
   for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-/// Continues the checksum `crc` with more bytes; 0 is the initial value.
+/// Updates the checksum `crc` with more bytes; the initial value is 0.
 inline std::uint32_t png_checksum(std::uint32_t crc, std::span<const std::uint8_t> bytes) {
-  // zlib would return its initial value for an empty span.
+  // For an empty span, whose pointer is null, crc32 would return its initial value.
   return bytes.empty() ? crc : static_cast<std::uint32_t>(crc32(crc, bytes.data(), static_cast<uInt>(bytes.size())));
 }
 
@@ -34,7 +34,7 @@ inline void put_png_chunk(std::vector<std::uint8_t>& out, std::string_view name,
   put_png_word(out, crc);
 }
 
-/// The same, and computes the checksum.
+/// Appends a whole chunk and computes its checksum.
 inline void put_png_chunk(std::vector<std::uint8_t>& out, std::string_view name, std::span<const std::uint8_t> data) {
   const std::span name_bytes(reinterpret_cast<const std::uint8_t*>(name.data()), name.size());
   put_png_chunk(out, name, data, png_checksum(png_checksum(0, name_bytes), data));

@@ -30,7 +30,7 @@ void up_rgb(const std::uint8_t* row, const std::uint8_t* above, std::size_t n, s
     for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = static_cast<std::uint8_t>(row[4 * i + c] - above[4 * i + c]);
 }
 
-/// The sum of all lanes; of integers, so that their order is of no account.
+/// The sum of all lanes, which are integers, so that the order of addition does not matter.
 template <class V>
 HWY_INLINE std::uint64_t total(V v) {
   const hn::DFromV<V> d;
@@ -49,12 +49,12 @@ std::uint32_t adler(const std::uint8_t* p, std::size_t n) {
   const hn::Repartition<std::int32_t, decltype(i16)> i32;
   const hn::Repartition<std::uint64_t, decltype(words)> u64;
   const std::size_t lanes = hn::Lanes(bytes);
-  // Byte j of a vector is in as many of its prefix sums as bytes follow it, and one more.
+  // Within a vector of n bytes, byte j is a term of n - j prefix sums.
   const auto first = hn::Sub(hn::Set(i16, static_cast<std::int16_t>(lanes)), hn::Iota(i16, 0));
   const auto second = hn::Sub(first, hn::Set(i16, static_cast<std::int16_t>(lanes / 2)));
   std::uint64_t sum = 1, sums = 0;
   while (n >= lanes) {
-    // So few vectors that no lane can overflow.
+    // The number of vectors is limited so that no lane overflows.
     const std::size_t vectors = n / lanes < 4096 ? n / lanes : 4096;
     auto all = hn::Zero(u64), before = hn::Zero(u64);
     auto weighted = hn::Zero(i32), weighted_too = hn::Zero(i32);

@@ -37,7 +37,7 @@ TEST(PngRows, AdlerIsZlibs) {
   std::vector<std::vector<std::uint8_t>> inputs;
   for (std::size_t n = 0; n <= 200; ++n) inputs.push_back(noise(n, 3));
   inputs.push_back(noise(300000, 4));
-  inputs.emplace_back(500000, std::uint8_t{255});  // the greatest sums
+  inputs.emplace_back(500000, std::uint8_t{255});  // the greatest possible sums
   for (const auto& bytes : inputs)
     for (const Isa isa : supported_isas())
       EXPECT_EQ(PngRowKernels::of(isa).adler(bytes.data(), bytes.size()),

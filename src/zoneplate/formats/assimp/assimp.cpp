@@ -49,7 +49,7 @@ constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
 
 #if __has_include(<assimp/cimport.h>)
 
-/// The functions of the library that are used here.
+/// The functions of the library that this file calls.
 struct AssimpLibrary {
   decltype(&aiImportFileEx) import = nullptr;
   decltype(&aiReleaseImport) release = nullptr;
@@ -63,7 +63,7 @@ struct AssimpLibrary {
   }
 };
 
-/// The library's own words, which may be several lines.
+/// Joins the lines of the library's error message, and limits its length.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');

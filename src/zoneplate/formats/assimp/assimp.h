@@ -10,14 +10,14 @@
 
 namespace zoneplate {
 
-/// The formats that the library assimp reads.
+/// The formats that the library assimp supports.
 std::span<const SceneFormat> assimp_formats();
 
-/// Loads a model by the library assimp, which is loaded at its first use, in a child process.
+/// Loads a model with the library assimp, which is opened at its first use, in a child process.
 ///
-/// The result has the nodes with their meshes, materials as far as MTL can express them, and textures, including
-/// embedded ones; no animations, bones, lights and cameras. Polygons are triangulated and missing normals computed as
-/// for PLY.
+/// The result has the nodes with their meshes, those properties of materials that MTL can express, and textures,
+/// including embedded ones; no animations, bones, lights and cameras. Polygons are triangulated, and missing normals
+/// are computed as for PLY.
 ///
 /// Inside a LimitedChild, which has limits already, the library runs in that process.
 /// Requires  `extension` is one of assimp_formats().

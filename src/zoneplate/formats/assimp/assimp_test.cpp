@@ -22,7 +22,7 @@ namespace {
 using mesh_samples::Bytes;
 using mesh_samples::bytes_of;
 
-// Looked for by its file, as the library itself is to be opened by children only.
+// Checks for the file of the library, because only child processes may open the library itself.
 bool has_library() { return std::filesystem::exists("/usr/lib/x86_64-linux-gnu/libassimp.so.5"); }
 
 Scene load(const Bytes& bytes, const char* format) {
@@ -30,10 +30,10 @@ Scene load(const Bytes& bytes, const char* format) {
   return load_scene(file.write(bytes), {.limits = {}, .format = format, .choice = {}});
 }
 
-/// An L, concave: three unit squares, in one face of six corners.
+/// A concave L of three unit squares, one face with six corners.
 const char* const off = "OFF\n6 1 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n";
 
-/// A red square of 2 that lies on the ground of a world whose z points up, moved to x = 5.
+/// A red square of side 2 on the ground of a z-up world, translated to x = 5.
 const char* const dae =
     R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><up_axis>Z_UP</up_axis></asset>
@@ -57,7 +57,7 @@ const char* const dae =
 <scene><instance_visual_scene url="#w"/></scene></COLLADA>
 )";
 
-/// A chunk of a 3DS file: its number, its length with these six bytes, its content.
+/// A chunk of a 3DS file: its identifier, its length including these six bytes, its content.
 Bytes chunk(std::uint16_t number, const Bytes& content) {
   Bytes out;
   mesh_samples::add<std::uint16_t>(out, number);
@@ -155,7 +155,8 @@ TEST(Assimp, SaysWhyNot) {
   EXPECT_THROW(load_scene("missing.fbx"), Error);
 }
 
-/// "" if the file is drawn, and its scene sound; else the error, one line that begins with the file's name.
+/// Loads a file and validates the scene. Returns "", or the error message, which must be one line that begins with the
+/// file's name.
 std::string verdict(const Bytes& bytes, const std::string& format) {
   const MemoryFile file;
   const std::string path = file.write(bytes);
@@ -210,7 +211,7 @@ TEST(Assimp, DamagedFilesAreSoundOrRefusedInOneLine) {
       for (int n = 0; n < 3; ++n) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
       refused += !verdict(bytes, format).empty();
     }
-    EXPECT_GE(refused, 6) << format;  // of three random bytes one is mostly where it matters
+    EXPECT_GE(refused, 6) << format;  // most triples of random bytes change a byte that matters
   }
 }
 

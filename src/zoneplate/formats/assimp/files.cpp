@@ -11,7 +11,7 @@
 
 namespace zoneplate {
 
-/// One opening of a file: assimp's record of it comes first, so that each can be had from the other.
+/// An open file. It contains assimp's record of it, whose user data points back to this object.
 struct AssimpFiles::Open {
   aiFile file{};
   std::span<const std::uint8_t> bytes;
@@ -30,7 +30,7 @@ struct AssimpFiles::Open {
   }
   static Open& of(aiFile* f) { return *reinterpret_cast<Open*>(f->UserData); }
 
-  /// As fread: how many whole items.
+  /// Reads whole items, as fread does; returns their number.
   std::size_t read(char* out, std::size_t size, std::size_t count) {
     if (size == 0) return 0;
     const std::size_t whole = std::min(count, (bytes.size() - at) / size);
@@ -40,7 +40,8 @@ struct AssimpFiles::Open {
   }
   aiReturn seek(std::size_t offset, aiOrigin origin) {
     const std::size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at : bytes.size();
-    const std::size_t to = from + offset;  // an offset backwards wraps round, and so does the sum
+    // A negative offset is a large unsigned number; the sum wraps around to the intended one.
+    const std::size_t to = from + offset;
     if (to > bytes.size()) return aiReturn_FAILURE;
     at = to;
     return aiReturn_SUCCESS;
@@ -66,7 +67,7 @@ aiFile* AssimpFiles::open(aiFileIO* io, const char* name, const char* mode) {
 aiFile* AssimpFiles::open(const std::string& name) {
   if (name == model_name_) return &(new Open(model_.bytes()))->file;
   try {
-    // Names come with the folder in front; what counts is where they lead.
+    // assimp passes names that include the folder; find_path checks where they lead after symbolic links.
     std::string uri;
     for (const char c : std::filesystem::absolute(name).string())
       uri += c == '%' ? std::string("%25") : std::string(1, c);

@@ -14,12 +14,12 @@
 
 namespace zoneplate {
 
-/// The files that assimp may open, to read: the model, and what lies in its folder or among LoadLimits::allowed_paths.
+/// The files that assimp may open for reading: the model, and the files in its folder or in LoadLimits::allowed_paths.
 class AssimpFiles {
  public:
   AssimpFiles(const std::string& path, const std::string& folder, std::string_view extension, ImportBudget& budget);
 
-  /// The name of the model for assimp, which selects the format by the extension.
+  /// The name that assimp gets for the model. Its extension selects the format.
   const std::string& model_name() const { return model_name_; }
   aiFileIO* io() { return &io_; }
 

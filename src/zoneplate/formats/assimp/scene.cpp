@@ -32,7 +32,7 @@ const aiMaterialProperty* find_property(const aiMaterial& m, std::string_view ke
   return nullptr;
 }
 
-/// The floats of a property, as many as it has up to three; the rest is zero.
+/// Up to three floats of a property, padded with zeros; nothing if it has fewer than `least`.
 std::optional<float3> find_floats(const aiMaterial& m, std::string_view key, std::size_t least) {
   const aiMaterialProperty* p = find_property(m, key);
   if (p == nullptr || p->mType != aiPTI_Float || p->mDataLength < least * sizeof(float)) return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<float> find_float(const aiMaterial& m, std::string_view key) {
   return floats ? std::optional(floats->x) : std::nullopt;
 }
 
-/// A text is stored as its length in 32 bits and its characters.
+/// Decodes a string property: a 32-bit length followed by the characters.
 std::string find_text(const aiMaterial& m, std::string_view key, unsigned semantic = 0) {
   const aiMaterialProperty* p = find_property(m, key, semantic);
   if (p == nullptr || p->mType != aiPTI_String || p->mDataLength < 5) return "";
@@ -62,7 +62,7 @@ std::string find_image(const aiMaterial& m, std::initializer_list<aiTextureType>
   return "";
 }
 
-/// The parameters of MTL are those that are imported from other formats, too.
+/// Converts a material to the parameters of MTL, the only ones that are imported from these formats.
 MtlMaterial mtl_of(const aiMaterial& m) {
   MtlMaterial out;
   out.name = find_text(m, "?mat.name");
@@ -76,7 +76,7 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   if (out.opacity == 0.0f) out.opacity.reset();  // a fully transparent material is most likely an error of the exporter
   out.metallic = find_float(m, "$mat.metallicFactor");
   out.roughness = find_float(m, "$mat.roughnessFactor");
-  if (out.exponent == 0.0f) out.specular.reset();  // as formats without highlights write it
+  if (out.exponent == 0.0f) out.specular.reset();  // formats without highlights have exponent 0
   out.diffuse_map.file = find_image(m, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
   out.emissive_map.file = find_image(m, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
   out.opacity_map.file = find_image(m, {aiTextureType_OPACITY});
@@ -84,7 +84,7 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   return out;
 }
 
-/// Turns the triangles of a mesh round where most of them face against its normals.
+/// Reverses the triangles of a mesh if most of them face away from its normals.
 void turn_to_normals(Mesh& mesh) {
   std::int64_t against = 0;
   for (std::size_t k = 0; k + 3 <= mesh.index.size(); k += 3) {
@@ -98,7 +98,7 @@ void turn_to_normals(Mesh& mesh) {
   for (std::size_t k = 0; k + 3 <= mesh.index.size(); k += 3) std::swap(mesh.index[k + 1], mesh.index[k + 2]);
 }
 
-/// The conversion at work. Meshes of assimp mix primitives: each becomes up to three of ours.
+/// The state of a conversion. A mesh of assimp may mix primitives, and becomes up to three meshes.
 class Conversion {
  public:
   Conversion(const aiScene& from, ModelFolder& folder)
@@ -119,7 +119,7 @@ class Conversion {
   }
 
  private:
-  /// An image in the model's file, which materials reference by its number or its name.
+  /// Adds an image that is embedded in the file; materials refer to it by its index or its name.
   void embed(const aiTexture& t, unsigned number) {
     std::string names[] = {"*" + std::to_string(number), text_of(t.mFilename)};
     if (t.mHeight == 0) {
@@ -171,7 +171,7 @@ class Conversion {
     if (std::any_of(corners.begin(), corners.end(), [&](unsigned i) { return i >= m.mNumVertices; }))
       throw Error(ErrorKind::Input, budget_.file() + ": a face names a vertex that is not there");
     if (corners.empty()) return;
-    constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
+    constexpr std::size_t many_corners = 64;  // triangulating a polygon of more corners may take long
     if (corners.size() > many_corners) budget_.check_time();
     std::vector<std::uint32_t>& out = index[std::min<std::size_t>(corners.size(), 3) - 1];
     budget_.take(3 * corners.size() * sizeof(std::uint32_t));
@@ -184,7 +184,7 @@ class Conversion {
       for (const std::uint32_t corner : triangle) out.push_back(corners[corner]);
   }
 
-  /// The numbers of the new meshes.
+  /// Adds the meshes that a mesh of assimp becomes; returns their indices.
   std::vector<int> add_mesh(const aiMesh& m) {
     budget_.check_time();
     std::array<std::vector<std::uint32_t>, 3> index;
@@ -245,7 +245,7 @@ class Conversion {
   ModelFolder& folder_;
   Scene& scene_;
   ImportBudget& budget_;
-  std::vector<std::vector<int>> parts_;  ///< our meshes of each of assimp's
+  std::vector<std::vector<int>> parts_;  ///< for each mesh of assimp, the indices of our meshes
   std::vector<float3> polygon_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::uint64_t dropped_ = 0;

@@ -7,9 +7,9 @@
 
 namespace zoneplate {
 
-/// Fills a scene with what assimp has read; `folder` is where its textures are looked for. Nothing of it is trusted.
+/// Converts assimp's scene, which is not trusted; textures are searched in `folder`.
 ///
-/// Errors    ErrorKind::Input: indices out of range, nodes too deep, the limits.
+/// Errors    ErrorKind::Input: indices out of range, nodes nested too deeply, limits exceeded.
 void convert_assimp_scene(const aiScene& from, ModelFolder& folder);
 
 }  // namespace zoneplate

@@ -12,17 +12,17 @@
 namespace zoneplate {
 namespace {
 
-/// glTF's numbers for the types of a component.
+/// glTF's constants for component types.
 enum ComponentType { Int8 = 5120, Uint8 = 5121, Int16 = 5122, Uint16 = 5123, Uint32 = 5125, Float = 5126 };
 
 std::uint64_t component_size(int type) {
   return type == Int8 || type == Uint8 ? 1 : type == Int16 || type == Uint16 ? 2 : 4;
 }
 
-/// The layout of `count` elements, all of which lie within `bytes`.
+/// The layout of `count` elements, all of which are within `bytes`.
 struct Layout {
   std::uint64_t count = 0;
-  std::uint64_t components = 1;  ///< of one element
+  std::uint64_t components = 1;  ///< components per element
   int type = Float;
   bool is_normalized = false;
   std::span<const std::uint8_t> bytes{};  ///< empty: all elements are zero
@@ -49,7 +49,7 @@ std::uint64_t read_components(const JsonView& json) {
   json.fail("type is " + quoted(type) + ", expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
 }
 
-/// Puts the elements into the buffer view that `json` names, and checks that they fit.
+/// Locates the elements in the buffer view that `json` names, and checks that they fit.
 void place_in_view(GltfFile& file, const JsonView& json, const std::string& what, Layout& layout) {
   const std::size_t view = json.index("bufferView", file.count("bufferViews"));
   const std::uint64_t offset = json.whole("byteOffset", 0), size = layout.element_size();
@@ -68,10 +68,10 @@ void place_in_view(GltfFile& file, const JsonView& json, const std::string& what
                              static_cast<std::size_t>(expected));
 }
 
-/// Checks an accessor whose elements have no bytes in the file: a small file must not exhaust memory.
+/// The maximum number of elements of an accessor without a buffer view, so that a small file cannot exhaust memory.
 constexpr std::uint64_t most_zeros = std::uint64_t{1} << 22;
 
-/// An accessor, its place in messages "mesh 3 primitive 0 POSITION".
+/// An accessor, whose name in messages is of the form "mesh 3 primitive 0 POSITION".
 struct Accessor {
   JsonView json;
   Layout layout;
@@ -99,7 +99,7 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
   return a;
 }
 
-/// The elements as a list of T, where they stand in memory as one; else null.
+/// The elements as an array of T if their memory has this layout; else null.
 template <class T>
 const T* list_of(const Layout& from) {
   const bool is_list = !from.bytes.empty() && from.stride == sizeof(T) && from.element_size() == sizeof(T) &&
@@ -107,7 +107,7 @@ const T* list_of(const Layout& from) {
   return is_list ? reinterpret_cast<const T*>(from.bytes.data()) : nullptr;
 }
 
-/// One component as a float: plain, or as KHR_mesh_quantization and the core specification normalise it.
+/// One component as a float: its value, or normalized according to KHR_mesh_quantization and the core specification.
 template <class T>
 float to_float(T value, bool is_normalized) {
   if constexpr (std::is_floating_point_v<T>) return value;
@@ -130,7 +130,7 @@ void convert_as(const Layout& from, std::uint64_t first, std::size_t count, floa
   }
 }
 
-/// Elements [first, first + count) as floats, `to_stride` floats from one to the next.
+/// Converts elements [first, first + count) to floats; consecutive elements are `to_stride` floats apart.
 void convert(const Layout& from, std::uint64_t first, std::size_t count, float* to, std::size_t to_stride) {
   if (from.type == Int8) convert_as<std::int8_t>(from, first, count, to, to_stride);
   if (from.type == Uint8) convert_as<std::uint8_t>(from, first, count, to, to_stride);
@@ -154,7 +154,7 @@ void widen_as(const Layout& from, std::vector<std::uint32_t>& to) {
   }
 }
 
-/// Unsigned integers, widened.
+/// Reads unsigned integers, widened to 32 bits.
 std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, const Layout& from) {
   if (from.type != Uint8 && from.type != Uint16 && from.type != Uint32)
     json.fail("componentType is " + std::to_string(from.type) + ", expected 5121, 5123 or 5125");
@@ -172,7 +172,7 @@ std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, c
   return out;
 }
 
-/// The places of an accessor's sparse elements, and the elements.
+/// The indices and values of an accessor's sparse elements.
 struct Sparse {
   std::vector<std::uint32_t> index;
   Layout values;
@@ -225,7 +225,7 @@ std::vector<V> read_vectors(GltfFile& file, const Accessor& a, ElementRange rang
   return out;
 }
 
-/// An accessor of floats or integers that can stand for them, of one of two types.
+/// An accessor of one of two types whose components are floats or permitted integers.
 Accessor find_vectors(GltfFile& file, const JsonView& owner, const char* key, const char* type, const char* or_type) {
   Accessor a = find_accessor(file, owner, key);
   const std::string found = a.json.text("type");

@@ -9,13 +9,13 @@
 
 namespace zoneplate {
 
-/// Consecutive elements of an accessor.
+/// A range of an accessor's elements.
 struct ElementRange {
   std::uint64_t first = 0;
-  std::uint64_t count = ~std::uint64_t{0};  ///< as many as there are
+  std::uint64_t count = ~std::uint64_t{0};  ///< default: all following elements
 };
 
-/// The number of elements of the accessor whose index stands under `key` of `owner`; its buffer view holds them.
+/// The number of elements of the accessor whose index is the value of `key` in `owner`; its buffer view contains them.
 std::uint64_t count_elements(GltfFile& file, const JsonView& owner, const char* key);
 
 /// The shape of an accessor: the number of elements, of components per element, and their type (5120 to 5126).
@@ -25,21 +25,21 @@ struct ElementShape {
 };
 ElementShape read_shape(const GltfFile& file, const JsonView& owner, const char* key);
 
-/// The elements of the accessor whose index stands under `key` of `owner`.
+/// Reads the elements of the accessor whose index is the value of `key` in `owner`; `read_float` reads scalars.
 ///
-/// Normalised integers become [0, 1] or [-1, 1]; other integers keep their value. Sparse elements are in their place.
-/// Errors    ErrorKind::Input naming owner and key: no such accessor, another type than expected, an element outside
-///           its buffer view, sparse indices that are out of range or do not grow, more memory than the budget.
-/// Single numbers.
+/// Normalized integers become [0, 1] or [-1, 1]; other integers keep their value. Sparse elements replace those of the
+/// buffer view.
+/// Errors    ErrorKind::Input naming owner and key: no such accessor, an unexpected type, an element outside its buffer
+///           view, sparse indices that are out of range or not increasing, more memory than the budget.
 std::vector<float> read_float(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float2> read_float2(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float3> read_float3(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float4> read_float4(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
-/// RGB or RGBA; alpha is 1 where it is missing.
+/// RGB or RGBA; a missing alpha is 1.
 std::vector<float4> read_color(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
-/// The difference of two colours: alpha is 0 where it is missing.
+/// The difference of two colours; a missing alpha is 0.
 std::vector<float4> read_color_change(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
-/// Numbers of joints: unsigned integers of 1 or 2 bytes.
+/// Indices of joints: unsigned integers of 1 or 2 bytes.
 std::vector<float4> read_joints(GltfFile& file, const JsonView& owner, const char* key, ElementRange range = {});
 std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const char* key);
 /// Vertex indices: unsigned integers of 1, 2 or 4 bytes.

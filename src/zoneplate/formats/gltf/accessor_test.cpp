@@ -8,7 +8,7 @@
 namespace zoneplate {
 namespace {
 
-/// Reads the accessor that was added last, by `read(file, owner, "X")`.
+/// Reads the last added accessor with `read(file, owner, "X")`.
 template <class Read>
 auto read_last(const GltfMaker& maker, const std::string& number, Read read, const LoadLimits& limits = {}) {
   const TestFolder folder;

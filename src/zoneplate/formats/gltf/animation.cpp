@@ -33,7 +33,8 @@ ValueShape shape_of(Path path) {
 
 enum class Interpolation { Step, Linear, CubicSpline };
 
-/// Where a moment lies among the keys: at `first`, or the share `t` of the way to the next, `span` seconds long.
+/// The position of a time among the keys: at `first`, plus the fraction `t` of the interval to the next key, which is
+/// `span` seconds long.
 struct Moment {
   std::size_t first = 0;
   float t = 0, span = 0;
@@ -72,12 +73,12 @@ std::vector<float> read_values(GltfFile& file, const JsonView& sampler, std::siz
   return out;
 }
 
-/// Between two values at the share t.
+/// Interpolates linearly between two values.
 void mix_linear(const float* a, const float* b, float t, std::vector<float>& out) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] + (b[i] - a[i]) * t;
 }
 
-/// Along the shorter great circle; as a chord where the two are so near that both are the same.
+/// Interpolates along the shorter great circle; linearly if the two rotations are nearly equal.
 void mix_rotations(const float* a, const float* b, float t, std::vector<float>& out) {
   float d = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const float sign = d < 0 ? -1.0f : 1.0f;
@@ -91,7 +92,8 @@ void mix_rotations(const float* a, const float* b, float t, std::vector<float>& 
   for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] * from + b[i] * (to * sign);
 }
 
-/// The cubic through value and out-tangent of one key, in-tangent and value of the next (glTF 2.0, appendix C.5).
+/// The cubic Hermite spline through value and out-tangent of one key, in-tangent and value of the next (glTF 2.0,
+/// appendix C.5).
 void mix_cubic(const float* key, std::size_t width, const Moment& m, std::vector<float>& out) {
   const float t = m.t, t2 = t * t, t3 = t2 * t;
   for (std::size_t i = 0; i < width; ++i) {
@@ -111,7 +113,7 @@ Interpolation read_interpolation(const JsonView& sampler) {
   return Interpolation::CubicSpline;
 }
 
-/// The moment among the keys of a sampler, and how many these are.
+/// The position among the keys of a sampler, and the number of keys.
 struct Keys {
   Moment moment;
   std::size_t count = 0;
@@ -154,7 +156,7 @@ std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, const Value
   return out;
 }
 
-/// The part of a pose that a path names; nothing for one that is not known.
+/// The property of a pose that a path names; nothing for an unknown path.
 std::optional<Path> find_path_kind(const std::string& word) {
   constexpr const char* words[] = {"translation", "rotation", "scale", "weights"};
   for (std::size_t i = 0; i < std::size(words); ++i)
@@ -242,7 +244,7 @@ std::pair<float, float> extent(GltfFile& file, const JsonView& sampler) {
 
 std::vector<AnimationSpan> list_animations(GltfFile& file) {
   std::vector<AnimationSpan> out;
-  std::map<std::size_t, std::pair<float, float>> extents;  // of the accessors of times
+  std::map<std::size_t, std::pair<float, float>> extents;  // by the accessor of times
   for (std::size_t i = 0; i < file.count("animations"); ++i) {
     const JsonView json = file.root().element("animations", i, "animation");
     AnimationSpan span{json.text("name"), 0, 0};
@@ -256,7 +258,7 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
       span.begin = s == 0 ? begin : std::min(span.begin, begin);
       span.end = s == 0 ? end : std::max(span.end, end);
     }
-    span.end = std::max(span.end, span.begin);  // from min and max of the accessors, which may be invalid
+    span.end = std::max(span.end, span.begin);  // the accessors' min and max may be invalid
     out.push_back(std::move(span));
   }
   return out;

@@ -52,7 +52,7 @@ TEST(GltfAnimation, LinearAndStepAndWhatIsBeforeAndAfter) {
 }
 
 TEST(GltfAnimation, RotationsGoTheShorterWayAtConstantSpeed) {
-  // From 0 to 120 degrees about z, the second key given with its sign turned: a third of the way is 40 degrees.
+  // From 0 to 120 degrees about z, where the second quaternion is negated: a third of the way is 40 degrees.
   const float s = std::sin(1.0471975512f), c = std::cos(1.0471975512f);
   const GltfMaker m = animated("rotation", "LINEAR", "VEC4", {0, 0, 0, 1, 0, 0, -s, -c}, {0, 3});
   expect_near(moved(m, 1, {1, 0, 0}), {std::cos(0.6981317f), std::sin(0.6981317f), 0});
@@ -60,7 +60,7 @@ TEST(GltfAnimation, RotationsGoTheShorterWayAtConstantSpeed) {
 }
 
 TEST(GltfAnimation, CubicSplinesUseTangentsTimesTheSpan) {
-  // In-tangent, value, out-tangent at each of the keys; at the middle h = 1/2, 1/8, 1/2, -1/8.
+  // Each key has in-tangent, value and out-tangent; at the middle the basis functions are h = 1/2, 1/8, 1/2, -1/8.
   const GltfMaker m = animated("scale", "CUBICSPLINE", "VEC3", {9, 9, 9, 1, 1, 1, 1, 2, 0, 4, 0, 0, 3, 1, 1, 9, 9, 9});
   expect_near(moved(m, 2, {1, 1, 1}), {0.5f + 2.0f / 8 + 1.5f - 8.0f / 8, 0.5f + 4.0f / 8 + 0.5f, 0.5f + 0.5f});
   expect_near(moved(m, 1, {1, 1, 1}), {1, 1, 1});
@@ -121,13 +121,14 @@ TEST(GltfAnimation, Refusals) {
             "animation 0 sampler 0: output is not finite");
 }
 
-// Joint 1 turns by 90 degrees in a second about a point 2 above the ground; vertices follow it by their weights.
+// Joint 1 rotates by 90 degrees in a second about a point 2 above the ground; vertices follow it according to their
+// weights.
 TEST(GltfAnimation, JointsMoveVerticesByTheirWeights) {
   GltfMaker m;
   const std::string position = m.floats("VEC3", {1, 0, 0, 1, 2, 0, 1, 4, 0});
   const std::string joints = m.values<std::uint8_t>("VEC4", {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
   const std::string weights = m.floats("VEC4", {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 1, 0, 0});
-  // The inverse of each joint's place at rest: the origin, and (0, 2, 0).
+  // The inverse of each joint's position at rest: the origin, and (0, 2, 0).
   const std::string binds = m.floats("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,  //
                                               1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -2, 0, 1});
   m.mesh(R"("POSITION":)" + position + R"(,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights);
@@ -148,7 +149,7 @@ TEST(GltfAnimation, JointsMoveVerticesByTheirWeights) {
   expect_near(end.meshes.at(0).position.at(2), {-2, 3, 0});
 }
 
-/// Models of the Khronos Group, where they lie beside the sources.
+/// Models of the Khronos Group, if they are present in the shared data.
 class SharedAnimation : public testing::TestWithParam<std::string> {};
 class SharedInterpolationTest : public SharedAnimation {};
 class SharedRiggedSimple : public SharedAnimation {};
@@ -170,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(GltfCompression, SharedSuzanne,
                                                         {"Suzanne-draco.glb", "Suzanne-meshopt-quantized.glb",
                                                          "Suzanne-quantized.glb"})));
 
-// The point (1, 1/2, 0) of each cube, worked out apart from this program with the formulas of the specification.
+// The point (1, 1/2, 0) of each cube, computed independently of this program with the formulas of the specification.
 TEST_P(SharedInterpolationTest, PointsAreWhereTheSpecificationPutsThem) {
   const struct {
     double time;
@@ -262,7 +263,7 @@ TEST_P(SharedMorphCube, Bends) {
   }
 }
 
-// Compressed, it is the same model: vertices are near those of the plain file.
+// The compressed model: its vertices are close to those of the uncompressed file.
 TEST_P(SharedSuzanne, IsNearThePlainModel) {
   const std::vector<std::string> plain = shared_files(models, {"Suzanne/Suzanne.gltf"});
   ASSERT_EQ(plain.size(), 1u);

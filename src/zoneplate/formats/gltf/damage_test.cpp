@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged files: whatever is changed in a model, loading ends with a sound scene or with one line that says why not.
+// Damaged files: loading any modification of a model gives a valid scene or an error message of one line.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -47,7 +47,7 @@ TEST(GltfDamage, AnyByteChanged) {
 TEST(GltfDamage, AnyNumberReplaced) {
   const GltfMaker m = everything();
   const std::string json = m.json();
-  std::vector<std::pair<std::size_t, std::size_t>> numbers;  // where each begins and ends
+  std::vector<std::pair<std::size_t, std::size_t>> numbers;  // the first and last character of each
   for (std::size_t i = 1; i < json.size(); ++i) {
     const std::size_t end = std::min(json.find_first_not_of("0123456789.", i), json.size());
     if (end == i || std::string(":,[").find(json[i - 1]) == std::string::npos) continue;

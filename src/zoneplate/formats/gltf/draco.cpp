@@ -19,7 +19,7 @@ std::uint64_t size_of_type(int type) { return type < 5122 ? 1 : type < 5124 ? 2 
   throw Error(ErrorKind::Input, place + ": the Draco mesh " + cause);
 }
 
-/// A request for one mesh, as decode_draco takes it.
+/// The arguments of decode_draco for one mesh.
 struct Request {
   std::span<const std::uint8_t> packed;
   std::uint64_t index_count;

@@ -10,17 +10,17 @@
 
 namespace zoneplate {
 
-/// An attribute to be decoded from a Draco mesh, with glTF's component type: 5120 to 5126.
+/// A requested attribute of a Draco mesh, with glTF's component type: 5120 to 5126.
 struct DracoWish {
-  std::uint32_t attribute = 0;  ///< its unique id
+  std::uint32_t attribute = 0;  ///< the attribute's unique id
   int component_type = 5126;
   std::uint32_t components = 3;
   std::uint64_t count = 0;
 };
 
 struct DracoMesh {
-  std::vector<std::uint8_t> indices;                  ///< 32-bit, three to a face
-  std::vector<std::vector<std::uint8_t>> attributes;  ///< one for each requested attribute, tightly packed
+  std::vector<std::uint8_t> indices;                  ///< 32-bit, three per face
+  std::vector<std::vector<std::uint8_t>> attributes;  ///< one per requested attribute, tightly packed
 };
 
 /// Decodes a Draco-compressed triangle mesh.

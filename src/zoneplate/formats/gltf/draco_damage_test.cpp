@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged Draco meshes: whatever the bytes are, the answer is a mesh or one line, within the limits.
+// Damaged Draco meshes: decoding any bytes gives a mesh or an error message of one line, within the limits.
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr int cells = 12;  // a side of a bent sheet
+constexpr int cells = 12;  // cells per side of a bent sheet
 
 struct Packed {
   Bytes bytes;
@@ -63,7 +63,7 @@ DracoMesh decode(const Packed& sheet, const Bytes& bytes) {
   return decode_draco(bytes, sheet.indices, std::span(&wish, 1), "a.glb: mesh 0", budget);
 }
 
-// True if the bytes give a mesh; an error has to be one line about the file.
+// True if the bytes give a mesh; an error must be one line that names the file.
 bool is_mesh(const Packed& sheet, const Bytes& bytes) {
   const Stopwatch watch;
   bool is_good = false;
@@ -87,7 +87,7 @@ class DracoDamage : public testing::TestWithParam<draco::MeshEncoderMethod> {};
 TEST_P(DracoDamage, TheSoundMeshIsRead) {
   const Packed sheet = packed_sheet(5, GetParam());
   const DracoMesh mesh = decode(sheet, sheet.bytes);
-  // The corner farthest away is where it was, to the step of 14 bits.
+  // The farthest corner is preserved, except for quantization to 14 bits.
   float farthest = 0;
   for (std::size_t i = 0; i < sheet.points; ++i) {
     float p[3];
@@ -111,7 +111,7 @@ TEST_P(DracoDamage, FlippedBits) {
   int refused = 0;
   for (std::uint32_t i = 0; i < 150; ++i) {
     Bytes bad = sheet.bytes;
-    // Half of them in the head, where counts and methods stand.
+    // Half of them modify the header, which contains counts and methods.
     const std::size_t reach = i % 2 ? bad.size() : std::min<std::size_t>(bad.size(), 64);
     for (std::uint32_t k = 0; k <= i % 3; ++k)
       bad[hash(i, k) % reach] ^= static_cast<std::uint8_t>(1u << hash(i, k, 1) % 8);

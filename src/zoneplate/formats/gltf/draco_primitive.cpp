@@ -9,7 +9,7 @@
 namespace zoneplate {
 namespace {
 
-/// 32-bit indices as the accessor's type has them.
+/// Converts 32-bit indices to the accessor's component size.
 std::vector<std::uint8_t> narrowed(const std::vector<std::uint8_t>& wide, std::size_t size) {
   if (size == 4) return wide;
   std::vector<std::uint8_t> out(wide.size() / 4 * size);

@@ -5,7 +5,7 @@
 
 namespace zoneplate {
 
-/// Decodes a primitive's KHR_draco_mesh_compression, if it has it, and gives its accessors their values.
+/// Decodes a primitive's KHR_draco_mesh_compression, if it has one, and stores the values of its accessors in the file.
 ///
 /// Errors    ErrorKind::Input naming the primitive (formats/gltf/draco.h).
 void decode_draco_primitive(GltfFile& file, const JsonView& primitive);

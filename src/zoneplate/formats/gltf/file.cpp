@@ -21,7 +21,7 @@ std::uint32_t read_u32(std::span<const std::uint8_t> bytes, std::size_t at) {
 
 std::string bytes_text(std::uint64_t n) { return std::to_string(n) + (n == 1 ? " byte" : " bytes"); }
 
-/// The part of a data: URI before its comma, and the part after it.
+/// Splits a data: URI at its comma.
 std::pair<std::string_view, std::string_view> split_data_uri(std::string_view uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos) return {uri, {}};
@@ -129,7 +129,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (uri.starts_with("data:")) {
     const auto [head, body] = split_data_uri(uri);
     if (body.data() == nullptr) owner.fail("its data: URI has no comma");
-    // Reading may need a temporary copy in addition to the result.
+    // Decoding may need a temporary copy in addition to the result.
     budget_.take(2 * body.size());
     if (head.ends_with(";base64")) {
       auto decoded = decode_base64(body.find('%') == std::string_view::npos ? body : decode_percent(body));

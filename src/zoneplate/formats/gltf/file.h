@@ -16,16 +16,16 @@
 
 namespace zoneplate {
 
-/// Bytes of a resource: a part of the model file, a file of its own, or decoded from a data: URI.
+/// The bytes of a resource: a part of the model file, a separate file, or decoded from a data: URI.
 struct GltfBytes {
   std::span<const std::uint8_t> bytes;
   std::optional<FileBytes> file;
   std::vector<std::uint8_t> decoded;
 };
 
-/// An open glTF file: its JSON, the binary part of a .glb, and its buffers, which are loaded at their first use.
+/// An open glTF file: its JSON, the binary chunk of a .glb, and its buffers, which are loaded at their first use.
 ///
-/// Every range of bytes that it returns lies within the buffer view and within the bytes that exist.
+/// Every returned range of bytes is within the buffer view and within the existing bytes.
 class GltfFile {
  public:
   /// Errors    ErrorKind::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2.
@@ -41,28 +41,28 @@ class GltfFile {
 
   /// The bytes of a buffer view; unpacked, where KHR_meshopt_compression or EXT_meshopt_compression packs them.
   std::span<const std::uint8_t> view(std::size_t i);
-  /// The byte stride that a buffer view states, 0 where it states none.
+  /// The byte stride of a buffer view; 0 if it states none.
   std::uint64_t view_stride(std::size_t i) const;
 
-  /// The bytes that a URI names: of a data: URI or of a file relative to the model's folder.
+  /// The bytes of a URI: a data: URI, or a file relative to the model's folder.
   ///
-  /// Errors    ErrorKind::Input naming `owner`: another scheme, a path outside the folder (unless allowed), bad base64,
-  ///           unreadable.
+  /// Errors    ErrorKind::Input naming `owner`: another scheme, a path outside the folder (unless allowed), invalid
+  ///           base64, an unreadable file.
   GltfBytes load_uri(const JsonView& owner, const std::string& uri);
 
-  /// Values of an accessor that stand nowhere in the file as they are, tightly packed, and of its shape.
+  /// Stores values of an accessor that are decoded from compressed data, tightly packed, with the accessor's shape.
   void set_decoded(std::size_t accessor, std::vector<std::uint8_t> bytes) { decoded_[accessor] = std::move(bytes); }
   bool has_decoded(std::size_t accessor) const { return decoded_.contains(accessor); }
   std::span<const std::uint8_t> decoded(std::size_t accessor) const { return decoded_.at(accessor); }
 
-  /// Counts elements that the scene gets of accessors for which there are no bytes.
+  /// Counts elements of the scene that come from accessors without bytes.
   ///
   /// Errors    ErrorKind::Input beyond a total limit, so that a small file cannot exhaust memory.
   void take_zeros(const JsonView& accessor, std::uint64_t count);
-  /// Begins anew, for another scene of the file.
+  /// Resets the count of take_zeros, for another scene of the file.
   void forget_zeros() { zeros_ = 0; }
 
-  /// Adds a warning about ignored content, each text once; of very many only the first.
+  /// Adds a warning about ignored content; equal texts are added once. The number of warnings is limited.
   void warn(const std::string& text);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -81,8 +81,8 @@ class GltfFile {
   JsonEdits edits_{json_};
   std::optional<JsonView> root_;
   std::map<std::size_t, GltfBytes> buffers_;
-  std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< of compressed buffer views
-  std::map<std::size_t, std::vector<std::uint8_t>> decoded_;   ///< of accessors
+  std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< by index of the compressed buffer view
+  std::map<std::size_t, std::vector<std::uint8_t>> decoded_;   ///< by index of the accessor
   std::uint64_t zeros_ = 0;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;

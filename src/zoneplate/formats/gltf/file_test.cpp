@@ -23,7 +23,7 @@ std::string error_of(const std::string& path, const LoadLimits& limits = {}) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// The same bytes with the 32-bit number at `at` replaced.
+/// A copy of the bytes with the 32-bit number at `at` replaced.
 std::vector<std::uint8_t> with_u32(std::vector<std::uint8_t> bytes, std::size_t at, std::uint32_t v) {
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(v >> (8 * i));
   return bytes;

@@ -58,7 +58,7 @@ void check_extensions(GltfFile& file) {
       file.warn(file.root().place() + " extension " + quoted(name) + " is not supported, ignored");
 }
 
-/// The rotation and translation of a transform; scale and mirroring are taken out, the axis -Z keeps its direction.
+/// The rotation and translation of a transform; scale and mirroring are removed, and the direction of -Z is kept.
 float4x4 rigid(const float4x4& m) {
   const float3 back = normalize(xyz(m.column[2]), {0, 0, 1});
   float3 right = cross(normalize(xyz(m.column[1]), {0, 1, 0}), back);
@@ -112,7 +112,7 @@ Light read_light(const JsonView& json, const float4x4& world_from_node) {
   if (!(light.range > 0)) json.fail("range must be greater than 0");
   light.position = xyz(world_from_node.column[3]);
   light.direction = normalize(-xyz(world_from_node.column[2]), {0, 0, -1});
-  if (!(dot(light.direction, light.direction) > 0.5f)) light.direction = {0, 0, -1};  // an axis too long for its square
+  if (!(dot(light.direction, light.direction) > 0.5f)) light.direction = {0, 0, -1};  // an axis whose square overflows
   const JsonView spot = json.object("spot");
   light.inner_cone = spot.number("innerConeAngle", 0.0f);
   light.outer_cone = spot.number("outerConeAngle", 0.7853982f);
@@ -127,7 +127,7 @@ bool is_finite(const float4x4& m) {
                      [](float4 c) { return zoneplate::is_finite(xyz(c)) && std::isfinite(c.w); });
 }
 
-/// The memory of a text that is copied out of the file.
+/// The memory of a text that is copied from the file.
 std::uint64_t bytes_of(const std::string& text) { return text.size() + 2 * sizeof(std::string); }
 
 std::vector<std::string> list_variants(GltfFile& file) {
@@ -175,7 +175,7 @@ class SceneReader {
   std::optional<std::size_t> variant_;
   Scene scene_;
 
-  /// Vertices as read, and the used ones among them, if the difference was needed.
+  /// The bounds of all vertices of a mesh, and of those that are used, if that was needed.
   struct Bounds {
     Box all;
     std::optional<Box> used = std::nullopt;
@@ -183,10 +183,10 @@ class SceneReader {
   using MeshRange = std::pair<std::size_t, std::size_t>;  ///< [first, end) of the scene's meshes
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, MeshRange> ready_;  ///< by the file's mesh and skin
   std::map<std::size_t, std::size_t> named_;  ///< by the file's mesh: an object that has its name
-  std::vector<Bounds> bounds_;                ///< of each mesh in the scene
+  std::vector<Bounds> bounds_;                ///< for each mesh in the scene
 };
 
-/// EXT_mesh_gpu_instancing: transforms of copies, relative to the node; one identity without the extension.
+/// EXT_mesh_gpu_instancing: the transforms of copies relative to the node; without the extension, one identity.
 class Placements {
  public:
   Placements(GltfFile& file, const GltfNode& node) : budget_(file.budget()) {
@@ -232,7 +232,7 @@ Box bounds_of(const std::vector<float3>& positions) {
   return all;
 }
 
-/// Whether a box is so near to the origin that squares of distances do not overflow a float.
+/// Whether a box is close enough to the origin that squares of distances do not overflow a float.
 bool is_near(const Box& box, const float4x4& world_from_object) {
   constexpr float farthest = 1e18f;
   for (int i = 0; i < 8; ++i) {
@@ -242,10 +242,11 @@ bool is_near(const Box& box, const float4x4& world_from_object) {
   return true;
 }
 
-/// The scene's meshes for a mesh of the file, [first, end); read at their first use, or for a pose of their own.
+/// The range [first, end) of the scene's meshes for a mesh of the file, which is read at its first use, or for each
+/// pose that is not shared.
 std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& node, std::size_t mesh) {
   GltfPose pose{.weights = nodes_.weights(node), .joints = {}, .variant = variant_};
-  // Nodes with one mesh and one skin show the same, unless their morph targets have weights of their own.
+  // Nodes with the same mesh and skin share the result, unless the morph targets have their own weights.
   const std::pair key(mesh, node.json.find_index("skin", file_.count("skins")));
   const bool is_shared = pose.weights.empty();
   if (const auto found = ready_.find(key); is_shared && found != ready_.end()) return found->second;
@@ -261,7 +262,8 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
   return range;
 }
 
-/// Unused vertices may have any position: they are determined only if it matters, once per mesh.
+/// Whether the used vertices of a mesh are near the origin. Unused vertices may have any position, so that the bounds
+/// of the used ones are computed if needed, once per mesh.
 bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
   Bounds& bounds = bounds_[mesh];
   if (zoneplate::is_near(bounds.all, world_from_object)) return true;
@@ -281,7 +283,7 @@ void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int objec
   scene_.instances.push_back({static_cast<int>(mesh), object, world_from_object});
 }
 
-/// Adds an object named as the node, or else as its mesh, whose name all its objects share.
+/// Adds an object with the name of the node or else of its mesh; objects named after one mesh share the text.
 void SceneReader::add_name(const GltfNode& node, std::size_t mesh) {
   std::string name = node.json.text("name");
   if (!node.json.has("name")) {
@@ -303,7 +305,7 @@ void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
   const std::size_t parts = range.second - range.first, first_object = scene_.objects.size();
   const std::uint64_t all = std::uint64_t{placements.size()} * parts;
   file_.budget().take(all * sizeof(Instance) + placements.size() * sizeof(std::uint32_t));
-  // Many copies are reserved exactly; few use the vector's own growth.
+  // The exact capacity is reserved for many copies; for few, the vector grows as usual.
   if (scene_.instances.size() + all > 2 * scene_.instances.capacity())
     scene_.instances.reserve(scene_.instances.size() + all);
   for (std::size_t i = 0; i < placements.size(); ++i) {
@@ -314,7 +316,7 @@ void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
       add_name(node, mesh);
     else
       scene_.objects.share(first_object);
-    // A skinned mesh is in the world already: its node's own transform does not count.
+    // A skinned mesh is in world space already: the transform of its node is ignored.
     const float4x4 world_from_object = is_skinned ? float4x4{} : node.world_from_node * placements[i];
     for (std::size_t m = range.first; m < range.second; ++m) add_instance(node, m, object, world_from_object);
   }
@@ -352,7 +354,7 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
   if (images == GltfModel::Images::With) scene_.images = look.images;
   for (const GltfNode& node : nodes_.in_scene()) add_node(node);
 
-  // The default material comes last, where something needs it.
+  // The default material is appended if a mesh needs it.
   const auto last = static_cast<int>(scene_.materials.size());
   const bool needs_default =
       std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [&](const Mesh& m) { return m.material == last; });
@@ -366,7 +368,7 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
 
 }  // namespace
 
-/// The open file, and the remaining budget after it was opened.
+/// The open file, and the budget that remained after opening it.
 struct GltfModel::Open {
   Open(const std::string& path, const LoadLimits& limits) : file(path, limits) {
     check_extensions(file);

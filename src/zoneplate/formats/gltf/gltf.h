@@ -9,25 +9,25 @@
 
 namespace zoneplate {
 
-/// Loads a glTF 2.0 file, .gltf (with its buffers and images) or .glb: one scene of it, in one variant, at one moment.
+/// Loads a glTF 2.0 file, .gltf (with its buffers and images) or .glb: one scene of it, in one variant, at one time.
 ///
 /// Missing normals are flat, missing tangents (if a normal texture needs them) are MikkTSpace's, as in the
 /// specification; strips, fans and loops become lists; primitives with vertices that are not finite are dropped, with a
 /// warning. Without an animation, nodes and morph targets have the file's default pose; skins follow their joints.
 ///
-/// Space     a camera's transform has no scale and no mirroring; lights likewise.
+/// Space     the transforms of cameras and lights have no scale and no mirroring.
 /// Errors    ErrorKind::Input, one line naming the file, the place and the cause; a required extension that is not
 ///           supported is named. An optional one gives a warning that names it. ErrorKind::Usage for a choice that the
 ///           file does not have.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {}, const SceneChoice& choice = {});
 
-/// A glTF file that stays open, to be loaded at several moments: its materials and images are read once.
+/// A glTF file that stays open, for loading at several times: its materials and images are read once.
 class GltfModel {
  public:
   explicit GltfModel(const std::string& path, const LoadLimits& limits = {});
   ~GltfModel();
 
-  /// The same as load_gltf. `Images::Without` omits the images, for callers that need only geometry.
+  /// Loads a scene as load_gltf does. `Images::Without` omits the images, for callers that need only geometry.
   enum class Images { With, Without };
   Scene scene(const SceneChoice& choice, Images images = Images::With);
 

@@ -39,7 +39,7 @@ TEST(Gltf, NodesComposeFromTheRootDown) {
   const Scene s = load(m);
   ASSERT_EQ(s.instances.size(), 1u);
   EXPECT_EQ(s.objects, std::vector<std::string>{"leaf"});
-  // (1,0,0) is moved to (2,1,1), scaled to (4,-3,1), turned by 90 degrees to (3,4,1), moved to (13,4,1).
+  // (1,0,0) is translated to (2,1,1), scaled to (4,-3,1), rotated by 90 degrees to (3,4,1), and translated to (13,4,1).
   expect_near(transform_point(s.instances[0].world_from_object, {1, 0, 0}), {13, 4, 1});
   EXPECT_LT(determinant3(s.instances[0].world_from_object), 0);
 }
@@ -123,7 +123,7 @@ TEST(Gltf, Cameras) {
   EXPECT_EQ(s.cameras[0].near, 0.1f);
   EXPECT_EQ(s.cameras[0].aspect, 1.5f);
   EXPECT_TRUE(std::isinf(s.cameras[0].far));
-  EXPECT_EQ(s.cameras[0].world_from_camera, translation({1, 2, 3}));  // the scale does not count
+  EXPECT_EQ(s.cameras[0].world_from_camera, translation({1, 2, 3}));  // the scale is ignored
   EXPECT_EQ(s.cameras[1].far, 10);
   EXPECT_EQ(s.cameras[1].aspect, 0);
   EXPECT_TRUE(s.cameras[2].is_orthographic);
@@ -175,7 +175,7 @@ TEST(Gltf, Lights) {
   EXPECT_EQ(s.lights[0].kind, LightKind::Directional);
   EXPECT_EQ(s.lights[0].color, (float3{1, 0.5f, 0}));
   EXPECT_EQ(s.lights[0].intensity, 3);
-  expect_near(s.lights[0].direction, {0, 1, 0});  // -Z turned by 90 degrees about X
+  expect_near(s.lights[0].direction, {0, 1, 0});  // -Z rotated by 90 degrees about X
   EXPECT_TRUE(std::isinf(s.lights[0].range));
   EXPECT_EQ(s.lights[1].kind, LightKind::Point);
   EXPECT_EQ(s.lights[1].position, (float3{1, 2, 3}));
@@ -224,7 +224,7 @@ TEST(Gltf, MissingFilesAreNamed) {
   }
 }
 
-/// A million letters of names for each of many things would be memory that a file of a few thousand bytes asks for.
+/// Copying the name of 10,000 letters to each of 50,000 instances would take 500 MB for a file of a few thousand bytes.
 TEST(Gltf, PlacementsShareTheNameOfTheirNode) {
   GltfMaker m = triangle_maker();
   const std::string name(10000, 'n');
@@ -266,7 +266,7 @@ TEST(Gltf, ElementsWithoutBytesAreFewInAll) {
   EXPECT_NE(text.find("may be zero"), std::string::npos) << text;
 }
 
-/// Roots are looked for in a file that names none, among many keys: the square of these would be 10^10 comparisons.
+/// In a file without scenes, roots are searched among all nodes; quadratic time would take 10^10 comparisons here.
 TEST(Gltf, TimeIsLinearInNodesAndKeys) {
   GltfMaker m = triangle_maker();
   m.nodes = R"({"mesh":0})";
@@ -283,7 +283,7 @@ TEST(Gltf, TimeIsLinearInNodesAndKeys) {
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 20);
 }
 
-/// Nodes of one mesh and one skin need the mesh once.
+/// Nodes with the same mesh and skin share one mesh of the scene.
 TEST(Gltf, NodesOfOneSkinShareTheirMesh) {
   GltfMaker m;
   const std::string positions = m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});

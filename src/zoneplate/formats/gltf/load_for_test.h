@@ -11,13 +11,13 @@
 
 namespace zoneplate {
 
-/// The scene of a file made in code.
+/// Loads the scene of a generated file.
 inline Scene load(const GltfMaker& m, const LoadLimits& limits = {}) {
   const TestFolder folder;
   return load_gltf(folder.write("f.glb", m.glb()), limits);
 }
 
-/// Why that file is refused, after its name; "no error" where it is not.
+/// The error message of loading that file, without the file's name; "no error" if there is none.
 inline std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
   try {
     load(m, limits);

@@ -15,7 +15,7 @@
 
 namespace zoneplate {
 
-/// A folder of its own for a test's files; gone with the test.
+/// A temporary folder for a test's files, which the destructor removes.
 class TestFolder {
  public:
   TestFolder() {
@@ -44,12 +44,12 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-/// Builds small glTF files: values go into one buffer, the rest is given as JSON text.
+/// Builds small glTF files: values are stored in one buffer, the rest is given as JSON text.
 class GltfMaker {
  public:
   std::vector<std::uint8_t> binary;
   std::string views, accessors;          ///< elements, separated by commas
-  std::string meshes, nodes, materials;  ///< likewise; without nodes there is one for mesh 0
+  std::string meshes, nodes, materials;  ///< elements, separated by commas; without nodes there is one for mesh 0
   std::string rest;                      ///< further members of the root, each with a comma in front
   std::string scene_nodes = "0";
 
@@ -63,7 +63,7 @@ class GltfMaker {
     return 5126;
   }
 
-  /// Adds a buffer view and returns its number as text.
+  /// Adds a buffer view and returns its index as text.
   template <class T>
   std::string view(const std::vector<T>& values, int stride = 0) {
     while (binary.size() % 4 != 0) binary.push_back(0);
@@ -76,10 +76,10 @@ class GltfMaker {
                view_count_);
   }
 
-  /// Adds an accessor given as JSON and returns its number as text.
+  /// Adds an accessor given as JSON and returns its index as text.
   std::string accessor(const std::string& json) { return add(accessors, json, accessor_count_); }
 
-  /// Adds values with an accessor of their own, tightly packed; `more` goes into the accessor.
+  /// Adds values with their own accessor, tightly packed; `more` has further members of the accessor.
   template <class T>
   std::string values(const std::string& type, const std::vector<T>& list, const std::string& more = "") {
     const std::size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<std::size_t>(type[3] - '0');
@@ -94,7 +94,7 @@ class GltfMaker {
     meshes += (meshes.empty() ? "" : ",") + (R"({"primitives":[{"attributes":{)" + attributes + "}" + more + "}]}");
   }
 
-  /// `buffer` holds the members of buffer 0 but its length.
+  /// The JSON of the file; `buffer` has the members of buffer 0 except its length.
   std::string json(const std::string& buffer = "") const {
     const auto list = [](const char* name, const std::string& items) {
       return items.empty() ? std::string() : std::string(",\"") + name + "\":[" + items + "]";

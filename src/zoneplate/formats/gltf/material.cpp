@@ -13,10 +13,10 @@
 namespace zoneplate {
 namespace {
 
-/// The images that are used, numbered in the order of their first use.
+/// The used images, numbered in the order of their first use.
 struct UsedImages {
-  std::vector<std::size_t> source;  ///< index into the file's images
-  std::vector<int> number;          ///< of each of the file's images, -1: not used
+  std::vector<std::size_t> source;  ///< index in the file's images
+  std::vector<int> number;          ///< for each of the file's images; -1: not used
 
   int use(std::size_t image) {
     if (number[image] < 0) {
@@ -41,7 +41,7 @@ Sampler read_sampler(const JsonView& json) {
     json.fail("magFilter is " + std::to_string(magnify) + ", expected 9728 or 9729");
   if (minify != 9728 && minify != 9729 && (minify < 9984 || minify > 9987))
     json.fail("minFilter is " + std::to_string(minify) + ", expected 9728, 9729 or 9984 to 9987");
-  // The numbers are OpenGL's: odd ones are linear within a level, 9986 and 9987 between levels.
+  // The values are OpenGL's: odd ones are linear within a level, 9986 and 9987 are linear between levels.
   s.magnify = magnify == 9728 ? TexelFilter::Nearest : TexelFilter::Linear;
   s.minify = minify % 2 == 0 ? TexelFilter::Nearest : TexelFilter::Linear;
   s.level = minify < 9984 ? LevelFilter::None : minify < 9986 ? LevelFilter::Nearest : LevelFilter::Linear;
@@ -53,7 +53,7 @@ float2 read_float2(const JsonView& json, const char* key, float2 otherwise) {
   return v.empty() ? otherwise : float2{v[0], v[1]};
 }
 
-/// KHR_texture_transform of a texture's use; returns the uv set, which it may override.
+/// Reads KHR_texture_transform of a texture's use; returns the uv set, which it may override.
 std::uint64_t read_transform(const JsonView& json, std::uint64_t uv_set, TextureUse& use) {
   const auto transform = json.extension("KHR_texture_transform");
   if (!transform) return uv_set;
@@ -105,7 +105,7 @@ TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key
   return use;
 }
 
-/// The textures whose properties `owner` holds.
+/// Reads the textures that are members of `owner`.
 void MaterialReader::read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m) {
   for (const MaterialTextureSlot& slot : material_texture_slots)
     if (slot.is_metallic_roughness == is_metallic_roughness && !slot.gltf_name.empty())
@@ -168,7 +168,7 @@ Material MaterialReader::read(std::size_t i) {
   return m;
 }
 
-/// An image's bytes and its name for messages.
+/// The encoded bytes of an image, and its names.
 struct EncodedImage {
   GltfBytes data;
   std::string place, name;
@@ -190,7 +190,7 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
   out.place = json.place() + (name.empty() ? "" : " " + quoted(name));
   out.name = name.empty() ? "image " + std::to_string(i) : name;
 
-  // The pixels are counted here, one image after the other, so that the answer does not depend on the threads.
+  // The limits are checked here, one image after the other, so that the result is independent of the threads.
   const auto size = find_image_size(out.data.bytes);
   if (size) {
     const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
@@ -221,7 +221,7 @@ GltfMaterials load_materials(GltfFile& file) {
   for (const std::size_t i : out.used_images) encoded.push_back(read_image(file, i));
   out.images.resize(encoded.size());
   std::vector<std::string> trouble(encoded.size());
-  // Images are decoded in waves of this size, so that the accounting of their memory does not depend on the number of
+  // Images are decoded in groups of this size, so that the accounting of their memory is independent of the number of
   // threads.
   constexpr std::size_t wave = 16;
   for (std::size_t first = 0; first < encoded.size(); first += wave) {
@@ -240,7 +240,7 @@ GltfMaterials load_materials(GltfFile& file) {
     file.budget().give_back(working);
     file.budget().check_time();
   }
-  // Of several broken images the first in the file is named, whichever thread met its own first.
+  // Of several invalid images the first in the file is reported, independently of the threads.
   for (const std::string& t : trouble)
     if (!t.empty()) throw Error(ErrorKind::Input, t);
   for (const TextureImage& image : out.images)

@@ -22,8 +22,8 @@ GltfMaterials read_materials(GltfFile& file);
 
 /// Reads all materials and decodes the images that they use, the images in parallel.
 ///
-/// Factors out of their range are clamped and textures of a third uv set left out, both with a warning.
-/// Errors    ErrorKind::Input naming the material or image: a bad index or value, an image that cannot be read.
+/// Factors out of range are clamped and textures of a third uv set omitted, both with a warning.
+/// Errors    ErrorKind::Input naming the material or image: an invalid index or value, an unreadable image.
 GltfMaterials load_materials(GltfFile& file);
 
 }  // namespace zoneplate

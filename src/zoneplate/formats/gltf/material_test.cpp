@@ -15,7 +15,7 @@ std::vector<std::uint8_t> png(int width, int height, Rgba8 color) {
   return encode_png(Rgba8Image(width, height, color));
 }
 
-/// A triangle with the given materials; images 0 and 1 are a red and a green PNG, textures 0 and 1 show them.
+/// A triangle with the given materials; images 0 and 1 are a red and a green PNG, used by textures 0 and 1.
 GltfMaker painted(const std::string& materials, const std::string& textures = "") {
   GltfMaker m = triangle_maker();
   const std::string red = m.view(png(2, 3, {255, 0, 0, 128})), green = m.view(png(1, 1, {0, 255, 0, 255}));

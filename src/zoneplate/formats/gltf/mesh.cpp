@@ -25,14 +25,14 @@
 namespace zoneplate {
 namespace {
 
-/// One primitive while it is read.
+/// A primitive that is being read.
 struct Primitive {
   GltfFile& file;
   JsonView json, attributes;
-  ElementRange range;  ///< the vertices that its indices use, and those between them
+  ElementRange range;  ///< the range of vertices that its indices span
 };
 
-/// Reads an attribute of the primitive, which must have as many elements as its positions.
+/// Reads an attribute of the primitive, which must have as many elements as the positions.
 template <class Read>
 auto read_attribute(const Primitive& p, const char* key, Read read) -> decltype(read(p.file, p.json, key, p.range)) {
   if (!p.attributes.has(key)) return {};
@@ -44,7 +44,7 @@ auto read_attribute(const Primitive& p, const char* key, Read read) -> decltype(
   return read(p.file, owner, key, p.range);
 }
 
-/// The least and the greatest of a list.
+/// The minimum and maximum of a list.
 struct Span {
   std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
   void add(const Span& other) { low = std::min(low, other.low), high = std::max(high, other.high); }
@@ -63,7 +63,8 @@ Span span_of(const std::vector<std::uint32_t>& values) {
   return all;
 }
 
-/// Reads the indices of the primitive (0, 1, 2, ... without them) and leaves in `range` the vertices they span.
+/// Reads the indices of the primitive (0, 1, 2, ... if there are none) and stores the range of vertices that they span
+/// in `range`.
 std::vector<std::uint32_t> read_order(Primitive& p) {
   const std::uint64_t vertices = count_elements(p.file, p.attributes.renamed(p.json.place()), "POSITION");
   if (vertices >= std::numeric_limits<std::uint32_t>::max())
@@ -91,7 +92,7 @@ void add_scaled(std::vector<V>& values, const std::vector<D>& deltas, float weig
   for (std::size_t i = 0; i < std::min(values.size(), deltas.size()); ++i) values[i] = values[i] + deltas[i] * weight;
 }
 
-/// Adds the morph targets of non-zero weight. A tangent's delta has no w.
+/// Adds the morph targets with non-zero weight. The delta of a tangent has no w.
 void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mesh) {
   const std::size_t targets = p.json.count("targets");
   if (!weights.empty() && targets != 0 && weights.size() != targets)
@@ -101,7 +102,7 @@ void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mes
     if (weights[t] == 0) continue;
     p.file.budget().check_time();
     const JsonView target = p.json.element("targets", t, "target");
-    // A target's elements are counted against the primitive's positions.
+    // A target must have as many elements as the primitive's positions.
     const auto read = [&](const char* key, auto reader) -> decltype(reader(p.file, target, key, p.range)) {
       if (!target.has(key)) return {};
       auto deltas = reader(p.file, target, key, p.range);
@@ -126,7 +127,7 @@ void add_weighted(float4x4& sum, const float4x4& m, float weight) {
   for (std::size_t c = 0; c < 4; ++c) sum.column[c] = sum.column[c] + m.column[c] * weight;
 }
 
-/// Moves the vertices by their joints (linear blending, weights scaled to the sum 1).
+/// Transforms the vertices by their joints (linear blend skinning; weights are divided by their sum).
 void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& mesh) {
   const std::array<std::vector<float4>, 2> joint = {read_attribute(p, "JOINTS_0", read_joints),
                                                     read_attribute(p, "JOINTS_1", read_joints)};
@@ -162,13 +163,13 @@ void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& me
     p.file.budget().give_back(list->size() * sizeof(float4));
 }
 
-/// The direction of v; zero where its square is too small or too large for a float to hold it well.
+/// The direction of v; zero if its square is too small or too large for the precision of a float.
 float3 direction(float3 v) {
   const float square = dot(v, v);
   return square > 1e-30f && square < 1e30f ? normalize(v) : float3{};
 }
 
-/// Gives every normal unit length; one of no length becomes that of the triangles around its vertex.
+/// Normalizes all normals; one without direction is replaced by that of the triangles at its vertex.
 void normalize_normals(Mesh& m) {
   std::atomic<bool> has_zero = false;
   parallel_ranges(m.normal.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
@@ -223,7 +224,7 @@ void complete(const Primitive& p, std::optional<int> tangent_uv_set, Mesh& m) {
     p.file.warn(p.json.place() + ": needs tangents, but has no TEXCOORD_" + std::to_string(*tangent_uv_set));
     return;
   }
-  // The working memory of make_tangents: faces, edges, tables and tangents, 60 bytes for each corner at most.
+  // The working memory of make_tangents: faces, edges, tables and tangents, at most 60 bytes per corner.
   const std::uint64_t working = m.index.size() * 60 + m.position.size() * 24;
   budget.check_time();
   budget.take(working + m.index.size() * (vertex_size(m) + sizeof(float4)));
@@ -293,7 +294,7 @@ std::vector<Mesh> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfP
     file.budget().check_time();
     Mesh m = read_primitive(file, json.element("primitives", i, "primitive"), pose, weights, materials);
     if (m.index.empty()) continue;
-    file.budget().take(3 * sizeof(Mesh) + name.size());  // growing lists hold twice their size
+    file.budget().take(3 * sizeof(Mesh) + name.size());  // growing lists have up to twice their size
     m.name = name;
     out.push_back(std::move(m));
   }

@@ -12,17 +12,17 @@
 
 namespace zoneplate {
 
-/// The pose in which a mesh is read: what its node and skin add to the file's vertices.
+/// The pose in which a mesh is read, from its node and skin.
 struct GltfPose {
-  std::vector<float> weights;          ///< of the morph targets; empty: the mesh's own
+  std::vector<float> weights;          ///< weights of the morph targets; empty: the mesh's own
   std::vector<float4x4> joints;        ///< world from mesh, for each joint; empty: not skinned
-  std::optional<std::size_t> variant;  ///< of KHR_materials_variants
+  std::optional<std::size_t> variant;  ///< index of a variant of KHR_materials_variants
 };
 
-/// Reads one mesh of the file as it is drawn: a Mesh for each primitive that draws something.
+/// Reads one mesh of the file: a Mesh for each primitive that is not empty.
 ///
-/// Strips, fans and loops become lists; morph targets and joints are applied; missing normals and tangents are made.
-/// A primitive without a material gets the number after the last of `materials`.
+/// Strips, fans and loops become lists; morph targets and joints are applied; missing normals and tangents are
+/// generated. The material index of a primitive without a material is the size of `materials`.
 /// Errors    ErrorKind::Input naming mesh, primitive and attribute.
 std::vector<Mesh> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
                                  std::span<const Material> materials);

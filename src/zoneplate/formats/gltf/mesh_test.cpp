@@ -26,7 +26,7 @@ std::string error_of(const GltfMaker& m) {
   return "no error";
 }
 
-/// Four corners of the unit square, (0,0) (1,0) (1,1) (0,1).
+/// The corners of the unit square, (0,0) (1,0) (1,1) (0,1).
 const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 
 TEST(GltfMesh, EveryAttribute) {
@@ -162,7 +162,7 @@ TEST(GltfMesh, ProvidedTangentsAreKeptOnlyWithNormalsAndANormalTexture) {
   };
   EXPECT_TRUE(tangents(true, false).empty());
   EXPECT_EQ(tangents(true, true), std::vector<float4>(3, {0, 1, 0, -1}));
-  for (const float4 t : tangents(false, true)) {  // made from uv, as if the file had none
+  for (const float4 t : tangents(false, true)) {  // generated from uv, as if the file had none
     EXPECT_NEAR(t.x, 1, 1e-6f);
     EXPECT_EQ(t.w, 1);
   }

@@ -25,7 +25,7 @@ float4x4 read_transform(const JsonView& json, const GltfNodePose* pose) {
   return out;
 }
 
-/// Throws the error for an index out of range, with the number of elements.
+/// Throws for an index out of range; the message states the number of elements.
 void check_number(const std::optional<int>& number, std::size_t count, const char* what, const char* option) {
   if (!number || (*number >= 0 && static_cast<std::size_t>(*number) < count)) return;
   throw Error(ErrorKind::Usage, std::string(option) + ": the file has " +

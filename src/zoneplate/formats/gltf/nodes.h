@@ -11,29 +11,29 @@
 
 namespace zoneplate {
 
-/// A node of the scene, placed in the world.
+/// A node of the scene with its world transform.
 struct GltfNode {
-  std::size_t number;  ///< in the file
+  std::size_t number;  ///< index in the file
   JsonView json;
   float4x4 world_from_node;
   bool is_visible = true;  ///< and all its ancestors (KHR_node_visibility)
 };
 
-/// The nodes of one of a file's scenes, each after its parent, in the order of a walk depth first.
+/// The nodes of one of a file's scenes, each after its parent, in depth-first order.
 ///
 /// The scene is the chosen one, otherwise the file's default scene, otherwise its first one, otherwise all root nodes.
 class GltfNodes {
  public:
-  /// Errors    ErrorKind::Input: a node that is reached twice (cycles included), deeper than the limit, a bad index;
-  ///           ErrorKind::Usage: a scene or animation that the file does not have.
+  /// Errors    ErrorKind::Input: a node that is reached twice (including cycles), nesting beyond the limit, an invalid
+  ///           index; ErrorKind::Usage: a scene or animation that the file does not have.
   explicit GltfNodes(GltfFile& file, const SceneChoice& choice = {});
 
   const std::vector<GltfNode>& in_scene() const { return nodes_; }
 
-  /// The weights of the morph targets of the node's mesh, as its animation or the node has them; empty: the mesh's own.
+  /// The weights of the morph targets of the node's mesh, from the animation or else the node; empty: the mesh's own.
   std::vector<float> weights(const GltfNode& node) const;
 
-  /// World from mesh for each joint of the node's skin.
+  /// The transform world from mesh for each joint of the node's skin.
   std::vector<float4x4> joints(const GltfNode& node) const;
 
  private:
@@ -42,7 +42,8 @@ class GltfNodes {
   GltfFile& file_;
   GltfPoses poses_;
   std::vector<GltfNode> nodes_;
-  std::vector<std::size_t> place_;  ///< of each of the file's nodes in nodes_; none: not in the scene
+  /// For each of the file's nodes, its index in nodes_, or none if it is not in the scene.
+  std::vector<std::size_t> place_;
 };
 
 }  // namespace zoneplate

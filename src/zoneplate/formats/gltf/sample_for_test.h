@@ -6,7 +6,7 @@
 
 namespace zoneplate {
 
-/// A small model with a bit of everything.
+/// A small model that uses most features.
 inline GltfMaker everything() {
   GltfMaker m;
   const std::string normalized = R"(,"normalized":true)";

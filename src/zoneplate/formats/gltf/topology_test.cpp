@@ -34,7 +34,7 @@ TEST(GltfTopology, TooFewVerticesDrawNothing) {
   for (int mode = 4; mode <= 6; ++mode) EXPECT_TRUE(list_primitives(List{7, 8}, mode).empty()) << mode;
 }
 
-/// A zigzag strip lies in a plane, so all its triangles must turn the same way.
+/// A zigzag strip is planar, so that all its triangles must have the same winding.
 TEST(GltfTopology, StripKeepsItsWinding) {
   const List order{0, 1, 2, 3, 4, 5, 6};
   const List list = list_primitives(order, 5);

@@ -14,7 +14,7 @@
 
 namespace zoneplate {
 
-/// A file that lives in memory only, so that thousands can be written in a second.
+/// A file in memory, so that thousands of variants can be written in a second.
 class MemoryFile {
  public:
   MemoryFile() : number_(memfd_create("model", 0)) {}
@@ -32,10 +32,11 @@ class MemoryFile {
   int number_;
 };
 
-/// Everything that scene.h, mesh.h and material.h promise.
+/// Fails the test unless all invariants documented in scene.h, mesh.h and material.h hold.
 inline void expect_sound(const Scene& s) { ASSERT_EQ(find_invalid(s).value_or(""), ""); }
 
-/// Loads a file with `load(path, limits)`; the message, or nothing if it was loaded.
+/// Loads a file with `load(path, limits)` and validates the scene. Returns the error message, or "" if the file was
+/// loaded.
 template <class Load>
 std::string load_soundly(const Load& load, const std::string& path) {
   try {

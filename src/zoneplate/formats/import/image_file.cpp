@@ -25,7 +25,7 @@ bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_v
                     [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
 }
 
-/// The name of a format that is not read.
+/// The name of a known image format that is not supported.
 std::string_view known_format(std::span<const std::uint8_t> bytes) {
   if (has_text(bytes, 1, "KTX ")) return "a KTX 1";
   if (has_text(bytes, 0, "DDS ")) return "a DDS";
@@ -41,7 +41,7 @@ int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   return static_cast<int>(std::min(v, std::uint32_t{0x7fffffff}));
 }
 
-/// Light without the alpha that it was multiplied by.
+/// The straight colour of a premultiplied one.
 float4 straight(Linear c) {
   const float alpha = c.a > 0 ? c.a : 1.0f;
   return {c.r / alpha, c.g / alpha, c.b / alpha, c.a};
@@ -97,7 +97,7 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   // Every pixel once more, and its alpha.
   if (is_webp(bytes)) return 5 * pixels;
   if (!is_jpeg(bytes)) return 0;
-  // In several passes all coefficients are kept, two bytes each.
+  // libjpeg keeps all coefficients of a progressive image, two bytes each.
   const std::optional<JpegFrame> frame = read_jpeg_frame(bytes);
   return 2 * pixels * frame->samples / frame->pixels;
 }

@@ -14,22 +14,22 @@ namespace zoneplate {
 /// Width and height as the header of a PNG, JPEG, WebP, HDR, EXR or KTX2 states them; nothing for other bytes.
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes);
 
-/// Bytes that the decoded image takes, by its header; 0 where its size is not known.
+/// The size of the decoded image in bytes, from its header; 0 if find_image_size returns nothing.
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes);
 
-/// The maximum of bytes that decoding takes in addition to the image.
+/// The maximum of the bytes that decoding allocates in addition to the image.
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes);
 
 /// Decodes the image of a texture, PNG, JPEG, WebP, HDR, EXR or KTX2 by its first bytes, regardless of its name.
 ///
-/// The texels are those of the file: 8 bits, 16 bits of a 16-bit PNG, and linear light of HDR and EXR. Colours of an
+/// Texels keep the format of the file: 8 bits, 16 bits of a 16-bit PNG, and linear floats of HDR and EXR. Colours of an
 /// EXR are divided by alpha where alpha is above 0. An EXR may have a quarter of `max_pixels`, because decoding takes
 /// four times the memory per pixel.
 ///
 /// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
 TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
-/// A warning, without the file's name, where an image has more texels along a side than are drawn.
+/// A warning, without the name of the model, if an image has more than TextureImage::most_side texels along a side.
 std::optional<std::string> size_warning(const TextureImage& image);
 
 }  // namespace zoneplate

@@ -56,7 +56,7 @@ TEST(ImageFile, SizeOfAJpegIsWhatLibjpegReadsUpToTheFirstScan) {
   const std::size_t header = start + 2 + whole[start + 3];
   EXPECT_EQ(find_image_size(std::span(whole).first(header)), (int2{517, 258}));
   for (std::size_t n = 0; n < header; ++n) EXPECT_FALSE(find_image_size(std::span(whole).first(n))) << n;
-  // A second frame header, which decoding refuses, gives no size either: there is one parser alone.
+  // A second frame header, which the decoder rejects, gives no size either, because the same parser reads both.
   const Bytes frame{0xff, 0xc0};
   const auto first = std::search(whole.begin(), whole.end(), frame.begin(), frame.end());
   Bytes twice = whole;
@@ -90,12 +90,12 @@ TEST(ImageFile, WhatDecodingTakesBesideThePicture) {
   const Rgba8Image image(48, 32, {200, 100, 50, 255});
   EXPECT_EQ(image_working_memory(encode_png(image)), 0u);
   EXPECT_EQ(image_working_memory(encode_webp(image, false)), 48u * 32 * 5);
-  EXPECT_EQ(image_working_memory(encode_jpeg(image)), 48u * 32 * 3 * 2);  // every pixel its own colour
-  // Colour stored by halves both ways: one pixel of brightness has half a sample of colour.
+  EXPECT_EQ(image_working_memory(encode_jpeg(image)), 48u * 32 * 3 * 2);  // no chroma subsampling
+  // 4:2:0 subsampling: half a chroma sample per pixel.
   const Bytes halves{0xff, 0xd8, 0xff, 0xc2, 0,    17, 8,  0, 32, 0, 48, 3, 1, 0x22, 0, 2, 0x11, 0,
                      3,    0x11, 0,    0xff, 0xda, 0,  12, 3, 1,  0, 2,  0, 3, 0,    0, 0, 0};
   EXPECT_EQ(image_working_memory(halves), 48u * 32 * 3);
-  // An EXR's pixels are those that it stores, not those that it shows.
+  // The pixels of an EXR are those of its data window, not of its display window.
   const std::vector<float> values(64);
   const Bytes exr = encode_exr(8, 8, {{"Y", ExrType::Float, values.data(), nullptr, 1}});
   EXPECT_EQ(image_working_memory(exr), 64u * sizeof(Linear));

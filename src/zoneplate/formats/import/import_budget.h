@@ -12,7 +12,7 @@
 
 namespace zoneplate {
 
-/// The remaining limits of one import, and the name of its file for messages. Bytes are charged before they are
+/// The remaining limits of one import, and the name of its file for error messages. Bytes are charged before they are
 /// allocated.
 class ImportBudget {
  public:
@@ -23,7 +23,7 @@ class ImportBudget {
   const LoadLimits& limits() const { return limits_; }
   std::uint64_t memory_left() const { return left_; }
 
-  /// Errors    ErrorKind::Input when fewer than `bytes` are left, and ever after.
+  /// Errors    ErrorKind::Input if fewer than `bytes` are left, and in all later calls.
   void take(std::uint64_t bytes) {
     is_spent_ = is_spent_ || bytes > left_;
     if (is_spent_)
@@ -31,14 +31,14 @@ class ImportBudget {
                   file_ + ": needs more than the limit of " + std::to_string(limits_.memory) + " bytes (--max-memory)");
     left_ -= bytes;
   }
-  /// Bytes that were taken and are free again.
+  /// Returns bytes that were taken and freed.
   void give_back(std::uint64_t bytes) { left_ += bytes; }
 
-  /// Resets the budget to `bytes`, for another import from the same open file.
+  /// Resets the budget to `left` bytes and restarts the time, for another import from the same open file.
   void restart(std::uint64_t left) { left_ = left, is_spent_ = false, clock_ = Stopwatch(); }
 
   bool has_time() const { return clock_.ms() <= limits_.seconds * 1000; }
-  /// Errors    ErrorKind::Input when the time is up; those of base/deadline.h.
+  /// Errors    ErrorKind::Input if the time limit is exceeded; those of base/deadline.h.
   void check_time() const {
     check_deadline();
     if (!has_time())

@@ -28,7 +28,7 @@ namespace {
 
 constexpr int knots = 100, corners = 4096, points = 256;
 
-/// A corner of an outline that crosses itself all over, which takes as long to cut as any.
+/// A corner of an outline with very many self-intersections, which is a worst case of triangulation.
 std::uint32_t knot_corner(int i) { return hash(static_cast<std::uint32_t>(i)) % points; }
 
 std::string place(std::uint32_t point) {
@@ -69,7 +69,7 @@ std::string stl_of_knots() {
   return text;
 }
 
-/// Loads a text of knots that takes much longer than it may; the message.
+/// Loads a text of knots, which takes much longer than the time limit, and returns the error message.
 template <class Load>
 std::string hurried(const Load& load, const std::string& text) {
   const MemoryFile file;
@@ -81,7 +81,8 @@ std::string hurried(const Load& load, const std::string& text) {
   } catch (const Error& error) {
     message = error.what();
   }
-  // A knot takes some tenths of a second, all of them many times this; a few may be at work when the time is over.
+  // A knot takes some tenths of a second, and all knots many times this bound; threads may finish a few knots after the
+  // time limit.
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 4.0);
   return message.substr(std::min(message.size(), path.size()));
 }
@@ -93,7 +94,7 @@ TEST(ImportBudget, TimeRunsOutBetweenTheFacesOfABlock) {
   EXPECT_EQ(hurried(load_stl, stl_of_knots()), late);
 }
 
-/// The message with which a loader ends whose time is up before it begins.
+/// The error message of a loader that starts after its deadline.
 template <class Load>
 std::string late(const Load& load, const std::string& path) {
   try {
@@ -116,7 +117,7 @@ TEST(ImportBudget, DeadlinesHoldForReadersOfEveryFormat) {
   EXPECT_EQ(late(glb, file.write(triangle_maker().glb())), "the time is up");
 }
 
-/// Loads a text; the processor's seconds that it took.
+/// Loads a text; returns the processor time in seconds.
 template <class Load>
 double seconds_of(const Load& load, const std::string& text, Scene& scene) {
   const MemoryFile file;
@@ -126,7 +127,7 @@ double seconds_of(const Load& load, const std::string& text, Scene& scene) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-/// A line's place is compared with 10^4 others here and there, or it is not: those times lie far apart.
+/// The bound separates two far-apart times: without the protection, each line is compared with 10^4 others.
 constexpr double generous = 20;
 
 const std::string single_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -143,7 +144,7 @@ TEST(ImportBudget, PositionsThatCollideTakeTheTimeOfOthers) {
   }
   for (int i = 1; i <= vertices; i += 3) text += fmt::format("f {} {} {}\n", i, i + 1, i + 2);
   Scene scene;
-  EXPECT_LT(seconds_of(load_obj, text, scene), generous);  // of an open table: 5 * 10^9 steps
+  EXPECT_LT(seconds_of(load_obj, text, scene), generous);  // an open-addressing table would take 5 * 10^9 steps
   EXPECT_EQ(scene.meshes.at(0).position.size(), 99999u);
 }
 
@@ -152,7 +153,7 @@ TEST(ImportBudget, VeryManyNamesTakeLinearTime) {
   std::string text = "o " + long_name + "\n" + single_triangle;
   for (int i = 0; i < 40000; ++i) text += fmt::format("s {}\nf 1 2 3\n", i);
   Scene scene;
-  // The object's name is looked up once, not for each smoothing group.
+  // The object's name is looked up once, not once per smoothing group.
   EXPECT_LT(seconds_of(load_obj, text, scene), generous);
   EXPECT_EQ(scene.objects, NameList{long_name});
 
@@ -188,7 +189,7 @@ TEST(ImportBudget, EmptyLinesAndSolidsTakeLinearTime) {
   EXPECT_LE(parse_stl_text(text, budget).solids.size(), 1u);
 }
 
-/// Of the state changes between two elements the last of each kind holds, and the others use no memory.
+/// Of the state changes between two elements, the last of each kind is kept; the others take no memory.
 TEST(ImportBudget, NamesOfNothingTakeNoRoom) {
   std::string text = single_triangle;
   for (int i = 0; i < 1000; ++i) text += "o a\ng b\nusemtl c\ns 1\n";

@@ -60,7 +60,7 @@ TEST(Sandbox, KeepsToTheLimitsOfTheImport) {
   }
 }
 
-/// A square with a texture beside it.
+/// Loads a square whose texture is a file in the same folder.
 TEST(Sandbox, ReadsExrTextures) {
   const std::filesystem::path folder = testing::TempDir() + "zoneplate_boxed_" + std::to_string(::getpid());
   std::filesystem::create_directory(folder);

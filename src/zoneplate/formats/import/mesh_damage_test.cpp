@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged PLY, STL and OBJ files: loading ends with a sound scene or with one line that says why not.
+// Damaged PLY, STL and OBJ files: loading gives a valid scene or an error message of one line.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -59,7 +59,7 @@ TEST(MeshDamage, AnyLength) {
     }
 }
 
-/// Texts with every number replaced by others, huge ones among them.
+/// Replaces every number of the text files by others, including huge ones.
 TEST(MeshDamage, AnyNumberReplaced) {
   const MemoryFile file;
   for (const Sample& s : samples()) {
@@ -88,7 +88,7 @@ TEST(MeshDamage, CountsThatNoFileHoldsAreRefused) {
     bytes.insert(bytes.end(), 12, 0);
     bytes.insert(bytes.end(), 1000, 0);
     EXPECT_NE(load_soundly(load_ply, file.write(bytes)), "");
-    // Rows of nothing take no room and no time.
+    // Rows without properties take no memory and no time.
     EXPECT_NE(load_soundly(load_ply, file.write(bytes_of("ply\nformat ascii 1.0\nelement empty " + std::string(count) +
                                                          "\nelement vertex 0" + xyz + "end_header\n"))),
               "");

@@ -8,7 +8,7 @@
 
 namespace zoneplate::mesh_samples {
 
-// Small files with a bit of everything that their format may have, for tests and as seeds of the fuzz targets.
+// Small files that use most features of their formats, for tests and as seeds of the fuzz targets.
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -21,7 +21,7 @@ void add(Bytes& out, T value, bool is_big = false) {
   for (std::size_t i = 0; i < sizeof(T); ++i) out.push_back(raw[is_big ? sizeof(T) - 1 - i : i]);
 }
 
-/// Everything that a PLY file may have: all types, a list among the vertices, faces of several lengths, strips, edges.
+/// A PLY file with all types, a list property of the vertices, faces of several lengths, strips and edges.
 inline Bytes binary_ply(bool is_big) {
   Bytes out = bytes_of(std::string("ply\nformat binary_") + (is_big ? "big" : "little") +
                        "_endian 1.0\ncomment TextureFile none.png\nelement vertex 5\nproperty double x\n"

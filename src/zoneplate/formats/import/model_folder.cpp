@@ -21,7 +21,7 @@ std::string with_slashes(std::string_view name) {
   return out;
 }
 
-/// A file's name as a URI, which is what find_path takes.
+/// Encodes a file name as a URI, the argument of find_path.
 std::string to_uri(const std::string& name) {
   std::string out;
   for (const char c : name) out += c == '%' ? std::string("%25") : std::string(1, c);
@@ -57,7 +57,7 @@ int ModelFolder::image(const std::string& within, const std::string& name) {
   const auto [known, is_first] = known_.try_emplace({within, name}, -1);
   if (!is_first) return known->second;
   constexpr std::uint64_t of_the_tables = 256;
-  budget_.check_time();  // files are looked for
+  budget_.check_time();  // because the file search below takes time
   budget_.take(of_the_tables + 2 * name.size());
   const std::optional<std::string> path = missing_ < most_missing ? find_file(within, name) : std::nullopt;
   const auto [entry, is_new] = images_.try_emplace(path.value_or("missing " + name), -1);
@@ -75,14 +75,14 @@ void ModelFolder::warn(std::string text) {
                                                 : budget_.file() + ": more of this kind is not listed");
 }
 
-/// The number of the image that is made, or -1 and a warning.
+/// Adds the image that `make` returns to the scene. Returns its index, or -1 with a warning if `make` fails.
 template <class Make>
 int ModelFolder::add(Make make) {
   try {
     scene_.images.push_back(make());
     return static_cast<int>(scene_.images.size()) - 1;
   } catch (const Error& error) {
-    // Exceeding the memory budget or the deadline remains an error.
+    // Exceeding the memory budget or the deadline is an error nevertheless.
     budget_.take(0);
     budget_.check_time();
     warn(fmt::format("{}: texture {}", budget_.file(), error.what()));

@@ -15,31 +15,33 @@
 
 namespace zoneplate {
 
-/// The files about a model: its material libraries and images, found and opened within its folder.
+/// The files that accompany a model: material libraries and images, found and opened within its folder.
 class ModelFolder {
  public:
-  /// `folder` is that of the model; nothing outside it is opened unless the limits allow it.
+  /// `folder` is the folder of the model. No file outside it is opened, except those that the limits allow.
   ModelFolder(std::string folder, ImportBudget& budget, Scene& scene)
       : folder_(std::move(folder)), budget_(budget), scene_(scene) {}
 
-  /// The file of that name as a material library writes it, seen from the folder `within` the model's ("" or "sub/").
+  /// Finds a file by the name that a material library states, relative to the folder `within`, itself relative to the
+  /// model's folder ("" or "sub/").
   ///
-  /// Backslashes are slashes. A name that leads elsewhere or to nothing is looked for in the model's folder by its
-  /// last part, as models keep the paths of the machine that wrote them.
+  /// Backslashes are slashes. If that file is missing or outside the folder, the last component of its name is searched
+  /// in the model's folder, because models often contain paths of the machine that wrote them.
   std::optional<std::string> find_file(const std::string& within, std::string_view name) const;
 
-  /// The bytes of a file that find_file found.
+  /// The contents of a file that find_file found.
   FileBytes open(const std::string& path) const;
 
-  /// The number of the image in Scene::images, which is loaded at its first use; -1, with a warning, if there is none.
-  /// Of very many that are not there only the first are looked for.
+  /// The index of an image in Scene::images, which is loaded at its first use; -1, with a warning, if it cannot be
+  /// loaded. The search ends after 1000 missing images.
   int image(const std::string& within, const std::string& name);
 
-  /// An image that the model's file holds: it is found by any of the names, where there is no file of that name.
+  /// Adds an image that is embedded in the model's file. image() finds it by any of the names unless there is a file of
+  /// that name.
   void embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes);
   void embed(std::span<const std::string> names, Rgba8Image pixels);
 
-  /// Adds a warning about ignored content; of very many only the first.
+  /// Adds a warning about ignored content. Only the first 2000 are kept.
   void warn(std::string text);
 
   ImportBudget& budget() { return budget_; }
@@ -54,12 +56,12 @@ class ModelFolder {
   std::string folder_;
   ImportBudget& budget_;
   Scene& scene_;
-  std::map<std::string, int> images_;                         ///< by path, or by name where there is no file
-  std::map<std::pair<std::string, std::string>, int> known_;  ///< by the arguments of image(): `within` and name
+  std::map<std::string, int> images_;                         ///< index by path, or by name if there is no file
+  std::map<std::pair<std::string, std::string>, int> known_;  ///< index by the arguments of image(): `within` and name
   std::size_t missing_ = 0, notes_ = 0;
 };
 
-/// The material of surfaces without one: light grey, without highlights.
+/// The material of surfaces that have none: light grey, without highlights.
 Material plain_material(const std::string& name);
 
 }  // namespace zoneplate

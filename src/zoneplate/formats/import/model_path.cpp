@@ -23,7 +23,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-/// The value of each base64 character (RFC 4648, and its URL-safe twins), 64 for white space, 255 for others.
+/// The value of each base64 character (RFC 4648, standard and URL-safe alphabets), 64 for white space, 255 for others.
 constexpr std::array<std::uint8_t, 256> base64_values() {
   std::array<std::uint8_t, 256> value{};
   for (auto& v : value) v = 255;
@@ -43,7 +43,7 @@ bool is_within(const std::filesystem::path& folder, const std::filesystem::path&
   return end == folder.end() && rest != file.end();
 }
 
-/// Whether a path, whose links were followed, is one of `allowed` or below one of them.
+/// Whether a path without symbolic links is one of `allowed` or below one of them.
 bool is_allowed(std::span<const std::string> allowed, const std::filesystem::path& file) {
   return std::any_of(allowed.begin(), allowed.end(), [&](const std::string& path) {
     std::error_code trouble;
@@ -83,7 +83,7 @@ std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text) {
     held -= 8;
     out.push_back(static_cast<std::uint8_t>(bits >> held));
   }
-  return held == 6 ? std::nullopt : std::optional(std::move(out));  // a single character is not a byte
+  return held == 6 ? std::nullopt : std::optional(std::move(out));  // six bits are not a byte
 }
 
 bool has_scheme(std::string_view uri) {
@@ -99,11 +99,11 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
                                      std::span<const std::string> allowed) {
   namespace fs = std::filesystem;
   const std::string name = decode_percent(uri);
-  constexpr std::size_t most_bytes = 4096;  // of a path that Linux opens (PATH_MAX)
+  constexpr std::size_t most_bytes = 4096;  // the maximum length of a path in Linux (PATH_MAX)
   if (name.empty() || name.size() > most_bytes || name.find('\0') != std::string::npos) return std::nullopt;
   const fs::path file = fs::path(folder) / name;
 
-  // Links and ".." are followed first, so that what counts is the place of the file that would be opened.
+  // Symbolic links and ".." are resolved first, so that the check applies to the file that would be opened.
   std::error_code trouble;
   const fs::path inside = fs::weakly_canonical(folder.empty() ? "." : folder, trouble);
   if (trouble) return std::nullopt;

@@ -73,7 +73,7 @@ TEST(GltfUri, StaysInTheFolder) {
 }
 
 TEST(GltfUri, AStreamIsNotAFile) {
-  // Opening a pipe without a writer blocks for ever.
+  // Opening a pipe without a writer blocks forever.
   const TestFolder folder;
   const std::string pipe = folder.path("pipe.bin");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -104,7 +104,7 @@ TEST(GltfUri, FollowsLinksBeforeItAnswers) {
   EXPECT_TRUE(find_path(folder.path("model"), "near.bin", {}));
 }
 
-/// Between the answer of find_path and the opening another user may put a link in the file's place.
+/// Between find_path and the opening, another user may replace the file by a symbolic link.
 TEST(GltfUri, WhatIsOpenedIsCheckedAgain) {
   const TestFolder folder;
   const std::string model = folder.path("model"), in = folder.write("model/in.bin", std::string("in"));

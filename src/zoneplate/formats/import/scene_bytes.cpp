@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-/// Both directions are one walk over the scene (`pass`); they differ in what happens at its leaves.
+/// Writer and reader traverse the scene with the same function (`pass`); they differ in the operations on its leaves.
 class Writer {
  public:
   explicit Writer(const ByteSink& sink) : sink_(sink) {}
@@ -138,7 +138,7 @@ class Reader {
   }
   template <class T, class Each>
   void list(std::vector<T>& items, Each each) {
-    // One after the other, so that a number which is a lie ends with the bytes, not with the memory.
+    // Elements are read one by one, so that a false count fails at the end of the bytes and does not allocate memory.
     std::uint64_t n = 0;
     for (value(n); n > 0; --n) {
       constexpr std::uint64_t items_per_check = 256;
@@ -271,7 +271,7 @@ void pass(S& s, Scene& scene) {
 
 void write_scene(const Scene& scene, const ByteSink& sink) {
   Writer writer(sink);
-  pass(writer, const_cast<Scene&>(scene));  // which a writer leaves as it is
+  pass(writer, const_cast<Scene&>(scene));  // a Writer does not modify the scene
 }
 
 Scene read_scene(const ByteSource& source, ImportBudget& budget) {

@@ -9,7 +9,7 @@
 
 namespace zoneplate {
 
-/// Writes, or reads, this number of bytes.
+/// ByteSink writes and ByteSource reads the given number of bytes.
 using ByteSink = std::function<void(const void*, std::size_t)>;
 using ByteSource = std::function<void(void*, std::size_t)>;
 

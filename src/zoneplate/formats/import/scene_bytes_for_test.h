@@ -8,7 +8,7 @@
 
 namespace zoneplate {
 
-/// What write_scene writes.
+/// The bytes that write_scene writes.
 inline std::vector<std::uint8_t> written(const Scene& scene) {
   std::vector<std::uint8_t> out;
   write_scene(scene, [&](const void* data, std::size_t size) {

@@ -28,7 +28,7 @@ Scene read(const Bytes& bytes, const LoadLimits& limits = {}) {
   return read_scene(source, budget);
 }
 
-/// A scene whose every field differs from its default.
+/// A scene in which every field differs from its default.
 Scene full_scene() {
   const MemoryFile file;
   Scene s = load_gltf(file.write(everything().glb()));
@@ -137,7 +137,7 @@ TEST(SceneBytes, ANameThatIsNotThereIsRefused) {
   const Bytes name = {'o', 'n', 'l', 'y'};
   const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
   ASSERT_NE(at, bytes.end());
-  *(at + 12) = 1;  // behind the text and the number of things: the first thing's
+  *(at + 12) = 1;  // the index of the first object's name, after the text and the number of objects
   EXPECT_THROW(read(bytes), Error);
 }
 

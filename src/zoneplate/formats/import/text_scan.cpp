@@ -22,7 +22,7 @@ bool is_continuation(const char* at, const char* end) {
   return at == end || *at == '\n';
 }
 
-/// Infinity or zero, for a decimal number that no double can hold.
+/// Infinity or zero, for a decimal number outside the range of double.
 float out_of_range(std::string_view word, float sign) {
   const bool has_negative_power = word.find("e-") != word.npos || word.find("E-") != word.npos;
   const std::size_t digit = word.find_first_of("123456789"), point = word.find('.');
@@ -30,7 +30,7 @@ float out_of_range(std::string_view word, float sign) {
   return sign * (is_small ? 0.0f : std::numeric_limits<float>::infinity());
 }
 
-/// Any number that the fast way leaves, by the standard library's exact conversion.
+/// Converts any number that the fast path does not handle, with the standard library's exact conversion.
 std::optional<float> find_any_number(std::string_view word) {
   float sign = 1;
   if (!word.empty() && (word[0] == '-' || word[0] == '+')) {
@@ -53,20 +53,22 @@ constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// Reads decimal digits as far as they go: value becomes value × 10^n + theirs, without a check of overflow; `at` moves
-/// behind them. Eight at a time, as the length of a loop over digits is unpredictable.
+/// Reads consecutive decimal digits: value becomes value × 10^n + the number of the n digits, without an overflow
+/// check; `at` moves behind them. Eight digits are read at a time, because the length of a loop over digits is
+/// unpredictable.
 inline void scan_digits(const char*& at, const char* end, std::uint64_t& value) {
   static_assert(std::endian::native == std::endian::little, "the first character is the lowest byte");
   constexpr std::array<std::uint64_t, 9> scales = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
   while (end - at >= 8) {
     std::uint64_t eight;
     std::memcpy(&eight, at, sizeof eight);
-    // A byte is a digit where it becomes 0 to 9; of others the first one is found, whatever they carry upwards.
+    // A byte is a digit if the xor makes it 0 to 9. The mask finds the first other byte; carries affect only bytes
+    // above it.
     eight ^= 0x3030303030303030;
     const std::uint64_t others = ((eight + 0x7676767676767676) | eight) & 0x8080808080808080;
     const int n = std::countr_zero(others) / 8;
     if (n == 0) return;
-    // Pairs of digits, fours, eight; missing digits are replaced by leading zeros.
+    // Combines pairs of digits, then fours, then eight; missing digits are replaced by leading zeros.
     eight <<= 64 - 8 * n;
     eight = eight * 10 + (eight >> 8);
     eight =
@@ -79,10 +81,10 @@ inline void scan_digits(const char*& at, const char* end, std::uint64_t& value) 
   for (; at != end && is_digit(*at); ++at) value = value * 10 + static_cast<std::uint64_t>(*at - '0');
 }
 
-/// digits × 10^power as a float, if one rounding in double settles it.
+/// digits × 10^power as a float, if one rounding in double suffices.
 ///
-/// Both factors are exact in double, so that their product is the double nearest to the number. Its float is the
-/// nearest too, unless that double lies just between two floats (its last 29 bits are a one and zeros).
+/// Both factors are exact in double, so that the product is the double nearest to the number. Rounding it to float
+/// gives the nearest float too, unless the double is halfway between two floats (its last 29 bits are a one and zeros).
 std::optional<float> find_product(std::uint64_t digits, int power) {
   if (digits == 0) return 0.0f;
   if (digits >> 53 != 0 || power < -22 || power > 22) return std::nullopt;

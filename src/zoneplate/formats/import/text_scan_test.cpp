@@ -34,7 +34,7 @@ TEST(FindNumber, IsTheNearestFloatOfAnyWayOfWritingIt) {
 }
 
 TEST(FindNumber, RoundsNumbersBetweenTwoFloatsByTheirLastDigit) {
-  // 1 + 2^-24 lies between 1 and the next float: even wins, and one digit more decides.
+  // 1 + 2^-24 is halfway between 1 and the next float: ties round to even, and one more digit decides.
   EXPECT_EQ(find_number("1.000000059604644775390625"), 1.0f);
   EXPECT_EQ(find_number("1.00000005960464477"), 1.0f);
   EXPECT_EQ(find_number("1.00000005960464478"), std::nextafter(1.0f, 2.0f));
@@ -108,7 +108,8 @@ TEST(LineWords, KeepSpacesInTheRest) {
   LineWords words("usemtl \t dark red#2  \r");
   EXPECT_EQ(words.next(), "usemtl");
   EXPECT_EQ(words.rest(), "dark red#2");
-  EXPECT_EQ(LineWords(" a\\\nb\tc ").rest(), "a  b c");  // a name is one line, wherever it is shown
+  // Control characters become spaces, because names are printed in one line.
+  EXPECT_EQ(LineWords(" a\\\nb\tc ").rest(), "a  b c");
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t greatest_depth = 64;  // glTF itself nests 8 deep, extensions and extras a few more
+constexpr std::size_t greatest_depth = 64;  // maximum nesting: glTF has 8 levels, extensions and extras a few more
 
-/// Builds the tree from the JSON library's events, and stops where a limit is passed.
+/// Builds the tree from the JSON library's events, and throws if a limit is exceeded.
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit TreeBuilder(ImportBudget& budget) : budget_(budget) {}
@@ -40,7 +40,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& e) override {
-    // The library reports "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
+    // The library's messages have the form "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
     const std::string text = e.what();
     const std::size_t end = text.find("] ");
     throw Error(ErrorKind::Input, budget_.file() + ": not JSON: " + one_line(text.substr(end + 2)));
@@ -54,7 +54,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool add_number(double v) { return add({.kind = JsonValue::Kind::Number, .number = v}); }
 
-  /// Growth doubles a list, so a value may hold twice its own size.
+  /// The capacity of a list doubles, so that a value may take twice its own size.
   bool add(JsonValue&& value) {
     constexpr std::uint64_t values_per_check = 1024;
     if (++count_ % values_per_check == 0) budget_.check_time();
@@ -67,7 +67,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     if (open_.size() == greatest_depth)
       throw Error(ErrorKind::Input, budget_.file() + ": JSON nested deeper than " + std::to_string(greatest_depth));
     add({.kind = kind});
-    open_.push_back(last_);  // stays where it is: only the innermost open list grows
+    open_.push_back(last_);  // the address is stable, because only the innermost open list grows
     return true;
   }
   bool close() {
@@ -96,7 +96,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   ImportBudget& budget_;
-  std::uint64_t count_ = 0;  ///< of values so far
+  std::uint64_t count_ = 0;  ///< number of values so far
   JsonValue root_;
   JsonValue* last_ = nullptr;
   std::vector<JsonValue*> open_;
@@ -122,7 +122,7 @@ const char* name_of(JsonValue::Kind kind) {
 
 std::string join(const std::string& place, const std::string& name) { return place + " " + name; }
 
-/// As a person would write it: 3, 1e+300, -0.5.
+/// Formats a number in its usual form: 3, 1e+300, -0.5.
 std::string text_of(double number) {
   const bool is_whole = std::abs(number) < 1e15 && number == std::floor(number);
   return is_whole ? std::to_string(static_cast<std::int64_t>(number)) : nlohmann::json(number).dump();
@@ -153,7 +153,7 @@ void JsonView::fail(const std::string& cause) const {
 }
 
 const JsonValue* JsonView::find(const char* key) const {
-  // Of equal keys the last one counts.
+  // Of equal keys the last one is used.
   if (value_->keys.size() > JsonValue::most_unsorted_keys) {
     const auto after = std::upper_bound(value_->keys.begin(), value_->keys.end(), key);
     const bool is_found = after != value_->keys.begin() && after[-1] == key;

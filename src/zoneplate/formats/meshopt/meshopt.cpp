@@ -11,8 +11,8 @@
 namespace zoneplate {
 namespace {
 
-/// The library's functions. It is loaded by the first file that needs it: loading it with the program would take as
-/// long as a small image.
+/// The library's functions. The library is loaded by the first file that needs it, because loading it takes as long as
+/// rendering a small image.
 struct MeshoptLibrary {
   decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;
   decltype(&meshopt_decodeFilterOct) octahedral = nullptr;
@@ -56,7 +56,8 @@ std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const s
   check_stride(json, mode, filter, stride);
   if (mode == "TRIANGLES" && count % 3 != 0) json.fail("count is " + std::to_string(count) + ", not in threes");
 
-  // No codec of the library makes more of a byte: what claims more is not worth the memory.
+  // No codec of the library expands a byte to more: data that claim more are corrupt, and no memory is allocated for
+  // them.
   constexpr std::uint64_t most_per_byte = 1024;
   if (count * stride / most_per_byte > packed.size()) json.fail("its data are corrupt");
   budget.check_time();

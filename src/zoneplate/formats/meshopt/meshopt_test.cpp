@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A file of `n` triangles in a row whose positions and indices are both packed.
+/// A file with a row of `n` triangles whose positions and indices are both compressed.
 Bytes packed_glb(std::uint32_t n) {
   std::vector<float3> position;
   std::vector<std::uint32_t> index;

@@ -16,17 +16,17 @@
 namespace zoneplate {
 namespace {
 
-/// For elements that refer to data outside of the part.
+/// Thrown if an element refers to data outside of the part.
 struct NeedsMore {};
 
-/// The counts before a part and of the whole file.
+/// The counts of the parts before this one, and of the whole file.
 struct LineContext {
   ObjCounts before, all;
 };
 
 class PartReader {
  public:
-  /// `known` is null before the counts of other parts are available.
+  /// `known` is null in the first pass, before the counts of other parts are available.
   PartReader(std::string_view text, char separator, const LineContext* known, ObjPart& part)
       : at_(text.data()),
         end_(text.data() + text.size()),
@@ -40,7 +40,8 @@ class PartReader {
   void read() {
     const std::string_view text(at_, static_cast<std::size_t>(end_ - at_));
     const std::size_t last = separator_ == '\n' ? text.rfind('\n') : text.npos;
-    const char* const last_end = last == text.npos ? at_ : at_ + last;  // of all lines but perhaps one
+    // The end of all lines except perhaps an unterminated last one.
+    const char* const last_end = last == text.npos ? at_ : at_ + last;
     while (at_ != end_)
       if (at_ >= last_end || !read_plain()) read_any();
   }
@@ -51,7 +52,7 @@ class PartReader {
   }
 
  private:
-  /// A line of any kind, with those that continue it.
+  /// Reads any logical line.
   void read_any() {
     constexpr std::uint64_t lines_per_check = 4096;
     if (next_line_ % lines_per_check == 0) check_deadline();
@@ -64,8 +65,8 @@ class PartReader {
     next_line_ = lines.next_number();
   }
 
-  /// Nearly all lines, at full speed: vertices and faces without surprises. Moves behind the line, or answers false
-  /// where read_statement has to look. A line's end is ahead, so that nothing else has to be looked out for.
+  /// The fast path for nearly all lines: vertices and faces in their usual form. Moves behind the line; false if
+  /// read_statement has to parse it. The line is terminated, so that scanning needs no bounds checks.
   bool read_plain() {
     const char* at = at_;
     if (at[0] == 'f' && at[1] == ' ') return read_plain_face(at + 1);
@@ -84,7 +85,7 @@ class PartReader {
     return true;
   }
 
-  /// Scans n consecutive numbers; null if the text differs.
+  /// Scans n consecutive numbers; null if the text has another form.
   const char* scan_numbers(const char* at, std::size_t n, std::array<float, 3>& out) const {
     for (std::size_t i = 0; i < n && at != nullptr; ++i) {
       while (*at == ' ') ++at;
@@ -93,7 +94,7 @@ class PartReader {
     return at;
   }
 
-  /// Whether the rest of the line is empty; if so, moves to the next one.
+  /// If the rest of the line is empty, moves to the next line and returns true.
   bool ends_line(const char* at) {
     while (*at == ' ' || *at == '\r') ++at;
     if (*at != '\n') return false;
@@ -102,8 +103,8 @@ class PartReader {
     return true;
   }
 
-  /// A whole number without a sign that is the index of something that may be there, from 0; `at` moves behind it. -1
-  /// for anything else.
+  /// Scans an unsigned index of an existing element and moves `at` behind it. Returns the zero-based index; -1 for any
+  /// other text.
   std::int32_t scan_index(const char*& at, std::uint64_t ObjCounts::*kind) {
     std::uint64_t value = 0;
     const char* const first = at;
@@ -114,7 +115,7 @@ class PartReader {
     return static_cast<std::int32_t>(value - 1);
   }
 
-  /// Whether the same digits, and no more, stand at `at`.
+  /// Whether the text at `at` is the same number as `digits`.
   bool is_repeated(std::string_view digits, const char* at) const {
     const std::size_t n = digits.size();
     if (n >= 8 || end_ - at < 8) return false;
@@ -124,7 +125,7 @@ class PartReader {
     return (a ^ b) << (64 - 8 * n) == 0 && !(at[n] >= '0' && at[n] <= '9');
   }
 
-  /// Scans an index that may be the position's once more.
+  /// Scans the index of a texture coordinate or normal, which is often the same number as the position's.
   std::int32_t scan_other_index(const char*& at, std::uint64_t ObjCounts::*kind, std::string_view position,
                                 std::int32_t index) {
     if (!is_repeated(position, at)) return scan_index(at, kind);
@@ -192,13 +193,13 @@ class PartReader {
     if (tally.count++ == 0) tally.line = line_, tally.word = word.substr(0, 40);
   }
 
-  /// Parts without line numbers report no errors.
+  /// Errors are reported in the second pass only, in which line numbers are known.
   [[noreturn]] void fail(std::string cause) const {
     if (!known_) throw NeedsMore{};
     throw ObjLineError{line_, std::move(cause)};
   }
 
-  /// The numbers of the line, at most as many as `out` holds.
+  /// Reads the numbers of the line, at most as many as `out` has elements.
   template <std::size_t n>
   std::size_t read_numbers(const char* what, std::size_t least, LineWords& words, std::array<float, n>& out) {
     std::size_t i = 0;
@@ -214,7 +215,7 @@ class PartReader {
   }
 
   void read_position(LineWords& words) {
-    // x y z, with a weight (which only free-form geometry uses), or with a colour and perhaps its alpha.
+    // x y z, then optionally a weight (which only free-form geometry uses), or a colour with optional alpha.
     std::array<float, 7> v{0, 0, 0, 1, 1, 1, 1};
     const std::size_t n = read_numbers("vertex", 3, words, v);
     if (n >= 6) vertices_.colors.push_back({vertices_.positions.size(), {v[3], v[4], v[5], n == 7 ? v[6] : 1}});
@@ -237,7 +238,7 @@ class PartReader {
   }
 
   void add_normal(const std::array<float, 3>& v) {
-    // In double, so that neither long nor short normals are lost.
+    // In double, so that squares neither overflow nor underflow.
     const double x = v[0], y = v[1], z = v[2], length = std::sqrt(x * x + y * y + z * z);
     const bool is_fine = std::isfinite(length) && length > 0;
     vertices_.normals.push_back(
@@ -248,10 +249,11 @@ class PartReader {
 
   struct Index {
     std::int64_t given = 0;
-    std::int32_t found = -1;  ///< -1 where there is none
+    std::int32_t found = -1;  ///< -1 if it is out of range
   };
 
-  /// The next index of a corner's text: absolute from 1, or negative from the last one so far.
+  /// Reads the next index of a corner's text: positive ones count from 1, negative ones back from the last element so
+  /// far.
   Index read_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind, const char* what) {
     std::int64_t value = 0;
     const char* const begin = at != end && *at == '+' ? at + 1 : at;
@@ -310,7 +312,7 @@ class PartReader {
     chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), kind});
   }
 
-  /// Of several that stand between the same elements the last of a kind holds.
+  /// Adds a state change. It replaces one of the same kind between the same two elements, because the last one holds.
   void add_state(ObjStateKind kind, LineWords& words) {
     ObjState state{kind, static_cast<std::uint32_t>(chunk_.elements.size()), words.rest()};
     constexpr std::ptrdiff_t kinds = 5;

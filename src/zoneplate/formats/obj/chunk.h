@@ -13,22 +13,22 @@
 
 namespace zoneplate {
 
-/// A statement between elements that applies to those that follow.
+/// A statement between elements that applies to the following elements.
 enum class ObjStateKind { Object, Group, Material, Smoothing, Library };
 struct ObjState {
   ObjStateKind kind;
-  std::uint32_t before;  ///< the element of its chunk before which it stands
+  std::uint32_t before;  ///< the index within its chunk of the element that follows the statement
   std::string text;
 };
 
-/// Ignored content: its count, and the position of the first.
+/// A kind of ignored content; ObjTally holds its count and its first occurrence.
 enum class ObjNote { FewCorners, FreeForm, Unknown, UvNotFinite, NoSuchUv, NoSuchNormal };
 struct ObjTally {
   std::uint64_t count = 0, line = 0;
   std::string word;
 };
 
-/// A part of the file. The parts are cut at fixed places, so that they are the same for any number of threads.
+/// The elements of a part of the file. The file is cut independently of the number of threads.
 struct ObjChunk {
   ObjCorners corners;
   ObjElements elements;
@@ -45,11 +45,11 @@ struct ObjChunk {
 /// The vertices of a part.
 struct ObjVertices {
   std::vector<float3> positions;
-  std::vector<std::pair<std::uint64_t, float4>> colors;  ///< of which of these positions
+  std::vector<std::pair<std::uint64_t, float4>> colors;  ///< the index of a position of this part and its colour
   std::vector<float2> uvs;
   std::vector<float3> normals;
-  bool has_odd_position = false;  ///< one that is not finite
-  bool has_odd_normal = false;    ///< one without a direction
+  bool has_odd_position = false;  ///< a position is not finite
+  bool has_odd_normal = false;    ///< a normal has no direction
 
   std::uint64_t bytes() const {
     return positions.size() * sizeof(float3) + colors.size() * sizeof(colors[0]) + uvs.size() * sizeof(float2) +
@@ -57,36 +57,38 @@ struct ObjVertices {
   }
 };
 
-/// Numbers of elements of each kind: in a part, before it, or in the file.
+/// Numbers of lines and vertex data: in a part, before it, or in the file.
 struct ObjCounts {
   std::uint64_t lines = 0, positions = 0, uvs = 0, normals = 0;
 };
 
-/// One part, read by itself.
+/// The result of reading one part.
 struct ObjPart {
   ObjChunk chunk;
   ObjVertices vertices;
   ObjCounts counts;
-  ObjCounts named;  ///< the greatest absolute indices
+  ObjCounts named;  ///< for each kind, the greatest one-based index that is used
 };
 
-/// A cause of refusal with its line.
+/// An error and its line.
 struct ObjLineError {
   std::uint64_t line;
   std::string cause;
 };
 
-inline constexpr std::uint64_t most_obj_items = 1u << 30;  ///< of one kind, and corners of one chunk
+/// Maximum number of vertex data of one kind, and of corners of one chunk.
+inline constexpr std::uint64_t most_obj_items = 1u << 30;
 
-/// Reads a part without knowing the others: lines are numbered from 1, and absolute indices may name what is not there.
+/// Reads a part without data of the others: lines are numbered from 1, and absolute indices are not checked against the
+/// size of the file.
 ///
-/// Answers false where more has to be known, as for an index that counts backwards or before anything is refused; then
-/// `counts` alone are right.
+/// Returns false if the part depends on others, for example by an index that counts backwards, or contains an error;
+/// then only `counts` is valid.
 bool read_obj_part(std::string_view text, char separator, ObjPart& part);
 
 /// Reads a part again whose contents depend on the parts before it and on the totals.
 ///
-/// Errors    ObjLineError: a number that is none, too few numbers, a vertex that is not there.
+/// Errors    ObjLineError: a word that is not a number, too few numbers, the index of a missing vertex.
 void read_obj_part(std::string_view text, char separator, const ObjCounts& before, const ObjCounts& all, ObjPart& part);
 
 }  // namespace zoneplate

@@ -16,7 +16,7 @@ bool says(const ObjFile& file, ObjStateKind kind) {
   });
 }
 
-/// A number, or off; any other word is on.
+/// The operand of `s`: a group number, or "off"; any other word is group 1.
 std::uint32_t smoothing_of(const std::string& text) {
   std::uint32_t group = 0;
   const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), group);
@@ -24,9 +24,10 @@ std::uint32_t smoothing_of(const std::string& text) {
   return text.empty() || text == "off" ? 0 : 1;
 }
 
-/// A name that holds until the next one is set, and its number in a list, where it is put when it is first used.
+/// The current name, and its index in a list to which it is appended at its first use.
 ///
-/// The names that it is set to outlive it. They are kept in order, not hashed, as a file may choose names that collide.
+/// The text of a name must outlive this object. A map is used and not a hash table, because a malicious file could
+/// choose names that collide.
 class CurrentName {
  public:
   CurrentName(std::vector<std::string>& list, std::string_view first) : list_(list), name_(first) {}
@@ -37,7 +38,7 @@ class CurrentName {
     if (is_new) list_.emplace_back(name_), bytes_ += of_a_name + 2 * name_.size();
     return number_ = found->second;
   }
-  /// The memory of the names in the list, in the table, and as names of meshes or materials.
+  /// The memory of the names: in the list, in the map, and later as names of meshes or materials.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace zoneplate {
 
-/// A corner of an element. Indices are zero-based; -1 is none.
+/// A corner of an element: zero-based indices, -1 where there is none.
 struct ObjCorner {
   std::int32_t position = -1, uv = -1, normal = -1;
   bool operator==(const ObjCorner&) const = default;
@@ -15,23 +15,24 @@ struct ObjCorner {
 
 enum class ObjKind : std::uint8_t { Face, Line, Point };
 
-/// A face, a polyline or a set of points: `count` corners of its chunk from `first` on.
+/// A face, a polyline or a set of points: `count` corners of its chunk, starting at `first`.
 struct ObjElement {
   std::uint32_t first = 0, count = 0;
   ObjKind kind = ObjKind::Face;
   bool operator==(const ObjElement&) const = default;
 };
 
-/// A list of indices parallel to the list of positions: as long, or empty if all are -1 or all equal the position's.
+/// A list of indices parallel to the list of positions. No memory is used if all are -1 or all are equal to the
+/// positions' indices.
 class ObjIndices {
  public:
   std::int32_t at(std::size_t i, std::int32_t position) const {
     return kind_ == Kind::Own ? own_[i] : kind_ == Kind::None ? -1 : position;
   }
-  /// Whether no index is -1, conservatively.
+  /// True if no index is -1; may also be false in that case.
   bool has_all() const { return kind_ == Kind::Same || (kind_ == Kind::Own && !has_none_); }
 
-  /// Whether all equal their positions.
+  /// Whether all are equal to the indices of their positions.
   bool are_same() const { return kind_ == Kind::Same; }
 
   void push_back(std::int32_t index, const std::vector<std::int32_t>& positions, std::int32_t position) {
@@ -62,8 +63,8 @@ class ObjIndices {
   bool has_none_ = false;
 };
 
-/// The corners of a chunk's elements, one after the other. In most files the three indices of a corner are one number,
-/// or a kind is missing throughout: then they take a third of the room.
+/// The corners of a chunk's elements, concatenated. In most files the three indices of a corner are equal, or a kind is
+/// absent; then the list takes a third of the memory.
 class ObjCorners {
  public:
   std::size_t size() const { return positions_.size(); }
@@ -73,7 +74,7 @@ class ObjCorners {
     return {position, uvs_.at(i, position), normals_.at(i, position)};
   }
   std::size_t position(std::size_t i) const { return static_cast<std::size_t>(positions_[i]); }
-  /// Whether every corner has a normal, conservatively.
+  /// True if every corner has a normal; may also be false in that case.
   bool have_normals() const { return normals_.has_all(); }
 
   void push_back(const ObjCorner& corner) {
@@ -83,7 +84,7 @@ class ObjCorners {
     normals_.push_back(corner.normal, positions_, corner.position);
     positions_.push_back(corner.position);
   }
-  /// Drops the last corners.
+  /// Truncates the list to `size` corners.
   void shorten(std::size_t size) {
     uvs_.shorten(size), normals_.shorten(size);
     positions_.resize(size);
@@ -95,7 +96,7 @@ class ObjCorners {
   ObjIndices uvs_, normals_;
 };
 
-/// The elements of a chunk. As long as they are triangles that follow each other, only counted.
+/// The elements of a chunk. As long as all are consecutive triangles, only their number is stored.
 class ObjElements {
  public:
   std::size_t size() const { return triangles_ + own_.size(); }
@@ -114,7 +115,7 @@ class ObjElements {
  private:
   static ObjElement triangle(std::size_t i) { return {static_cast<std::uint32_t>(3 * i), 3, ObjKind::Face}; }
   std::vector<ObjElement> own_;
-  std::size_t triangles_ = 0;  ///< while `own_` is empty
+  std::size_t triangles_ = 0;  ///< used while `own_` is empty
 };
 
 }  // namespace zoneplate

@@ -8,7 +8,8 @@
 namespace zoneplate {
 namespace {
 
-/// Corners of which each kind of index is missing, equal to the position or its own, changing now and then.
+/// Corners whose uv and normal indices are missing, equal to the position's or independent; the kind changes at some
+/// corner.
 ObjCorner some_corner(std::uint32_t seed, std::uint32_t i) {
   const auto index = [&](std::uint32_t kind) { return static_cast<std::int32_t>(hash(seed, i, kind) % 1000); };
   ObjCorner c{index(0), -1, -1};

@@ -19,7 +19,7 @@
 namespace zoneplate {
 namespace {
 
-/// The runs that make one mesh.
+/// The runs of elements that become one mesh.
 struct Plan {
   int object = 0, material = 0;
   ObjKind kind = ObjKind::Face;
@@ -34,7 +34,7 @@ std::vector<Plan> plan_meshes(const ObjFile& file, const ObjLayout& layout) {
     constexpr std::size_t runs_per_check = 1024;
     if (runs_done++ % runs_per_check == 0) check_deadline();
     std::array<bool, 3> seen{};
-    // Triangles need no second look.
+    // If all elements are triangles, the first one is representative.
     const ObjElements& elements = file.chunks[run.chunk].elements;
     const std::uint32_t end = elements.are_triangles() ? std::min(run.begin + 1, run.end) : run.end;
     for (std::uint32_t e = run.begin; e < end; ++e) {
@@ -48,12 +48,12 @@ std::vector<Plan> plan_meshes(const ObjFile& file, const ObjLayout& layout) {
   return plans;
 }
 
-/// An element of more corners than this may take long: the limits are checked before it.
+/// Triangulating an element of more corners than this may take long: the limits are checked before it.
 constexpr std::uint32_t many_corners = 64;
 
 float linear(float code) { return decode_srgb(std::clamp(code, 0.0f, 1.0f)); }
 
-/// Makes one mesh, element by element.
+/// Builds one mesh, element by element.
 class Builder {
  public:
   Builder(const ObjFile& file, const std::vector<std::vector<float3>>& normals, const Plan& plan)
@@ -63,7 +63,7 @@ class Builder {
 
   std::uint64_t not_finite = 0, too_concave = 0;
 
-  /// Adds the elements; stops between some of them when `may_go_on(bytes so far)` is false.
+  /// Adds the elements; stops early if `may_go_on(bytes so far)` returns false.
   template <class Check>
   void add_all(const Check& may_go_on) {
     for (const ObjRun& run : plan_.runs) {
@@ -105,7 +105,7 @@ class Builder {
       else if (i == 3 && !file_.colors.empty())
         fill(mesh.color, [&](std::size_t v) { return color_of(position(corners[v])); });
     };
-    // To share the work takes longer than a small mesh does, and there may be very many.
+    // For a small mesh, of which there may be very many, starting threads costs more than the work.
     constexpr std::size_t many_vertices = 4096;
     if (corners.size() >= many_vertices)
       parallel_for(4, fill_kind);
@@ -115,7 +115,7 @@ class Builder {
   }
 
  private:
-  /// The expected number of vertices, and the maximum number of indices.
+  /// The estimated number of vertices, and the maximum number of indices.
   struct Size {
     std::size_t vertices = 0, indices = 0;
   };
@@ -157,7 +157,7 @@ class Builder {
   }
   float4 color_of(std::size_t position) const {
     const float4 c = file_.colors[position];
-    return {linear(c.x), linear(c.y), linear(c.z), c.w < 1 ? std::max(c.w, 0.0f) : 1.0f};  // NaN hides nothing
+    return {linear(c.x), linear(c.y), linear(c.z), c.w < 1 ? std::max(c.w, 0.0f) : 1.0f};  // a NaN alpha is opaque
   }
 
   std::uint32_t vertex(std::uint32_t chunk, std::uint32_t corner) {
@@ -167,7 +167,7 @@ class Builder {
     return table_.number(found, plan_.kind == ObjKind::Face ? normals_[chunk][corner] : float3{});
   }
 
-  /// Whether nothing can be odd about the chunk's elements, and all are triangles.
+  /// Whether all elements are triangles and all their positions and normals are valid.
   bool are_plain_triangles(const ObjChunk& chunk) const {
     return plan_.kind == ObjKind::Face && chunk.elements.are_triangles() && chunk.corners.have_normals() &&
            !file_.has_odd_position && !file_.has_odd_normal;

@@ -11,22 +11,23 @@ namespace zoneplate {
 
 /// A mesh of one object, one material and one kind of primitive.
 struct ObjMesh {
-  Mesh mesh;  ///< its material is the number of a name in ObjLayout::materials
+  Mesh mesh;  ///< its material is an index into ObjLayout::materials
   int object = 0;
 };
 
 struct ObjMeshes {
   std::vector<ObjMesh> meshes;    ///< in the order of their first elements; none is empty
-  std::uint64_t not_finite = 0;   ///< elements that were dropped for a vertex that is not finite
-  std::uint64_t too_concave = 0;  ///< polygons of too many corners to be cut rightly
+  std::uint64_t not_finite = 0;   ///< elements that were dropped because a vertex is not finite
+  std::uint64_t too_concave = 0;  ///< polygons with too many corners to be triangulated correctly
 };
 
-/// Turns the elements into indexed primitives: n-gons into triangles, polylines into segments.
+/// Converts the elements into indexed primitives: polygons into triangles, polylines into segments.
 ///
-/// Corners that agree in position, texture coordinate and normal become one vertex; vertices are in the order of
-/// their first use. Texture coordinates are turned to our origin at the top left, colours from sRGB codes to linear.
+/// Corners with the same position, texture coordinate and normal become one vertex; vertices are in the order of their
+/// first use. Texture coordinates are flipped so that their origin is at the top left, colours are converted from sRGB
+/// codes to linear.
 ///
-/// Errors    ErrorKind::Input when memory or time of the budget run out.
+/// Errors    ErrorKind::Input if the budget's memory or time is exceeded.
 ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::vector<std::vector<float3>>& normals,
                       ImportBudget& budget);
 

@@ -13,26 +13,26 @@
 namespace zoneplate {
 namespace {
 
-/// A finite number; "1.#IND" and the like are rejected.
+/// Parses a finite number; "1.#IND" and the like are rejected.
 std::optional<float> find_value(std::string_view word) {
   const std::optional<float> number = find_number(word);
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-/// Keys are compared without case, as files disagree on it (map_Kd, map_kd, map_bump, map_Bump).
+/// Keys are case-insensitive, because files differ (map_Kd, map_kd, map_bump, map_Bump).
 std::string lower(std::string_view word) {
   std::string out(word);
   for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return out;
 }
 
-/// Takes up to `most` numbers from the line's front, leaving what does not read as a number.
+/// Takes up to `most` numbers from the front of the line, and stops at the first other word.
 std::vector<float> take_numbers(LineWords& words, std::size_t most) {
   std::vector<float> numbers;
   while (numbers.size() < most) {
     LineWords ahead = words;
     const std::optional<float> number = find_value(ahead.next());
-    if (!number || ahead.is_over()) break;  // the last argument is the file's name, even if it is a number
+    if (!number || ahead.is_over()) break;  // the last argument is the file name, even if it is a number
     numbers.push_back(*number);
     words = ahead;
   }
@@ -91,7 +91,7 @@ class MtlReader {
   }
 
  private:
-  /// Keeps the material that was read last, if it is used.
+  /// Keeps the current material, if it is used.
   void close() {
     if (open_ && is_used_(open_->name)) materials_.push_back(std::move(*open_));
     open_.reset();
@@ -169,9 +169,9 @@ class MtlReader {
       return;
     }
     const bool is_map = key.substr(0, 4) == "map_" || key == "bump" || key == "disp" || key == "decal" || key == "refl";
-    // Ka's map is nearly always Kd's, and only ambient light would show it.
+    // A map of Ka is nearly always the same as that of Kd, and it would affect ambient light only.
     if (is_map && key != "map_ka" && key != "map_aat") {
-      constexpr std::size_t most_keys = 16;  // more than there are
+      constexpr std::size_t most_keys = 16;  // more than the format has
       const bool is_new = std::find(m.unsupported.begin(), m.unsupported.end(), key) == m.unsupported.end();
       if (is_new && m.unsupported.size() < most_keys) m.unsupported.push_back(key);
       return;
@@ -184,7 +184,7 @@ class MtlReader {
   const std::string& file_;
   std::vector<std::string>& warnings_;
   const std::function<bool(const std::string&)>& is_used_;
-  std::optional<MtlMaterial> open_;  ///< the one that is being read
+  std::optional<MtlMaterial> open_;  ///< the material that is being read
   std::vector<MtlMaterial> materials_;
   std::uint64_t line_ = 0;
   int warned_ = 0;
@@ -197,7 +197,7 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& fil
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
   MtlReader reader(file, warnings, is_used);
-  // A backslash at a line's end may end a folder's name, but no file's: it continues the line, as in OBJ.
+  // A backslash at the end of a line continues the line, as in OBJ; no file name ends in a backslash.
   TextLines lines(text, 1, separator);
   constexpr std::uint64_t lines_per_check = 1024;
   for (std::uint64_t line = 0; lines.next(); ++line) {

@@ -11,7 +11,7 @@
 
 namespace zoneplate {
 
-/// The use of an image as an MTL file states it; its file name is as written there. Empty: none.
+/// The use of an image as an MTL file states it; the file name is unchanged. An empty name means no image.
 struct MtlTexture {
   std::string file;
   float2 offset{0, 0}, scale{1, 1};  ///< -o, -s: the coordinate is offset + scale × uv, origin at the bottom left
@@ -19,7 +19,7 @@ struct MtlTexture {
   float strength = 1;                ///< -bm
 };
 
-/// A material as stated in an MTL file; colours are as in the file.
+/// A material as stated in an MTL file; the colours are unchanged.
 struct MtlMaterial {
   std::string name;
   std::optional<float3> diffuse, ambient, specular, emissive;     ///< Kd Ka Ks Ke

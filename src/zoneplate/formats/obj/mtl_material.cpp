@@ -29,7 +29,7 @@ TextureUse use_of(const MtlTexture& texture, int image) {
   TextureUse use;
   use.image = image;
   if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = Wrap::Clamp;
-  // v_file = offset + scale × (1 - v), and ours is one less that.
+  // v_file = offset + scale × (1 - v), and our v is 1 - v_file.
   use.scale = texture.scale;
   use.offset = {texture.offset.x, 1 - texture.scale.y - texture.offset.y};
   return use;
@@ -39,7 +39,7 @@ TextureUse load_texture(const MtlTexture& texture, const std::string& within, Mo
   return texture.file.empty() ? TextureUse{} : use_of(texture, folder.image(within, texture.file));
 }
 
-/// A factor over an image: one that is missing, or black (as some programs write it), is white.
+/// The factor of an image: white if the file has none, or black, which some programs write.
 float3 factor(const std::optional<float3>& color, bool has_image, float3 otherwise, const MtlMaterial& mtl,
               const char* key, ModelFolder& folder) {
   if (!has_image) return color ? linear(*color) : otherwise;
@@ -50,7 +50,7 @@ float3 factor(const std::optional<float3>& color, bool has_image, float3 otherwi
   return {1, 1, 1};
 }
 
-/// Puts the opacity map into the base colour image, a new one.
+/// Adds the opacity map as alpha to a copy of the base colour image.
 void add_opacity(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder, Material& material) {
   if (mtl.opacity_map.file.empty()) return;
   const int map = folder.image(within, mtl.opacity_map.file);

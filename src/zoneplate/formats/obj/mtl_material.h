@@ -9,7 +9,7 @@
 
 namespace zoneplate {
 
-/// A material of an MTL file as ours, its images loaded. `within` is the folder of the MTL file, as for find_file.
+/// Converts a material of an MTL file and loads its images. `within` is the folder of the MTL file, as for find_file.
 ///
 /// Kd, Ka, Ks and Ke are sRGB-encoded, as programs write display colours. Values above 1 are unchanged. The model is
 /// Blinn-Phong, with the ambient reflectance Ka, or Kd without a Ka; illum 0 is unlit, illum 1 without highlights; with

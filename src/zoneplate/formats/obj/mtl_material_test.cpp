@@ -28,14 +28,14 @@ class MtlScene : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  /// A 2 × 1 image of the given texels.
+  /// Writes a 2 × 1 image of the given texels.
   void write_png(const std::string& name, Rgba8 left, Rgba8 right) const {
     Rgba8Image image(2, 1);
     image(0, 0) = left, image(1, 0) = right;
     const std::vector<std::uint8_t> bytes = encode_png(image);
     write(name, std::string(bytes.begin(), bytes.end()));
   }
-  /// The scene of one triangle with the material `m` of the given library.
+  /// Loads a scene of one triangle with the material `m` of the given library.
   Scene load(const std::string& mtl, const LoadLimits& limits = {}) const {
     write("model/m.mtl", mtl);
     write("model/m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -91,8 +91,8 @@ TEST_F(MtlScene, FindsImagesWithinTheFolder) {
   };
   EXPECT_EQ(first("sub dir\\a b.png"), 1);
   EXPECT_EQ(first("./sub dir/a b.png"), 1);
-  EXPECT_EQ(first("100%25.png"), 7);                // a name is not an address
-  EXPECT_EQ(first("C:\\textures\\100%25.png"), 7);  // the last part, in the model's folder
+  EXPECT_EQ(first("100%25.png"), 7);                // a file name is not percent-decoded
+  EXPECT_EQ(first("C:\\textures\\100%25.png"), 7);  // the last component, in the model's folder
   EXPECT_EQ(first("../outside.png"), -1);
   EXPECT_EQ(first((folder_ / "outside.png").string()), -1);
   EXPECT_EQ(first("../outside.png", {.allowed_paths = {"/"}}), 7);
@@ -164,7 +164,7 @@ TEST_F(MtlScene, ImagesAreSharedScaledAndClamped) {
   EXPECT_EQ(warnings_of(scene), "m.obj: material m: Kd is black over an image, taken as white\n");
   const TextureUse& use = m.base_color_texture;
   EXPECT_EQ(use.sampler.wrap_u, Wrap::Clamp);
-  // Where the file's (0.5, 1) goes: to (0.25 + 2 × 0.5, 0.5 + 3 × 1), whose v from the top is 1 - 3.5.
+  // The file's (0.5, 1) is mapped to (0.25 + 2 × 0.5, 0.5 + 3 × 1), whose v from the top is 1 - 3.5.
   EXPECT_EQ(use.offset.x + use.scale.x * 0.5f, 1.25f);
   EXPECT_EQ(use.offset.y + use.scale.y * (1 - 1), 1 - 3.5f);
 }
@@ -211,7 +211,7 @@ TEST_F(MtlScene, OpacityMapsBecomeAlpha) {
   EXPECT_EQ(masked.materials[0].alpha_mode, AlphaMode::Blend);
   EXPECT_EQ(texels(load("newmtl m\nmap_d alpha.png\n")),
             (std::vector<Rgba8>{{255, 255, 255, 200}, {255, 255, 255, 100}}));
-  // An image with alpha that no map_d names stays opaque.
+  // An image with alpha that is not referenced by a map_d is opaque.
   EXPECT_EQ(load("newmtl m\nmap_Kd alpha.png\n").materials[0].alpha_mode, AlphaMode::Opaque);
 }
 

@@ -96,14 +96,14 @@ TEST(ParseMtl, PassesOverWhatIsWrong) {
 }
 
 TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {
-  std::vector<std::string> warnings, asked;
-  const auto wants_b = [&](const std::string& name) { return asked.push_back(name), name == "b"; };
-  const auto found = parse_mtl("newmtl a\nKd 1 0 0\nKs x\nnewmtl b\nKd 0 1 0\nnewmtl c\n", "f.mtl", warnings, wants_b);
+  std::vector<std::string> warnings, names;
+  const auto is_b = [&](const std::string& name) { return names.push_back(name), name == "b"; };
+  const auto found = parse_mtl("newmtl a\nKd 1 0 0\nKs x\nnewmtl b\nKd 0 1 0\nnewmtl c\n", "f.mtl", warnings, is_b);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].name, "b");
   EXPECT_EQ(found[0].diffuse, (float3{0, 1, 0}));
-  EXPECT_EQ(asked, (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_EQ(warnings.size(), 1u);  // errors in the others are reported all the same
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(warnings.size(), 1u);  // errors in the other materials are reported nevertheless
 }
 
 TEST(ParseMtl, NamesEachMapThatIsNotDrawnOnce) {

@@ -22,9 +22,9 @@ constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256;
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// A corner that needs a normal, with the data that its neighbours at the same position use.
+/// The contribution of a face corner to the normals of all corners at its position.
 struct Share {
-  float3 normal;  ///< of its face
+  float3 normal;  ///< normal of its face
   float angle;
   std::uint32_t smoothing;
 };
@@ -35,7 +35,7 @@ bool is_whole(const ObjFile& file, const ObjChunk& chunk, const ObjElement& e) {
   return true;
 }
 
-/// Whether all corners have normals, decided without reading the corners; false may mean either.
+/// True if all corners have valid normals, without reading the corners; may also be false in that case.
 bool has_all_normals(const ObjFile& file, const ObjChunk& chunk) {
   return chunk.corners.have_normals() && !file.has_odd_normal;
 }
@@ -55,7 +55,7 @@ float3 unit(const std::array<double, 3>& v) {
 
 /// The angle between two edges, in [0, π].
 ///
-/// Edges     edges are first scaled to the size of their greatest component, so that none is too long or short.
+/// Edges     edges are first divided by their greatest component, so that lengths neither overflow nor underflow.
 float angle_between(float3 a, float3 b) {
   const auto scaled = [](float3 v) {
     const float most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -65,7 +65,7 @@ float angle_between(float3 a, float3 b) {
   return atan2(length(cross(p, q)), dot(p, q));
 }
 
-/// For each position the first one of the file that is at the same place.
+/// For each position, the index of the first position with the same coordinates.
 std::vector<std::uint32_t> first_at_place(const std::vector<float3>& positions) {
   using Table = FirstOfEqual<3>;
   Table table(positions.size());
@@ -84,12 +84,13 @@ std::vector<std::uint32_t> first_at_place(const std::vector<float3>& positions) 
   return first;
 }
 
-/// All that is needed to smooth, by place: the shares of the corners there, in the order of the file.
+/// The data for smoothing, grouped by place (the first of equal positions): the shares of the corners there, in the
+/// order of the file.
 struct Neighbours {
-  std::vector<std::uint32_t> place;  ///< of each position
-  std::vector<std::uint32_t> first;  ///< of each place's shares; one more than there are positions
+  std::vector<std::uint32_t> place;  ///< for each position
+  std::vector<std::uint32_t> first;  ///< index of each place's first share; has one element more than positions
   std::vector<Share> shares;
-  std::vector<std::vector<std::uint32_t>> slot;  ///< of each chunk's corners: its own share, or none
+  std::vector<std::vector<std::uint32_t>> slot;  ///< for each corner of each chunk: the index of its share, or `none`
 
   std::size_t place_of(const ObjCorner& corner) const { return place[static_cast<std::size_t>(corner.position)]; }
 };
@@ -107,7 +108,7 @@ void for_each_face(const ObjFile& file, const std::vector<ObjRun>& runs, const B
   }
 }
 
-/// Finds where every share goes: counted by place, then in the order of the file.
+/// Assigns an index to every share, sorted by place and then in the order of the file (a counting sort).
 Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, ImportBudget& budget) {
   Neighbours n;
   const bool are_needed = std::any_of(runs.begin(), runs.end(), [&](const ObjRun& run) {
@@ -158,7 +159,7 @@ void fill_shares(const ObjFile& file, const ObjRun& run, Neighbours& n) {
   }
 }
 
-/// Sums for positions where too many faces meet to compare all pairs.
+/// Sums per place and smoothing group, for places where too many faces meet to compare all pairs.
 using Crowds = std::map<std::pair<std::size_t, std::uint32_t>, float3>;
 
 Crowds sum_crowds(const Neighbours& n) {

@@ -26,7 +26,7 @@ std::string_view text_of(const FileBytes& file) {
   return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-/// The used materials, by name; of several libraries the first that defines a material counts.
+/// The used materials by name. If several libraries define a material, the first definition is used.
 class Libraries {
  public:
   Libraries(ModelFolder& folder, const std::vector<std::string>& used)
@@ -68,14 +68,14 @@ class Libraries {
 
  private:
   static constexpr std::size_t most_named = 20;
-  static constexpr std::size_t most_names = 1000;  ///< of libraries, each of which is looked for in the folder
+  static constexpr std::size_t most_names = 1000;  ///< maximum number of libraries, because each takes a file search
 
   struct Found {
     MtlMaterial material;
     std::string within;
   };
 
-  /// Whether a material is kept; its memory is added to the budget.
+  /// Whether a material is used and not yet defined; if so, its memory is charged to the budget.
   bool is_used(const std::string& name) {
     constexpr std::uint64_t of_the_table = 64;
     if (!used_.contains(name) || materials_.contains(name)) return false;
@@ -106,7 +106,7 @@ class Libraries {
     }
   }
 
-  // In order and not hashed, as a file may choose names that collide.
+  // Maps and sets, not hash tables, because a malicious file could choose names that collide.
   ModelFolder& folder_;
   std::set<std::string_view> used_;
   std::size_t names_ = 0, missing_ = 0, undefined_ = 0;
@@ -140,7 +140,7 @@ bool has_elements(const ObjFile& file) {
   return false;
 }
 
-/// A file of nothing but vertices is a cloud of points.
+/// Makes a point cloud of all vertices, for a file without elements.
 void make_points(ObjFile& file, ImportBudget& budget) {
   budget.take(2 * file.positions.size() * (sizeof(ObjElement) + sizeof(std::int32_t)));
   ObjChunk cloud;

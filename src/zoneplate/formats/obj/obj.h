@@ -8,10 +8,10 @@
 
 namespace zoneplate {
 
-/// Loads a Wavefront OBJ file with its MTL libraries (Blinn-Phong materials; PBR keys where the file has them).
+/// Loads a Wavefront OBJ file with its MTL libraries (Blinn-Phong materials, or metallic-roughness for PBR keys).
 ///
-/// One mesh for each material of each object: of each `o`, or of each `g` in a file without any `o`. Polygons become
-/// triangles, polylines lines; a file of nothing but vertices is a cloud of points. Missing normals are smooth within
+/// Each object has one mesh per material; objects are named by `o`, or by `g` in a file without any `o`. Polygons
+/// become triangles, polylines lines; a file that has only vertices is a point cloud. Missing normals are smooth within
 /// a smoothing group and flat where smoothing is off; a file without `s` statements is smooth across edges that bend by
 /// less than 50°. Vertex colours after the coordinates are sRGB codes. Materials: formats/obj/mtl_material.h.
 ///

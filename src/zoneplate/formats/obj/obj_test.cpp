@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for one test.
+/// A fixture with a temporary folder.
 class ObjModel : public testing::Test {
  protected:
   ObjModel() : folder_(fs::temp_directory_path() / ("zoneplate_obj_" + std::to_string(::getpid()))) {
@@ -38,7 +38,7 @@ class ObjModel : public testing::Test {
   Scene load(const std::string& text, const LoadLimits& limits = {}) const {
     return load_obj(write("model.obj", text), limits);
   }
-  /// The cause of refusal, without the folder's name.
+  /// The error message, without the folder's name.
   std::string refusal(const std::string& text, const LoadLimits& limits = {}) const {
     try {
       load(text, limits);
@@ -74,7 +74,7 @@ TEST_F(ObjModel, ReadsEveryFormOfIndices) {
     EXPECT_EQ(mesh.position, corners) << face;
     EXPECT_EQ(mesh.index, two);
     EXPECT_EQ(mesh.normal, (std::vector<float3>(4, {0, 0, 1})));
-    EXPECT_EQ(mesh.uv0, (std::vector<float2>{{0, 1}, {1, 1}, {1, 0}, {0, 0}}));  // v turned to the top left
+    EXPECT_EQ(mesh.uv0, (std::vector<float2>{{0, 1}, {1, 1}, {1, 0}, {0, 0}}));  // v is flipped
   }
   const Mesh bare = load(attributes + "f 1 2 3 4").meshes.at(0);
   EXPECT_TRUE(bare.uv0.empty());
@@ -129,14 +129,14 @@ TEST_F(ObjModel, MakesAMeshForEachMaterialOfEachObject) {
     EXPECT_EQ(mesh.topology, topology);
   };
   check(0, 0, "default", 1, Topology::Triangles);
-  check(1, 1, "red", 3, Topology::Triangles);  // both groups, and where the object goes on
+  check(1, 1, "red", 3, Topology::Triangles);  // both groups, and the elements after the object statement is repeated
   check(2, 1, "blue", 1, Topology::Triangles);
   check(3, 2, "red", 1, Topology::Triangles);
   check(4, 2, "red", 2, Topology::Lines);
   EXPECT_EQ(warnings_of(scene), "model.obj: material red is not defined\nmodel.obj: material blue is not defined\n");
   EXPECT_TRUE(scene.meshes[4].normal.empty());
 
-  // Without any `o`, groups are the objects.
+  // Without any `o`, groups become the objects.
   EXPECT_EQ(load(square + "g left side\nf 1 2 3\ng right\nf 1 3 4\n").objects,
             (std::vector<std::string>{"left side", "right"}));
 }
@@ -162,7 +162,7 @@ TEST_F(ObjModel, ReadsVertexColours) {
 }
 
 TEST_F(ObjModel, CutsConcavePolygonsRightly) {
-  // An arrow whose first corner's fan would leave it.
+  // An arrow, in which the fan from the first corner would leave the polygon.
   const Mesh mesh = load("v 0 2 0\nv -2 -1 0\nv 0 0 0\nv 2 -1 0\nf 2 3 4 1\n").meshes.at(0);
   float area = 0;
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
@@ -173,7 +173,7 @@ TEST_F(ObjModel, CutsConcavePolygonsRightly) {
   EXPECT_EQ(area, 4);
 }
 
-/// Two squares that meet at an angle on the z axis: one in the plane y = 0, one turned up by `bend`.
+/// Two squares that meet at the z axis: one in the plane y = 0, the other rotated upwards by `bend`.
 std::string folded(float bend) {
   const std::string c = std::to_string(std::cos(bend)), s = std::to_string(std::sin(bend));
   return "v 0 0 0\nv 0 0 1\nv -1 0 1\nv -1 0 0\nv " + c + " " + s + " 0\nv " + c + " " + s + " 1\n";
@@ -188,14 +188,14 @@ TEST_F(ObjModel, SmoothsWithinAGroupOnly) {
   EXPECT_FALSE(shared(folded(0.1f) + "s off\n" + both));
   EXPECT_FALSE(shared(folded(0.1f) + "s 0\n" + both));
   EXPECT_FALSE(shared(folded(0.1f) + "s 1\n" + fold_left + "s 2\n" + fold_right));
-  // Off is what holds before the first `s`, once there is one.
+  // Smoothing is off before the first `s` of a file that has any.
   EXPECT_FALSE(shared(folded(0.1f) + fold_left + fold_right + "s 1\n"));
-  // Without any, the angle decides: 50° is 0.873.
+  // In a file without `s`, the angle decides: 50° is 0.873.
   EXPECT_TRUE(shared(folded(0.86f) + both));
   EXPECT_FALSE(shared(folded(0.88f) + both));
 
   const Mesh smooth = load(folded(1) + "s 7\n" + both).meshes.at(0);
-  // Both faces have a right angle at the fold: their normals' mean.
+  // Both faces have a right angle at the fold, so that the normal is the mean of theirs.
   const float3 mean = normalize(float3{0, 1, 0} + float3{-std::sin(1.0f), std::cos(1.0f), 0});
   EXPECT_NEAR(dot(smooth.normal[0], mean), 1, 1e-6f);
   const Mesh flat = load(folded(1) + "s off\n" + both).meshes.at(0);
@@ -203,7 +203,7 @@ TEST_F(ObjModel, SmoothsWithinAGroupOnly) {
 }
 
 TEST_F(ObjModel, SmoothsByAngleNotByTriangles) {
-  // A cube's corner in one group has the diagonal as its normal, however its sides are cut.
+  // At a cube's corner with one smoothing group, the normal is the diagonal, however the sides are triangulated.
   const Mesh mesh = load(
                         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\ns 1\n"
                         "f 5 6 7\nf 5 7 8\nf 2 3 7 6\nf 4 8 7 3\nf 1 5 8 4\nf 1 2 6 5\nf 1 4 3 2\n")
@@ -291,7 +291,7 @@ TEST_F(ObjModel, KeepsWithinItsLimits) {
   EXPECT_EQ(refusal(text, {.memory = 1 << 20}), "loaded");
 }
 
-/// A sheet of n × n squares, written as a file of several chunks.
+/// A sheet of n × n squares, large enough that the file is cut into several chunks.
 std::string sheet(int n) {
   std::string text;
   for (int y = 0; y <= n; ++y) {
@@ -349,7 +349,7 @@ void expect_sound(const Scene& scene) {
 }
 
 TEST_F(ObjModel, NamesCountAsMemory) {
-  // Small files of which each line becomes a hundred times as much. Names of nothing become nothing.
+  // Small files in which each line takes a hundred times its size in memory. Names without elements take none.
   const LoadLimits limits{.memory = 4 << 20};
   const auto lines = [](int count, const auto& line) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -379,7 +379,7 @@ TEST_F(ObjModel, MaterialsOfALibraryCountAsMemory) {
   for (int i = 0; i < 20000; ++i) library += "newmtl " + std::to_string(i) + "\n";
   write("many.mtl", library);
   const std::string text = "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl 7\nf 1 2 3\n";
-  EXPECT_EQ(refusal(text, {.memory = 1 << 20}), "loaded");  // of which the file uses one
+  EXPECT_EQ(refusal(text, {.memory = 1 << 20}), "loaded");  // the file uses only one of the materials
   std::string all = "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 20000; ++i) all += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
   EXPECT_EQ(refusal(all, {.memory = 32 << 20}).substr(0, 30), "model.obj: needs more than the");

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
-/// Cuts the text after line ends that no backslash continues, each part a little more than `chunk_bytes`.
+/// Cuts the text after line ends that are not continued by a backslash. A part is slightly larger than `chunk_bytes`.
 std::vector<std::string_view> cut(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
@@ -49,7 +49,7 @@ std::vector<ObjCounts> accumulate(const std::vector<ObjPart>& parts) {
   return before;
 }
 
-/// Concatenates one kind of data of all parts, and frees it there.
+/// Concatenates one kind of data of all parts, and frees it in the parts.
 template <class V, class Member>
 void join(std::vector<ObjPart>& parts, Member member, std::uint64_t count, std::vector<V>& out) {
   if (parts.size() == 1) return std::swap(out, parts.front().vertices.*member);
@@ -74,7 +74,7 @@ void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>
 
 std::uint64_t size_of(const ObjPart& part) { return part.vertices.bytes() + part.chunk.bytes(); }
 
-/// Reads the parts independently, then again those that depend on others; returns the totals before each part.
+/// Reads the parts independently, and reads those again that depend on others. Returns the totals before each part.
 std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, char separator, ImportBudget& budget,
                                   const std::function<void(std::string_view)>& done, std::vector<ObjPart>& parts) {
   std::vector<char> is_read(parts.size());
@@ -91,7 +91,7 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   if (std::max({all.positions, all.uvs, all.normals}) >= most_obj_items)
     throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
 
-  // The error of the first line is reported, regardless of the thread that finds an error first.
+  // The first error in the order of the file is reported, independently of the threads.
   std::vector<std::optional<ObjLineError>> errors(parts.size());
   parallel_for(parts.size(), [&](std::size_t i) {
     const ObjCounts& named = parts[i].named;

@@ -15,15 +15,16 @@
 
 namespace zoneplate {
 
-/// Numbers the vertices of a mesh in the order in which they come: corners with the same indices, and the same normal
-/// where that was made, are one.
+/// Assigns indices to the vertices of a mesh in the order of their first use: corners with the same indices, and the
+/// same computed normal if any, are one vertex.
 ///
-/// Vertices hang in chains. Their places are first near each other when the indices are, as in most files, which is
-/// kind to the cache; when a chain grows long for that, all are placed anew by a hash that scatters. Should one grow
-/// longer still, as only corners do that were made to collide, all go into an ordered map. The numbers are the same.
+/// A hash table with chaining. At first, the hash maps nearby indices, which most files have in succession, to nearby
+/// buckets, for locality in the cache. If a chain grows long, all vertices are rehashed with a hash that scatters. If a
+/// chain grows even longer, which only happens to corners chosen to collide, an ordered map replaces the table. The
+/// indices are the same in all cases.
 class ObjVertexTable {
  public:
-  /// Reserves capacity for `count` vertices; more may be added.
+  /// Reserves capacity for `expected` vertices; more may be added.
   explicit ObjVertexTable(std::size_t expected) : heads_(std::bit_ceil(std::max<std::size_t>(expected, 64)), none) {
     corners_.reserve(expected);
     next_.reserve(expected);
@@ -38,11 +39,11 @@ class ObjVertexTable {
     return add(corner, made, at, steps > 24 && !is_scattered_);
   }
 
-  /// Whether corners collided so that they had to be ordered.
+  /// Whether collisions caused the switch to the ordered map.
   bool is_ordered() const { return is_ordered_; }
 
   const std::vector<ObjCorner>& corners() const { return corners_; }
-  /// The normal that was made for a vertex; zero if none was.
+  /// The computed normal of a vertex; zero if there is none.
   float3 made(std::size_t i) const { return made_.empty() ? float3{} : made_[i]; }
   std::size_t bytes() const {
     return corners_.capacity() * (sizeof(ObjCorner) + sizeof(next_[0])) + heads_.size() * sizeof(heads_[0]) +
@@ -55,7 +56,7 @@ class ObjVertexTable {
   using Key = std::array<std::uint32_t, 6>;
   struct Node {
     std::pair<Key, std::uint32_t> value;
-    void* links[5];  ///< of the map's tree, and of the heap
+    void* links[5];  ///< links of the map's tree, and overhead of the heap
   };
   static Key key_of(const ObjCorner& corner, float3 made) {
     const auto word = [](float value) { return std::bit_cast<std::uint32_t>(value + 0.0f); };  // -0 becomes 0
@@ -66,7 +67,7 @@ class ObjVertexTable {
             word(made.y),
             word(made.z)};
   }
-  /// From here on no chain is found, and so all are looked for in the map.
+  /// Moves all vertices to the map. The chains become empty, so that every later search uses the map.
   void put_in_order() {
     is_ordered_ = true;
     heads_.assign(1, none);
@@ -110,7 +111,7 @@ class ObjVertexTable {
   }
 
   std::vector<ObjCorner> corners_;
-  std::vector<float3> made_;  ///< as long as they, once one was made
+  std::vector<float3> made_;  ///< as many as corners, or empty if no normal was computed
   std::vector<std::uint32_t> next_, heads_;
   std::map<Key, std::uint32_t> ordered_;
   bool is_scattered_ = false, is_ordered_ = false;

@@ -11,7 +11,7 @@
 namespace zoneplate {
 namespace {
 
-/// Numbers corners as the table does, with normals that were made for every third of them.
+/// A reference implementation of the table, by a map.
 struct Expected {
   std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t, float, float>, std::uint32_t> numbers;
   std::uint32_t number(const ObjCorner& c, float3 made) {
@@ -32,11 +32,11 @@ TEST(ObjVertexTable, NumbersCornersInTheOrderOfTheirFirstUse) {
   EXPECT_FALSE(table.is_ordered());
 }
 
-/// Chains would be walked for 10^9 steps or more.
+/// Without the ordered map, walking the chains would take 10^9 steps or more.
 TEST(ObjVertexTable, CornersThatCollideKeepTheirNumbers) {
   ObjVertexTable table(10);
   Expected expected;
-  // These are at one place while indices are near each other, after which the table scatters by the hash.
+  // These collide in the first hash; after that, the table switches to the hash that scatters.
   for (std::int32_t i = 1; i < 40; ++i) {
     const ObjCorner corner{3 * i, -i, 0};
     ASSERT_EQ(table.number(corner), expected.number(corner, {}));

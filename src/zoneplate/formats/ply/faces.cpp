@@ -35,13 +35,13 @@ std::size_t need_indices(const PlyElement& element, const ImportBudget& budget) 
   throw Error(ErrorKind::Input, fmt::format("{}: element {}: has no list vertex_indices", budget.file(), element.name));
 }
 
-/// A row that names a vertex which is not there.
+/// A row with the index of a vertex that does not exist.
 struct BadIndex {
   std::size_t row = 0;
   double value = 0;
 };
 
-/// Throws the first of the blocks' errors.
+/// Throws the error of the first block that has one.
 void report(const std::vector<std::optional<BadIndex>>& found, const PlyRows& rows, const Mesh& vertices,
             const ImportBudget& budget) {
   budget.check_time();
@@ -53,12 +53,12 @@ void report(const std::vector<std::optional<BadIndex>>& found, const PlyRows& ro
 
 std::size_t blocks(std::size_t count) { return (count + PlyRows::block - 1) / PlyRows::block; }
 
-/// A face of more corners than this is dropped: no polygon is, and it would hold up the others of its block.
+/// A face of more corners than this is dropped: it is not a real polygon, and triangulating it would take too long.
 constexpr std::uint32_t most_corners = 1 << 20;
-/// A face of more corners than this may take long: the deadline is checked before it.
+/// Triangulating a face of more corners than this may take long: the time limit is checked before it.
 constexpr std::uint32_t many_corners = 64;
 
-/// Reads the faces of one block, of any kind.
+/// Reads the faces of one block.
 class BlockReader {
  public:
   BlockReader(const PlyRows& rows, const Mesh& vertices, std::size_t indices, const ImportBudget& budget)
@@ -157,7 +157,7 @@ class BlockReader {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
-/// Puts the lists of all blocks one after the other.
+/// Concatenates one list of all blocks.
 template <class T>
 std::vector<T> joined(std::vector<PlyFaces>& parts, std::vector<T> PlyFaces::*list, ImportBudget& budget) {
   std::vector<std::size_t> first(parts.size() + 1);
@@ -172,7 +172,7 @@ std::vector<T> joined(std::vector<PlyFaces>& parts, std::vector<T> PlyFaces::*li
   return out;
 }
 
-/// Where the first row's indices are, if all are three 32-bit ones in this machine's order; else nothing.
+/// The address of the first row's indices, if all rows are triangles of 32-bit indices in native byte order; else null.
 const std::uint8_t* first_plain_triangle(const PlyRows& rows) {
   const std::optional<std::size_t> indices = find_indices(*rows.element);
   if (!indices || rows.stride == 0 || rows.count() == 0 || rows.order != PlyOrder::Little) return nullptr;
@@ -258,7 +258,7 @@ std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vert
                      strip.push_back(static_cast<std::uint32_t>(v));
                      const std::size_t n = strip.size();
                      if (n < 3) continue;
-                     // Every other triangle runs the other way.
+                     // Every other triangle of a strip has the opposite winding.
                      const bool is_odd = n % 2 == 0;
                      out.insert(out.end(), {strip[n - (is_odd ? 2 : 3)], strip[n - (is_odd ? 3 : 2)], strip[n - 1]});
                    }

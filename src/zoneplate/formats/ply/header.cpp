@@ -13,7 +13,7 @@
 namespace zoneplate {
 namespace {
 
-/// More than any real file has; the limit bounds the work for a malicious file.
+/// More than real files have; the limits bound the work for a malicious file.
 constexpr std::size_t most_properties = 1024, most_line = 4096;
 
 std::optional<PlyType> find_type(std::string_view word) {
@@ -25,7 +25,7 @@ std::optional<PlyType> find_type(std::string_view word) {
   return std::nullopt;
 }
 
-/// Steps through the lines of the header.
+/// Parses the header line by line.
 class HeaderReader {
  public:
   HeaderReader(std::string_view text, const std::string& file) : text_(text), file_(file) {}

@@ -18,7 +18,7 @@ double one_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::Float;    ///< of the value, or of the items of a list, as they are stored
+  PlyType type = PlyType::Float;    ///< the type of the stored value, or of the items of a list
   PlyType stated = PlyType::Float;  ///< the type in the header, which defines the range
   bool is_list = false;
   PlyType count_type = PlyType::Uint8;
@@ -33,11 +33,11 @@ struct PlyElement {
 struct PlyHeader {
   PlyOrder order = PlyOrder::Ascii;
   std::vector<PlyElement> elements;
-  std::string texture;   ///< the file of a comment "TextureFile", as written by MeshLab
-  std::size_t size = 0;  ///< in bytes, to the end of its last line
+  std::string texture;   ///< the file name of a "TextureFile" comment, as written by MeshLab
+  std::size_t size = 0;  ///< bytes up to the end of the header's last line
 };
 
-/// Reads the header of a PLY file; lines end in any way.
+/// Parses the header of a PLY file with any kind of line ends.
 ///
 /// Errors    ErrorKind::Input naming `file`, line and cause.
 PlyHeader parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file);

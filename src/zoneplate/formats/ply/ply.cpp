@@ -22,7 +22,7 @@
 namespace zoneplate {
 namespace {
 
-/// The elements that are read, of those that the file has.
+/// The supported elements that the file has.
 struct Found {
   std::optional<PlyRows> vertices, faces, strips, edges;
 };
@@ -31,7 +31,7 @@ Found find_elements(const PlyHeader& header, std::span<const std::uint8_t> body,
   Found found;
   std::optional<PlyRows>* const slots[] = {&found.vertices, &found.faces, &found.strips, &found.edges};
   constexpr const char* names[] = {"vertex", "face", "tristrips", "edge"};
-  // Data after the last element that is read may be missing.
+  // Data after the last supported element may be missing.
   std::size_t last = 0;
   for (std::size_t e = 0; e < header.elements.size(); ++e)
     if (std::find(std::begin(names), std::end(names), header.elements[e].name) != std::end(names)) last = e + 1;
@@ -54,7 +54,7 @@ std::vector<V> spread(const std::vector<V>& values, const std::vector<std::uint3
   return out;
 }
 
-/// Gives each corner its own vertex, with the attributes of its face.
+/// Gives each corner its own vertex, which has the attributes of its face.
 void set_corners(Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   budget.take(mesh.index.size() * (2 * sizeof(float3) + sizeof(float2) + sizeof(float4)));
   mesh.position = spread(mesh.position, mesh.index);
@@ -64,14 +64,14 @@ void set_corners(Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   std::iota(mesh.index.begin(), mesh.index.end(), 0u);
 }
 
-/// Makes the normals that are missing: all, or those that the file leaves zero.
+/// Computes the missing normals: all of them, or those that are zero in the file.
 void complete_normals(Mesh& mesh, ImportBudget& budget) {
   if (mesh.topology != Topology::Triangles) {
     for (float3& n : mesh.normal) n = normalize(n, {0, 1, 0});
     return;
   }
   if (mesh.normal.empty()) {
-    // Sums by vertex; at most every corner by its vertex, and a copy of that.
+    // A sum per vertex; a vertex per corner in the worst case, and a copy of those.
     budget.take(mesh.position.size() * 28 + mesh.index.size() * (sizeof(float3) + 2 * sizeof(std::uint32_t) + 48));
     make_smooth_normals(mesh);
     return;
@@ -88,7 +88,7 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
     if (mesh.normal[i] == float3{}) mesh.normal[i] = normalize(sum[i], {0, 1, 0});
 }
 
-/// The vertices, and in parallel the triangles if they are plain: for both, page faults take most of the time.
+/// Reads the vertices and, if the triangles are plain, in parallel the indices: page faults dominate the time of both.
 void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   const bool are_plain = found.faces && are_plain_triangles(*found.faces);
   const std::uint64_t bytes = are_plain ? found.faces->count() * 3 * sizeof(std::uint32_t) : 0;
@@ -101,7 +101,7 @@ void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& 
   budget.check_time();
 }
 
-/// The primitives of the elements; attributes per corner remain in `faces`.
+/// Sets the mesh's primitives and topology; attributes per corner remain in `faces`.
 void choose_primitives(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
   if (found.faces && faces.index.empty()) faces = read_ply_faces(*found.faces, mesh, budget);
   if (faces.index.empty() && found.strips) faces.index = read_ply_strips(*found.strips, mesh, budget);

@@ -10,8 +10,8 @@ namespace zoneplate {
 
 /// Loads a PLY file: ASCII, or binary of either byte order; properties of any type in any order.
 ///
-/// Faces of any number of corners become triangles, strips too; edges become lines where there are no faces, and a file
-/// of nothing but vertices is a cloud of points. Read are normals, colours (of vertices, or of faces), texture
+/// Faces with any number of corners and strips become triangles. Edges become lines if there are no faces; a file that
+/// has only vertices is a point cloud. Supported attributes are normals, colours (of vertices or faces), texture
 /// coordinates (of vertices, or MeshLab's of faces) and MeshLab's comment that names a texture. Missing normals are
 /// smooth across edges that bend by less than 50° (scene/geometry/smooth_normals.h). All surfaces are double-sided.
 ///

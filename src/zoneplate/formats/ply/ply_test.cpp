@@ -54,7 +54,7 @@ TEST(Ply, AsciiQuadWithColorsAndUv) {
   EXPECT_EQ(s.materials[0].alpha_mode, AlphaMode::Blend);
 }
 
-/// The same values in every type and order.
+/// A pyramid whose coordinates have the given type and byte order.
 template <class T>
 Bytes pyramid(const char* type, bool is_big) {
   std::string head = std::string("ply\nformat binary_") + (is_big ? "big" : "little") +
@@ -98,7 +98,8 @@ TEST(Ply, EveryTypeInEveryByteOrder) {
 }
 
 TEST(Ply, PlainTrianglesAndListsOfAnyLengthAgreeForAnyNumberOfThreads) {
-  // A strip of squares, as triangles alike (which is the fast way) and with one pentagon at the end (which is not).
+  // A strip of squares: with triangles only, which takes the fast path, and with one pentagon at the end, which does
+  // not.
   const int n = 20000;
   for (const bool has_pentagon : {false, true}) {
     std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(n) + "\n" + xyz +
@@ -192,7 +193,7 @@ TEST(Ply, Refusals) {
             "face 1: uses vertex 1, there are 1");
 }
 
-/// The normals of a mesh's corners, in the order of its indices.
+/// The normal of each corner of a mesh, in the order of its indices.
 std::vector<float3> corner_normals(const Mesh& m) {
   std::vector<float3> out;
   for (const std::uint32_t i : m.index) out.push_back(m.normal[i]);
@@ -200,7 +201,7 @@ std::vector<float3> corner_normals(const Mesh& m) {
 }
 
 TEST(SmoothNormals, AnEdgeOf90DegreesStaysAndOneOf20DegreesGoes) {
-  // Two squares that share an edge on the y axis, the second bent by the angle.
+  // Two squares that share an edge on the y axis; the second one is rotated by the angle.
   for (const float degrees : {20.0f, 90.0f}) {
     const float c = std::cos(degrees * 0.017453292f), s = std::sin(degrees * 0.017453292f);
     Mesh m;
@@ -215,7 +216,7 @@ TEST(SmoothNormals, AnEdgeOf90DegreesStaysAndOneOf20DegreesGoes) {
   }
 }
 
-/// Rolling land with a rough part, 60 × 60 squares, in which every triangle is somewhere in the list.
+/// Smooth terrain with a rough part, 60 × 60 squares, whose triangles are in a scattered order.
 Mesh rough_land() {
   constexpr std::uint32_t n = 60;
   Mesh m;
@@ -231,7 +232,7 @@ Mesh rough_land() {
   return m;
 }
 
-/// The normals of all corners by their definition.
+/// A reference implementation of smooth normals, for all corners.
 std::vector<float3> defined_normals(const Mesh& m) {
   std::vector<std::vector<std::size_t>> about(m.position.size());
   for (std::size_t k = 0; k < m.index.size(); ++k) about[m.index[k]].push_back(k);
@@ -262,7 +263,7 @@ std::vector<float3> defined_normals(const Mesh& m) {
 
 TEST(SmoothNormals, AreTheirDefinitionForAnyNumberOfThreads) {
   const Mesh land = rough_land();
-  const std::vector<float3> wanted = defined_normals(land);
+  const std::vector<float3> expected = defined_normals(land);
   std::vector<float3> first;
   for (const int threads : {1, 2, 5}) {
     Mesh m = land;
@@ -271,12 +272,12 @@ TEST(SmoothNormals, AreTheirDefinitionForAnyNumberOfThreads) {
     const std::vector<float3> found = corner_normals(m);
     if (first.empty()) first = found;
     ASSERT_EQ(found, first) << threads;
-    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_GT(dot(found[i], wanted[i]), 0.99999f) << i;
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_GT(dot(found[i], expected[i]), 0.99999f) << i;
   }
 }
 
 TEST(SmoothNormals, AreThoseOfTheSphereWhoseVerticesTheyAre) {
-  // An octahedron with irregular points around its top: the weights make the normal exact whatever the triangles.
+  // An octahedron with irregular points around its top: the weights make the normal exact for any triangles.
   Mesh m;
   m.position = {{0, 1, 0}};
   const float tilt[] = {0.2f, 0.5f, 0.3f, 0.6f, 0.4f};

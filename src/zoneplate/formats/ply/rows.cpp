@@ -29,7 +29,7 @@ double read_as(const std::uint8_t* at, bool is_big) {
   return static_cast<double>(value);
 }
 
-/// The number of a list's items; nothing where it is none.
+/// The number of a list's items; nothing if the stored value is not a valid count.
 std::optional<std::uint32_t> list_count(const std::uint8_t* at, PlyType type, PlyOrder order) {
   const double count = read_ply_value(at, type, order);
   if (!(count >= 0 && count < 0x1p32) || count != std::floor(count)) return std::nullopt;
@@ -40,13 +40,13 @@ std::optional<std::uint32_t> list_count(const std::uint8_t* at, PlyType type, Pl
   throw Error(ErrorKind::Input, fmt::format("{}: element {}: {}", budget.file(), element.name, cause));
 }
 
-/// Walks over rows one by one, and checks that each lies within the body.
+/// Iterates over rows one by one, and checks that each is within the body.
 class Walker {
  public:
   Walker(const PlyElement& element, PlyOrder order, std::span<const std::uint8_t> body, ImportBudget& budget)
       : element_(element), order_(order), body_(body), budget_(budget) {}
 
-  /// Where the row after the one at `at` begins.
+  /// The offset of the end of the row at offset `at`.
   std::uint64_t next(std::uint64_t row, std::uint64_t at) const {
     for (const PlyProperty& p : element_.properties) {
       std::uint64_t items = 1;
@@ -75,7 +75,7 @@ class Walker {
   ImportBudget& budget_;
 };
 
-/// Whether all rows have lists as long as those of the first row, which is `stride` bytes long.
+/// Whether the lists of all rows are as long as those of the first row, whose size is `stride` bytes.
 bool are_alike(const PlyElement& element, PlyOrder order, const std::uint8_t* data, std::uint64_t stride) {
   struct Check {
     std::uint64_t offset;
@@ -107,7 +107,7 @@ bool are_alike(const PlyElement& element, PlyOrder order, const std::uint8_t* da
   return !differ;
 }
 
-/// A word that is no number.
+/// A word that is not a number.
 struct WordError {
   const char* at;
   std::string word;
@@ -115,7 +115,7 @@ struct WordError {
 
 bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
-/// Integers of up to 15 digits at once, anything else by the standard library's exact conversion.
+/// Parses integers of up to 15 digits on a fast path, and other numbers with the standard library's exact conversion.
 double parse_number(const char* begin, const char* end) {
   const bool is_negative = *begin == '-';
   const char* at = begin + (is_negative || *begin == '+' ? 1 : 0);
@@ -127,7 +127,7 @@ double parse_number(const char* begin, const char* end) {
   const auto [stop, trouble] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);
   if (stop != end || trouble == std::errc::invalid_argument)
     throw WordError{begin, std::string(begin, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end - begin, 40)))};
-  return value;  // 0 where it is too small or too large
+  return value;  // 0 if the number underflows or overflows
 }
 
 std::vector<double> parse_numbers(std::string_view part) {
@@ -188,7 +188,7 @@ PlyRows find_ply_rows(const PlyElement& element, PlyOrder order, std::span<const
       std::any_of(element.properties.begin(), element.properties.end(), [](const PlyProperty& p) { return p.is_list; });
   if (element.count == 0 || element.properties.empty()) return rows;
 
-  // Every row is as long as the first one, or else all have to be walked over. Counts are below 2^48.
+  // If all rows are as long as the first one, offsets are computed; else all rows are scanned. Counts are below 2^48.
   const Walker walker(element, order, body, budget);
   const std::uint64_t stride = walker.next(0, 0);
   const bool fits = stride <= body.size() / element.count;

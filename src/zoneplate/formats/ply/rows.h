@@ -11,16 +11,16 @@
 
 namespace zoneplate {
 
-/// Where a property stands in a row. Lists: where its items stand, and how many there are.
+/// The address of a property's value in a row; for a list, the address of its items and their number.
 struct PlyPlace {
   const std::uint8_t* at = nullptr;
   std::uint32_t count = 1;
 };
 
-/// The rows of one element, all of them within the file.
+/// The rows of one element, all of which are within the file.
 ///
-/// Rows are either all alike (`stride` is the size of each), or each has to be walked over: then `starts` has the
-/// beginning of every `block`th.
+/// If all rows have the same size, that is `stride`. Otherwise `stride` is 0, and `starts` has the offset of the first
+/// row of each block.
 struct PlyRows {
   static constexpr std::size_t block = 4096;
   const PlyElement* element = nullptr;
@@ -33,26 +33,26 @@ struct PlyRows {
   std::size_t count() const { return static_cast<std::size_t>(element->count); }
 };
 
-/// One value as a number; 32-bit integers are exact.
+/// Reads one value; 32-bit integers are exact.
 double read_ply_value(const std::uint8_t* at, PlyType type, PlyOrder order);
 
-/// Finds the rows of the element that begin at the front of `body`.
+/// Finds the rows of the element that starts at the front of `body`.
 ///
-/// Errors    ErrorKind::Input: rows that end after the body, a list with a negative count.
+/// Errors    ErrorKind::Input: rows that end after the body, an invalid list count.
 PlyRows find_ply_rows(const PlyElement& element, PlyOrder order, std::span<const std::uint8_t> body,
                       ImportBudget& budget);
 
-/// The places of the properties in one row; answers where the next row begins.
+/// Finds the properties of one row; returns the address of the next row.
 ///
-/// Requires  `places` has room for every property of the element.
+/// Requires  `places` has one element per property of the element.
 const std::uint8_t* place_ply_row(const PlyRows& rows, const std::uint8_t* row, std::span<PlyPlace> places);
 
-/// The places in the first row, after which those of a row that is like it come `stride` bytes further on each.
+/// The properties of the first row. Those of each following row are `stride` bytes further on.
 ///
-/// Requires  a row, and a stride.
+/// Requires  at least one row, and a stride that is not 0.
 std::vector<PlyPlace> first_ply_row(const PlyRows& rows);
 
-/// Calls `body(i, places)` for the rows [begin, end) of a block, as parallel_ranges gives them.
+/// Calls `body(i, places)` for the rows [begin, end) of a block, as parallel_ranges passes them.
 template <class Body>
 void for_ply_rows(const PlyRows& rows, std::size_t begin, std::size_t end, const Body& body) {
   std::vector<PlyPlace> places(rows.element->properties.size());
@@ -64,20 +64,19 @@ void for_ply_rows(const PlyRows& rows, std::size_t begin, std::size_t end, const
   }
 }
 
-/// Where the first row has these properties, if they are floats of this machine that follow each other in all rows, so
-/// that they can be copied; else null.
+/// The address of the first of these properties in the first row, if they are adjacent native floats and all rows have
+/// the same size, so that they can be copied; else null.
 ///
-/// Requires  properties that are no lists.
+/// Requires  the properties are not lists.
 const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties);
 
-/// The values of a property in the rows [begin, end) as floats, into out[0], out[stride], ...
+/// Converts the values of a property in the rows [begin, end) to floats and writes them to out[0], out[stride], ...
 ///
-/// Requires  a property that is no list; rows of one block, as parallel_ranges gives them.
+/// Requires  the property is not a list; the rows are one block, as parallel_ranges passes them.
 void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, std::size_t property, float* out,
                      std::size_t stride);
 
-/// The body of an ASCII file as numbers, each a double in this machine's order; the elements' types change
-/// accordingly.
+/// Parses the body of an ASCII file into doubles in native byte order, and changes the types of the elements to double.
 ///
 /// Errors    ErrorKind::Input naming the line of a word that is not a number.
 std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,

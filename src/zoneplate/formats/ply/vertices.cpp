@@ -18,7 +18,7 @@ namespace {
 
 using Names = std::initializer_list<std::string_view>;
 
-/// The property of any of the names that is no list.
+/// Finds a scalar property by any of the names.
 std::optional<std::size_t> find(const PlyElement& element, Names names) {
   for (const std::string_view name : names)
     for (std::size_t i = 0; i < element.properties.size(); ++i)
@@ -26,7 +26,7 @@ std::optional<std::size_t> find(const PlyElement& element, Names names) {
   return std::nullopt;
 }
 
-/// Properties that make one attribute; present if all of them are.
+/// Finds the properties of one attribute; nothing unless all of them are present.
 template <std::size_t n>
 std::optional<std::array<std::size_t, n>> find_all(const PlyElement& element, const std::array<Names, n>& names) {
   std::array<std::size_t, n> out{};
@@ -38,7 +38,7 @@ std::optional<std::array<std::size_t, n>> find_all(const PlyElement& element, co
   return out;
 }
 
-/// Fills an attribute block by block from one property for each of its components.
+/// Fills an attribute in blocks, each component from one property.
 template <class V, std::size_t n>
 void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& properties, std::vector<V>& out) {
   static_assert(sizeof(V) == n * sizeof(float));
@@ -78,7 +78,7 @@ void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& 
   });
 }
 
-/// Unit normals; zero where the file's has no direction.
+/// Normalizes normals; those without a direction become zero.
 void normalize_all(std::vector<float3>& normals) {
   parallel_ranges(normals.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -29,13 +29,14 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 constexpr std::size_t header_bytes = 84, facet_bytes = 50, corners_at = 12, attribute_at = 48;
-constexpr std::size_t block = 1024;  // facets that stay in the cache between loops
+constexpr std::size_t block = 1024;  // facets whose data stay in the cache between loops
 
 std::uint32_t read_u32(const std::uint8_t* at) {
   return at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
 }
 std::uint32_t read_u16(const std::uint8_t* at) { return at[0] | std::uint32_t{at[1]} << 8; }
-/// Binary if the length fits the count of triangles, as many binary files begin with "solid" too.
+/// Whether a file is ASCII. It is binary if its size agrees with the count of triangles, because many binary files
+/// begin with "solid" too.
 bool is_text(Bytes bytes) {
   if (bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * read_u32(&bytes[80])) return false;
   std::size_t at = 0;
@@ -47,7 +48,7 @@ bool is_text(Bytes bytes) {
                    0) == bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 512));
 }
 
-/// Reads the colours of facets: 5 bits each, and one bit that marks them as valid.
+/// Decodes the colours of facets: 5 bits per channel, and one bit that marks the colour as valid.
 class FacetColor {
  public:
   explicit FacetColor(Bytes header) {
@@ -58,7 +59,7 @@ class FacetColor {
     if (!is_magics_) return;
     const auto c = found + 6;
     whole_ = {decode_srgb8(c[0]), decode_srgb8(c[1]), decode_srgb8(c[2]), static_cast<float>(c[3]) / 255};
-    if (whole_.w == 0) whole_.w = 1;  // as programs without transparency leave it
+    if (whole_.w == 0) whole_.w = 1;  // programs without transparency write alpha 0
   }
 
   bool is_own(std::uint32_t attribute) const { return (attribute >> 15 != 0) != is_magics_; }
@@ -76,7 +77,7 @@ class FacetColor {
   std::array<float, 32> linear_{};
 };
 
-/// Arrays for `count` separate triangles. They are allocated in parallel, as page faults take most of the time.
+/// Allocates arrays for `count` separate triangles. It does so in parallel, because page faults dominate the time.
 Mesh make_triangles(std::uint64_t count) {
   Mesh mesh;
   const std::size_t corners = 3 * static_cast<std::size_t>(count);
@@ -88,7 +89,7 @@ Mesh make_triangles(std::uint64_t count) {
   return mesh;
 }
 
-/// The facets, in the number of the header, with colours if any facet has one.
+/// Reads `count` facets, with colours if any facet has one.
 Mesh read_facets(Bytes bytes, std::uint64_t count, ImportBudget& budget) {
   const std::uint8_t* const facets = bytes.data() + header_bytes;
   budget.take(count * 3 * (2 * sizeof(float3) + sizeof(std::uint32_t)));
@@ -147,10 +148,10 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
   add_mesh(scene, read_facets(bytes, said, budget), name, budget);
 }
 
-/// The triangles of the loops [begin, end).
+/// Converts the loops [begin, end) to triangles.
 Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, const ImportBudget& budget,
                std::uint64_t& too_short) {
-  constexpr std::size_t many_corners = 64;  // of which to cut ears may take long
+  constexpr std::size_t many_corners = 64;  // triangulating a loop of more corners may take long
   constexpr std::uint64_t loops_per_check = 4096;
   Mesh mesh;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -159,7 +160,7 @@ Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, cons
     if ((loop.size() > many_corners || l % loops_per_check == 0) && !budget.has_time()) break;
     triangles.clear();
     if (loop.size() == 3 || !std::all_of(loop.begin(), loop.end(), is_finite))
-      triangles.push_back({0, 1, 2});  // triangles that are not finite are dropped later
+      triangles.push_back({0, 1, 2});  // non-finite triangles are dropped later
     else
       triangulate(loop, triangles);
     if (loop.size() < 3) triangles.clear(), ++too_short;

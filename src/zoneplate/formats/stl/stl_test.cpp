@@ -29,7 +29,7 @@ Bytes binary(const std::vector<Facet>& facets, std::string header = "") {
   const auto count = static_cast<std::uint32_t>(facets.size());
   add(&count, 4);
   for (const Facet& f : facets) {
-    const float normal[3] = {9, 9, 9};  // must not matter
+    const float normal[3] = {9, 9, 9};  // the normals of the file are ignored
     add(normal, 12), add(f.corners.data(), 36), add(&f.attribute, 2);
   }
   return out;
@@ -86,7 +86,7 @@ TEST(Stl, AsciiSolidsAreObjectsAndLoopsPolygons) {
   ASSERT_EQ(s.objects.size(), 2u);
   EXPECT_EQ(s.objects[0], "one two");
   EXPECT_EQ(s.meshes[0].primitives(), 1u);
-  ASSERT_EQ(s.meshes[1].primitives(), 2u);  // concave: the cut goes through (1, 1)
+  ASSERT_EQ(s.meshes[1].primitives(), 2u);  // concave: the triangulation splits it at (1, 1)
   for (const float3 n : s.meshes[1].normal) EXPECT_EQ(n, (float3{0, 0, 1}));
 }
 
@@ -133,7 +133,7 @@ TEST(Stl, SolidsCountAsMemory) {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "solid\n";
   EXPECT_EQ(load(text + "facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0").meshes.size(),
-            1u);  // not the others
+            1u);  // solids without loops are not kept
   text.clear();
   for (int i = 0; i < 40000; ++i) text += "solid facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0\n";
   for (std::size_t at = 0; (at = text.find("solid facet", at)) != text.npos;) text[at + 5] = '\n';

@@ -20,7 +20,7 @@ constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
-/// Compares without case; `word` is in lower case.
+/// Compares words case-insensitively; `word` is in lower case.
 bool is_word(std::string_view text, std::string_view word) {
   return text.size() == word.size() && std::equal(text.begin(), text.end(), word.begin(), [](char a, char b) {
            return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
@@ -32,7 +32,7 @@ bool is_facet(std::string_view text, std::size_t at) {
   return is_word(text.substr(at, 5), "facet") && at + 5 < text.size() && is_space(text[at + 5]);
 }
 
-/// Cuts the text before lines that begin a facet, each part a little more than `chunk_bytes`.
+/// Cuts the text before lines that begin a facet. A part is slightly larger than `chunk_bytes`.
 std::vector<std::string_view> cut(std::string_view text) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
@@ -50,13 +50,13 @@ std::vector<std::string_view> cut(std::string_view text) {
   return parts;
 }
 
-/// A cause of refusal and where it stands; thrown within a part only.
+/// An error and its position in the text; it is thrown and caught within a part.
 struct TextError {
   const char* at;
   std::string cause;
 };
 
-/// Adds a solid, in place of one before it that has no loops.
+/// Appends a solid, or replaces the last one if that has no loops.
 void add_solid(StlText& text, StlText::Solid solid) {
   if (!text.solids.empty() && text.solids.back().before == solid.before)
     text.solids.back() = std::move(solid);
@@ -64,7 +64,7 @@ void add_solid(StlText& text, StlText::Solid solid) {
     text.solids.push_back(std::move(solid));
 }
 
-/// Reads one part of the text independently of the others.
+/// Parses one part of the text independently of the others.
 class PartReader {
  public:
   explicit PartReader(std::string_view part) : at_(part.data()), end_(part.data() + part.size()) {}
@@ -133,7 +133,7 @@ class PartReader {
 
   const char* at_;
   const char* end_;
-  std::uint64_t begin_ = 0;  ///< of the loop that is open
+  std::uint64_t begin_ = 0;  ///< the first vertex of the open loop
   StlText out_;
 };
 
@@ -160,9 +160,9 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
   const std::vector<std::string_view> cuts = cut(text);
   std::vector<StlText> parts(cuts.size());
   std::vector<std::optional<TextError>> errors(cuts.size());
-  // A vertex takes nine characters at least, and 40 in most files.
+  // A vertex takes at least nine characters, and 40 in most files.
   budget.take(text.size() / 9 * sizeof(float3));
-  // Each solid becomes a mesh, whose name is kept as the object's too.
+  // Each solid becomes a mesh, and its name also that of an object.
   constexpr std::size_t most_name = 200;
   constexpr std::size_t solid_bytes =
       2 * (sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance) + most_name);

@@ -11,20 +11,20 @@
 
 namespace zoneplate {
 
-/// The content of an ASCII STL file: loops of vertices, and the beginnings of solids.
+/// The contents of an ASCII STL file: loops of vertices, grouped into solids.
 struct StlText {
   struct Solid {
-    std::uint64_t before;  ///< the loop before which it stands
+    std::uint64_t before;  ///< the index of the solid's first loop
     std::string name;
   };
   std::vector<float3> vertices;
-  std::vector<std::uint64_t> loops;  ///< where each begins; one entry more at the end
+  std::vector<std::uint64_t> loops;  ///< the index of each loop's first vertex; one more element at the end
   std::vector<Solid> solids;
 };
 
-/// Reads an ASCII STL file, in parallel. Words are separated by any white space, their case does not matter.
+/// Parses an ASCII STL file, in parallel. Words are separated by any white space and are case-insensitive.
 ///
-/// Errors    ErrorKind::Input naming file, line and cause: a word that is not known, a number that is none.
+/// Errors    ErrorKind::Input naming file, line and cause: an unknown word, a word that is not a number.
 StlText parse_stl_text(std::string_view text, ImportBudget& budget);
 
 }  // namespace zoneplate

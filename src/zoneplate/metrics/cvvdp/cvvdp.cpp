@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ColorVideoVDP: the difference between two images as an eye would see it on a stated screen.
+// ColorVideoVDP: the visible difference between two images on a display with stated properties.
 //
-// Each image becomes what the screen emits, opponent colours, bands of contrast; differences are weighed by the eye's
-// sensitivity, hidden where both images are busy, and pooled to one number that was fitted to people's judgements.
+// Each image is converted to the light of the display, to opponent colours, and to bands of contrast. Differences are
+// weighted by contrast sensitivity, masked by contrast that both images have, and pooled to one number, which was
+// fitted to subjective ratings.
 //
-// Weak on what it was not fitted to: differences just at the threshold of sight; and its eye does not follow motion.
+// Weaknesses: differences just at the threshold of visibility, to which it was not fitted; and it does not model eye
+// movements.
 #include "zoneplate/metrics/cvvdp/cvvdp.h"
 
 #include <algorithm>
@@ -23,14 +25,14 @@
 namespace zoneplate::metrics {
 namespace {
 
-// Fitted by the authors (parameters of version 0.5.6); for channels 0 to 3.
+// Fitted by the authors (parameters of version 0.5.6); indexed by channel 0 to 3.
 constexpr std::array<double, 4> channel_gain = {1, 1.45, 1, 1};
 constexpr double sensitivity_decibels = -0.2797423303127289;
 constexpr double difference_exponent = 2.264355182647705;
 constexpr double mask_decades = -0.7954971194267273;
 constexpr std::array<double, 4> mask_exponent = {1.302622675895691, 2.8885908126831055, 3.6807713508605957,
                                                  3.588787317276001};
-/// log2 of how much the busyness of one channel (row) hides in another (column).
+/// log2 of the weight with which one channel (row) masks another (column).
 constexpr double mask_weight[4][4] = {
     {-0.18950104713439941, -5.962151050567627, -4.31834602355957, -1.9321587085723877},
     {2.5655593872070312, 0.34406712651252747, -2.719646453857422, -0.4970424771308899},
@@ -41,12 +43,12 @@ constexpr std::array<double, 4> channel_weight = {1, 1, 1, 0.8081134557723999};
 constexpr std::array<double, 4> baseband_weight = {0.0036334486212581396, 1.6627724170684814, 4.11874532699585,
                                                    25.25969886779785};
 constexpr double quality_factor = 0.0439569391310215, quality_exponent = 0.9302042722702026;
-constexpr double linear_below = 0.1;  // where the quality goes over to a straight line
+constexpr double linear_below = 0.1;  // below this difference, quality is linear
 constexpr double greatest_contrast = 1000, least_luminance = 0.01;
 
 double ten_to(double x) { return natural_exp(x * std::numbers::ln10); }
 
-/// x^p for x >= 0, with the slope at 0 that the fit was made with: (x + e)^p - e^p.
+/// x^p for x >= 0 with the finite slope at 0 of the fitted model: (x + e)^p - e^p.
 class SoftPower {
  public:
   explicit SoftPower(double exponent) : exponent_(exponent), offset_(power(epsilon, exponent)) {}
@@ -65,7 +67,7 @@ double norm(std::span<const double> values, double p) {
   return outer(sum);
 }
 
-/// The root of the mean of the squares of `value_at(index)` over the pixels of a band.
+/// The root mean square of `value_at(index)` over the pixels of a band.
 template <class ValueAt>
 double pooled(int width, int height, const ValueAt& value_at) {
   constexpr double epsilon = 1e-5;  // SoftPower(2) is x² + 2 e x
@@ -80,13 +82,14 @@ double pooled(int width, int height, const ValueAt& value_at) {
   return SoftPower(0.5)(sum / (static_cast<double>(width) * height));
 }
 
-/// One level of one image's pyramid as contrasts, and the luminance that they stand on.
+/// One level of an image's pyramid as contrast, and the luminance that the contrast is relative to.
 struct Band {
   OpponentPlanes contrast;
   Plane<double> luminance;
 };
 
-/// The difference of a level from what the level below predicts, over the luminance of that prediction.
+/// The difference between a level and its prediction from the next coarser level, divided by the luminance of that
+/// prediction.
 Band make_band(const OpponentPlanes& level, const OpponentPlanes& below, double factor) {
   const int width = level[0].width(), height = level[0].height();
   Band band;
@@ -107,7 +110,7 @@ Band make_band(const OpponentPlanes& level, const OpponentPlanes& below, double 
   return band;
 }
 
-/// Both bands weighed by the sensitivity at the reference's luminance.
+/// Weights both bands by the contrast sensitivity at the reference's luminance.
 void weigh(Band& reference, Band& test, double frequency) {
   std::vector<Sensitivity> sensitivities;
   for (std::size_t c = 0; c < reference.contrast.size(); ++c) {
@@ -126,7 +129,8 @@ void weigh(Band& reference, Band& test, double frequency) {
   });
 }
 
-/// A Gaussian of sigma 3 over 13 × 13 pixels, mirrored about the border's pixel; bands of 6 pixels or less stay.
+/// Convolves with a Gaussian of sigma 3 over 13 × 13 pixels, mirrored about the border's pixel; bands of at most 6
+/// pixels are unchanged.
 Plane<double> blurred(const Plane<double>& in) {
   constexpr int radius = 6;
   if (in.width() <= radius || in.height() <= radius) return in;
@@ -154,7 +158,7 @@ Plane<double> blurred(const Plane<double>& in) {
   return out;
 }
 
-/// What both images have at a place, spread about it and raised: what can hide a difference there.
+/// The masking signal at each pixel: the contrast common to both images, blurred and raised to a power.
 OpponentPlanes make_masks(const Band& reference, const Band& test) {
   const double factor = ten_to(mask_decades);
   OpponentPlanes masks;
@@ -202,7 +206,7 @@ double mean_of_plane(const Plane<double>& plane) {
   return sum / static_cast<double>(plane.values().size());
 }
 
-/// What is left below the bands: contrast to the mean luminance, not masked.
+/// The difference of the pyramid's base band: contrast relative to the mean luminance, without masking.
 std::vector<double> difference_in_baseband(const OpponentPlanes& reference, const OpponentPlanes& test,
                                            double frequency) {
   const double expected = std::max(least_luminance, mean_of_plane(reference[0]));
@@ -282,7 +286,8 @@ Metric cvvdp() {
           .smallest = least_visible_size,
           .params = viewing_params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
-            constexpr double still = 0.577918291091919;  // a still is looked at less long than a sequence
+            // Fitted by the authors: a still has a smaller weight than a sequence.
+            constexpr double still = 0.577918291091919;
             const Viewing viewing = viewing_of(settings);
             const std::vector<double> channels = visible_difference(opponent_planes(reference[0].linear, viewing),
                                                                     opponent_planes(test[0].linear, viewing), viewing);

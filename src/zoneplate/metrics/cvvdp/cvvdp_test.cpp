@@ -23,7 +23,7 @@ double quality(const LinearImage& reference, const LinearImage& test) {
 }
 
 TEST(Cvvdp, PublishedQualities) {
-  // Of the authors' program, whose floats differ from these doubles by less than this.
+  // Computed by the authors' program, whose floats differ from these doubles by less than the tolerance.
   const double published[] = {9.59113, 3.38938, 8.96934, 7.06419};
   for (int which = 0; which < 4; ++which) {
     const ChartPair pair = chart_pair(which);
@@ -31,7 +31,7 @@ TEST(Cvvdp, PublishedQualities) {
   }
 }
 
-/// Frames of an edge that moves a quarter of a pixel in each, by `code_at(side)`.
+/// A frame of an edge that moves by a quarter of a pixel per frame; `code_at(side)` is its profile.
 template <class CodeAt>
 Picture moving_edge(int frame, const CodeAt& code_at) {
   return make_picture(as_codes(make_chart(256, 128, [&](int x, int y) {
@@ -72,7 +72,7 @@ TEST(Cvvdp, AStillSequenceIsAsItsFirstFrame) {
   const std::vector<OpponentPlanes> frames = {planes, planes, planes};
   const OpponentPlanes filtered = filtered_in_time(frames, temporal_filters(30));
   ASSERT_EQ(filtered.size(), 4u);
-  // The sustained filters pass what does not change; the transient one takes most of it away.
+  // The sustained filters pass a static image; the transient one suppresses most of it.
   EXPECT_NEAR(filtered[1](17, 9), planes[1](17, 9), 1e-9);
   EXPECT_LT(std::abs(filtered[3](17, 9)), 0.02 * planes[0](17, 9));
 }

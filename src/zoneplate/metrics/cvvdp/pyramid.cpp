@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<double, 5> filter = {0.05, 0.25, 0.4, 0.25, 0.05};
 
-/// The index mirrored into [0, n), the border's pixel twice.
+/// The index mirrored into [0, n); the border's pixel is repeated.
 int mirrored(int i, int n) { return i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i; }
 
 Plane<double> transposed(const Plane<double>& in) {
@@ -35,7 +35,8 @@ Plane<double> reduce_rows(const Plane<double>& in) {
   return out;
 }
 
-/// Zeros between the values of each row, the first and the last value again beyond the ends, then twice the filter.
+/// Doubles the width: inserts zeros between the values of each row, repeats the first and the last value, and convolves
+/// with twice the filter.
 Plane<double> expand_rows(const Plane<double>& in, int width) {
   Plane<double> out(width, in.height());
   for_rows(out.height(), [&](int y) {
@@ -65,7 +66,7 @@ Plane<double> expand(const Plane<double>& in, int width, int height) {
 }
 
 std::vector<double> band_frequencies(int width, int height, double pixels_per_degree) {
-  // One band for each halving down to 4 pixels, none past the first that peaks below 0.2 cycles per degree.
+  // One band for each halving of the shorter side; none after the first whose peak is at most 0.2 cycles per degree.
   int levels = -1;
   for (int side = std::min(width, height); side > 1; side /= 2) ++levels;
   std::vector<double> frequencies;

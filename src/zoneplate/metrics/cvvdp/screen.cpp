@@ -30,7 +30,7 @@ OpponentPlanes opponent_planes(const LinearImage& image, const Viewing& viewing)
       const Linear c = image(x, y);
       const double r = emitted(c.r), g = emitted(c.g), b = emitted(c.b);
 
-      // Light to XYZ, to the cones of 2006, to their opponent differences about D65.
+      // Linear light to XYZ, to the cone responses of the 2006 fundamentals, to opponent differences relative to D65.
       const double px = 0.4124564 * r + 0.3575761 * g + 0.1804375 * b;
       const double py = 0.2126729 * r + 0.7151522 * g + 0.0721750 * b;
       const double pz = 0.0193339 * r + 0.1191920 * g + 0.9503041 * b;

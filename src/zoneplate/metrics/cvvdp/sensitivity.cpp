@@ -11,7 +11,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-// castleCSF for stimuli of fixed size, log10 of sensitivity in units of 1e-5: for each channel 32 luminances (rows,
+// castleCSF for stimuli of fixed size: log10 of sensitivity in units of 1e-5. Each channel has 32 luminances (rows,
 // 0.005 to 10000 cd/m²) by 32 frequencies (columns, 0.1 to 64 cycles per degree), both in equal steps of their
 // logarithms.
 //
@@ -311,20 +311,20 @@ constexpr std::int32_t table[4 * steps * steps] = {
 };
 // clang-format on
 
-/// A place in a row of the table: between entries `index` and `index + 1`.
+/// A position in a row of the table: between entries `index` and `index + 1`.
 struct Place {
   int index = 0;
   double share = 0;
 };
 
-/// Where a logarithm lies between those of the first and the last entry.
+/// The position of a logarithm, where `first` and `last` are those of the first and the last entry.
 Place place_of(double log, double first, double last) {
   const double at = std::clamp((log - first) / (last - first), 0.0, 1.0) * (steps - 1);
   const int index = std::min(static_cast<int>(at), steps - 2);
   return {index, at - index};
 }
 
-// log10 of the ends of the table.
+// log10 of the first and last luminance and frequency of the table.
 constexpr double least_luminance = -2.301029995663981, greatest_luminance = 4;
 constexpr double least_frequency = -1, greatest_frequency = 1.806179973983887;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ColorVideoVDP of a sequence: stills seen through the eye's slowness, and a fourth channel for what flickers.
+// ColorVideoVDP of a sequence: the channels are filtered in time, and a fourth channel detects flicker.
 //
-// A frame is judged with the quarter of a second before it. Weak on fast pans: the eye of this model does not follow.
+// A frame is evaluated with the preceding quarter of a second. Weakness: fast pans, because eye movements are not
+// modelled.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -15,8 +16,8 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr double greatest_rate = 120;  // frames a second
-constexpr int most_taps = 31;          // of the filters at that rate
+constexpr double greatest_rate = 120;  // frames per second
+constexpr int most_taps = 31;          // taps of the filters at that rate
 
 OpponentPlanes seen_in_time(Frames frames, const Viewing& viewing, double rate) {
   const auto filters = temporal_filters(rate);
@@ -27,7 +28,7 @@ OpponentPlanes seen_in_time(Frames frames, const Viewing& viewing, double rate) 
   return filtered_in_time(planes, filters);
 }
 
-/// The quality of a sequence: that of the root mean square of its frames' differences.
+/// The quality of a sequence, computed from the root mean square of its frames' differences.
 double pool(std::span<const double> frames) {
   std::vector<double> differences;
   for (const double quality : frames) differences.push_back(difference_of(quality));
@@ -37,7 +38,7 @@ double pool(std::span<const double> frames) {
 }  // namespace
 
 std::vector<std::vector<double>> temporal_filters(double frames_per_second) {
-  // Responses in frequency: three low-passes, and a band-pass about 5 Hz.
+  // Frequency responses: three low-passes, and a band-pass about 5 Hz.
   constexpr std::array<double, 4> width = {5.79336, 14.1255, 6.63661, 0.12314};
   constexpr std::array<double, 4> steepness = {1.3314, 1.1196, 0.947901, 0.1898};
   const int half = static_cast<int>(std::ceil(0.25 * frames_per_second / 2)), taps = 2 * half + 1;

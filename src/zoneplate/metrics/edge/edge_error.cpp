@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error at edges, by their angle: where stairs are seen, and where methods with sparse or shifted samples differ.
+// The error at edges as a function of their angle: staircases and the differences between sample patterns depend on it.
 //
-// The edges are the reference's own, so that a method cannot hide one by blurring it. Weak on textures, whose fine
-// borders count as edges too, and blind to lines thinner than a pixel that the reference shows as faint.
+// The edges are detected in the reference, so that a method cannot hide an edge by blurring it. Weaknesses: fine
+// borders in textures count as edges, and lines thinner than a pixel that are faint in the reference are not detected.
 #include "zoneplate/metrics/edge/edge_error.h"
 
 #include <cmath>
@@ -46,7 +46,7 @@ Plane<Tensor> tensors(const Plane<double>& luma) {
   return out;
 }
 
-/// Which bin twice the angle from the nearer axis falls into, given as a direction in the first quadrant.
+/// The bin of twice the angle from the nearer axis, which is given as a direction in the first quadrant.
 int bin_of(double cosine, double sine) {
   static const std::array<SineCosine, EdgeError::bins> limits = [] {
     std::array<SineCosine, EdgeError::bins> out;

@@ -8,7 +8,8 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// A bright half-plane whose edge rises by this angle, each pixel its share of it, to `off` too much at the edge.
+/// A bright half-plane with box-filtered pixels whose edge has this angle; partially covered pixels are too bright by
+/// `off`.
 DisplayImage half_plane(double degrees, bool is_upright, float off = 0) {
   const double a = degrees * 3.14159265358979 / 180, c = std::cos(a), s = std::sin(a);
   DisplayImage out(80, 80);
@@ -44,7 +45,7 @@ TEST(EdgeError, EveryAngleFallsIntoItsBin) {
 }
 
 TEST(EdgeError, AKnownErrorIsFound) {
-  // Pixels at the edge are off by 0.1; those beside them, which belong to the edge's slope too, are right.
+  // Pixels on the edge have an error of 0.1; the adjacent ones, which are also on the gradient, have none.
   const EdgeError error = measure_edge_error(half_plane(22, false), half_plane(22, false, 0.1f));
   const double rms = error.rms().value();
   EXPECT_GT(rms, 0.06);
@@ -54,7 +55,7 @@ TEST(EdgeError, AKnownErrorIsFound) {
 TEST(EdgeError, WhereThereIsNoEdgeThereIsNoAnswer) {
   DisplayImage flat(40, 30, Display{0.5f, 0.5f, 0.5f, 1}), checks(40, 30);
   EXPECT_FALSE(measure_edge_error(flat, flat).rms().has_value());
-  // A slope that goes no way in particular is not an edge.
+  // A gradient without a dominant direction is not an edge.
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
       const float code = (x / 2 + y / 2) % 2 ? 0.9f : 0.1f;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edge response: sharpness as a modulation transfer function, from a slanted edge.
+// The edge response: sharpness as a modulation transfer function, measured at a slanted edge.
 //
-// A straight edge, not along an axis, is sampled by its rows at all distances; sorted by distance they show how a step
-// is drawn, four places to the pixel, though the image has one. Weak on curved or textured edges: crop to one edge.
+// The rows sample a straight edge that is not parallel to an axis at many distances. Sorted by distance, they give the
+// step response at four samples per pixel, although the image has one. Weakness: curved or textured edges; the image
+// should be cropped to one edge.
 #include "zoneplate/metrics/edge/edge_response.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace zoneplate::metrics {
 namespace {
 
 constexpr int bins_a_pixel = 4;
-constexpr int greatest_reach = 32;  // pixels on each side of the edge; more adds noise, not knowledge
+constexpr int greatest_reach = 32;  // pixels on each side of the edge; a greater reach only adds noise
 constexpr int least_reach = 4;
 
 Plane<double> transposed(const Plane<double>& in) {
@@ -28,7 +29,7 @@ Plane<double> transposed(const Plane<double>& in) {
   return out;
 }
 
-/// True where the image changes more from row to row than along its rows.
+/// True if the image changes more between rows than within rows.
 bool is_nearly_horizontal(const Plane<double>& in) {
   double across = 0, down = 0;
   for (int y = 0; y + 1 < in.height(); ++y) {
@@ -40,16 +41,16 @@ bool is_nearly_horizontal(const Plane<double>& in) {
   return down > across;
 }
 
-/// The edge x = at + slope (y - middle), in pixels; y of row centres.
+/// The edge x = at + slope (y - middle), in pixels; y is that of row centres.
 struct Line {
   double at = 0, slope = 0, middle = 0;
   double x(double y) const { return at + slope * (y - middle); }
 };
 
-/// The whole number below x within [0, most]; 0 where x is not a number.
+/// x rounded down and clamped to [0, most]; 0 if x is NaN.
 int whole_within(double x, int most) { return x > 0 ? static_cast<int>(std::min<double>(x, most)) : 0; }
 
-/// The centroid of a row's change within `reach` of `near`; nothing where it changes by less than `least`.
+/// The centroid of a row's change within `reach` of `near`; nothing if the change is less than `least`.
 std::optional<double> edge_in_row(std::span<const double> row, double near, double reach, double least) {
   double sum = 0, moment = 0;
   const int n = static_cast<int>(row.size());
@@ -81,13 +82,13 @@ std::optional<Line> fit_line(const Plane<double>& in, const std::optional<Line>&
   return Line{sx / n, (n * sxy - sy * sx) / spread, sy / n};
 }
 
-/// The pixels of one bin of distance from the edge: how many, and their mean distance (in bins) and value.
+/// The pixels of one bin of distance from the edge: their number, mean distance (in bins) and mean value.
 struct Bin {
   double count = 0, place = 0, value = 0;
 };
 
-/// The bins' values, each moved from where its pixels lie on average to the bin's middle along the slope between its
-/// neighbours: few rows, or rows that repeat, do not fill a bin evenly.
+/// The values at the middles of the bins, extrapolated from the mean distance of each bin's pixels with the slope
+/// between its neighbours: with few rows, or rows that repeat, pixels are unevenly distributed within a bin.
 std::vector<double> values_at_middles(std::span<const Bin> bins) {
   std::vector<double> values;
   for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -99,7 +100,7 @@ std::vector<double> values_at_middles(std::span<const Bin> bins) {
   return values;
 }
 
-/// The spread in steps of a bin, `reach` pixels to each side of the edge; nothing where a bin stays empty.
+/// The edge spread function at one sample per bin, `reach` pixels to each side of the edge; nothing if a bin is empty.
 std::optional<std::vector<double>> gather(const Plane<double>& in, const Line& line, int reach) {
   const double normal = 1 / std::sqrt(1 + line.slope * line.slope);
   const int count = 2 * reach * bins_a_pixel;
@@ -123,7 +124,7 @@ double mean_over(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// From 0 on the dark side to 1 on the light side, rising.
+/// Normalizes the step to rise from 0 to 1.
 void normalize_step(std::vector<double>& spread) {
   const std::size_t outer = spread.size() / 4;
   double low = mean_over(std::span(spread).first(outer)), high = mean_over(std::span(spread).last(outer));
@@ -131,12 +132,12 @@ void normalize_step(std::vector<double>& spread) {
   for (double& v : spread) v = (v - low) / (high - low);
 }
 
-/// |transform| at one frequency of the line spread, windowed by Hamming about the edge.
+/// |transform| of the line spread function at one frequency, with a Hamming window centred on the edge.
 double transform(const std::vector<double>& spread, double frequency) {
   const std::size_t n = spread.size() - 1;
   double re = 0, im = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double place = static_cast<double>(i + 1) - static_cast<double>(spread.size()) / 2;  // bins from the edge
+    const double place = static_cast<double>(i + 1) - static_cast<double>(spread.size()) / 2;  // in bins from the edge
     const double window = 0.54 + 0.46 * cos_pi(2 * place / static_cast<double>(spread.size()));
     const double change = (spread[i + 1] - spread[i]) * window;
     const SineCosine wave = sin_cos_pi(2 * frequency * place / bins_a_pixel);
@@ -151,7 +152,7 @@ void measure_transfer(EdgeResponse& edge) {
   const double whole = transform(edge.spread, 0);
   for (int i = 0; i <= steps; ++i) {
     const double f = static_cast<double>(i) / steps;
-    const double bin = sinc(f / bins_a_pixel);  // of the mean over a bin, and of the difference of two
+    const double bin = sinc(f / bins_a_pixel);  // attenuation by the mean over a bin, and by the difference of two bins
     edge.frequency.push_back(f);
     edge.transfer.push_back(transform(edge.spread, f) / whole / (bin * bin));
   }
@@ -165,7 +166,7 @@ void measure_transfer(EdgeResponse& edge) {
   }
 }
 
-/// Where the spread first passes `level` on its way up from `first`, between two places.
+/// The interpolated distance at which the spread first rises above `level`, searched from `first`.
 double crossing(const EdgeResponse& edge, std::size_t first, double level) {
   for (std::size_t i = first + 1; i < edge.spread.size(); ++i) {
     const double before = edge.spread[i - 1], here = edge.spread[i];
@@ -179,7 +180,7 @@ void measure_spread(EdgeResponse& edge) {
   const auto [low, high] = std::ranges::minmax(edge.spread);
   edge.overshoot = std::max({0.0, high - 1, -low});
 
-  // The rise starts at the last place on the dark side that is still below a tenth.
+  // The rise starts at the last sample on the dark side that is below a tenth.
   std::size_t start = 0;
   for (std::size_t i = 0; i < edge.spread.size() && edge.spread[i] < 0.5; ++i) {
     if (edge.spread[i] < 0.1) start = i;
@@ -197,7 +198,7 @@ std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
   const double least = (high - low) / 2;
   if (!(least > 0)) return std::nullopt;
 
-  // A first line from whole rows, then one from the pixels about it.
+  // The first fit uses whole rows, the next ones the pixels near the line.
   std::optional<Line> line = fit_line(in, std::nullopt, least);
   for (int pass = 0; pass < 2 && line; ++pass) line = fit_line(in, line, least);
   if (!line) return std::nullopt;

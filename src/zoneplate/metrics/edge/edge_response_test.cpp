@@ -15,7 +15,7 @@ constexpr double degree = 3.14159265358979323846 / 180;
 
 double sinc_of(double x) { return x == 0 ? 1 : std::sin(3.14159265358979323846 * x) / (3.14159265358979323846 * x); }
 
-/// A half-plane from 0.1 to 0.9, its edge `angle` from the vertical, sampled n × n times in each pixel.
+/// A half-plane from 0.1 to 0.9 whose edge has the angle `angle` from the vertical, with n × n samples per pixel.
 LinearImage box_edge(double angle, int n) {
   return make_chart(80, 96, [=](int x, int y) {
     int inside = 0;
@@ -29,7 +29,7 @@ LinearImage box_edge(double angle, int n) {
   });
 }
 
-/// The edge as a function of distance from it.
+/// An edge whose value is a function of the distance from it.
 template <class Profile>
 LinearImage drawn_edge(double angle, const Profile& profile) {
   return make_chart(80, 96, [&](int x, int y) {
@@ -57,7 +57,7 @@ TEST(EdgeResponse, PublishedHalfTransferOfTheBox) {
   ASSERT_TRUE(edge);
   EXPECT_NEAR(edge->half_transfer, 0.6034, 0.005);
   EXPECT_NEAR(edge->nyquist_transfer, 2 / 3.14159265358979, 0.01);
-  EXPECT_NEAR(edge->rise, 0.8, 0.06);  // the corners of the ramp lie between places a quarter pixel apart
+  EXPECT_NEAR(edge->rise, 0.8, 0.06);  // the corners of the ramp are between samples a quarter pixel apart
 }
 
 TEST(EdgeResponse, OfAGaussian) {

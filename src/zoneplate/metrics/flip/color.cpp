@@ -10,7 +10,7 @@ namespace {
 
 constexpr Triple white = {0.950428545, 1, 1.088900371};
 
-/// CIELAB's compression: a cube root, straight near black.
+/// CIELAB's compression: a cube root, linear near black.
 double compress(double t) {
   constexpr double delta = 6.0 / 29;
   return t > delta * delta * delta ? cube_root(t) : t / (3 * delta * delta) + 4.0 / 29;

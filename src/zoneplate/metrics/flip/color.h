@@ -3,12 +3,12 @@
 
 namespace zoneplate::metrics {
 
-/// Three numbers of one colour: linear RGB, XYZ, YCxCz or Lab as the function says.
+/// Three components of a colour: linear RGB, XYZ, YCxCz or Lab, depending on the function.
 struct Triple {
   double x = 0, y = 0, z = 0;
 };
 
-/// The colour spaces of FLIP. XYZ is of Rec.709 primaries; the white is theirs.
+/// The colour spaces of FLIP. XYZ is relative to Rec.709 primaries and their white.
 Triple xyz_from_rgb(Triple rgb);
 Triple rgb_from_xyz(Triple xyz);
 
@@ -16,10 +16,10 @@ Triple rgb_from_xyz(Triple xyz);
 Triple opponent_from_rgb(Triple rgb);
 Triple rgb_from_opponent(Triple opponent);
 
-/// CIELAB with its chroma scaled by lightness (Hunt: colours look fuller in more light).
+/// CIELAB with its chroma scaled by lightness (Hunt effect: colours appear more saturated in brighter light).
 Triple hunt_lab_from_rgb(Triple rgb);
 
-/// HyAB, the distance of large colour differences: city block between lightness and chroma.
+/// HyAB, a metric for large colour differences: city-block distance between lightness and chroma.
 ///
 /// Source    Abasi, Tehran, Fairchild, Distance Metrics for Very Large Color Differences, CR&A 2019.
 double hyab(Triple a, Triple b);

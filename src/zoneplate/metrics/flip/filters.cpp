@@ -28,14 +28,14 @@ void divide(Taps& taps, double by) {
   for (double& tap : taps) tap /= by;
 }
 
-/// The positive taps divided by their sum, the negative ones by theirs.
+/// Divides the positive taps by their sum, and the negative ones by the absolute value of theirs.
 void normalize_parts(Taps& taps) {
   double positive = 0, negative = 0;
   for (const double tap : taps) (tap > 0 ? positive : negative) += tap;
   for (double& tap : taps) tap /= tap > 0 ? positive : -negative;
 }
 
-/// Contrast sensitivity as a function of the distance in degrees: the transform of a Gaussian in frequency.
+/// Contrast sensitivity in space, as a function of the distance in degrees: the transform of a Gaussian in frequency.
 std::function<double(double)> sensitivity(double a, double b, double pixels_per_degree) {
   return [=](double i) {
     const double degrees = i / pixels_per_degree;
@@ -48,7 +48,7 @@ std::function<double(double)> sensitivity(double a, double b, double pixels_per_
 FlipFilters make_flip_filters(double ppd) {
   FlipFilters f;
 
-  // Three standard deviations of the broadest of the sensitivities, b = 0.04.
+  // Three standard deviations of the broadest sensitivity, b = 0.04.
   f.color_radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * ppd));
   f.lightness = make_taps(f.color_radius, sensitivity(1, 0.0047, ppd));
   f.red_green = make_taps(f.color_radius, sensitivity(1, 0.0053, ppd));
@@ -61,7 +61,7 @@ FlipFilters make_flip_filters(double ppd) {
   divide(f.blue_yellow_narrow, both);
   divide(f.blue_yellow_broad, both);
 
-  // Edges and points of the width that the eye sees best, 0.082 degrees.
+  // Edges and points with the width of greatest visibility, 0.082 degrees.
   const double sigma = 0.5 * 0.082 * ppd;
   f.feature_radius = static_cast<int>(std::ceil(3 * sigma));
   const auto gaussian = [sigma](double x) { return natural_exp(-x * x / (2 * sigma * sigma)); };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// FLIP: differences as a viewer sees them who flips between two images, from a stated distance.
+// FLIP: the difference that a viewer notices when flipping between two images at a stated distance.
 //
-// Each image is blurred as the eye blurs it at that distance, colours are compared in a uniform space, and edges
-// and points that one image has and the other lacks raise the error.
+// Each image is filtered by the contrast sensitivity of the eye at that distance, colours are compared in a
+// perceptually uniform space, and edges and points that only one of the images has increase the error.
 //
-// Weak below a pixel: at the usual 67 pixels per degree the eye's blur hides much of what antialiasing methods differ
-// in; judge those at 20 to 30 pixels per degree (flip:ppd=25) too.
+// Weakness: differences below a pixel. At the default 67 pixels per degree, the filter removes most differences between
+// antialiasing methods; compare these at 20 to 30 pixels per degree (flip:ppd=25) as well.
 #include "zoneplate/metrics/flip/flip.h"
 
 #include <algorithm>
@@ -23,12 +23,12 @@ namespace {
 
 constexpr int tile_side = 64;
 
-/// A tile's pixels: [x0, x0 + width) × [y0, y0 + height) of the image.
+/// The pixels of a tile: [x0, x0 + width) × [y0, y0 + height) of the image.
 struct Tile {
   int x0 = 0, y0 = 0, width = 0, height = 0;
 };
 
-/// What is compared at one pixel: the colour behind the eye's blur, and how much of an edge or a point is there.
+/// The compared quantities of one pixel: the filtered colour, and the strengths of an edge and of a point.
 struct Seen {
   Triple color;
   double edge = 0, point = 0;
@@ -39,7 +39,7 @@ Triple light_of(Linear c) {
   return {unit(c.r), unit(c.g), unit(c.b)};
 }
 
-/// A tile of one image in YCxCz with a margin of `reach` pixels on all sides, the image's border repeated.
+/// A tile of one image in YCxCz with a margin of `reach` pixels on all sides, in which the image's border is repeated.
 struct Margin {
   Plane<double> y, cx, cz;
 };
@@ -58,7 +58,7 @@ Margin load_tile(const LinearImage& image, const Tile& tile, int reach) {
   return out;
 }
 
-/// A plane without its margin, filtered by one set of taps in x and another of as many in y.
+/// Filters a plane with one set of taps in x and another of the same size in y, and removes its margin.
 Plane<double> filter(const Plane<double>& in, int reach, const Taps& across, const Taps& down) {
   const int radius = static_cast<int>(across.size()) / 2;
   const int width = in.width() - 2 * reach, height = in.height() - 2 * reach;
@@ -77,7 +77,7 @@ void add(Plane<double>& sum, const Plane<double>& other) {
   for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += other.values()[i];
 }
 
-/// The tile's pixels as they are seen.
+/// Computes the compared quantities of a tile's pixels.
 Plane<Seen> look(const LinearImage& image, const Tile& tile, const FlipFilters& f) {
   const int reach = f.reach();
   Margin c = load_tile(image, tile, reach);
@@ -86,7 +86,7 @@ Plane<Seen> look(const LinearImage& image, const Tile& tile, const FlipFilters& 
   Plane<double> cz = filter(c.cz, reach, f.blue_yellow_narrow, f.blue_yellow_narrow);
   add(cz, filter(c.cz, reach, f.blue_yellow_broad, f.blue_yellow_broad));
 
-  // Features are looked for in the lightness before the blur, in [0, 1].
+  // Features are detected in the lightness before the filter, in [0, 1].
   for (double& v : c.y.values()) v = (v + 16) / 116;
   const Plane<double> edge_x = filter(c.y, reach, f.slope, f.smooth), edge_y = filter(c.y, reach, f.smooth, f.slope);
   const Plane<double> point_x = filter(c.y, reach, f.bend, f.smooth), point_y = filter(c.y, reach, f.smooth, f.bend);
@@ -104,7 +104,7 @@ Plane<Seen> look(const LinearImage& image, const Tile& tile, const FlipFilters& 
   return seen;
 }
 
-/// Colour error in [0, 1]: differences up to 0.4 of the greatest take 0.95 of the range.
+/// Maps a colour difference to [0, 1]: differences up to 0.4 of the greatest are mapped to [0, 0.95].
 double color_error(Triple a, Triple b, double greatest) {
   constexpr double exponent = 0.7, knee = 0.4, knee_value = 0.95;
   const double d = power(hyab(a, b), exponent);
@@ -112,7 +112,7 @@ double color_error(Triple a, Triple b, double greatest) {
   return d < bend ? d * knee_value / bend : knee_value + (d - bend) / (greatest - bend) * (1 - knee_value);
 }
 
-/// Whether the images agree in all that decides a tile's pixels.
+/// Whether the images agree in all pixels that affect a tile.
 bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, int reach) {
   const int left = std::max(0, tile.x0 - reach), right = std::min(a.width(), tile.x0 + tile.width + reach);
   const int top = std::max(0, tile.y0 - reach), bottom = std::min(a.height(), tile.y0 + tile.height + reach);
@@ -126,7 +126,7 @@ bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, 
   return true;
 }
 
-/// The greatest colour difference of the gamut, between its green and its blue.
+/// The greatest colour difference of the gamut, that between green and blue.
 double greatest_difference() { return power(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), 0.7); }
 
 double error_between(const Seen& a, const Seen& b, double greatest) {
@@ -143,12 +143,12 @@ Plane<float> flip_map(const LinearImage& reference, const LinearImage& test, dou
   const double greatest = greatest_difference();
   Plane<float> map(width, height);
 
-  // Tiles are there for the cache; a pixel's value does not depend on its tile.
+  // Tiles are for locality in the cache; a pixel's value does not depend on its tile.
   const int across = (width + tile_side - 1) / tile_side, down = (height + tile_side - 1) / tile_side;
   parallel_for(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), [&](std::size_t index) {
     const int x0 = static_cast<int>(index) % across * tile_side, y0 = static_cast<int>(index) / across * tile_side;
     const Tile tile{x0, y0, std::min(tile_side, width - x0), std::min(tile_side, height - y0)};
-    if (agree_around(reference, test, tile, filters.reach())) return;  // the error is 0 there
+    if (agree_around(reference, test, tile, filters.reach())) return;  // the error is 0
     const Plane<Seen> a = look(reference, tile, filters), b = look(test, tile, filters);
     for (int y = 0; y < tile.height; ++y) {
       for (int x = 0; x < tile.width; ++x) {

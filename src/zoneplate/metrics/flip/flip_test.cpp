@@ -27,7 +27,7 @@ Score flip_of_chart(int which) {
 }
 
 TEST(Flip, PublishedValues) {
-  // Of the authors' program in float; this is double, which differs by less than 5e-5.
+  // Computed by the authors' program in float; the results in double differ by less than 5e-5.
   const struct {
     double mean, max;
   } published[] = {{0.004976, 0.388099}, {0.486137, 0.978420}, {0.207604, 0.371382}, {0.151226, 0.726673}};
@@ -39,7 +39,7 @@ TEST(Flip, PublishedValues) {
 }
 
 TEST(Flip, QuartilesAreWeightedByTheError) {
-  // The sum is 0.2 + 0.3 + 0.3 + 0.3, from the least error up; its quarters by hand.
+  // The total error is 0.2 + 0.3 + 0.3 + 0.3, from the least error up; the quartiles follow by hand.
   Plane<float> map(19, 1, 0.0f);
   std::size_t at = 0;
   for (const auto& [value, count] : {std::pair{0.05f, 6}, {0.1f, 3}, {0.025f, 8}, {0.15f, 2}})
@@ -86,7 +86,7 @@ TEST(Flip, BlackReferenceHasExposures) {
 }
 
 TEST(Flip, IsTheSameWhateverTileAPixelIsIn) {
-  // The same pixels moved by 20: no tile has the same ones, all values must stay.
+  // The same pixels shifted by 20: the contents of all tiles change, but no value may.
   const ChartPair pair = chart_pair(1);
   const auto moved = [](const LinearImage& image) {
     return make_chart(276, 128, [&](int x, int y) { return image(std::max(0, x - 20), y); });
@@ -99,7 +99,7 @@ TEST(Flip, IsTheSameWhateverTileAPixelIsIn) {
 }
 
 TEST(Flip, OnePixelsDifferenceIsSeenAsFarAsFiltersReachAndNoFarther) {
-  // Tiles around which the images agree are not looked at: what others make of them must be no more than 0 either.
+  // Tiles around which the images agree are skipped: the computed values of their pixels must be 0 too.
   const ChartPair pair = chart_pair(1);
   LinearImage changed = pair.reference;
   changed(64, 61) = {5, 0, 0, 1};
@@ -151,7 +151,7 @@ TEST(FlipColor, SpacesInvertAndWhiteIsNeutral) {
   EXPECT_NEAR(white.x, 100, 1e-6);
   EXPECT_NEAR(white.y, 0, 1e-5);
   EXPECT_NEAR(white.z, 0, 1e-5);
-  // The inverse matrix is the published one, of nine digits.
+  // The inverse matrix is the published one, which has nine digits.
   const Triple back = rgb_from_opponent(opponent_from_rgb({0.1, 0.5, 0.9}));
   EXPECT_NEAR(back.x, 0.1, 2e-7);
   EXPECT_NEAR(back.y, 0.5, 2e-7);

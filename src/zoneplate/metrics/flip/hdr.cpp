@@ -2,7 +2,7 @@
 // FLIP for high dynamic range: the images are compared at a range of exposures derived from the reference, and
 // each pixel has its greatest error.
 //
-// Weak for unbounded radiance: one outlier (firefly) in the reference adds irrelevant exposures.
+// Weakness: one outlier of unbounded radiance (firefly) in the reference adds irrelevant exposures.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,12 +44,12 @@ LinearImage expose(const LinearImage& image, double exposure) {
 std::vector<double> flip_exposures(const LinearImage& reference) {
   std::vector<double> luminance;
   luminance.reserve(reference.values().size());
-  // Infinite light counts as the most that a float holds, so that the exposures stay finite.
+  // Infinite light is clamped to the greatest float, so that the exposures are finite.
   const auto bounded = [](float x) { return std::min(std::max(0.0f, x), std::numeric_limits<float>::max()); };
   for (const Linear& c : reference.values())
     luminance.push_back(0.2126 * bounded(c.r) + 0.7152 * bounded(c.g) + 0.0722 * bounded(c.b));
 
-  // Black counts as the smallest luminance that a float resolves next to 1, so that the exposures stay bounded.
+  // Black is replaced by the smallest luminance that a float resolves next to 1, so that the exposures are bounded.
   constexpr double darkest = std::numeric_limits<float>::epsilon();
   const auto middle = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() / 2);
   const double greatest = std::max(darkest, std::ranges::max(luminance));

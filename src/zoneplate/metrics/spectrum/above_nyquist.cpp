@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Energy above Nyquist: how much of what an image's pixels cannot show came back as something else.
+// Energy above Nyquist: the aliases of frequencies that an image cannot represent.
 //
-// A sampled image has no frequencies above ½, so its aliases are found with a reference n × n times as large, which
-// still has them apart. In each ring of frequencies the image is taken as the reference times one real factor, its
-// filter there; the rest is no filtered copy of what should be there: aliases (and noise).
+// A sampled image has no frequencies above ½, so that its aliases are determined with a reference n × n times as large,
+// in which they are separate. In each ring of frequencies the image is modelled as the reference times one real factor,
+// its filter at that frequency; the residual consists of aliases (and noise).
 //
-// Weak where a filter is not round, for what differs between directions counts as aliases, and in the few bins of the
+// Weaknesses: with an anisotropic filter, the differences between directions count as aliases; and in the few bins of
+// the innermost rings, the factor can fit an alias.
 // innermost rings, where a factor can fit an alias.
 #include <algorithm>
 #include <cmath>
@@ -19,19 +20,20 @@
 namespace zoneplate::metrics {
 namespace {
 
-/// e^(-πi f): by as much a bin of frequency f is turned when positions count from the corner of the image and
-/// samples lie in the middle of their pixels.
+/// e^(-πi f): the phase of a bin of frequency f if positions are relative to the corner of the image and samples are at
+/// pixel centres.
 Complex half_pixel(double f) {
   const SineCosine turn = sin_cos_pi(f);
   return {turn.cosine, -turn.sine};
 }
 
-/// What a ring of frequencies holds: of reference and test the powers, and of both what they have in common.
+/// Sums over a ring of frequencies: the power of reference and test, their cross term, and the power of their
+/// difference.
 struct Ring {
   double reference = 0, test = 0, common = 0, difference = 0;
 };
 
-/// The bins below ½ cycle per pixel of the test, by ring; the reference has n × n times its pixels.
+/// The statistics by ring of the bins below ½ cycle per pixel of the test; the reference has n × n times its pixels.
 std::vector<Ring> compare_bins(const Spectrum& reference, const Spectrum& test, int n) {
   const int width = test.width, height = test.height(), shorter = std::min(width, height);
   std::vector<Ring> rings(static_cast<std::size_t>(shorter));
@@ -40,7 +42,7 @@ std::vector<Ring> compare_bins(const Spectrum& reference, const Spectrum& test, 
       const double fx = bin_frequency(kx, width), fy = bin_frequency(ky, height);
       if (std::abs(fx) >= 0.5 || std::abs(fy) >= 0.5) continue;
       const Complex found = test.half(kx, ky) * half_pixel(fx) * half_pixel(fy);
-      // The scaled spectra differ by the factor n, for the reference has n² times the samples at the same variance.
+      // The spectra differ by the factor n, because the reference has n² times the samples at the same variance.
       const Complex expected =
           reference.at(kx, 2 * ky <= height ? ky : ky - height) * half_pixel(fx / n) * half_pixel(fy / n) / double(n);
       Ring& ring = rings[static_cast<std::size_t>(std::sqrt(fx * fx + fy * fy) * shorter + 0.5)];
@@ -54,7 +56,7 @@ std::vector<Ring> compare_bins(const Spectrum& reference, const Spectrum& test, 
   return rings;
 }
 
-/// All power of the reference, in the units of the test's bins.
+/// The total power of the reference, in the units of the test's bins.
 double power_of(const Spectrum& reference, int n) {
   const double pixels = static_cast<double>(reference.width) * reference.height();
   return band_power(reference, 0, 1) * pixels / (static_cast<double>(n) * n);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The radial power spectrum of the error: at what size of detail an image is wrong.
+// The radial power spectrum of the error: the error as a function of the size of details.
 //
-// Coarse errors are seen, fine ones much less; a method that moves its error upward is better at the same mean square.
-// Direction is lost: an image that is wrong along one axis looks as one that is half as wrong along both.
+// Coarse errors are more visible than fine ones: of two methods with the same mean square, the one with errors at
+// higher frequencies is better. Weakness: direction is lost; an error along one axis has the same spectrum as half the
+// power along both.
 #include "zoneplate/metrics/spectrum/radial_power.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ Score measure(const DisplayImage& reference, const DisplayImage& test) {
   const Plane<double> expected = luma_plane(reference), found = luma_plane(test);
   const Spectrum error = windowed_spectrum(difference(found, expected));
   const auto rms = [&](double low, double high) { return std::sqrt(band_power(error, low, high)); };
-  constexpr double corner = 1;  // past the greatest |f|, √½
+  constexpr double corner = 1;  // greater than the greatest |f|, √½
   Score score;
   score.value = rms(0, 0.125);
   score.more = {{"below_1/16", rms(0, 0.0625), "code"},

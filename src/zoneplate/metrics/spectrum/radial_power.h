@@ -8,21 +8,22 @@
 
 namespace zoneplate::metrics {
 
-/// The spectrum of a plane less its mean, under a Hann window in x and y, scaled so that white noise has in every bin
-/// the expected power of its variance.
+/// The spectrum of a plane minus its mean, with a Hann window in x and y, scaled so that the expected power of white
+/// noise in every bin is its variance.
 ///
-/// Edges     the window takes out the cross that the image's border would draw; the mean is taken under it too.
+/// Edges     the window suppresses the cross of the image's border; the mean is weighted by the window too.
 Spectrum windowed_spectrum(const Plane<double>& plane);
 
-/// Power over frequency, whatever the direction.
+/// Power as a function of the radial frequency.
 struct RadialPower {
-  std::vector<double> frequency;  ///< the middles of rings one bin of the shorter side wide, in cycles per pixel
-  std::vector<double> power;      ///< the mean of |spectrum|² over a ring; rings without a bin are left out
+  /// Middles of the rings, which are one bin of the shorter side wide, in cycles per pixel.
+  std::vector<double> frequency;
+  std::vector<double> power;  ///< the mean of |spectrum|² over a ring; empty rings are omitted
 };
 
 RadialPower radial_power_of(const Spectrum& spectrum);
 
-/// What a band of frequencies holds of the mean square: Σ |spectrum|² / pixels over low <= |f| < high.
+/// The contribution of a band of frequencies to the mean square: Σ |spectrum|² / pixels over low <= |f| < high.
 double band_power(const Spectrum& spectrum, double low, double high);
 
 }  // namespace zoneplate::metrics

@@ -48,7 +48,7 @@ TEST(BandPower, HoldsTheMeanSquareOfAWave) {
   EXPECT_LT(band_power(spectrum, 0, 0.2), 1e-6);
 }
 
-// Above Nyquist: waves whose aliases are known.
+// Tests of above_nyquist with waves whose aliases are known.
 
 Score above_nyquist_of(const LinearImage& reference, const LinearImage& test) {
   const Choice choice = choose_metric(metrics(), "above_nyquist");
@@ -56,7 +56,7 @@ Score above_nyquist_of(const LinearImage& reference, const LinearImage& test) {
   return *choice.metric->measure({&a, 1}, {&b, 1}, choice.settings);
 }
 
-/// Two waves, of 0.1 and of 0.8 cycles per pixel of the test, drawn with n × n points a pixel.
+/// Two waves, of 0.1 and of 0.8 cycles per pixel of the test, sampled at n × n points per pixel.
 LinearImage two_waves(int n, double low_amplitude, double high_amplitude) {
   return make_chart(96 * n, 80 * n, [=](int x, int y) {
     const double px = (x + 0.5) / n, py = (y + 0.5) / n;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structural similarity over five scales: fine detail counts less than the form of things, as at a viewing distance.
+// Structural similarity over five scales: coarse structure has more weight than fine detail, as at a viewing distance.
 //
-// The map and the borders are as in ssim; there is no map, for the scales differ in size.
+// Borders are handled as in ssim; there is no map, because the scales differ in size.
 #include <algorithm>
 #include <array>
 #include <cassert>

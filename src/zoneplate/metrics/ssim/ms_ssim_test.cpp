@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MS-SSIM beside a program written from the paper alone: whole windows instead of their two factors, loops over pixels.
+// MS-SSIM compared with an independent implementation of the paper: whole windows instead of separable ones, loops over
+// pixels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ struct Pair {
   Plane<double> reference, test;
 };
 
-// Codes of a chart whose waves become finer away from its corner, by whole numbers alone.
+// Codes of a chart whose waves become finer away from its corner, in integer arithmetic.
 double code(int x, int y) { return ((7 * x * x + 13 * y * y + 5 * x * y) / 64 + 2 * x) % 256; }
 
 // The distortions: noise, blur of 3 x 3 pixels, and half the contrast on coarse squares.
@@ -43,7 +44,7 @@ Pair made_pair(int kind) {
   return pair;
 }
 
-// The means of luminance × contrast-structure and of contrast-structure alone, over all windows inside.
+// The means of luminance × contrast-structure and of contrast-structure, over all windows inside the image.
 struct Means {
   double both = 0, contrast = 0;
 };
@@ -83,7 +84,7 @@ Plane<double> halved(const Plane<double>& image) {
   return half;
 }
 
-// Equation 7: contrast-structure of the first four scales, and luminance as well of the fifth.
+// Equation 7: contrast-structure of the first four scales, and luminance × contrast-structure of the fifth.
 std::array<double, 5> factors_of(Pair pair) {
   std::array<double, 5> factors{};
   for (std::size_t scale = 0; scale < 5; ++scale) {
@@ -100,7 +101,7 @@ double product(const std::array<double, 5>& factors, const Exponents& exponents)
   return result;
 }
 
-// The numbers are those of a third program, in Python, from the same formulas.
+// The expected values come from a third implementation, in Python, of the same formulas.
 TEST(MsSsim, EqualsAnIndependentProgram) {
   constexpr std::array<double, 3> from_python = {0.9819516113383528, 0.8364491952901896, 0.1872875389401846};
   for (int kind = 0; kind < 3; ++kind) {
@@ -111,7 +112,7 @@ TEST(MsSsim, EqualsAnIndependentProgram) {
   }
 }
 
-// The images of the test above distinguish the exponents: with any two scales exchanged one of the values differs.
+// The images of the test above distinguish the exponents: exchanging any two of them changes a value.
 TEST(MsSsim, ExponentsInAnyOtherOrderWouldBeNoticed) {
   std::array<std::array<double, 5>, 3> factors{};
   for (int kind = 0; kind < 3; ++kind) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same metrics by scikit-image, where Debian's python3-skimage is installed: five pairs of images made here.
+// The same metrics by scikit-image, if Debian's python3-skimage is installed, on five pairs of generated images.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ for a, b in pairs:
           structural_similarity(a, b, data_range=1), structural_similarity(a, b, win_size=9, use_sample_covariance=False, data_range=1))
 )";
 
-/// The grey values of a pair as doubles; the pairs are the four charts and noise beside less noise.
+/// The grey values of a pair as doubles; the pairs are the four charts, and noise of two amplitudes.
 struct GreyPair {
   Plane<double> reference, test;
 };
@@ -61,7 +61,7 @@ double psnr_of(const GreyPair& pair) {
   return psnr_of_mse(sum / static_cast<double>(pair.reference.values().size()));
 }
 
-/// What the program prints for the pairs in a file.
+/// The output of the script for the pairs in a file.
 std::string output_of_python(const std::string& script, const std::string& data) {
   const std::string command = "/usr/bin/python3 '" + script + "' '" + data + "' 128 256 2>/dev/null";
   std::FILE* pipe = ::popen(command.c_str(), "r");

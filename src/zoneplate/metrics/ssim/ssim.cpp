@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structural similarity of luma: do the two images rise and fall together, whatever their level?
+// Structural similarity of luma: the correlation of the images' local structure, independently of their level.
 //
-// Weak on small contrasts and on tiny windows: it forgives blur where the image is smooth, and a shift of one pixel
-// in a fine texture costs as much as its loss.
+// Weaknesses: small contrasts and small windows: it tolerates blur where the image is smooth, and a shift of a fine
+// texture by one pixel costs as much as its loss.
 #include "zoneplate/metrics/ssim/ssim.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr int most_side = 11;  // 3.5 sigma of 1.5 on both sides, rounded
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
 constexpr int block_rows = 32;
 
-/// The two means, mean squares and mean product under the window.
+/// The two means, mean squares and mean product of a window.
 struct Moments {
   double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 };
@@ -32,11 +32,11 @@ Moments& operator+=(Moments& sum, const Moments& m) {
   return sum;
 }
 
-/// A window as the product of one row of weights with itself, and how far it reaches beyond its pixel.
+/// A separable window: one row of weights, and its reach before and behind its pixel.
 struct Window {
   std::vector<double> weights;
   int before = 0, behind = 0;
-  double unbias = 1;  ///< what variances and covariance are multiplied by
+  double unbias = 1;  ///< factor of variances and covariance
 };
 
 Window make_window(const SimilarityWindow& choice) {
@@ -57,10 +57,10 @@ Window make_window(const SimilarityWindow& choice) {
   return window;
 }
 
-/// The index mirrored into [0, n) about the border, the edge pixel twice. Requires -n <= i < 2n.
+/// The index mirrored into [0, n) about the border, the edge pixel repeated. Requires -n <= i < 2n.
 int mirrored(int i, int n) { return i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i; }
 
-/// One row of moments under the window's horizontal factor.
+/// One row of moments, after the horizontal pass of the window.
 void filter_row(std::span<const double> a, std::span<const double> b, const Window& window, std::span<Moments> out) {
   const int width = static_cast<int>(a.size());
   for (int x = 0; x < width; ++x) {
@@ -74,7 +74,7 @@ void filter_row(std::span<const double> a, std::span<const double> b, const Wind
   }
 }
 
-/// SSIM and its contrast-structure factor from the moments of one window.
+/// SSIM and its contrast-structure factor, of one window.
 struct Terms {
   double ssim = 0, contrast = 0;
 };
@@ -87,7 +87,7 @@ Terms terms_of(const Moments& m, double unbias) {
   return {(2 * product + c1) / (squares + c1) * contrast, contrast};
 }
 
-/// Rows [begin, end) of the map, and each row's sums over the columns whose windows lie inside.
+/// Computes rows [begin, end) of the map, and each row's sums over the windows that are inside the image.
 void measure_rows(const Plane<double>& a, const Plane<double>& b, int begin, int end, const Window& window,
                   Plane<float>& map, std::span<Terms> row_sums) {
   const int width = a.width(), height = a.height();
@@ -137,7 +137,7 @@ Similarity structural_similarity(const Plane<double>& reference, const Plane<dou
 
 namespace {
 
-/// SSIM of one grey image, or the mean of those of red, green and blue, value and map.
+/// SSIM of a grey image, or the mean of SSIM over red, green and blue, with the value and the map.
 Score similarity_score(const Picture& reference, const Picture& test, const Settings& settings) {
   static constexpr LumaWeights channels[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const SimilarityWindow window{static_cast<int>(settings.number("window")), settings.number("unbiased") != 0};

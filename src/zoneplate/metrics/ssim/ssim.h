@@ -9,30 +9,32 @@ namespace zoneplate::metrics {
 /// The structural similarity of two grey images with values in [0, 1].
 struct Similarity {
   double ssim = 1;      ///< mean of luminance × contrast-structure
-  double contrast = 1;  ///< mean of contrast-structure alone, what the coarser scales of MS-SSIM take
+  double contrast = 1;  ///< mean of contrast-structure, used by the finer scales of MS-SSIM
   Plane<float> map;     ///< SSIM at each pixel, in [-1, 1]
 };
 
-/// The window under which means, variances and the covariance are taken.
+/// The window of means, variances and the covariance.
 struct SimilarityWindow {
-  int side = 0;              ///< of a uniform window, in pixels, 2 to 11; 0: a Gaussian of sigma 1.5 in 11 × 11 pixels
+  /// Side of a uniform window in pixels, 2 to 11; 0: a Gaussian of sigma 1.5 in 11 × 11 pixels.
+  int side = 0;
   bool is_unbiased = false;  ///< variances and covariance are divided by n - 1, for a window of n pixels
 };
 
-/// Structural similarity, by default under the Gaussian window of the paper, with biased moments. Uniform windows of 7
-/// (scikit-image, with unbiased moments) or 8 pixels a side (ffmpeg, at every fourth pixel) are in use as well.
+/// Structural similarity, by default with the Gaussian window of the paper and biased moments. Other implementations
+/// use uniform windows of 7 (scikit-image, with unbiased moments) or 8 pixels a side (ffmpeg, at every fourth pixel).
 ///
 /// Requires  equal sizes, at least 11 × 11.
-/// Edges     the map mirrors the image at its border (the edge pixel twice); the means are over the pixels whose
-///           window lies inside; a window of even side reaches a pixel farther to the right and below. Symmetric;
-///           exactly 1 where the images agree.
-/// Source    Wang, Bovik, Sheikh, Simoncelli, Image Quality Assessment: From Error Visibility to Structural
-///           Similarity, IEEE TIP 13(4), 2004.
+/// Edges     for the map, the image is mirrored at its border (the edge pixel is repeated); the means are over the
+///           pixels whose window is inside the image; a window of even side extends one pixel farther to the right and
+///           below. Symmetric; exactly 1 where the images agree.
+/// Source    Wang, Bovik, Sheikh, Simoncelli, Image Quality Assessment: From Error Visibility to Structural Similarity,
+///           IEEE TIP 13(4), 2004.
 Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test,
                                  SimilarityWindow window = {});
 
-/// The five scales of MS-SSIM: each the mean of 2 × 2 pixels of the one before (a last odd row or column is left
-/// out); the product of contrast^weight over scales, and of luminance at the last one. A negative mean counts as 0.
+/// MS-SSIM over five scales: each scale is the mean of 2 × 2 pixels of the previous one (a last odd row or column is
+/// omitted). The result is the product of contrast^weight over the scales, and of luminance at the last one. A negative
+/// mean counts as 0.
 ///
 /// Requires  equal sizes, at least 176 × 176 (11 at the last scale).
 /// Source    Wang, Simoncelli, Bovik, Multiscale Structural Similarity for Image Quality Assessment, Asilomar 2003.

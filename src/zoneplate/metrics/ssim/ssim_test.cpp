@@ -20,7 +20,7 @@ Similarity similarity_of_chart(int which) {
 }
 
 TEST(Ssim, OfConstantsIsTheLuminanceTermAlone) {
-  // No variance: contrast-structure is C2 / C2.
+  // Without variance, contrast-structure is C2 / C2.
   const Similarity s = structural_similarity(constant(0.25), constant(0.75));
   const double expected = (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4);
   EXPECT_NEAR(s.ssim, expected, 1e-12);
@@ -34,7 +34,8 @@ TEST(Ssim, PublishedValues) {
 }
 
 TEST(Ssim, OneWindowByHand) {
-  // 11 × 11 pixels have one window inside; a lone pixel in its middle weighs w = (the Gaussian's middle tap)².
+  // An 11 × 11 image has one window inside; a single pixel at its centre has the weight w = (the Gaussian's centre
+  // tap)².
   Plane<double> a(11, 11, 0.0), b(11, 11, 0.0);
   a(5, 5) = 1;
   b(5, 5) = 0.5;
@@ -49,7 +50,7 @@ TEST(Ssim, OneWindowByHand) {
   EXPECT_NEAR(s.map(5, 5), luminance * contrast, 1e-7);
 }
 
-// By a program of the paper's formula alone: windows as lists of pixels, in Python. The images are whole numbers.
+// Computed by a Python implementation of the paper's formula that sums whole windows. The images have integer values.
 TEST(Ssim, UniformWindowsAsTheFormulaSays) {
   const auto code = [](int x, int y) { return ((7 * x * x + 13 * y * y + 5 * x * y) / 64 + 2 * x) % 256; };
   const auto noisy = [&](int x, int y) { return std::clamp(code(x, y) + (37 * x + 91 * y + x * y) % 41 - 20, 0, 255); };
@@ -69,7 +70,7 @@ TEST(Ssim, UniformWindowsAsTheFormulaSays) {
 }
 
 TEST(Ssim, OfColoursIsTheMeanOfTheThree) {
-  const ChartPair pair = chart_pair(2);  // red alone differs
+  const ChartPair pair = chart_pair(2);  // only red differs
   const Picture a = make_picture(as_codes(pair.reference)), b = make_picture(as_codes(pair.test));
   const auto measure = [&](const char* text) {
     const Choice choice = choose_metric(metrics(), text);

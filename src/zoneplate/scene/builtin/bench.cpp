@@ -11,7 +11,7 @@
 namespace zoneplate {
 namespace {
 
-/// A value in [-1, 1) at each point of the integer lattice.
+/// A pseudorandom value in [-1, 1) for each point of the integer lattice.
 float lattice(int x, int y, int z) {
   const auto u = [](int i) { return static_cast<std::uint32_t>(i); };
   const std::uint32_t h = hash_word(u(x) * 73856093u ^ u(y) * 19349663u ^ u(z) * 83492791u);
@@ -20,7 +20,7 @@ float lattice(int x, int y, int z) {
 
 float blend(float a, float b, float t) { return a + (b - a) * t; }
 
-/// Lattice values joined by fifth-degree steps.
+/// Lattice values interpolated by quintic steps.
 float smooth_noise(float x, float y, float z) {
   const float fx = std::floor(x), fy = std::floor(y), fz = std::floor(z);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy), iz = static_cast<int>(fz);

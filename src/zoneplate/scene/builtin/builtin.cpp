@@ -11,7 +11,7 @@
 namespace zoneplate {
 namespace {
 
-/// The maker that a text names and the values of its parameters; nothing if no scene has that name.
+/// The maker named by a text, and the values of its parameters; nothing if no scene has that name.
 std::optional<Spec<BuiltinMaker>> find_spec(std::string_view text) {
   if (!find_row(builtin_makers(), text)) return std::nullopt;
   return parse_spec("scene", builtin_makers(), text);

@@ -41,7 +41,8 @@ std::size_t triangles_of(const Scene& scene) {
 using Key = std::array<float, 3>;
 Key key_of(float3 p) { return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; }  // -0 is 0
 
-/// How often each directed edge is used, minus how often it is used the other way, corners being the same by position.
+/// The number of uses of each directed edge minus those in the opposite direction; corners with equal positions are the
+/// same.
 std::map<std::pair<Key, Key>, int> open_edges(const Mesh& mesh) {
   std::map<std::pair<Key, Key>, int> uses;
   for (std::size_t i = 0; i < mesh.index.size(); i += 3)
@@ -68,7 +69,7 @@ void expect_sound(const Scene& scene) {
     }
     for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
       for (std::size_t k = 0; k < 3; ++k) ASSERT_LT(mesh.index[i + k], mesh.position.size());
-      // The front is the side to which the normals point.
+      // The front face is on the side of the normals.
       const auto p = [&](std::size_t k) { return mesh.position[mesh.index[i + k]]; };
       const auto n = [&](std::size_t k) { return mesh.normal[mesh.index[i + k]]; };
       ASSERT_GT(dot(cross(p(1) - p(0), p(2) - p(0)), n(0) + n(1) + n(2)), 0) << "triangle " << i / 3;
@@ -101,11 +102,11 @@ TEST(BuiltinScenes, RefuseWhatTheyDoNotKnow) {
 TEST(Teapot, HasItsTrianglesAndClosedPatches) {
   for (const int n : {1, 2, 5, 16}) {
     const Scene scene = made("teapot:divisions=" + std::to_string(n));
-    // 32 patches of 2 n² triangles, less n at each of the eight patches that end in a point of the axis.
+    // 32 patches of 2 n² triangles, minus n at each of the eight patches that end in a point of the axis.
     EXPECT_EQ(triangles_of(scene), static_cast<std::size_t>(64 * n * n - 8 * n));
     EXPECT_EQ(scene.objects, (std::vector<std::string>{"body", "lid", "handle", "spout"}));
-    // What is open: the mouth of the body, the rim of the lid, both ends of handle and spout.
-    // (Of one division the tubes are flat: the two edges of an end fall together.)
+    // The open edges are the mouth of the body, the rim of the lid, and both ends of handle and spout.
+    // (With one division the tubes are flat: the two edges of an end coincide.)
     const auto ring = static_cast<std::size_t>(4 * n);
     const std::size_t ends = n == 1 ? 0 : ring;
     EXPECT_EQ(open_edges(scene.meshes[0]).size(), ring);
@@ -122,12 +123,12 @@ TEST(Teapot, StandsUprightOnTheGround) {
   EXPECT_EQ(box.low.y, 0);
   EXPECT_EQ(box.high.y, 3.15f / 16);
   EXPECT_EQ(box.low.z, -box.high.z);
-  EXPECT_GT(box.high.x, -box.low.x);  // the spout reaches farther than the handle
+  EXPECT_GT(box.high.x, -box.low.x);  // the spout extends farther than the handle
 }
 
 TEST(Sphere, IsClosedAndHasTheTrianglesAskedFor) {
-  for (const auto& [asked, given] : {std::pair{12, 12u}, {13, 48u}, {48, 48u}, {49, 108u}, {10000, 10092u}}) {
-    const Scene scene = made("sphere:triangles=" + std::to_string(asked));
+  for (const auto& [requested, given] : {std::pair{12, 12u}, {13, 48u}, {48, 48u}, {49, 108u}, {10000, 10092u}}) {
+    const Scene scene = made("sphere:triangles=" + std::to_string(requested));
     EXPECT_EQ(triangles_of(scene), given);
     EXPECT_TRUE(open_edges(scene.meshes[0]).empty());
   }
@@ -166,7 +167,7 @@ TEST(Triangles, ShowTheirColoursAndStandWhereTheyShould) {
 TEST(Cyclic, EachTriangleIsBeforeTheNext) {
   const Scene scene = made("cyclic");
   ASSERT_EQ(scene.meshes.size(), 3u);
-  // Seen along -Z from the eye, where a triangle's long axis crosses its neighbour's it is the nearer one.
+  // As seen along -Z from the eye: where a triangle's long axis crosses its neighbour's, the triangle is nearer.
   const auto axis = [&](std::size_t i) {
     const auto& p = scene.meshes[i].position;
     return std::pair{p[0], (p[1] + p[2]) * 0.5f};
@@ -175,7 +176,7 @@ TEST(Cyclic, EachTriangleIsBeforeTheNext) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [a, b] = axis(i);
     const auto [c, d] = axis((i + 1) % 3);
-    // a + s (b - a) and c + t (d - c) lie on one ray from the eye: solve for s, t and the ratio of their distances.
+    // a + s (b - a) and c + t (d - c) are on one ray from the eye: solve for s, t and the ratio of their distances.
     const float3 n = cross(c - eye, d - eye);  // plane through the eye and the neighbour's axis
     const float s = dot(eye - a, n) / dot(b - a, n);
     const float3 p = a + s * (b - a);

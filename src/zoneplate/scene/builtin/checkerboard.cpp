@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A checkerboard that reaches the horizon: every frequency that an image can and cannot show.
+// A checkerboard that extends to the horizon: it contains frequencies below and above the Nyquist limit of any image.
 #include <array>
 
 #include "zoneplate/scene/builtin/make.h"
@@ -7,8 +7,8 @@
 namespace zoneplate {
 namespace {
 
-constexpr int texels = 512, squares = 8;  // of one repeat of the texture, per side
-constexpr float repeat = 8;               // metres of one repeat: squares of one metre
+constexpr int texels = 512, squares = 8;  // of one repetition of the texture, per side
+constexpr float repeat = 8;               // metres per repetition: squares of one metre
 
 Rgba8Image checks() {
   Rgba8Image image(texels, texels);
@@ -21,7 +21,7 @@ Rgba8Image checks() {
   return image;
 }
 
-/// The grid's lines are close together near the eye: there uv are small numbers, and exact.
+/// The grid lines are dense near the eye, so that uv are small there, and exact.
 Mesh plane() {
   constexpr std::array<float, 14> lines = {-32768, -8192, -2048, -512, -128, -32,  -8,
                                            8,      32,    128,   512,  2048, 8192, 32768};
@@ -51,7 +51,7 @@ Scene make(std::span<const std::int64_t>) {
   material.base_color_texture.image = 0;
   scene.materials.push_back(material);
   add_object(scene, "plane", plane());
-  // A person's eyes over the board, the horizon in the upper third.
+  // The eyes of a person above the board, with the horizon in the upper third.
   scene.cameras.push_back(camera_at({0, 1.6f, 0}, {0, 0.1f, -7.5f}, 0.87266463f, 0.1f, 50000));
   return scene;
 }

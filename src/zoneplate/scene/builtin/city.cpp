@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// 80 × 50 textured boxes in a grid and the ground between them, seen from the end of a street.
+// 80 × 50 textured boxes in a grid and the ground between them, viewed from the end of a street.
 //
-// The boxes come in random order, the ground in their middle, so that nothing is sorted for the renderer.
+// The boxes are in random order, with the ground in the middle, so that they are not sorted for the renderer.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-/// A sequence of random words; it lives only while the city is laid out.
+/// A sequence of random words for the layout of the city.
 struct Sequence {
   std::uint32_t state;
   std::uint32_t word() { return hash_word(state += 0x9e3779b9u); }

@@ -15,7 +15,7 @@ Mesh quads() {
   BenchMesh out;
   for (int i = 0; i < 32; ++i) {
     const float z = 33.0f - static_cast<float>(i), h = z * slope * 1.01f, w = h * aspect;
-    // Texels for a pixel grow from 0.5 to 3.9, and each quad's texture is turned a little.
+    // Texels per pixel increase from 0.5 to 3.9, and each quad's texture is slightly rotated.
     const float texels = 0.5f + 0.11f * static_cast<float>(i);
     const SineCosine turn = sine_cosine(static_cast<double>(0.13f * static_cast<float>(i)));
     const auto c = static_cast<float>(turn.cosine), s = static_cast<float>(turn.sine);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trees of leaves cut out of a texture: edges that lie inside of triangles, where no coverage is counted.
+// Trees with alpha-tested leaves: edges inside of triangles, which multisampled coverage does not smooth.
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +11,10 @@ namespace {
 
 constexpr int texels = 256;
 
-/// A leaf of the twig: an ellipse from its foot along a direction.
+/// A leaf of the twig: an ellipse along a direction from its base.
 struct Leaf {
   float x, y, dx, dy, length, width;
-  /// A measure of the distance from the rim: about 1 in the middle and 0 on the rim.
+  /// An approximate distance from the rim: about 1 in the middle and 0 on the rim.
   float inside(float u, float v) const {
     const float along = ((u - x) * dx + (v - y) * dy) / length, across = ((v - y) * dx - (u - x) * dy) / width;
     const float a = 2 * along - 1;
@@ -22,14 +22,14 @@ struct Leaf {
   }
 };
 
-/// Seven leaves on a stem; alpha falls to 0 over a texel or two, and the colour goes on beyond the rim.
+/// Seven leaves on a stem; alpha falls to 0 within one or two texels, and the colour continues beyond the rim.
 TextureImage twig() {
   constexpr Leaf leaves[] = {
       {0.50f, 0.42f, 0, -1, 0.40f, 0.10f},           {0.50f, 0.55f, 0.80f, -0.60f, 0.42f, 0.09f},
       {0.50f, 0.58f, -0.80f, -0.60f, 0.42f, 0.09f},  {0.50f, 0.72f, 0.94f, -0.34f, 0.42f, 0.085f},
       {0.50f, 0.74f, -0.94f, -0.34f, 0.42f, 0.085f}, {0.50f, 0.86f, 0.98f, 0.18f, 0.32f, 0.07f},
       {0.50f, 0.87f, -0.98f, 0.18f, 0.32f, 0.07f}};
-  constexpr float sharpness = 30;  // of the rim: alpha a texel
+  constexpr float sharpness = 30;  // alpha per texel at the rim
   Rgba8Image image(texels, texels);
   for (int y = 0; y < texels; ++y)
     for (int x = 0; x < texels; ++x) {
@@ -50,7 +50,7 @@ TextureImage twig() {
 
 float random(std::uint32_t a, std::uint32_t b, std::uint32_t c) { return 2 * unit_float(hash(a, b, c)) - 1; }
 
-/// A ball of twigs about a centre, darker below.
+/// Adds a ball of twigs about a centre, darker below.
 void add_crown(Mesh& mesh, std::uint32_t tree, float3 centre, float radius, int twigs) {
   for (int i = 0; i < twigs; ++i) {
     const auto n = static_cast<std::uint32_t>(i);

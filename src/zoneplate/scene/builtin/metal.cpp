@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polished metal with flutes and dents: highlights narrower than a pixel, which shading once a pixel finds or misses.
+// Polished metal with flutes and dents: highlights narrower than a pixel, which one shaded sample per pixel may miss.
 #include <functional>
 
 #include "zoneplate/math/angle.h"
@@ -19,7 +19,8 @@ Direction direction(float share_of_turn) {
   return {static_cast<float>(a.cosine), static_cast<float>(a.sine)};
 }
 
-/// A surface of (u, v) in [0, 1]² on a grid; normals from its neighbours' places, to the side where u × v points.
+/// A surface parametrized by (u, v) in [0, 1]² on a grid; normals are differences of neighbouring positions, in the
+/// direction of u × v.
 Mesh surface(int nu, int nv, const std::function<float3(float u, float v)>& at) {
   Mesh mesh;
   const float du = 1 / static_cast<float>(nu), dv = 1 / static_cast<float>(nv);
@@ -36,7 +37,7 @@ Mesh surface(int nu, int nv, const std::function<float3(float u, float v)>& at) 
   return mesh;
 }
 
-/// A vase: a profile turned about its axis, with flutes.
+/// A vase: a profile rotated about its axis, with flutes.
 Mesh vase() {
   return surface(640, 96, [](float u, float v) {
     const Direction turn = direction(u), flute = direction(36 * u), belly = direction(0.5f * v);
@@ -54,7 +55,7 @@ Mesh spring() {
   });
 }
 
-/// A hammered bowl, seen from outside.
+/// A hammered bowl, viewed from outside.
 Mesh bowl() {
   return surface(360, 180, [](float u, float v) {
     const Direction turn = direction(u), tilt = direction(0.02f + 0.46f * v);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slats that are nearly level and nearly upright: the angles at which one step of an edge is longest.
+// Nearly horizontal and nearly vertical slats: at these angles the steps of an edge are longest.
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
@@ -12,7 +12,7 @@ Scene make(std::span<const std::int64_t>) {
            {0.030f, 0.045f, 0.075f});
   constexpr int slats = 15;
   for (int k = 0; k < slats; ++k) {
-    // From a fifth of a degree to three and a half.
+    // From a fifth of a degree to three and a half degrees.
     const float rise = 0.004f * static_cast<float>(k + 1), at = -0.87f + 0.119f * static_cast<float>(k);
     constexpr float thick = 0.058f, begin = -1.23f, end = -0.03f;
     const float length = end - begin, share = static_cast<float>(k) / (slats - 1);

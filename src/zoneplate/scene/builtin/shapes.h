@@ -5,29 +5,29 @@
 
 namespace zoneplate {
 
-/// Parts of the scenes that show artifacts.
+/// Parts of the scenes with artifacts.
 
 /// An unlit double-sided surface of this colour.
 Material unlit(const char* name, float3 light);
 
-/// A flat quad of counter-clockwise corners: lower left, lower right, upper right, upper left; uv from (0, 1) to (1,
-/// 0).
+/// Adds a flat quad of counter-clockwise corners: lower left, lower right, upper right, upper left; uv from (0, 1) to
+/// (1, 0).
 void add_quad(Mesh& mesh, const float3 (&corner)[4]);
 
-/// The same with one colour, or one below and another above, at its corners. A mesh has colours at all of its vertices
+/// Adds a quad with one colour at the lower and another at the upper corners. A mesh has colours at all of its vertices
 /// or at none.
 void add_quad(Mesh& mesh, const float3 (&corner)[4], float3 below, float3 above);
 
-/// A box along the axes.
+/// Adds an axis-aligned box.
 void add_box(Mesh& mesh, float3 low, float3 high);
 
-/// A round bar with `sides` flat sides, open at its ends.
+/// Adds a cylindrical bar with `sides` flat sides, open at its ends.
 void add_bar(Mesh& mesh, float3 from, float3 to, float radius, int sides = 6);
 
-/// A bar that hangs between two points as a parabola, `sag` below them in its middle, in `pieces` straight pieces.
+/// Adds a bar of `pieces` straight pieces that hangs between two points as a parabola, `sag` below them in the middle.
 void add_wire(Mesh& mesh, float3 from, float3 to, float sag, float radius, int pieces = 24);
 
-/// A disc that faces +Z.
+/// Adds a disc that faces +Z.
 void add_disc(Mesh& mesh, float3 centre, float radius, int corners = 96);
 
 /// Adds a material with its mesh as an object.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sphere made from a cube, its surface displaced by noise: any number of triangles of nearly equal size.
+// A sphere made from a cube, with noise displacement: any number of triangles of nearly equal size.
 #include <cmath>
 #include <vector>
 
@@ -18,7 +18,7 @@ constexpr Side sides[6] = {{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1
                            {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
                            {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}};
 
-/// By the reciprocal of the length, as the scene's other makers do it.
+/// Normalizes by the reciprocal of the length, as other renderers' versions of the scene do.
 float3 unit(float3 a) { return a * (1 / std::sqrt(dot(a, a))); }
 
 float3 displaced(float3 direction) {
@@ -26,7 +26,7 @@ float3 displaced(float3 direction) {
   return direction * r;
 }
 
-/// The normal, by differences along two tangents.
+/// The normal, from differences along two tangents.
 float3 normal_at(float3 direction, float3 position) {
   constexpr float step = 0.002f;
   const float3 reference = std::abs(direction.y) > 0.9f ? float3{1, 0, 0} : float3{0, 1, 0};
@@ -36,9 +36,9 @@ float3 normal_at(float3 direction, float3 position) {
   return unit(cross(along_t, along_b));
 }
 
-/// The positions of the lines of a side's grid, at equal angles seen from the centre.
+/// The positions of the lines of a side's grid, at equal angles from the centre.
 ///
-/// The second half mirrors the first: neighbouring sides then have the same bits on their common edge.
+/// The second half mirrors the first, so that adjacent sides have the same bits on their common edge.
 std::vector<float> grid_lines(int n) {
   std::vector<float> lines(static_cast<std::size_t>(n) + 1);
   for (int i = 0; 2 * i < n; ++i) {

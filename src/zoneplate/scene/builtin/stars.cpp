@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stars of a pixel and less over a ridge: light that one sample a pixel finds or misses.
+// Stars of at most a pixel above a ridge: light that one sample per pixel may hit or miss.
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
 namespace {
 
-constexpr float pixel = 2.0f / 480;  // of an image 480 pixels high, for which the stars are sized
+constexpr float pixel = 2.0f / 480;  // in an image 480 pixels high, for which the stars are sized
 
 float random(std::uint32_t star, std::uint32_t which) { return unit_float(hash(star, which, 77)); }
 
@@ -15,7 +15,7 @@ Mesh make_stars() {
   for (std::uint32_t i = 0; i < 520; ++i) {
     const float u = random(i, 2), side = pixel * (0.35f + 1.1f * u * u * u);
     const float x = 3.6f * (random(i, 0) - 0.5f);
-    // Every third star belongs to a band across the sky.
+    // Every third star is part of a band across the sky.
     const float spread = (random(i, 4) + random(i, 5) - 1) * 0.35f;
     const float y = i % 3 == 0 ? 0.25f + 0.45f * x + spread : 2.0f * (random(i, 1) - 0.5f) + 0.15f;
     const float v = random(i, 3), bright = 0.35f + 2.5f * v * v * v * v, warm = random(i, 6);
@@ -25,7 +25,7 @@ Mesh make_stars() {
   return mesh;
 }
 
-/// The height of the ridge: a polygon of random lengths of slope.
+/// The silhouette of the ridge: a polyline with segments of random length.
 Mesh make_ridge() {
   Mesh mesh;
   constexpr int parts = 42;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sun behind a roof: an edge between very bright and dark, whose mean is white however little light a pixel gets.
+// The sun behind a roof: an edge between very bright and dark, whose scene-linear mean is displayed as white even if
+// only a small part of the pixel is bright.
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
 namespace {
 
-/// The house as it stands before the sky: gable, chimney, a lower roof, an aerial.
+/// The silhouette of the house against the sky: gable, chimney, a lower roof, an aerial.
 Mesh make_house() {
   Mesh mesh;
   const float z = 1;
@@ -23,7 +24,7 @@ Mesh make_house() {
   return mesh;
 }
 
-/// The lower rims of the tiles, a little brighter than the roof.
+/// The lower edges of the tiles, slightly brighter than the roof.
 Mesh make_tiles() {
   Mesh mesh;
   for (int row = 1; row < 12; ++row) {

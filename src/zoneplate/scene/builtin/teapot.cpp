@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Newell's teapot: 32 bicubic Bezier patches, given here by the sections that they were drawn from.
+// Newell's teapot: 32 bicubic Bezier patches, computed from the sections of the original drawing.
 //
-// The body, the lid and the bottom turn four quarters about the axis, each quarter one patch; the handle and the
-// spout are two mirrored halves. Lengths are Newell's (the lid's knob at 3.15), his z axis upright.
+// The body, the lid and the bottom are four quarter turns about the axis, one patch each; the handle and the spout are
+// two mirrored halves. Lengths are Newell's (the lid's knob at 3.15), with his vertical z axis.
 //
 // Source: Newell, The Utilization of Procedure Models in Digital Image Synthesis, PhD thesis, Utah, 1975, with the
 // bottom that was added later; Crow, The Origins of the Teapot, IEEE CG&A 7(1), 1987.
@@ -24,7 +24,7 @@ Point operator*(Point a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 Point cross(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Control points; u runs along a row, v from row to row; outside is where v × u points.
+/// Control points; u varies along a row, v from row to row; v × u points outwards.
 using Patch = std::array<std::array<Point, 4>, 4>;
 
 /// A control ring of a surface of revolution: its radius, the length of its quarter arc's tangents, its height.
@@ -39,7 +39,7 @@ constexpr Ring rim_and_body[] = {{1.4, 0.784, 2.4}, {1.3375, 0.749, 2.53125}, {1
 constexpr Ring lid[] = {{0, 0, 3.15},       {0.8, 0.45, 3.15},  {0, 0, 2.85},     {0.2, 0.112, 2.7},
                         {0.4, 0.224, 2.55}, {1.3, 0.728, 2.55}, {1.3, 0.728, 2.4}};
 
-/// A control section of a tube that is symmetric in y: where it starts and ends in the plane y = 0, and its half width.
+/// A control section of a tube that is symmetric in y: its two points in the plane y = 0, and its half width.
 struct Section {
   double x0, z0, x1, z1, half;
 };
@@ -82,10 +82,10 @@ std::vector<Patch> tube(std::span<const Section> sections) {
   return patches;
 }
 
-/// The weights of four control points, and their slopes, at i/n.
+/// The weights of four control points, and their derivatives, at i/n.
 ///
-/// Both are made so that the weights at n - i are the same numbers in reverse: patches that meet then agree on their
-/// common edge to the last bit, whichever way they run along it.
+/// The weights at n - i are exactly those at i in reverse order, so that adjacent patches agree on their common edge to
+/// the last bit, in either direction.
 struct Weights {
   std::array<double, 4> value, slope;
 };
@@ -105,7 +105,7 @@ Point on_patch(const Patch& p, const std::array<double, 4>& u, const std::array<
   return mix(v, row[0], row[1], row[2], row[3]);
 }
 
-/// Outwards; where a ring has shrunk to a point, the limit from the side of the patch (by the mixed derivative).
+/// The outward normal; if a ring has radius 0, the limit from the side of the patch (by the mixed derivative).
 Point normal_on(const Patch& p, const Weights& u, const Weights& v, bool is_last_row) {
   const Point along_v = on_patch(p, u.value, v.slope);
   Point n = cross(along_v, on_patch(p, u.slope, v.value));
@@ -113,7 +113,7 @@ Point normal_on(const Patch& p, const Weights& u, const Weights& v, bool is_last
   return n * (1 / std::sqrt(dot(n, n)));
 }
 
-/// Upright along +Y, a sixteenth of the size: a pot of 20 cm.
+/// Rotated so that +Y is up, and scaled by 1/16: a pot of 20 cm.
 float3 placed(Point p) {
   return {static_cast<float>(p.x / 16), static_cast<float>(p.z / 16), static_cast<float>(-p.y / 16)};
 }
@@ -132,7 +132,7 @@ void add_patch(Mesh& mesh, const Patch& patch, int n) {
     }
   const auto add_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const float3 pa = mesh.position[a], pb = mesh.position[b], pc = mesh.position[c];
-    if (pa == pb || pb == pc || pc == pa) return;  // at a point of the axis
+    if (pa == pb || pb == pc || pc == pa) return;  // degenerate at a point of the axis
     for (const std::uint32_t v : {a, b, c}) mesh.index.push_back(v);
   };
   for (std::uint32_t j = 0; j + 1 < columns; ++j)
@@ -155,7 +155,7 @@ Scene make(std::span<const std::int64_t> values) {
   Scene scene;
   Material glaze;
   glaze.name = "glaze";
-  glaze.double_sided = true;  // one sees through the gap below the lid
+  glaze.double_sided = true;  // the inside is visible through the gap below the lid
   glaze.base_color = {0.74f, 0.26f, 0.10f, 1};
   glaze.metallic = 0;
   glaze.roughness = 0.28f;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window full of text, drawn pixel for pixel: every change by a method is an error.
+// A window full of text, drawn pixel for pixel: any change by a method is an error.
 //
-// The panel has one texel a pixel in an image of its own size, and is read without a filter: every sample of a pixel
-// shows the same texel, so that methods which sample more give it exactly, and filters of the image pay their tax.
+// In an image of the panel's size, the panel has one texel per pixel with nearest filtering: all samples of a pixel
+// read the same texel, so that methods with more samples are exact, and image filters show their errors.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -33,7 +33,7 @@ constexpr Glyph glyphs[] = {
     {'.', {0, 0, 0, 0, 0, 12, 12}},      {',', {0, 0, 0, 0, 12, 4, 8}},       {'-', {0, 0, 0, 14, 0, 0, 0}},
     {'/', {1, 1, 2, 4, 8, 16, 16}},      {':', {0, 12, 12, 0, 12, 12, 0}},    {'%', {25, 25, 2, 4, 8, 19, 19}}};
 
-/// The panel while it is drawn.
+/// The image of the panel.
 class Panel {
  public:
   Panel(int width, int height) : image_(width, height, {236, 233, 226}) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cable-stayed bridge: oblique lines of about a pixel, at every angle between steep and flat.
+// A cable-stayed bridge: oblique lines about a pixel wide, at all angles between steep and flat.
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {

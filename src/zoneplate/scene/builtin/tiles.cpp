@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tiled floor and a brick wall whose textures are read as they lie: the nearest texel, no smaller levels.
+// A tiled floor and a brick wall whose textures have nearest filtering and no mip levels.
 #include "zoneplate/scene/builtin/bench.h"
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
 namespace {
 
-/// One tile of 128 × 128 texels: a dark joint on two sides, a narrow inlay within.
+/// One tile of 128 × 128 texels: a dark joint on two sides, a narrow inlay inside.
 TextureImage tile() {
   constexpr int size = 128, joint = 6, inlay = 26;
   Rgba8Image image(size, size);
@@ -19,7 +19,7 @@ TextureImage tile() {
   return {"tile", std::move(image)};
 }
 
-/// A long rectangle in pieces, so that texture coordinates stay small near the viewer.
+/// A long rectangle in pieces, so that texture coordinates are small near the viewer.
 void add_strip(Mesh& mesh, float3 origin, float3 across, float3 along, float2 uv_across, float2 uv_along, int pieces) {
   for (int i = 0; i < pieces; ++i) {
     const float a = static_cast<float>(i), b = a + 1;
@@ -47,7 +47,7 @@ Scene make(std::span<const std::int64_t>) {
   Mesh sky, floor, wall;
   add_quad(sky, {{-900, -100, -480}, {900, -100, -480}, {900, 420, -480}, {-900, 420, -480}}, {0.75f, 0.80f, 0.86f},
            {0.22f, 0.38f, 0.66f});
-  // Tiles of half a metre; the wall, 6 m high, shows the bricks' texture every 3 m.
+  // Tiles of half a metre; on the wall, 6 m high, the texture of bricks repeats every 3 m.
   add_strip(floor, {-40, 0, 4}, {80, 0, 0}, {0, 0, -16}, {160, 0}, {0, 32}, 28);
   add_strip(wall, {-3.2f, 6, 4}, {0, -6, 0}, {0, 0, -16}, {0, 2}, {16 / 3.0f, 0}, 28);
   add_part(scene, unlit("sky", {1, 1, 1}), std::move(sky));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of a few plain triangles, on which coverage, order and colour can be followed by hand.
+// Scenes of a few simple triangles, whose coverage, order and colour can be computed by hand.
 #include <cmath>
 #include <initializer_list>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr float quarter_pi = 0.78539816f;
 
-/// A surface that shows one colour, given as sRGB codes, from both sides and whatever the light.
+/// An unlit double-sided material with one colour, given as sRGB codes.
 Material plain(const char* name, Rgba8 code) {
   Material m;
   m.name = name;
@@ -40,7 +40,7 @@ Scene make_triangles(std::span<const std::int64_t>) {
   return scene;
 }
 
-/// Each triangle comes towards the eye from its tip to its base and lays its base over the next one's tip.
+/// Each triangle comes closer to the eye from its tip to its base, and its base is in front of the next one's tip.
 Scene make_cyclic(std::span<const std::int64_t>) {
   Scene scene;
   const float half_root3 = std::sqrt(3.0f) / 2;
@@ -59,7 +59,7 @@ Scene make_cyclic(std::span<const std::int64_t>) {
   return scene;
 }
 
-/// Squares in the three coordinate planes: each pair passes through each other along an axis.
+/// Squares in the three coordinate planes: each pair intersects along an axis.
 Scene make_crossing(std::span<const std::int64_t>) {
   Scene scene;
   constexpr Rgba8 codes[] = {{235, 120, 80}, {120, 190, 110}, {90, 130, 225}};

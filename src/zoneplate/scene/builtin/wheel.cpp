@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wagon's wheel of any number of spokes, all alike, so that one spoke further it looks the same.
+// A wagon wheel with any number of equal spokes, so that a rotation by one spoke gives the same image.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace {
 
 constexpr double two_pi = 6.283185307179586;
 
-// A wheel of one metre on the ground, its axle along z, its front to the viewer.
+// A wheel of one metre on the ground, with its axle along z and its front towards the viewer.
 constexpr float3 axle{0, 0.5f, 0};
 constexpr float hub_radius = 0.078f, spoke_from = 0.06f, spoke_to = 0.44f;
 constexpr float greatest_spoke_radius = 0.017f;
-constexpr float spoke_share = 0.36f;  // of the room that a spoke has at the hub, its radius at most
+constexpr float spoke_share = 0.36f;  // maximum ratio of a spoke's radius to the space per spoke at the hub
 constexpr int spoke_sides = 16;
-constexpr std::size_t least_segments = 240;  // of everything turned on the lathe
+constexpr std::size_t least_segments = 240;  // of all surfaces of revolution
 
 struct Direction {
   float cosine = 1, sine = 0;
@@ -30,12 +30,12 @@ Direction direction(double share_of_turn) {
   return {static_cast<float>(a.cosine), static_cast<float>(a.sine)};
 }
 
-/// A point of a turned profile: its distance from the axle, and where along it.
+/// A point of a profile: its distance from the axle, and its position along the axle.
 struct ProfilePoint {
   float r = 0, z = 0;
 };
 
-// Each profile runs so that its outside is to the right: (dz, -dr) points outwards. The first point is also the last.
+// Each profile is oriented so that its outside is on the right: (dz, -dr) points outwards. The last point is the first.
 constexpr std::array<ProfilePoint, 9> tyre = {{{0.486f, -0.034f},
                                                {0.497f, -0.034f},
                                                {0.5f, -0.030f},
@@ -77,9 +77,10 @@ constexpr std::array<ProfilePoint, 9> cap = {{{0.036f, 0.09f},
                                               {0.008f, 0.142f},
                                               {0, 0.143f}}};
 
-/// The outward normals at both ends of each side of a profile: smooth over blunt corners, broken over sharp ones.
+/// The outward normals at both ends of each side of a profile: smooth over blunt corners, split at sharp ones.
 std::vector<std::array<ProfilePoint, 2>> profile_normals(std::span<const ProfilePoint> profile) {
-  constexpr float least_cosine = 0.75f;  // of the angle between neighbours that look like one surface
+  // Cosine of the greatest angle between adjacent sides that count as one surface.
+  constexpr float least_cosine = 0.75f;
   const std::size_t sides = profile.size() - 1;
   const bool is_closed = profile.front().r == profile.back().r && profile.front().z == profile.back().z;
   std::vector<ProfilePoint> flat(sides);
@@ -103,11 +104,11 @@ std::vector<std::array<ProfilePoint, 2>> profile_normals(std::span<const Profile
   return normals;
 }
 
-/// The triangles of a strip of columns of `rows` vertices each, the last column being the first; front to the outside.
+/// Adds the triangles of a closed strip of columns with `rows` vertices each; front faces are on the outside.
 void add_strip(Mesh& mesh, std::uint32_t first, std::uint32_t columns, std::uint32_t rows) {
   const auto add_triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const float3 pa = mesh.position[a], pb = mesh.position[b], pc = mesh.position[c];
-    if (pa == pb || pb == pc || pc == pa) return;  // at a point of the axis
+    if (pa == pb || pb == pc || pc == pa) return;  // degenerate at a point of the axis
     for (const std::uint32_t v : {a, b, c}) mesh.index.push_back(v);
   };
   for (std::uint32_t c = 0; c < columns; ++c)
@@ -137,7 +138,8 @@ Mesh turned(std::span<const ProfilePoint> profile, std::size_t segments, int mat
   return mesh;
 }
 
-/// A spoke's thickness where it leaves the hub, in its belly, and where it enters the rim.
+/// A ring of a spoke: its distance from the axle and its radius. Spokes have rings at the hub, in the middle and at the
+/// rim.
 struct SpokeRing {
   float at, radius;
 };
@@ -177,7 +179,7 @@ Material paint(const char* name, float3 color, float metallic, float roughness) 
   return material;
 }
 
-constexpr std::int64_t micro = 1'000'000;  // of the parameter `turn`
+constexpr std::int64_t micro = 1'000'000;  // units of the parameter `turn`
 
 Scene make(std::span<const std::int64_t> values) {
   const std::int64_t count = values[0];
@@ -192,8 +194,8 @@ Scene make(std::span<const std::int64_t> values) {
   add_object(scene, "tyre", turned(tyre, segments, 2));
   add_object(scene, "cap", turned(cap, segments, 3));
 
-  // Whole spokes are left out of the angle: the wheel is then the same to the last bit. Clockwise, as one that rolls to
-  // the right.
+  // Whole spokes are removed from the angle, so that the wheel is the same to the last bit. Clockwise, as a wheel that
+  // rolls to the right.
   const double spokes_turned = static_cast<double>(values[1] % micro) / static_cast<double>(micro);
   const float4x4 turn = rotation({0, 0, 1}, static_cast<float>(-two_pi * spokes_turned / static_cast<double>(count)));
   for (Instance& instance : scene.instances) instance.world_from_object = translation(axle) * turn;

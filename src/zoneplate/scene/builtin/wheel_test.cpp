@@ -28,7 +28,7 @@ bool are_placed_alike(const Scene& a, const Scene& b) {
   return a.instances.size() == b.instances.size();
 }
 
-/// Edges that are not used once in each direction, corners being the same by position.
+/// The number of edges that are not used once in each direction; corners with equal positions are the same.
 std::size_t open_edges(const Mesh& mesh) {
   using Key = std::array<float, 3>;
   const auto key_of = [](float3 p) { return Key{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; };
@@ -47,10 +47,10 @@ TEST(Wheel, HasClosedPartsAndSpokesThatEndInHubAndRim) {
   for (const int n : {1, 7, 12, 360}) {
     const Scene scene = made("wheel:spokes=" + std::to_string(n));
     EXPECT_EQ(scene.objects, (std::vector<std::string>{"spokes", "rim", "hub", "tyre", "cap"}));
-    EXPECT_EQ(open_edges(scene.meshes[0]), static_cast<std::size_t>(2 * 16 * n));  // both ends of each
+    EXPECT_EQ(open_edges(scene.meshes[0]), static_cast<std::size_t>(2 * 16 * n));  // both ends of each spoke
     EXPECT_EQ(open_edges(scene.meshes[1]), 0u);
     EXPECT_EQ(open_edges(scene.meshes[3]), 0u);
-    // Hidden in the hub and in the rim.
+    // The spokes' ends are hidden in the hub and in the rim.
     for (const float3 p : scene.meshes[0].position) {
       const float r = std::hypot(p.x, p.y);
       EXPECT_TRUE(r > 0.055f && r < 0.485f && std::abs(p.z) < 0.029f);
@@ -58,7 +58,7 @@ TEST(Wheel, HasClosedPartsAndSpokesThatEndInHubAndRim) {
   }
 }
 
-// One spoke further, the mesh covers itself: every vertex falls on another.
+// After a rotation by one spoke, the mesh is congruent: every vertex coincides with another one.
 TEST(Wheel, LooksTheSameOneSpokeFurther) {
   constexpr double pi = 3.141592653589793;
   for (const int n : {5, 12, 31}) {

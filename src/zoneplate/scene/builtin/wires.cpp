@@ -33,7 +33,7 @@ Mesh make_wires() {
   return mesh;
 }
 
-/// Upright rods between two rails, along a line that goes away from the viewer.
+/// Vertical rods between two rails, along a line that leads away from the viewer.
 Mesh make_fence() {
   Mesh mesh;
   constexpr float3 from{1.55f, 0, -0.9f}, to{6.8f, 0, -46};

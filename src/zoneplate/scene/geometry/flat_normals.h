@@ -9,14 +9,14 @@
 
 namespace zoneplate {
 
-/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; +Y where it has none or a point
-/// is not finite. In double, so that no square of finite floats overflows or vanishes.
+/// The unit normal of a triangle, on the side from which a, b, c are counter-clockwise; +Y if the triangle has no area
+/// or a point is not finite. In double, so that squares of finite floats neither overflow nor underflow.
 float3 flat_normal(float3 a, float3 b, float3 c);
 
-/// That of many triangles.
+/// Flat normals of many triangles.
 struct FlatNormalKernels : PerIsa<FlatNormalKernels> {
-  /// Shape     a triangle's corners are nine floats, little-endian, at any address, `stride` >= 36 bytes after those of
-  ///           the one before; its normal is written three times, once for each corner.
+  /// Shape     a triangle's corners are nine little-endian floats at any alignment, `stride` >= 36 bytes after those of
+  ///           the previous triangle; its normal is written three times, once per corner.
   void (*make)(const std::uint8_t* corners, std::size_t stride, std::size_t triangles, float* normal);
 };
 

@@ -17,9 +17,9 @@ constexpr D d;
 constexpr hn::CappedTag<float, 4> four;
 constexpr hn::CappedTag<std::uint8_t, 16> bytes;
 using Row = hn::Vec<decltype(four)>;
-constexpr std::size_t group = 4;  ///< triangles
+constexpr std::size_t group = 4;  ///< triangles in a group
 
-/// A number for each triangle of a group, in doubles.
+/// One double per triangle of a group.
 struct Number {
   static constexpr std::size_t parts = group * sizeof(double) / sizeof(V);
   V part[parts];
@@ -46,7 +46,7 @@ struct Rows {
   Row x, y, z;
 };
 
-/// One corner of each triangle of a group. What stands behind it is read too.
+/// One corner of each triangle of a group. The bytes after it are read too.
 HWY_INLINE Rows corner(const std::uint8_t* corners, std::size_t stride) {
   const auto row = [&](std::size_t i) { return hn::BitCast(four, hn::LoadU(bytes, corners + i * stride)); };
   const Row a = row(0), b = row(1), c = row(2), e = row(3);
@@ -89,7 +89,7 @@ HWY_INLINE Rows normals(const std::uint8_t* corners, std::size_t stride) {
   return {narrowed(n.x), narrowed(n.y), narrowed(n.z)};
 }
 
-/// Writes a triangle's normal three times, and one float more.
+/// Writes a triangle's normal three times, and one more float.
 HWY_INLINE void put(Row row, float* normal) {
   for (std::size_t k = 0; k < 9; k += 3) hn::StoreU(row, four, normal + k);
 }
@@ -106,13 +106,14 @@ void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles
     put(hn::InterleaveLower(four, xz_high, y_high), out + 18);
     put(hn::InterleaveUpper(four, xz_high, y_high), out + 27);
   }
-  // Nothing is read behind the last triangle's corners, nor written behind its normals.
+  // The scalar version processes the last triangles, because it does not access memory beyond their corners and
+  // normals.
   FlatNormalKernels::scalar.make(corners + i * stride, stride, triangles - i, normal + 9 * i);
 }
 
 #else
 
-/// Highway has no vectors of doubles here.
+/// Highway has no vectors of double for this instruction set.
 void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles, float* normal) {
   FlatNormalKernels::scalar.make(corners, stride, triangles, normal);
 }

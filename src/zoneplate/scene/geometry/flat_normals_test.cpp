@@ -40,7 +40,7 @@ TEST(FlatNormals, EveryTriangleGetsItsOwn) {
 TEST(FlatNormals, TwinsGiveTheSameBitsAndTouchNothingElse) {
   for (const std::size_t triangles : {0u, 1u, 3u, 4u, 5u, 8u, 9u, 67u})
     for (const std::size_t stride : {36u, 50u}) {
-      // Corners to the last byte of their memory, some without area, some huge or tiny.
+      // Corners up to the last byte of their memory; some triangles have no area, some are huge or tiny.
       std::vector<std::uint8_t> corners(triangles == 0 ? 0 : (triangles - 1) * stride + 36);
       for (std::size_t i = 0; i < triangles; ++i) {
         float values[9];

@@ -20,13 +20,13 @@ namespace {
 constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256, block = 4096;
 
-/// The normalised sums of the triangles about each vertex, in their order; vertices with possible creases are marked.
+/// Computes the normalized sum of the triangles at each vertex, in order, and marks vertices with possible creases.
 void sum_all(Mesh& mesh, std::vector<char>& mark) {
   const SmoothSumKernels& kernels = SmoothSumKernels::of();
   const std::size_t vertices = mesh.position.size(), triangles = mesh.index.size() / 3;
   const auto* const position = reinterpret_cast<const float*>(mesh.position.data());
   auto* const normal = reinterpret_cast<float*>(mesh.normal.data());
-  // Every thread reads all triangles for its own range of vertices: a vertex adds its triangles in their order.
+  // Every thread reads all triangles for its own range of vertices, so that each vertex adds its triangles in order.
   const std::size_t share = vertices / static_cast<std::size_t>(thread_limit()) + 1;
   parallel_ranges(vertices, share, [&](std::size_t begin, std::size_t end) {
     const VertexRange own{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin)};
@@ -40,10 +40,10 @@ void sum_all(Mesh& mesh, std::vector<char>& mark) {
   });
 }
 
-/// Corners about vertices that need a closer look, in the order of the triangles.
+/// The corners at the marked vertices, in the order of the triangles.
 struct Corners {
-  std::vector<std::uint32_t> vertex;       ///< in growing order
-  std::vector<std::uint32_t> first, list;  ///< of the i-th: list[first[i] .. first[i + 1])
+  std::vector<std::uint32_t> vertex;       ///< in ascending order
+  std::vector<std::uint32_t> first, list;  ///< the corners of the i-th vertex are list[first[i] .. first[i + 1])
 };
 
 Corners corners_of(const Mesh& mesh, const std::vector<char>& is_selected) {
@@ -55,14 +55,14 @@ Corners corners_of(const Mesh& mesh, const std::vector<char>& is_selected) {
       if (is_selected[mesh.index[k]] != 0) found[begin / corners_per_range].push_back(static_cast<std::uint32_t>(k));
   });
   Corners c;
-  std::vector<std::uint32_t> place;  // of a vertex in c.vertex
+  std::vector<std::uint32_t> place;  // index of a vertex in c.vertex
   for (std::uint32_t v = 0; v < is_selected.size(); ++v) {
     if (is_selected[v] == 0) continue;
     place.resize(is_selected.size());
     place[v] = static_cast<std::uint32_t>(c.vertex.size());
     c.vertex.push_back(v);
   }
-  // Counted one place ahead, so that after the filling each entry is where its vertex begins.
+  // Counts are stored one element ahead, so that after filling each entry is the first index of its vertex.
   c.first.resize(c.vertex.size() + 2);
   for (const std::vector<std::uint32_t>& part : found)
     for (const std::uint32_t k : part) ++c.first[place[mesh.index[k]] + 2];
@@ -84,13 +84,13 @@ float3 direction(const Sum& s, float3 otherwise) {
   return {static_cast<float>(s.x / length), static_cast<float>(s.y / length), static_cast<float>(s.z / length)};
 }
 
-/// A triangle's unit normal, and its weight at each of its corners.
+/// A triangle's unit normal, and its weight at each corner.
 struct Face {
   float3 normal;
   std::array<double, 3> weight;
 };
 
-/// Some triangles, measured side by side.
+/// Some triangles, whose normals and weights are computed in parallel lanes.
 class Faces {
  public:
   static constexpr std::size_t most = 64;
@@ -101,7 +101,7 @@ class Faces {
     w_[0][i] = double{c.x} - b.x, w_[1][i] = double{c.y} - b.y, w_[2][i] = double{c.z} - b.z;
   }
 
-  /// Measures the first `count`, rounded up to whole vectors of any width.
+  /// Computes the first `count`, rounded up to whole vectors of any width.
   void measure(std::size_t count) {
     constexpr std::size_t width = 8;
     for (std::size_t first = 0; first < count; first += width)
@@ -126,7 +126,7 @@ class Faces {
 
  private:
   using Lane = std::array<double, most>;
-  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; the results
+  std::array<Lane, 3> u_{}, v_{}, w_{}, normal_{}, weight_{};  ///< edges ab, ac, bc; then the results
   Lane square_{};
 };
 
@@ -135,13 +135,13 @@ Sum weighted(const Face& f, std::size_t corner) {
   return {f.normal.x * w, f.normal.y * w, f.normal.z * w};
 }
 
-/// A corner whose normal is not that of its vertex.
+/// A corner whose normal differs from that of its vertex.
 struct Other {
   std::uint32_t corner;
   float3 normal;
 };
 
-/// Finds the normals about vertices where not all triangles are smooth with each other.
+/// Computes the normals at a vertex with creases.
 class BentVertex {
  public:
   BentVertex(Mesh& mesh, std::vector<Other>& others) : mesh_(mesh), others_(others) {}
@@ -187,10 +187,10 @@ void copy_last(std::vector<V>& values, std::uint32_t from) {
   if (!values.empty()) values.push_back(V(values[from]));
 }
 
-/// Gives the corners vertices of their own; neighbours in the list that agree share one.
+/// Gives these corners their own vertices; corners of one vertex with equal normals share one.
 void split(Mesh& mesh, const std::vector<std::vector<Other>>& blocks) {
   for (const std::vector<Other>& others : blocks) {
-    std::size_t begin = 0;  // of those at the same vertex
+    std::size_t begin = 0;  // first corner at the same vertex
     std::vector<std::pair<float3, std::uint32_t>> made;
     std::vector<std::uint32_t> at;
     for (const Other& o : others) at.push_back(mesh.index[o.corner]);

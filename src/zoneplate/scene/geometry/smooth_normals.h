@@ -5,17 +5,17 @@
 
 namespace zoneplate {
 
-/// Gives triangles smooth normals: across edges that bend by less than 50°.
+/// Computes smooth normals for triangles: smooth across edges that bend by less than 50°.
 ///
-/// The normal of a corner is the sum over the triangles about its vertex that bend away from its own by less than 50°,
-/// each weighted by the sine of its angle there over the product of the two edges' lengths, which is exact for vertices
-/// on a sphere. Vertices are joined as the indices join them.
+/// The normal of a corner is the sum of the normals of the triangles at its vertex that deviate from its own triangle's
+/// by less than 50°, each weighted by the sine of its angle at the vertex over the product of the two edges' lengths,
+/// which is exact for vertices on a sphere. Vertices are connected by indices only.
 ///
-/// Shape     vertices keep their places; copies are appended where the corners of one vertex differ.
-/// Edges     a vertex about which no triangle has an area gets +Y; where more than 256 triangles meet all are taken.
+/// Shape     vertices keep their indices; copies are appended where the corners of one vertex differ.
+/// Edges     a vertex whose triangles all lack area gets +Y; where more than 256 triangles meet, all are included.
 /// Requires  triangles, all finite.
-/// Exact     the same bits for any number of threads and any instruction set; of vertices that are smooth all around,
-///           sums in floats, of others in doubles.
+/// Exact     the same bits for any number of threads and any instruction set; sums are in float for vertices without
+///           creases, in double for others.
 /// Cost      one byte per vertex in addition to the normals; more where edges are sharp.
 /// Source    Max, Weights for Computing Vertex Normals from Facet Normals, Journal of Graphics Tools 4(2), 1999.
 void make_smooth_normals(Mesh& mesh);

@@ -11,10 +11,11 @@
 namespace zoneplate {
 namespace {
 
-/// A wavy sheet of size × size cells, its triangles and vertices in an order without sense.
+/// A wavy sheet of size × size cells, with triangles and vertices in a scattered order.
 Mesh scattered_sheet(std::uint32_t size) {
   Mesh mesh;
-  const std::uint32_t across = size + 1, vertices = across * across, step = 7919;  // a prime: every place is met
+  // A prime, so that every index occurs.
+  const std::uint32_t across = size + 1, vertices = across * across, step = 7919;
   const auto place = [&](std::uint32_t v) { return static_cast<std::uint32_t>(std::uint64_t{v} * step % vertices); };
   mesh.position.resize(vertices);
   for (std::uint32_t j = 0; j < across; ++j)

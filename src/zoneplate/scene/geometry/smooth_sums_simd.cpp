@@ -32,8 +32,8 @@ HWY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
-/// One lane of each of `lanes` triangles. What stands behind a vertex is read too, so that of the last one and of
-/// triangles that are not there copies are read.
+/// A group of `lanes` triangles, one per lane. A load reads one float beyond a vertex, so that copies are loaded if the
+/// group contains the last vertex or has fewer triangles than lanes.
 class Group {
  public:
   HWY_INLINE Group(const std::uint32_t* index, std::size_t triangles, std::size_t vertices)
@@ -54,12 +54,12 @@ class Group {
     return load([&](std::size_t i) { return copies[i]; });
   }
 
-  /// Whether none, some or all corners of a whole group lie in the range.
+  /// Whether none, some or all corners of a group are in the range.
   enum class Share { None, Some, All };
   HWY_INLINE Share share(VertexRange own) const {
     if (count_ < lanes || own.size == 0) return Share::Some;
     const auto begin = hn::Set(words, own.begin), last = hn::Set(words, own.size - 1);
-    auto all = hn::Zero(words), any = hn::Zero(words);  // distances beyond the range
+    auto all = hn::Zero(words), any = hn::Zero(words);  // masks of the corners in the range
     for (std::size_t part = 0; part < 3; ++part) {
       const auto place = hn::Sub(hn::LoadU(words, index_ + part * lanes), begin);
       const auto is_here = hn::VecFromMask(words, hn::Eq(hn::Min(place, last), place));
@@ -79,7 +79,7 @@ class Group {
     return !hn::AllFalse(words, hn::MaskFromVec(hn::Or(hn::Or(is(0), is(1)), is(2))));
   }
 
-  /// Four floats from each place, the fourth left out.
+  /// Loads four floats per lane and discards the fourth.
   template <class Place>
   static HWY_INLINE Vectors load(const Place& place) {
     const hn::CappedTag<float, 4> four;
@@ -100,7 +100,7 @@ class Group {
   bool has_copies_ = false;
 };
 
-/// The summands of a group's triangles at one corner: x and y by pairs, z.
+/// The contributions of a group's triangles at one corner: pairs of x and y, and z.
 struct Shares {
   alignas(32) float pair[2 * lanes], z[lanes];
 

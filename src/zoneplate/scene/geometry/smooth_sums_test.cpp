@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-/// Triangles of all sizes among a few vertices, some without area, some beyond what floats hold.
+/// Triangles of all sizes with few vertices, some without area, some beyond the range of floats.
 struct Heap {
   std::vector<float3> position;
   std::vector<std::uint32_t> index;
@@ -28,7 +28,7 @@ struct Heap {
   const float* places() const { return &position[0].x; }
 };
 
-/// Sums of vertices from the second to the last but one, made units; and the marks.
+/// The normalized sums of all vertices except the first and the last, and the marks.
 struct Found {
   std::vector<float> normal;
   std::vector<char> mark;
@@ -56,7 +56,7 @@ TEST(SmoothSums, TwinsGiveTheSameBits) {
 }
 
 TEST(SmoothSums, WhatFloatsDoNotHoldIsMarked) {
-  // A right triangle in the xy plane, alone, at many sizes; then ever thinner.
+  // A single right triangle in the xy plane, in many sizes; then increasingly thin ones.
   const auto marked = [](float wide, float high) {
     Heap heap(1);
     heap.position = {{0, 0, 0}, {0, 0, 0}, {wide, 0, 0}, {0, high, 0}, {0, 0, 0}};

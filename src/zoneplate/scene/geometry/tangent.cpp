@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// The bits of a number, the same for equal ones: -0 + 0 is 0.
+/// The bits of a number, equal for equal numbers: -0 + 0 is 0.
 std::uint32_t word(float value) { return std::bit_cast<std::uint32_t>(value + 0.0f); }
 
 std::uint64_t mix(std::uint64_t hash, float value) {
@@ -30,10 +30,10 @@ std::uint64_t mix(std::uint64_t hash, float value) {
 }
 std::uint64_t mix(std::uint64_t hash, float3 v) { return mix(mix(mix(hash, v.x), v.y), v.z); }
 
-/// The slot for a hash, whose low bits are its worst.
+/// The slot for a hash, whose low bits have the least entropy.
 std::size_t slot(std::uint64_t hash) { return static_cast<std::size_t>(hash >> 20); }
 
-/// For each vertex the first one of equal position, normal and uv.
+/// For each vertex, the first one with equal position, normal and uv.
 std::vector<std::uint32_t> weld(const Mesh& mesh, std::span<const float2> uv) {
   using Table = FirstOfEqual<8>;
   Table table(mesh.position.size());
@@ -59,10 +59,10 @@ struct Face {
   std::array<std::uint32_t, 3> vertex{};                     ///< welded
   std::array<std::uint32_t, 3> neighbour{none, none, none};  ///< across the edge from corner i to i + 1
   std::array<std::uint32_t, 3> group{none, none, none};      ///< of each corner
-  float3 tangent;                                            ///< the direction of growing u, unit length or zero
+  float3 tangent;                                            ///< the direction of increasing u, of unit length or zero
   bool is_degenerate = false;                                ///< two equal positions
-  bool keeps_orientation = false;                            ///< counter-clockwise in uv too
-  bool joins_any = true;                                     ///< no area in uv: takes its neighbours' orientation
+  bool keeps_orientation = false;                            ///< counter-clockwise in uv as well
+  bool joins_any = true;                                     ///< no area in uv: adopts its neighbours' orientation
 };
 
 bool is_zero(float x) { return !(std::abs(x) > FLT_MIN); }
@@ -74,7 +74,8 @@ float3 unit(float3 v) {
 
 float3 across(float3 v, float3 normal) { return v - normal * dot(normal, v); }
 
-/// The change of position with u, of equations 18 and 19 of the source; that with v matters only by its length.
+/// Computes the derivative of position with respect to u by equations 18 and 19 of the source; of that with respect to
+/// v only the length matters.
 void measure(Face& face, std::span<const float3> position, std::span<const float2> uv) {
   const auto [a, b, c] = face.vertex;
   const float3 d1 = position[b] - position[a], d2 = position[c] - position[a];
@@ -107,8 +108,8 @@ std::vector<Face> make_faces(const Mesh& mesh, std::span<const float2> uv) {
 /// An edge of a face; `low` < `high` are its vertices.
 struct Edge {
   std::uint32_t low, high, face;
-  std::uint8_t corner;  ///< where it begins
-  bool is_rising;       ///< runs from low to high
+  std::uint8_t corner;  ///< the corner at which it begins
+  bool is_rising;       ///< directed from low to high
 };
 
 std::vector<Edge> list_edges(const std::vector<Face>& faces) {
@@ -125,10 +126,10 @@ std::vector<Edge> list_edges(const std::vector<Face>& faces) {
   return edges;
 }
 
-/// Joins each edge to the first free one after it that runs the other way between the same vertices.
+/// Connects each edge to the first later free edge with the same vertices and the opposite direction.
 void join_neighbours(std::vector<Face>& faces) {
   const std::vector<Edge> edges = list_edges(faces);
-  std::array<std::size_t, 2> next{};  // for each direction, where the search goes on: it never has to go back
+  std::array<std::size_t, 2> next{};  // for each direction, the position of the search, which never moves backwards
   const auto is_free = [&](const Edge& e) { return faces[e.face].neighbour[e.corner] == none; };
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge& edge = edges[i];
@@ -143,14 +144,14 @@ void join_neighbours(std::vector<Face>& faces) {
   }
 }
 
-/// Triangles around one vertex that share a tangent there.
+/// Triangles around one vertex that have a common tangent there.
 struct Group {
   std::uint32_t vertex;
   bool keeps_orientation;
   float3 sum{0, 0, 0};
 };
 
-/// Adds a face to the group and returns the index of its corner there; nothing if it belongs to another.
+/// Adds a face to the group and returns the index of its corner at the vertex; nothing if it belongs to another group.
 std::uint32_t join_group(Face& face, const Group& group, std::uint32_t number) {
   std::uint32_t c = 0;
   while (c < 3 && face.vertex[c] != group.vertex) ++c;
@@ -161,7 +162,7 @@ std::uint32_t join_group(Face& face, const Group& group, std::uint32_t number) {
   return c;
 }
 
-/// Walks from a corner over the edges at its vertex, in the standard's order: across its own edge first.
+/// Collects a group from a corner across the edges at its vertex, in the standard's order: across its own edge first.
 void gather_group(std::vector<Face>& faces, const Group& group, std::uint32_t number, std::uint32_t start,
                   std::vector<std::uint32_t>& pending) {
   pending.assign(1, start);
@@ -205,7 +206,7 @@ void sum_tangents(const std::vector<Face>& faces, const Mesh& mesh, std::vector<
     }
 }
 
-/// Any unit vector across the normal.
+/// A unit vector perpendicular to the normal.
 float3 some_tangent(float3 normal) {
   const float3 axis = std::abs(normal.x) < 0.5f ? float3{1, 0, 0} : float3{0, 1, 0};
   return normalize(across(axis, normal), {1, 0, 0});
@@ -213,7 +214,7 @@ float3 some_tangent(float3 normal) {
 
 float4 tangent_of(const Group& group, float3 normal) {
   float3 t = is_zero(length(group.sum)) ? some_tangent(normal) : unit(group.sum);
-  if (!is_finite(t)) t = some_tangent(normal);  // edges too long for a float's square
+  if (!is_finite(t)) t = some_tangent(normal);  // edges whose square overflows
   return {t.x, t.y, t.z, group.keeps_orientation ? -1.0f : 1.0f};
 }
 
@@ -255,9 +256,9 @@ void make_tangents(Mesh& mesh, int uv_set) {
   assert(uv.size() == mesh.position.size());
   const std::vector<float4> corner = corner_tangents(mesh, uv);
 
-  // The first tangent that is seen at a vertex stays there; each other one goes to a copy of the vertex.
+  // A vertex keeps the first tangent of its corners; each other one is stored at a copy of the vertex.
   std::vector<float4> tangent(mesh.position.size(), float4{});
-  std::vector<std::uint32_t> source(mesh.position.size(), none);  // of which vertex this is a copy
+  std::vector<std::uint32_t> source(mesh.position.size(), none);  // the vertex of which this is a copy
   using Table = FirstOfEqual<5>;
   Table copies(mesh.index.size());
   for (std::size_t k = 0; k < corner.size(); ++k) {
@@ -280,7 +281,7 @@ void make_tangents(Mesh& mesh, int uv_set) {
     mesh.index[k] = found;
   }
   for (std::size_t i = 0; i < tangent.size(); ++i) {
-    if (source[i] != none) continue;  // a vertex of no triangle
+    if (source[i] != none) continue;  // not used by any triangle
     const float3 any = some_tangent(mesh.normal[i]);
     tangent[i] = {any.x, any.y, any.z, 1};
   }

@@ -21,7 +21,7 @@ void expect_near(float4 a, float4 b, float tolerance = 1e-6f) {
   EXPECT_EQ(a.w, b.w);
 }
 
-/// A mesh in the plane z = 0 that looks towards +Z.
+/// A mesh in the plane z = 0 that faces +Z.
 Mesh flat_mesh(const std::vector<float2>& position, const std::vector<float2>& uv, const Index& index) {
   Mesh m;
   for (const float2 p : position) m.position.push_back({p.x, p.y, 0});
@@ -36,7 +36,7 @@ Mesh square(const std::vector<float2>& uv) {
   return flat_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, uv, {0, 1, 2, 0, 2, 3});
 }
 
-/// An image laid upright on the square: u to the right, v downwards. Its top is +Y = cross(normal, tangent).
+/// An upright image on the square: u to the right, v downwards. Its top is +Y = cross(normal, tangent).
 TEST(Tangents, UprightImageHasAPositiveSign) {
   Mesh m = square({{0, 1}, {1, 1}, {1, 0}, {0, 0}});
   make_tangents(m, 0);
@@ -61,7 +61,7 @@ TEST(Tangents, TheUvSetIsTheOneAskedFor) {
   for (const float4 t : m.tangent) expect_near(t, {0, 1, 0, 1});
 }
 
-/// Two squares side by side whose uv mirror each other at the seam, where the vertices are shared.
+/// Two adjacent squares with mirrored uv and shared vertices at the seam.
 TEST(Tangents, AMirroredSeamSplitsItsVertices) {
   Mesh m = flat_mesh({{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}}, {{0, 1}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {0, 0}},
                      {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
@@ -76,20 +76,20 @@ TEST(Tangents, AMirroredSeamSplitsItsVertices) {
   EXPECT_EQ(m.uv0[m.index[11]], (float2{1, 0}));
 }
 
-/// Three triangles around the origin with 90, 60 and 30 degrees, each with its own direction of u.
+/// Three triangles around the origin with angles of 90, 60 and 30 degrees, each with its own direction of u.
 TEST(Tangents, TheMeanIsWeightedByTheAngle) {
   const auto on_circle = [](double deg) {
     return float2{static_cast<float>(std::cos(deg * std::numbers::pi / 180)),
                   static_cast<float>(std::sin(deg * std::numbers::pi / 180))};
   };
-  // uv = position, with u scaled in each triangle such that neighbours agree on the shared edges: bend the fan.
+  // Irregular uv, which adjacent triangles share and which give each triangle its own direction of u.
   const std::vector<float2> position{{0, 0}, on_circle(0), on_circle(90), on_circle(150), on_circle(180)};
   const std::vector<float2> uv{{0, 0}, {1, 0}, {0.2f, -1}, {-1, -0.5f}, {-1, 0.3f}};
   Mesh m = flat_mesh(position, uv, {0, 1, 2, 0, 2, 3, 0, 3, 4});
   make_tangents(m, 0);
   ASSERT_EQ(m.position.size(), 5u);
 
-  // The direction d with uv changing by (1, 0): solve [p1 p2] a = d, [t1 t2] a = (1, 0), in doubles.
+  // The direction d along which uv changes by (1, 0): solves [p1 p2] a = d, [t1 t2] a = (1, 0) in doubles.
   double x = 0, y = 0;
   const double angle[] = {90, 60, 30};
   for (std::size_t f = 0; f < 3; ++f) {
@@ -102,8 +102,8 @@ TEST(Tangents, TheMeanIsWeightedByTheAngle) {
   expect_near(m.tangent[0], {static_cast<float>(x / n), static_cast<float>(y / n), 0, 1}, 1e-5f);
 }
 
-/// A bent sheet of 3 × 3 vertices and 8 triangles, with an irregular mapping; mirrored: u turns back at the middle
-/// column, and the last triangle has no area in uv.
+/// A bent sheet of 3 × 3 vertices and 8 triangles with irregular uv. If mirrored, u reverses at the middle column, and
+/// the last triangle has no area in uv.
 Mesh bent_sheet(bool is_mirrored) {
   Mesh m;
   for (int y = 0; y < 3; ++y)
@@ -121,7 +121,7 @@ Mesh bent_sheet(bool is_mirrored) {
 }
 
 /// Output of mikktspace.c (github.com/mmikk/MikkTSpace, revision 3e895b4) for the corners of both sheets, at its
-/// default angular threshold. Its sign is that of v upwards, the opposite of ours.
+/// default angular threshold. Its sign is for v upwards, the opposite of ours.
 constexpr float4 plain_sheet_tangents[24] = {
     {0.893744946f, 0.00661737658f, 0.44852671f, 1},  {0.955684185f, -0.172001272f, -0.238921165f, 1},
     {0.911598861f, 0.135118946f, 0.38823998f, 1},    {0.893744946f, 0.00661737658f, 0.44852671f, 1},
@@ -165,7 +165,7 @@ TEST(Tangents, AreThoseOfTheReferenceImplementation) {
     Mesh m = bent_sheet(is_mirrored);
     make_tangents(m, 0);
     for (std::size_t k = 0; k < m.index.size(); ++k) {
-      // The reference has no tangent for this corner of the triangle without area: it is (1, 0, 0) by default.
+      // The reference has no tangent for this corner of the triangle without area: its default is (1, 0, 0).
       if (is_mirrored && k == 22) continue;
       const float4 reference = is_mirrored ? mirrored_sheet_tangents[k] : plain_sheet_tangents[k];
       SCOPED_TRACE(k);
@@ -191,7 +191,7 @@ TEST(Tangents, AnotherNormalIsAnotherVertex) {
   hard.normal = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0.6f, 0.8f}, {0, 0.6f, 0.8f}};
   hard.index = {0, 1, 2, 3, 4, 5};
   make_tangents(hard, 0);
-  for (std::size_t i = 0; i < 3; ++i) expect_near(hard.tangent[i], hard.tangent[0]);  // one triangle, one tangent
+  for (std::size_t i = 0; i < 3; ++i) expect_near(hard.tangent[i], hard.tangent[0]);  // one triangle has one tangent
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(dot(xyz(hard.tangent[i]), hard.normal[i]), 0, 1e-6f);
 }
 
@@ -204,7 +204,7 @@ TEST(Tangents, DegenerateTrianglesTakeTheirVerticesTangent) {
 }
 
 TEST(Tangents, TrianglesWithoutAreaInUvJoinTheirNeighbours) {
-  // The second triangle has one uv for all corners but for the shared edge: u along the edge, no area.
+  // The corners of the second triangle have collinear uv: u along the shared edge, no area.
   Mesh m = flat_mesh({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1}, {1, 1}, {1, 0}, {0.5f, 0.5f}}, {0, 1, 2, 0, 2, 3});
   make_tangents(m, 0);
   EXPECT_EQ(m.position.size(), 4u);
@@ -223,7 +223,7 @@ TEST(Tangents, WithoutAnyUvAreaAnyDirectionAcrossTheNormal) {
   }
 }
 
-/// A bumpy grid with random uv distortion, some cells mirrored.
+/// A bumpy grid with randomly distorted uv, some cells mirrored.
 Mesh bumpy(int n) {
   Mesh m;
   const auto noise = [](int i, int j, int d) {
@@ -245,7 +245,7 @@ Mesh bumpy(int n) {
   return m;
 }
 
-/// The definition, slowly: for each corner the corners reached over shared edges of the same orientation.
+/// A reference implementation: for each corner, all corners reached over shared edges with the same orientation.
 std::vector<float4> brute_force(const Mesh& m) {
   const std::size_t corners = m.index.size();
   const auto face_uv = [&](std::size_t f) {
@@ -307,7 +307,7 @@ TEST(Tangents, AgreeWithTheDefinition) {
   for (std::size_t k = 0; k < m.index.size(); ++k) expect_near(m.tangent[m.index[k]], expected[k], 2e-5f);
 }
 
-/// Where the order of the triangles decides nothing, it must not decide the tangents beyond rounding.
+/// The order of the triangles must not affect the tangents beyond rounding, except where the definition depends on it.
 TEST(Tangents, DoNotDependOnTheOrderOfTriangles) {
   Mesh a = bumpy(8), b = a;
   const std::size_t faces = a.index.size() / 3;
@@ -336,7 +336,7 @@ TEST(Tangents, KeepEveryTriangle) {
   }
 }
 
-/// Many triangles on one edge or around one vertex take no more than linear time (a square of this number would hang).
+/// Many triangles at one edge or vertex take linear time (quadratic time would not end for this number).
 TEST(Tangents, CrowdedEdgesAndVerticesAreQuick) {
   constexpr std::uint32_t n = 100000;
   Mesh m;

@@ -11,10 +11,10 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
-/// Positive where a, b, c turn to the left.
+/// Positive if a, b, c turn left.
 double turn(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// The corners seen against the polygon's normal: the axis along which it is flattest is dropped.
+/// The corners projected along the axis closest to the polygon's normal.
 std::vector<Point> flattened(std::span<const float3> polygon) {
   const std::array<double, 3> n = area_vector(polygon);
   const double x = std::abs(n[0]), y = std::abs(n[1]), z = std::abs(n[2]);
@@ -29,7 +29,7 @@ std::vector<Point> flattened(std::span<const float3> polygon) {
   return points;
 }
 
-/// Whether all corners turn left and the outline goes round once (its x direction changes sign twice).
+/// Whether all corners turn left and the outline has one turn (its x direction changes sign twice).
 bool is_convex(const std::vector<Point>& p) {
   const std::size_t n = p.size();
   int changes = 0;
@@ -50,7 +50,7 @@ void add_fan(std::size_t corners, std::vector<std::array<std::uint32_t, 3>>& tri
   for (std::uint32_t i = 1; i + 1 < corners; ++i) triangles.push_back({0, i, i + 1});
 }
 
-/// The outline that is left while ears are cut off it.
+/// The remaining outline while ears are cut off.
 class Outline {
  public:
   explicit Outline(const std::vector<Point>& points) : points_(points), after_(points.size()), before_(points.size()) {
@@ -65,8 +65,8 @@ class Outline {
     before_[after_[i]] = before_[i];
   }
 
-  /// Whether the corner can be cut off: it turns left (or goes straight on, if that is enough), and no other corner
-  /// lies in its triangle. The number of tested corners is added to `looked_at`.
+  /// Whether the corner is an ear: it turns left (or is straight, if `may_be_straight`), and no other corner is in its
+  /// triangle. The number of tested corners is added to `looked_at`.
   bool is_ear(std::uint32_t i, bool may_be_straight, std::uint64_t& looked_at) const {
     ++looked_at;
     const Point a = points_[before_[i]], b = points_[i], c = points_[after_[i]];
@@ -85,16 +85,17 @@ class Outline {
   std::vector<std::uint32_t> after_, before_;
 };
 
-/// Whether ears were found as far as an outline has them.
+/// Cuts ears until three corners remain; false if the search was abandoned.
 bool cut_ears(const std::vector<Point>& points, std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  // An outline that crosses itself everywhere has few ears, and to look for each all around would take the cube of its
-  // corners. Simple ones take a small part of this.
+  // An outline with very many self-intersections has few ears, and searching all corners for each would take cubic
+  // time. Simple outlines take a small fraction of this limit.
   const std::uint64_t enough = (1 << 16) + 2 * std::uint64_t{points.size()} * points.size();
   std::uint64_t looked_at = 0;
   Outline outline(points);
   std::uint32_t i = 1;
   for (std::size_t left = points.size(); left > 3; --left) {
-    // Go round once for a true ear, once more for a straight corner; an outline that crosses itself may have neither.
+    // One round for a proper ear, another one for a straight corner; an outline with self-intersections may have
+    // neither.
     std::size_t tried = 0;
     while (looked_at < enough && tried < 2 * left && !outline.is_ear(i, tried >= left, looked_at))
       i = outline.after(i), ++tried;
@@ -109,7 +110,7 @@ bool cut_ears(const std::vector<Point>& points, std::vector<std::array<std::uint
 }  // namespace
 
 std::array<double, 3> area_vector(std::span<const float3> polygon) {
-  // Relative to the first corner, so that a small polygon far away keeps its digits.
+  // Relative to the first corner, so that a small polygon far from the origin keeps its precision.
   std::array<double, 3> sum{};
   if (polygon.empty()) return sum;
   const float3 o = polygon[0];

@@ -18,7 +18,7 @@ double signed_area(const std::vector<float3>& p, const std::array<std::uint32_t,
   return 0.5 * static_cast<double>(dot(c, normal));
 }
 
-/// A simple polygon is tiled when n - 2 triangles of its orientation have its area.
+/// A simple polygon is triangulated correctly if n - 2 triangles of its orientation have its area.
 void expect_tiled(const std::vector<float3>& polygon) {
   Triangles triangles;
   EXPECT_TRUE(triangulate(polygon, triangles));
@@ -63,7 +63,7 @@ TEST(Triangulate, ArrowsAreCutAtTheirNotchWhereverTheyBegin) {
 }
 
 TEST(Triangulate, StarsAndCombsAreTiled) {
-  // Random stars about a centre, tilted out of every coordinate plane.
+  // Random star-shaped polygons about a centre, tilted relative to all coordinate planes.
   for (std::uint32_t seed = 0; seed < 300; ++seed) {
     const std::uint32_t n = 4 + hash(seed) % 60;
     std::vector<float3> star;
@@ -78,13 +78,13 @@ TEST(Triangulate, StarsAndCombsAreTiled) {
   std::vector<float3> comb;
   for (int i = 0; i < 40; ++i) comb.push_back({static_cast<float>(i), i % 2 == 0 ? 1.0f : 9.0f, 2});
   comb.push_back({39, 0, 2});
-  comb.push_back({20, 0, 2});  // straight on
+  comb.push_back({20, 0, 2});  // a straight corner
   comb.push_back({0, 0, 2});
   expect_tiled(comb);
 }
 
 TEST(Triangulate, AnswersToAnyOutline) {
-  // Corners that coincide, lie on one line or cross: n - 2 triangles, whatever they are.
+  // Corners that coincide, are collinear or intersect: the result always has n - 2 triangles.
   for (std::uint32_t seed = 0; seed < 2000; ++seed) {
     const std::uint32_t n = 3 + hash(seed) % 12;
     std::vector<float3> polygon;
@@ -116,7 +116,7 @@ TEST(Triangulate, FindsTheEarsOfLongOutlinesButNotOfKnots) {
   for (std::uint32_t i = 0; i < n; ++i) {
     const float angle = 6.2831853f * static_cast<float>(i) / n, r = 0.2f + unit_float(hash(i, 1));
     star.push_back({r * std::cos(angle), r * std::sin(angle), 0});
-    // Ten times round and back, a wall of half the distance between two rounds.
+    // Ten turns outwards and back, with a wall of half the distance between two turns.
     const float t = static_cast<float>(i < n / 2 ? i : n - 1 - i) / (n / 2), turn = 62.831853f * t;
     const float radius = 1 + 10 * t + (i < n / 2 ? 0 : 0.5f);
     spiral.push_back({radius * std::cos(turn), radius * std::sin(turn), 0});

@@ -34,7 +34,7 @@ Plane<float> difference(const Plane<float>& a, const Plane<float>& b) {
   return out;
 }
 
-// The part of the plane below `fx` and `fy` cycles per pixel, or the rest.
+// A plane split into frequencies below `fx` and `fy` cycles per pixel, and the others.
 struct Split {
   Plane<float> low, high;
 };
@@ -55,7 +55,7 @@ Plane<float> zone_plate(int size) {
   Plane<float> out(size, size);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
-      // r² in quarters of a pixel is an integer: the angle is reduced without error.
+      // r² in quarters of a square pixel is an integer: the angle is reduced exactly.
       const std::int64_t dx = 2 * x + 1 - size, dy = 2 * y + 1 - size;
       const auto turns = static_cast<std::uint64_t>((dx * dx + dy * dy) % (8 * std::int64_t{size}));
       out(x, y) = static_cast<float>(0.5 + 0.5 * unit_root(turns, 8 * static_cast<std::uint64_t>(size)).cosine);
@@ -82,10 +82,10 @@ AliasFigures measure_aliases(const Plane<float>& plane, int width, int height, c
 
 namespace {
 
-// The mean over the phases of the weights' response to a wave of frequency f, in cycles per input pixel.
+// Statistics of the weights' response to a wave of frequency f, in cycles per input pixel: means over the phases.
 struct MeanResponse {
-  double square = 0;  // of |response|²
-  double real = 0;    // of its part in phase with the ideal
+  double square = 0;  // mean of |response|²
+  double real = 0;    // mean of the component in phase with the ideal response
 };
 MeanResponse response_of(const std::vector<PixelWeights>& phases, const std::vector<double>& centres, double f) {
   MeanResponse sum;
@@ -131,7 +131,7 @@ AliasFigures predict_aliases(const Kernel& kernel, double factor) {
              half = up_to(nyquist / 2);
 
   // The response is a product of one in x and one in y: the mean of its square over a square of frequencies is the
-  // square of the mean, and what is outside a smaller square is the difference.
+  // product of two equal means, and the region outside a smaller square is a difference.
   const auto outside = [&](const Sums& in) {
     const double area = whole.length * whole.length - in.length * in.length;
     return area > 0 ? decibels((whole.square * whole.square - in.square * in.square) / area) : -400.0;

@@ -26,7 +26,7 @@ struct Case {
 };
 class ReducedZonePlate : public testing::TestWithParam<Case> {};
 
-// By 2 and by 3.7, against the ideal band-limited result.
+// Minification by 2 and by 3.7, compared with the ideal band-limited result.
 TEST_P(ReducedZonePlate, LanczosKeepsAliasesBelowTheirLimits) {
   const auto [in, out] = GetParam();
   const AliasFigures figures = measure_aliases(zone_plate(in), out, out, make_kernel("lanczos3"));

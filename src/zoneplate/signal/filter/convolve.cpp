@@ -14,7 +14,7 @@
 namespace zoneplate {
 namespace {
 
-// What a kernel reaches on each side: left and top see the taps after the origin.
+// The reach of a kernel on each side: the taps after the origin reach to the left and top.
 Margins margins_of(const Plane<float>& kernel) {
   const int w = kernel.width(), h = kernel.height();
   return {.left = w - 1 - w / 2, .top = h - 1 - h / 2, .right = w / 2, .bottom = h / 2};
@@ -39,7 +39,8 @@ Plane<T> direct(const Plane<T>& plane, const Plane<float>& kernel, const Convolv
   return out;
 }
 
-// The spectrum of the kernel on a periodic plane of this size, its origin at (0, 0); it may be larger than the plane.
+// The spectrum of the kernel on a periodic plane of this size, with the kernel's origin at (0, 0). The kernel may be
+// larger than the plane.
 Spectrum spectrum_of_kernel(const Plane<float>& kernel, int width, int height) {
   Plane<double> folded(width, height);
   for (int j = 0; j < kernel.height(); ++j)
@@ -58,7 +59,8 @@ void multiply(Spectrum& a, const Spectrum& b) {
   }
 }
 
-// The plane with its border, on a size that transforms fast; what is beyond the border is never seen.
+// The plane extended by its border, and by further pixels to a size with a fast transform; those do not affect the
+// result.
 Plane<float> surrounded(const Plane<float>& plane, const Margins& margins, Border border) {
   const Plane<float> wide = padded(plane, margins, border);
   const auto room = [](int n) { return static_cast<int>(fast_size(static_cast<std::size_t>(n))) - n; };

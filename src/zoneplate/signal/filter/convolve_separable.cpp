@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Separable convolution: both directions in one sweep.
 //
-// A task owns a block of columns and runs down it: it filters some rows along x into a buffer that stays in the cache,
-// then sums the buffer's rows along y. The plane between the two directions never exists.
+// A task processes a block of columns from top to bottom: it filters some rows along x into a buffer that stays in the
+// cache, then sums the buffer's rows along y. The intermediate plane is never stored.
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -17,13 +17,14 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t strip_floats = 64;  // columns whose sums the kernel keeps in registers
-constexpr std::size_t most_strips = 32;   // of one task, side by side: long rows are read as the memory likes it
+constexpr std::size_t most_strips = 32;   // strips of one task: long runs of a row are read sequentially
 constexpr std::size_t least_strips = 8;
-constexpr std::size_t cached_rows = 2048;  // rows of strips, 256 bytes each, that one task keeps: the second cache
-constexpr std::size_t step_rows = 16;      // rows that are filtered along x, then summed along y, by turns
-constexpr std::size_t least_band = 32;     // rows of one task
+// Rows of strips, 256 bytes each, that one task keeps in the second-level cache.
+constexpr std::size_t cached_rows = 2048;
+constexpr std::size_t step_rows = 16;   // rows that are filtered along x before the next sums along y
+constexpr std::size_t least_band = 32;  // rows of one task
 
-// One row of a strip. Aligned, because a vector that straddles two cache lines costs two reads.
+// One row of a strip. Aligned, because a vector that straddles two cache lines takes two reads.
 struct alignas(64) StripRow {
   float values[strip_floats] = {};
 };
@@ -41,8 +42,8 @@ std::vector<float> as_floats(std::span<const double> taps) {
   return out;
 }
 
-// The filter along x. Pixels [0, low) see the left border and [high, w) the right one: their source is copied out, with
-// its border, first. Those between read the plane itself.
+// The filter along x. The sources of pixels [0, low) and [high, w) include the left or right border: they are first
+// copied with the border. The pixels between read the plane itself.
 template <class T>
 class RowFilter {
  public:
@@ -54,7 +55,7 @@ class RowFilter {
         kernels_(RowSumKernels::of()) {
     const std::size_t n = taps.size(), w = static_cast<std::size_t>(plane.width());
     before_ = n - 1 - n / 2;
-    // In whole strips, so that no vector is left over between the parts.
+    // A multiple of whole strips, so that no partial vectors are left between the parts.
     const auto in_strips = [&](std::size_t pixels) {
       const std::size_t unit = strip_floats / channels<T>;
       return std::min(w, (pixels + unit - 1) / unit * unit);
@@ -63,7 +64,7 @@ class RowFilter {
     for (std::size_t t = 0; t < n; ++t) rows_.push_back(floats(plane.row(0)) + std::min(n - 1 - t, w) * channels<T>);
   }
 
-  // Room for the pixels that the columns at a border see, and where the taps find them.
+  // Buffers for the sources of border columns, and the row pointers of the taps.
   struct Edge {
     std::vector<T> pixels;
     std::vector<const float*> rows;
@@ -76,7 +77,7 @@ class RowFilter {
     return edge;
   }
 
-  // Pixels [begin, end) of row y, to out.
+  // Filters pixels [begin, end) of row y into `out`.
   void operator()(int y, std::size_t begin, std::size_t end, float* out, Edge& edge) const {
     const std::span<const T> row = plane_.row(y);
     if (is_copy_) {
@@ -97,7 +98,7 @@ class RowFilter {
   }
 
  private:
-  // The sums of pixels [begin, end), whose sources are copied out with their border first.
+  // Computes the sums of pixels [begin, end), whose sources are first copied with their border.
   void sum_edge(std::span<const T> row, std::size_t begin, std::size_t end, float* out, Edge& edge) const {
     const int first = static_cast<int>(begin) - static_cast<int>(before_), w = plane_.width();
     const int seen = static_cast<int>(end - begin + weights_.size() - 1);
@@ -121,7 +122,8 @@ class RowFilter {
   std::vector<const float*> rows_;
 };
 
-// The filtered rows of one task's columns that the sums along y see now, strip by strip, the highest row first.
+// The filtered rows that the current sums along y need, of the columns of one task, strip by strip, in ascending order
+// of y.
 template <class T>
 class Window {
  public:
@@ -133,7 +135,7 @@ class Window {
         strip_rows_(rows * (((end_pixel - first_pixel) * channels<T> + strip_floats - 1) / strip_floats)),
         edge_(filter.make_edge()) {}
 
-  // Row i becomes row y of the plane, filtered; nothing where y < 0.
+  // Stores the filtered row y of the plane in row i; zeros if y < 0.
   void fill(std::size_t i, int y) {
     constexpr std::size_t pixels = strip_floats / channels<T>;
     for (std::size_t s = 0, x = first_; x < end_; ++s, x += pixels) {
@@ -160,7 +162,7 @@ class Window {
   typename RowFilter<T>::Edge edge_;
 };
 
-// Rows [begin, end) of the block of columns [first_x, end_x), in pixels.
+// Computes rows [begin, end) of the block of columns [first_x, end_x), in pixels.
 template <class T>
 void sweep(const RowFilter<T>& filter, std::span<const double> taps, const ConvolveOptions& options, Plane<T>& out,
            std::size_t begin, std::size_t end, std::size_t first_x, std::size_t end_x) {
@@ -181,7 +183,7 @@ void sweep(const RowFilter<T>& filter, std::span<const double> taps, const Convo
       const std::size_t x = s * strip_floats;
       for (std::size_t t = 0; t < n; ++t) rows[t] = window.strip(s) + (n - 1 - t) * strip_floats;
       for (std::size_t i = 0; i < count; ++i) {
-        // The next rows are on other pages, where the processor does not look ahead by itself.
+        // The next rows are on other pages, which the hardware prefetcher does not reach.
         const auto row_at = [&](std::size_t r) { return floats(out.row(static_cast<int>(r)).subspan(first_x)) + x; };
         for (std::size_t line = 0; line < strip_floats; line += 16)
           __builtin_prefetch(row_at(std::min(end - 1, y + i + 6)) + line, 1);
@@ -199,7 +201,7 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
   assert(!along_rows.empty() && !along_columns.empty());
   if (plane.empty()) return plane;
   const auto w = static_cast<std::size_t>(plane.width()), h = static_cast<std::size_t>(plane.height());
-  // Every value is written below, so that what is in the room does not matter.
+  // Every value is overwritten below, so that the contents of `room` are irrelevant.
   const bool has_room = room.width() == plane.width() && room.height() == plane.height();
   Plane<T> out = has_room ? std::move(room) : Plane<T>(plane.width(), plane.height());
   const RowFilter<T> filter(plane, along_rows, options);
@@ -214,8 +216,8 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
     return out;
   }
 
-  // How the plane is cut into tasks changes the time and no value: each value is the same sum in any of them. A band
-  // filters the rows that its first sums reach up to once more, so that there are no more bands than threads need.
+  // The partition into tasks affects the time but no value, because each value is the same sum in any partition. Each
+  // band filters the rows above its first sums again, so that there are no more bands than threads need.
   const std::size_t n = along_columns.size();
   const std::size_t strips = std::clamp(cached_rows / (n - 1 + step_rows), least_strips, most_strips);
   const std::size_t across = strips * strip_floats / channels<T>, blocks = (w + across - 1) / across;

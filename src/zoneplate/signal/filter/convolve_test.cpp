@@ -32,7 +32,7 @@ LinearImage noise_image(int w, int h) {
   return p;
 }
 
-// The definition, pixel by pixel, in double.
+// Convolution by the definition, pixel by pixel, in double.
 Plane<float> by_definition(const Plane<float>& plane, const Plane<float>& kernel, Border border) {
   Plane<float> out(plane.width(), plane.height());
   for (int y = 0; y < plane.height(); ++y)

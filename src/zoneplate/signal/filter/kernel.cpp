@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-// ∫ f over [a, b] by the 8-point rule of Gauss and Legendre on equal panels, summed in order.
+// ∫ f over [a, b] by 8-point Gauss-Legendre quadrature on equal panels, summed in order.
 template <class F>
 double integrate(const F& f, double a, double b, int panels) {
   static constexpr double node[] = {0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
@@ -29,12 +29,13 @@ double integrate(const F& f, double a, double b, int panels) {
   return sum * half;
 }
 
-// Enough panels for a kernel whose features are `feature` samples long, against a cosine of frequency f.
+// The number of panels that suffices for a kernel whose features are `feature` samples long, times a cosine of
+// frequency f.
 int panels_for(double length, double feature, double f) {
   return static_cast<int>(std::min(1e6, std::ceil(length * std::max(4 / feature, 4 * std::abs(f))))) + 1;
 }
 
-// The even function with these values inside its radius; the mean of both sides at the radius itself.
+// The even function with these values inside its radius; at the radius itself, the mean of both sides.
 template <class F>
 std::function<double(double)> even(double radius, const F& inside) {
   return [=](double x) {
@@ -43,7 +44,7 @@ std::function<double(double)> even(double radius, const F& inside) {
   };
 }
 
-// From -∞ to x, given ∫ from 0 to a for a in [0, radius].
+// The integral from -∞ to x, given that from 0 to a for a in [0, radius].
 template <class F>
 std::function<double(double)> integral_from(double radius, const F& half) {
   return [=, whole = half(radius)](double x) {
@@ -52,7 +53,7 @@ std::function<double(double)> integral_from(double radius, const F& half) {
   };
 }
 
-// The integral and the response by quadrature, for kernels without a simple closed form.
+// A kernel whose integral and response are computed by quadrature, for lack of a simple closed form.
 template <class F>
 Kernel by_quadrature(double radius, double feature, const F& inside) {
   const auto half = [=](double a) { return a > 0 ? integrate(inside, 0, a, panels_for(a, feature, 0)) : 0.0; };
@@ -114,8 +115,8 @@ Kernel make_cubic(double b, double c) {
     return cubic_integral(k.inner, std::min(a, 1.0)) +
            (a > 1 ? cubic_integral(k.outer, a) - cubic_integral(k.outer, 1) : 0.0);
   };
-  // The family is B-spline b + Hermite (1 - b) + c times a part without integral; each has a closed transform,
-  // which cancels near f = 0: there the quadrature is exact to rounding.
+  // The family is B-spline b + Hermite (1 - b) + c times a part with integral 0. Each has a closed-form transform,
+  // which suffers from cancellation near f = 0; there the quadrature is exact to rounding.
   const auto response = [=](double f) {
     if (std::abs(f) < 0.125) {
       const auto wave = [&](double x) { return inside(x) * cos_pi(2 * f * x); };
@@ -156,7 +157,7 @@ Kernel make_blackman_harris(std::span<const double> p) {
     for (int k = 1; k < 4; ++k) sum += term[k] / 2 * (sinc(2 * r * f - k) + sinc(2 * r * f + k));
     return 2 * r * height * sum;
   };
-  // Its transform is 0 at every f = k / (2r), k >= 4: at all integers where 2r is an integer of at least 4.
+  // The transform is 0 at every f = k / (2r), k >= 4: at all integers if 2r is an integer of at least 4.
   return {{}, r, is_integer(2 * r) && r >= 2, even(r, inside), integral_from(r, half), response};
 }
 
@@ -246,7 +247,7 @@ Kernel stretched(Kernel kernel, double factor) {
 std::vector<double> sampled(const Kernel& kernel) {
   auto reach = static_cast<int>(std::floor(kernel.radius));
   while (reach > 0 && kernel.value(reach) == 0) --reach;
-  // The sum runs from the far ends inwards, small values first, and pairs the two sides.
+  // The sum runs from the ends inwards, so that small values are added first, and pairs the two sides.
   std::vector<double> taps(static_cast<std::size_t>(2 * reach + 1));
   double sum = 0;
   for (int j = reach; j > 0; --j) {

@@ -13,13 +13,13 @@ namespace zoneplate {
 
 /// A filter kernel: an even function of one variable that is 0 beyond `radius`.
 ///
-/// Two dimensions are its product: k(x) k(y). Where the kernel jumps, its value is the mean of both sides.
+/// In two dimensions the kernel is the product k(x) k(y). At a discontinuity its value is the mean of both sides.
 ///
-/// Units     x in samples, frequency in cycles per sample; the kernels of the list have an integral near 1
-///           (exactly 1 but for Lanczos and Kaiser, which are 1 at 0 and 0 at the other integers instead).
+/// Units     x in samples, frequency in cycles per sample; the kernels of the list have an integral near 1 (exactly 1
+///           except Lanczos and Kaiser, which instead are 1 at 0 and 0 at the other integers).
 /// Exact     the same bits on every machine; within 1e-12 of the definition.
 struct Kernel {
-  std::string name;  ///< the text it was made from: "gaussian:sigma=2"
+  std::string name;  ///< the text that it was parsed from: "gaussian:sigma=2"
   double radius = 0;
   bool is_partition_of_unity = false;        ///< Σ_j k(x - j) = 1 for every x
   std::function<double(double x)> value;     ///< k(x)
@@ -33,18 +33,18 @@ struct KernelEntry {
   std::string_view summary;
   std::string_view source;
   std::vector<Param> params;
-  Kernel (*make)(std::span<const double> params);  ///< all but its name
+  Kernel (*make)(std::span<const double> params);  ///< makes all members except the name
 };
 
 /// box, tent, gaussian, mitchell, catmull-rom, b-spline, lanczos2, lanczos3, lanczos, blackman-harris, kaiser.
 std::span<const KernelEntry> kernels();
 
-/// The kernel of a text: `box`, `box:width=3`, `gaussian:sigma=2`, `mitchell:b=0.2,c=0.4`.
+/// Parses a kernel: `box`, `box:width=3`, `gaussian:sigma=2`, `mitchell:b=0.2,c=0.4`.
 ///
 /// Errors    ErrorKind::Usage for an unknown name or parameter, or a value out of its range.
 Kernel make_kernel(std::string_view text);
 
-/// The kernel `factor` times as wide and with the same integral: k(x / factor) / factor.
+/// The kernel stretched by `factor`, with the same integral: k(x / factor) / factor.
 Kernel stretched(Kernel kernel, double factor);
 
 /// k(j) at the integers, divided by their sum: the taps of a discrete filter. `box:width=2` gives ¼ ½ ¼.

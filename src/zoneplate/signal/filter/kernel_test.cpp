@@ -36,7 +36,8 @@ std::vector<std::string> names() {
 
 class KernelOf : public testing::TestWithParam<std::string> {};
 
-// Simpson's rule in long double on pieces between half-integers, where all kernels but the box's edge are smooth.
+// Simpson's rule in long double on pieces between half-integers, within which all kernels are smooth except at the
+// box's edge.
 template <class F>
 long double simpson(const F& f, long double a, long double b) {
   const int n = 64;
@@ -49,7 +50,7 @@ long double simpson(const F& f, long double a, long double b) {
 template <class F>
 long double integrate_pieces(const F& f, double radius) {
   long double sum = 0;
-  // Ends are pulled in by a hair, so that a jump at the radius is not halved.
+  // The ends are moved inwards slightly, so that a discontinuity at the radius is not halved.
   const int pieces = static_cast<int>(std::lround(16 * radius));
   for (int i = 0; i < pieces; ++i) {
     const long double a = static_cast<long double>(radius) * i / pieces;
@@ -77,7 +78,7 @@ TEST_P(KernelOf, IntegralAgreesWithNumericIntegration) {
   EXPECT_NEAR(k.integral(0), total / 2, 1e-10);
   const bool is_windowed_sinc = GetParam().starts_with("lanczos") || GetParam().starts_with("kaiser");
   EXPECT_NEAR(total, 1, is_windowed_sinc ? 0.05 : 1e-10);
-  // The integral's slope is the value.
+  // The derivative of the integral is the value.
   for (double x : {-1.3, -0.4, 0.2, 0.45, 1.1}) {
     const double h = 1e-4, slope = (k.integral(x + h) - k.integral(x - h)) / (2 * h);
     EXPECT_NEAR(slope, k.value(x), 1e-5) << x;
@@ -121,7 +122,8 @@ TEST_P(KernelOf, TapsSumToOneAndTheirResponseIsTheAliasedResponse) {
   for (std::size_t i = 0; i < taps.size(); ++i) EXPECT_EQ(taps[i], taps[taps.size() - 1 - i]);
   EXPECT_NEAR(response_of_taps(taps, 0), 1, 1e-15);
   EXPECT_NEAR(response_of_taps(taps, 0.3), response_of_taps(taps, 1.3), 1e-14);
-  // Poisson: Σ k(j) cos(2πfj) = Σ_m response(f + m); smooth kernels converge fast enough to see it.
+  // Poisson's summation formula: Σ k(j) cos(2πfj) = Σ_m response(f + m); the sum converges fast enough for smooth
+  // kernels.
   if (GetParam() == "b-spline" || GetParam() == "mitchell") {
     double copies = 0;
     for (int m = -400; m <= 400; ++m) copies += k.response(0.2 + m);
@@ -154,7 +156,7 @@ TEST(Kernel, ValuesFromThePapers) {
   EXPECT_EQ(make_kernel("lanczos2").value(1), 0.0);
   EXPECT_EQ(make_kernel("box").value(0.5), 0.5);
   EXPECT_NEAR(make_kernel("b-spline").response(0.5), std::pow(2 / as_double(pi_l), 4), 1e-14);
-  // Far from its cut-off the Gaussian's transform is a Gaussian.
+  // If it is truncated far outside, the Gaussian's transform is a Gaussian.
   EXPECT_NEAR(make_kernel("gaussian:sigma=2,extent=8").response(0.1), std::exp(-2 * 9.8696044010893586 * 0.04), 1e-14);
 }
 
@@ -177,7 +179,7 @@ TEST(Kernel, EveryEntryOfTheListCanBeMadeAndNamesItsSource) {
   EXPECT_THROW(make_kernel("lanczos3:lobes=2"), Error);
 }
 
-// The promise across machines and compilers: a hash of the bits of all kernels' values, integrals and responses.
+// All machines and compilers give the same bits: a hash of all kernels' values, integrals and responses.
 TEST(Kernel, GivesTheBitsThatItAlwaysGave) {
   std::uint64_t bits = 14695981039346656037u;
   for (const KernelEntry& entry : kernels()) {

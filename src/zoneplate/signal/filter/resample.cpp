@@ -16,7 +16,7 @@ namespace zoneplate {
 namespace {
 
 struct Axis {
-  int size = 0;  // of the output
+  int size = 0;  // pixels of the output
   double step = 1, shift = 0;
 };
 
@@ -34,8 +34,8 @@ Plane<T> transposed(const Plane<T>& plane) {
   return out;
 }
 
-// What is left of the weights within [0, size), divided by its sum. The centre lies within half a step of the pixels:
-// where a kernel with negative lobes leaves no positive sum, the nearest pixel stands for it.
+// Removes the weights outside [0, size) and divides the others by their sum. The centre is within half a step of the
+// pixels. If a kernel with negative lobes leaves no positive sum, the nearest pixel gets weight 1.
 void cut_weights(PixelWeights& w, int size) {
   const int nearest = std::clamp(w.first + static_cast<int>(w.weights.size()) / 2, 0, size - 1);
   const int before = std::max(0, -w.first), count = static_cast<int>(w.weights.size());
@@ -53,7 +53,7 @@ void cut_weights(PixelWeights& w, int size) {
   w = {nearest, {1}};
 }
 
-// Along columns: each output row is a weighted sum of input rows.
+// Resamples along columns: each output row is a weighted sum of input rows.
 template <class T>
 Plane<T> along_columns(const Plane<T>& plane, const Axis& axis, const Kernel& kernel, const ResampleOptions& options) {
   const RowSumKernels& kernels = RowSumKernels::of();
@@ -100,8 +100,8 @@ Plane<T> nearest(const Plane<T>& plane, int width, int height) {
   return out;
 }
 
-// The spectrum of the signal of `in` values at the centres of `out` pixels, along one direction: `take(k)` is bin k.
-// Bin k turns by the place of the first centre, (step - 1) / 2.
+// Resamples a spectrum along one direction from `in` to `out` pixels: `take(k)` is bin k. Bin k is rotated by the
+// position of the first pixel's centre, (step - 1) / 2.
 template <class Take, class Put>
 void move_bins(int in, int out, const Take& take, const Put& put) {
   const int common = std::min(in, out);
@@ -116,8 +116,8 @@ void move_bins(int in, int out, const Take& take, const Put& put) {
 }  // namespace
 
 PixelWeights pixel_weights(const Kernel& kernel, double centre, double stretch) {
-  // A pixel within rounding of the kernel's end is at its end, where a kernel that jumps has the mean of both sides:
-  // else rounding would choose a side, and not the same on the left and on the right.
+  // A pixel within rounding error of the kernel's end counts as at its end, where a discontinuous kernel has the mean
+  // of both sides. Otherwise rounding would select one side, and not consistently on the left and on the right.
   constexpr double rounding = 1e-9;
   const double reach = kernel.radius * stretch;
   PixelWeights out{static_cast<int>(std::ceil(centre - reach - rounding)), {}};
@@ -127,7 +127,7 @@ PixelWeights pixel_weights(const Kernel& kernel, double centre, double stretch) 
     out.weights.push_back(kernel.value(std::abs(away - reach) <= rounding ? kernel.radius : away / stretch));
     sum += out.weights.back();
   }
-  // A kernel narrower than a pixel may see none: the nearest stands for it.
+  // A kernel narrower than a pixel may contain no pixel centre: then the nearest pixel gets weight 1.
   if (!(sum > 0)) return {static_cast<int>(std::floor(centre + 0.5)), {1}};
   for (double& w : out.weights) w /= sum;
   return out;
@@ -173,7 +173,8 @@ Plane<float> resample_ideal(const Plane<float>& plane, int width, int height) {
     move_bins(
         plane.height(), height, [&](int k) { return columns(x, k); }, [&](int k, Complex z) { both(x, k) = z; });
   both = inverse_fourier(both);
-  // The inverse divides by the size of the output; the transform did not divide by that of the input.
+  // The inverse transform divides by the size of the output, but the forward transform did not divide by that of the
+  // input.
   const double scale = static_cast<double>(width) * height / (static_cast<double>(plane.width()) * plane.height());
   for (std::size_t i = 0; i < out.values().size(); ++i)
     out.values()[i] = static_cast<float>(both.values()[i].real() * scale);

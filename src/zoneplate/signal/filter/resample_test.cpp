@@ -36,7 +36,7 @@ TEST_P(ResampleWith, ARampStaysARampAwayFromBorders) {
   for (const int w : {40, 60, 100, 120, 240, 360, 32, 77}) {
     const double step = 120.0 / w, reach = kernel.radius * std::max(1.0, step) + 1;
     const auto out = resample(ramp, w, 3, kernel);
-    // Where the new grid is coarser by a factor that is not whole, even these kernels bend a little; measured.
+    // In minification by a fractional factor, even these kernels displace a ramp slightly; measured.
     const bool is_exact = has_linear_precision && (step <= 1 || step == std::floor(step));
     const double tolerance = is_exact || step == std::floor(step) ? 0 : place_error(kernel, step) * step;
     for (int x = 0; x < w; ++x) {
@@ -51,7 +51,7 @@ TEST_P(ResampleWith, ARampStaysARampAwayFromBorders) {
 }
 
 TEST_P(ResampleWith, NothingIsShifted) {
-  // Mirrored in, mirrored out: a shift by any part of a pixel would show.
+  // Mirroring commutes with resampling; a shift by a fraction of a pixel would break this.
   const Kernel kernel = make_kernel(GetParam());
   const Plane<float> plane = noise_plane(37, 5);
   Plane<float> mirror = plane;
@@ -62,13 +62,13 @@ TEST_P(ResampleWith, NothingIsShifted) {
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) EXPECT_NEAR(out(x, y), mirrored(w - 1 - x, h - 1 - y), 3e-7);
   }
-  // The same size with an interpolating kernel is the same image; a shift by whole pixels is one.
+  // An interpolating kernel at the same size is the identity; a shift by whole pixels is exact.
   if (kernel.name == "catmull-rom" || kernel.name == "lanczos3" || kernel.name == "tent" || kernel.name == "box") {
     EXPECT_EQ(resample(plane, 37, 5, kernel), plane);
     const auto moved = resample(plane, 37, 5, kernel, {.border = Border::Wrap, .shift_x = 3, .shift_y = -1});
     for (int x = 0; x < 34; ++x) EXPECT_EQ(moved(x, 2), plane(x + 3, 1));
   }
-  // Input moved by the step: output moved by one pixel.
+  // Shifting by the step moves the output by one pixel.
   const auto a = resample(plane, 12, 5, kernel, {.border = Border::Wrap, .step_x = 3});
   const auto b = resample(plane, 12, 5, kernel, {.border = Border::Wrap, .step_x = 3, .shift_x = 3});
   for (int x = 0; x < 11; ++x) EXPECT_EQ(b(x, 3), a(x + 1, 3));
@@ -147,12 +147,12 @@ TEST(Resample, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
 TEST(Resample, NothingIn) {
   EXPECT_TRUE(resample(Plane<float>(4, 4), 0, 3, make_kernel("tent")).empty());
   EXPECT_EQ(resample(Plane<float>(), 2, 3, make_kernel("tent")), Plane<float>(2, 3));
-  // Beyond the image of the zero border there is nothing, colour or cover.
+  // The zero border is transparent black, in colour and alpha.
   EXPECT_LT(resample(LinearImage(2, 2, {1, 1, 1, 1}), 2, 2, make_kernel("b-spline"), {.border = Border::Zero})(0, 0).a,
             1.0f);
 }
 
-// The promise across machines and compilers.
+// All machines and compilers give the same bits.
 TEST(Resample, GivesTheBitsThatItAlwaysGave) {
   std::uint64_t bits = 14695981039346656037u;
   for (const char* name : {"lanczos3", "mitchell", "gaussian", "kaiser"}) {

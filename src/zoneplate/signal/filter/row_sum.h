@@ -7,15 +7,15 @@
 
 namespace zoneplate {
 
-/// The one inner loop of every filter in space: weighted sums of rows.
+/// The inner loop of all spatial filters: weighted sums of rows.
 ///
 /// `narrow`: out[i] = (…(w[0] rows[0][first + i] + w[1] rows[1][first + i]) + …) in float, for i in [0, n).
-/// `wide`: the same with products and sums in double, rounded to float once; with weights that sum to 1 a constant
-/// stays that constant to the bit.
+/// `wide`: the same with products and sums in double, rounded to float once; if the weights sum to 1, a constant is
+/// preserved to the bit.
 ///
-/// A filter along rows gives the same row shifted by one element a tap; one along columns gives neighbouring rows.
+/// A filter along rows passes the same row shifted by one element per tap; one along columns passes consecutive rows.
 /// Requires  taps >= 1; `out` overlaps no row.
-/// Exact     each element alone, products and sums separate and in the order of the taps: the same bits on every
+/// Exact     elements are independent, products and sums separate and in the order of the taps: the same bits on every
 ///           instruction set.
 struct RowSumKernels : PerIsa<RowSumKernels> {
   void (*narrow)(const float* const* rows, std::size_t first, const float* weights, std::size_t taps, float* out,

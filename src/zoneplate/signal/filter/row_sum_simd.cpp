@@ -8,7 +8,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Eight vectors at once: eight independent sums hide the latency of the additions, and a weight is read once for all.
+// Eight vectors at once: independent sums hide the latency of the additions, and each weight is read once.
 template <class D>
 HWY_INLINE void narrow_eight(D d, const float* const* rows, std::size_t first, const float* weights, std::size_t taps,
                              float* out, std::size_t i) {
@@ -51,7 +51,7 @@ void narrow(const float* const* rows, std::size_t first, const float* weights, s
   for (; i < n; ++i) narrow_one(one, rows, first, weights, taps, out, i);
 }
 
-// Four vectors of double at once, each from half a vector of float.
+// Several vectors of double at once, each converted from half a vector of float.
 template <class D, std::size_t count>
 HWY_INLINE void wide_some(D d, const float* const* rows, std::size_t first, const double* weights, std::size_t taps,
                           float* out, std::size_t i) {

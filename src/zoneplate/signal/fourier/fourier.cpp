@@ -14,7 +14,7 @@ constexpr std::size_t lanes = FourierPlan::lanes;
 
 enum class Direction { Forward, Inverse };
 
-// Four signals side by side with the room to transform them. The inverse is the forward transform with the real and
+// Four signals side by side, with buffers to transform them. The inverse is the forward transform with the real and
 // imaginary parts exchanged, before and after.
 struct Work {
   explicit Work(const FourierPlan& p)
@@ -45,7 +45,8 @@ std::vector<Complex> transform(std::span<const Complex> in, Direction direction)
   return out;
 }
 
-// Calls body(first, count, work) for blocks of at most `block` of `total` lines, in parallel, several to a work space.
+// Calls body(first, count, work) for blocks of at most `block` of `total` lines, in parallel; several blocks share a
+// workspace.
 template <class Body>
 void for_blocks(std::size_t total, std::size_t block, const FourierPlan& plan, const Body& body) {
   constexpr std::size_t blocks_per_task = 4;
@@ -89,8 +90,8 @@ void transform_columns(Plane<Complex>& plane, Direction direction) {
   });
 }
 
-// Two real rows go through one complex transform, as its real and imaginary parts: Z = A + iB, and A and B are its
-// parts that are symmetric as the spectra of real signals are.
+// Two real rows are transformed as the real and imaginary part of one complex row: Z = A + iB, where A and B are the
+// parts of Z that have the symmetry of real signals' spectra.
 template <class T>
 Spectrum real_forward(const Plane<T>& plane) {
   Spectrum out{plane.width(), Plane<Complex>(plane.empty() ? 0 : plane.width() / 2 + 1, plane.height())};
@@ -121,7 +122,7 @@ Spectrum real_forward(const Plane<T>& plane) {
   return out;
 }
 
-// Bin k of a real signal whose bins 0 to n / 2 are known.
+// Bin k of a real signal, given its bins 0 to n / 2.
 Complex real_bin(std::span<const Complex> half, std::size_t k, std::size_t n) {
   if (k == 0 || 2 * k == n) return {half[k].real(), 0};
   return 2 * k < n ? half[k] : std::conj(half[n - k]);

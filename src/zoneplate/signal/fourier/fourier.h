@@ -13,18 +13,18 @@ using Complex = std::complex<double>;
 
 /// The discrete Fourier transform, of any size.
 ///
-/// X[k] = Σ_j x[j] e^(-2πi jk / n), not scaled; the inverse divides by n. In two dimensions the same along rows and
-/// columns. Bin k is the frequency k / n cycles per sample, for k <= n / 2, and (k - n) / n above.
+/// X[k] = Σ_j x[j] e^(-2πi jk / n), not normalized; the inverse divides by n. In two dimensions rows and columns are
+/// transformed. Bin k is the frequency k / n cycles per sample for k <= n / 2, and (k - n) / n above.
 ///
 /// Exact     the same bits on every machine and number of threads; within about 1e-15 of the greatest magnitude.
 ///           Parseval: Σ |x|² = Σ |X|² / n.
-/// Cost      O(n log n) for every n; primes above 31 cost some five times more than their neighbours.
+/// Cost      O(n log n) for every n; a prime above 31 costs about five times as much as its neighbours.
 std::vector<Complex> fourier(std::span<const Complex> signal);
 std::vector<Complex> inverse_fourier(std::span<const Complex> spectrum);
 
 /// Bins 0 to n / 2 (n / 2 + 1 of them, rounded down) of a real signal; the others are X[n - k] = conj X[k].
 std::vector<Complex> fourier(std::span<const double> signal);
-/// The real signal of `size` values with these bins; the imaginary parts of bins 0 and n / 2 are taken as 0.
+/// The real signal of `size` values with these bins; the imaginary parts of bins 0 and n / 2 are ignored.
 ///
 /// Requires  spectrum.size() == size / 2 + 1.
 std::vector<double> inverse_fourier(std::span<const Complex> half_spectrum, int size);
@@ -32,20 +32,20 @@ std::vector<double> inverse_fourier(std::span<const Complex> half_spectrum, int 
 Plane<Complex> fourier(const Plane<Complex>& plane);
 Plane<Complex> inverse_fourier(const Plane<Complex>& spectrum);
 
-/// The spectrum of a real plane: the columns 0 to width / 2 suffice.
+/// The spectrum of a real plane: the columns 0 to width / 2 determine the others.
 struct Spectrum {
-  int width = 0;        ///< of the plane
+  int width = 0;        ///< width of the plane
   Plane<Complex> half;  ///< (width / 2 + 1) × height bins, frequency 0 at (0, 0)
 
   int height() const { return half.height(); }
-  /// Any bin; kx and ky are taken modulo the size.
+  /// The bin (kx, ky); both are taken modulo the size.
   Complex at(int kx, int ky) const;
 };
 
 Spectrum fourier(const Plane<float>& plane);
 Spectrum fourier(const Plane<double>& plane);
 
-/// The real planes of a spectrum (rounded once, from double, for float).
+/// The real plane of a spectrum, computed in double.
 Plane<float> inverse_fourier(const Spectrum& spectrum);
 Plane<double> inverse_fourier_double(const Spectrum& spectrum);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t lanes = FourierPlan::lanes;
 
-// One complex number of each of the four signals.
+// One complex element of each of the four signals.
 struct Pack {
   double re[lanes], im[lanes];
 };
@@ -63,7 +63,7 @@ Pack times_minus_i(const Pack& a) {
   return p;
 }
 
-// Where a stage reads and writes: element k of group q, column s of the radix-p butterfly.
+// The input and output of a stage: element k of group q, column s of the radix-p butterfly.
 struct Views {
   const double *in_re, *in_im;
   double *out_re, *out_im;
@@ -142,7 +142,7 @@ void radix5(const Views& v, const Roots& w) {
   }
 }
 
-// Any odd radix p by the definition; the p-th roots are every (n / p)-th of the n-th.
+// A butterfly of any odd radix p by the definition; the p-th roots of unity are every (n / p)-th of the n-th.
 void radix_any(const Views& v, const Roots& w, std::size_t n) {
   const std::size_t p = v.radix, step = n / p;
   Pack a[FourierPlan::greatest_radix];
@@ -185,8 +185,8 @@ FourierPlan::FourierPlan(std::size_t n) : n_(n), scratch_size_(2 * n * lanes) {
     return;
   }
 
-  // Bluestein: jk = (j² + k² - (k - j)²) / 2 makes the transform a convolution with the chirp e^(+πi j²/n),
-  // between two multiplications with its conjugate. The chirp's angles are reduced in integers.
+  // Bluestein: jk = (j² + k² - (k - j)²) / 2 turns the transform into a convolution with the chirp e^(+πi j²/n),
+  // between two multiplications by its conjugate. The chirp's angles are reduced in integers.
   for (std::size_t k = 0; k < n; ++k) {
     const SineCosine w = unit_root(k * k % (2 * n), 2 * n);
     cos_.push_back(w.cosine), sin_.push_back(-w.sine);
@@ -209,7 +209,8 @@ void FourierPlan::forward(double* re, double* im, double* scratch) const {
 }
 
 void FourierPlan::run_stages(double* re, double* im, double* scratch) const {
-  // Each stage reads one buffer and writes the other; an odd number of stages ends in the scratch.
+  // Each stage reads one buffer and writes the other; after an odd number of stages the result is in the scratch
+  // buffer.
   double *from_re = re, *from_im = im, *to_re = scratch, *to_im = scratch + n_ * lanes;
   const Roots w{cos_.data(), sin_.data()};
   for (const Stage& stage : stages_) {

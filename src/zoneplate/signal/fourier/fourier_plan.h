@@ -7,17 +7,18 @@
 
 namespace zoneplate {
 
-/// The discrete Fourier transform of one size, ready to be applied to four signals side by side.
+/// The discrete Fourier transform of one size, applied to four signals side by side.
 ///
-/// X[k] = Σ_j x[j] e^(-2πi jk / n), not scaled. A size whose prime factors are at most `greatest_radix` is
-/// transformed by mixed radices (Stockham's self-sorting form); any other becomes a convolution (Bluestein's chirp).
+/// X[k] = Σ_j x[j] e^(-2πi jk / n), not normalized. A size whose prime factors are at most `greatest_radix` is
+/// transformed by mixed radices (Stockham's self-sorting form); any other by a convolution (Bluestein's chirp).
 ///
-/// A transform of our own, because the same bits are promised on every machine: KissFFT (as Debian has it) takes its
-/// roots of unity from the C library, whose sin has variants per processor, and cannot be given others. Measured:
-/// its spectra of 480, 640, 1000, 1024 and 4096 values change their bits when glibc's FMA variants are switched off.
+/// This implementation exists because the same bits are guaranteed on every machine. KissFFT (as packaged by Debian)
+/// computes its roots of unity with the C library, whose sin has variants per processor, and accepts no others: its
+/// spectra of 480, 640, 1000, 1024 and 4096 values change when glibc's FMA variants are disabled.
 ///
 /// Shape     element j of signal l is at index 4 j + l of `re` and `im`; n >= 1.
-/// Exact     each signal's result depends on that signal alone; the error is about 1e-16 √(log n) of the greatest.
+/// Exact     each signal's result is independent of the others; the error is about 1e-16 √(log n) of the greatest
+///           magnitude.
 /// Cost      O(n log n) for every n.
 /// Source    Stockham, High-speed convolution and correlation, AFIPS 1966; Bluestein, A linear filtering approach to
 ///           the computation of the discrete Fourier transform, IEEE Trans. Audio 18(4), 1970.
@@ -30,15 +31,16 @@ class FourierPlan {
 
   std::size_t size() const { return n_; }
 
-  /// Room that one call needs; one for each thread, its contents do not matter.
+  /// A scratch buffer, one per thread; its initial contents are irrelevant.
   std::vector<double> make_scratch() const { return std::vector<double>(scratch_size_); }
 
-  /// Transforms in place. The inverse, times n, is `forward(im, re, scratch)`.
+  /// Transforms in place. `forward(im, re, scratch)` is the inverse transform times n.
   void forward(double* re, double* im, std::vector<double>& scratch) const { forward(re, im, scratch.data()); }
 
  private:
   struct Stage {
-    std::size_t radix, groups, stride;  // groups = (what is left of n) / radix, stride = product of the radices done
+    // Groups = (size not yet transformed) / radix, stride = product of the previous radices.
+    std::size_t radix, groups, stride;
   };
 
   void forward(double* re, double* im, double* scratch) const;
@@ -48,12 +50,12 @@ class FourierPlan {
   std::size_t n_;
   std::size_t scratch_size_;
   std::vector<Stage> stages_;
-  std::vector<double> cos_, sin_;              // e^(-2πi k/n) = cos_[k] + i sin_[k]; of the chirp where that is used
+  std::vector<double> cos_, sin_;              // e^(-2πi k/n) = cos_[k] + i sin_[k]; with Bluestein, the chirp
   std::vector<double> filter_re_, filter_im_;  // Bluestein: the chirp's spectrum, scaled
-  std::unique_ptr<FourierPlan> padded_;        // Bluestein: the transform that convolves
+  std::unique_ptr<FourierPlan> padded_;        // Bluestein: the transform for the convolution
 };
 
-/// The least size >= n without prime factors above 5: a good size to pad to.
+/// The least size >= n without prime factors above 5, for padding.
 std::size_t fast_size(std::size_t n);
 
 }  // namespace zoneplate

@@ -29,7 +29,7 @@ Plane<float> noise_plane(int w, int h) {
   return p;
 }
 
-// The definition, in long double: bins 0, every, 2 every ... below `bins` of the line whose elements are `step` apart.
+// The definition in long double: bins 0, every, 2 every ... below `bins` of a line whose elements are `step` apart.
 class DirectTransform {
  public:
   explicit DirectTransform(int n) : n_(static_cast<std::size_t>(n)) {
@@ -116,9 +116,9 @@ TEST_P(FourierOfPlane, AgreesWithTheDefinitionInLongDouble) {
   for (std::size_t i = 0; i < plane.values().size(); ++i) whole.values()[i] = static_cast<double>(plane.values()[i]);
   const Plane<Complex> full = fourier(whole);
 
-  // Rows, then columns, is the double sum of the definition, in the order that takes seconds and not hours. The
-  // plane is real, so that the bins with kx <= w / 2 determine the others; every third kx meets every lane of the
-  // transform, and Parseval and the inverse below hold all the others to the same.
+  // Rows, then columns, is the double sum of the definition, in an order that takes seconds and not hours. The plane is
+  // real, so that the bins with kx <= w / 2 determine the others. Every third kx covers every lane of the transform;
+  // Parseval's theorem and the inverse below check all other bins.
   std::vector<LongComplex> direct;
   for (float v : plane.values()) direct.emplace_back(static_cast<long double>(v));
   const DirectTransform rows(w), columns(h);
@@ -185,7 +185,7 @@ TEST(Fourier, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-// The promise across machines and compilers: a hash of the bits of a fixed spectrum.
+// All machines and compilers give the same bits: a hash of a fixed spectrum.
 TEST(Fourier, GivesTheBitsThatItAlwaysGave) {
   std::uint64_t bits = 14695981039346656037u;
   for (int n : {480, 641, 1000, 1024})

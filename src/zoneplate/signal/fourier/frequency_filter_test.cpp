@@ -51,7 +51,7 @@ TEST(FrequencyFilter, ValuesByHand) {
   EXPECT_THROW(parse_filter_shape("butterworth:order=0"), Error);
 }
 
-// Waves that fit the plane are eigenvectors: each comes back times its response.
+// Waves with whole periods are eigenvectors: each is multiplied by its response.
 TEST(FrequencyFilter, AWaveIsMultipliedByItsResponse) {
   const int w = 40, h = 24;
   const FrequencyFilter filter{Pass::Low, {Kind::Butterworth, 3}, 0, 0.2};

@@ -10,7 +10,7 @@ PeriodicSmooth split_periodic_smooth(const Plane<float>& plane) {
   const int w = plane.width(), h = plane.height();
   if (plane.empty()) return {plane, plane};
 
-  // The jumps: each edge pixel gets what its neighbour across the edge has more than it.
+  // The jumps: each edge pixel gets the difference of its neighbour across the periodic edge and itself.
   Plane<double> jump(w, h);
   const auto add = [&](int x, int y, int other_x, int other_y) {
     const double d = static_cast<double>(plane(other_x, other_y)) - static_cast<double>(plane(x, y));
@@ -22,7 +22,7 @@ PeriodicSmooth split_periodic_smooth(const Plane<float>& plane) {
   Spectrum spectrum = fourier(jump);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < spectrum.half.width(); ++x) {
-      // The periodic Laplacian turns bin (x, y) by this factor; the mean stays with the periodic part.
+      // The periodic Laplacian multiplies bin (x, y) by this factor; the mean remains in the periodic part.
       const auto cosine = [](int k, int n) {
         return unit_root(static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n)).cosine;
       };

@@ -35,7 +35,7 @@ TEST(PeriodicSmooth, ThePartsAddUpAndTheSmoothPartHasNoMean) {
   EXPECT_TRUE(split_periodic_smooth(Plane<float>()).periodic.empty());
 }
 
-// The definition: inside, the smooth part is harmonic; at an edge its periodic Laplacian is the jump.
+// By definition, the smooth part is harmonic inside, and at an edge its periodic Laplacian is the jump.
 TEST(PeriodicSmooth, TheLaplacianOfTheSmoothPartIsTheJump) {
   const int w = 24, h = 18;
   const Plane<float> u = ramp_with_noise(w, h);
@@ -62,7 +62,7 @@ TEST(PeriodicSmooth, APeriodicPlaneIsLeftAsItIsAndTheCrossOfARampGoesAway) {
       wave(x, y) = static_cast<float>(std::cos(2 * M_PI * 3 * (x + 0.5) / 32));
       ramp(x, y) = static_cast<float>(x + y);
     }
-  // A cosine that is even about its edge has no jump at all.
+  // A cosine that is even about its edges has no jumps.
   const PeriodicSmooth of_wave = split_periodic_smooth(wave);
   for (float v : of_wave.smooth.values()) EXPECT_NEAR(v, 0, 1e-6);
   const double before = energy_between(fourier(ramp), 0.2, 1);

@@ -14,7 +14,7 @@ TEST(Series, HarmonicsAreTheIntegralsOfTheWaves) {
   for (const Wave wave : {Wave::Square, Wave::Sawtooth, Wave::Triangle}) {
     EXPECT_EQ(parse_wave(name_of(wave)), wave);
     for (int n = 1; n <= 9; ++n) {
-      // b = 2 ∫ wave(x) sin(2πnx) dx by the midpoint rule, whose error is the jump's 1/N².
+      // b = 2 ∫ wave(x) sin(2πnx) dx by the midpoint rule, whose error is the jump times 1/N².
       double b = 0, a = 0;
       const int steps = 20000;
       for (int i = 0; i < steps; ++i) {
@@ -32,7 +32,7 @@ TEST(Series, HarmonicsAreTheIntegralsOfTheWaves) {
 
 TEST(Series, TheOvershootOfGibbsStays) {
   for (int highest : {15, 101, 1001}) {
-    // The first maximum lies half a period of the last harmonic from the jump.
+    // The first maximum is half a period of the last harmonic from the jump.
     const double top = partial_sum(Wave::Square, highest, 0.5 / (highest + 1));
     EXPECT_NEAR(top, 1.17898, highest == 15 ? 5e-3 : 1e-4);
   }

@@ -11,11 +11,11 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t block_rows = 32;  // sums are of these blocks, added in their order
+constexpr std::size_t block_rows = 32;  // rows per partial sum; partial sums are added in their order
 
 double power_of(Complex z) { return z.real() * z.real() + z.imag() * z.imag(); }
 
-// body(block, y) for the rows of each block of the half spectrum.
+// Calls body(block, y) for the rows of each block of the half spectrum.
 template <class Body>
 void for_half_rows(const Spectrum& spectrum, const Body& body) {
   parallel_ranges(static_cast<std::size_t>(spectrum.height()), block_rows, [&](std::size_t begin, std::size_t end) {
@@ -27,7 +27,7 @@ std::size_t blocks_of(const Spectrum& spectrum) {
   return (static_cast<std::size_t>(spectrum.height()) + block_rows - 1) / block_rows;
 }
 
-// How many bins of the whole spectrum a bin of the half stands for.
+// The number of bins of the whole spectrum that a bin of the half represents.
 int copies(int x, int width) { return x == 0 || 2 * x == width ? 1 : 2; }
 
 double radius_of(const Spectrum& spectrum, int x, int y) {
@@ -35,7 +35,7 @@ double radius_of(const Spectrum& spectrum, int x, int y) {
   return std::sqrt(fx * fx + fy * fy);
 }
 
-// value(z) at every pixel of the centred image; at the conjugate bins it is `mirror_sign` times that.
+// Evaluates value(z) at every pixel of the centred image, multiplied by `mirror_sign` at conjugate bins.
 template <class Value>
 Plane<float> centred(const Spectrum& spectrum, float mirror_sign, const Value& value) {
   const int w = spectrum.width, h = spectrum.height();
@@ -68,7 +68,7 @@ Plane<float> centred_log_magnitude(const Spectrum& spectrum, double range_db) {
   for (const double g : greatest) peak = std::max(peak, g);
   if (peak == 0) return Plane<float>(spectrum.width, spectrum.height());
 
-  // 10 log10 of the power over the peak's, plus the range, over the range.
+  // (10 log10(power / peak) + range) / range.
   const double scale = 10 / 2.302585092994046 / range_db;
   return centred(spectrum, 1, [&](Complex z) {
     const double relative = power_of(z) / peak;

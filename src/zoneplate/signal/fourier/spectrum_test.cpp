@@ -25,7 +25,7 @@ TEST(Spectrum, PicturesShowEveryBinAtItsPlace) {
       for (int x = 0; x < w; ++x) {
         const Complex z = spectrum.at(x - w / 2, y - h / 2);
         EXPECT_NEAR(magnitude(x, y), std::max(0.0, 1 + 20 * std::log10(std::abs(z) / peak) / 100), 1e-6);
-        // Angles of π and -π are the same angle.
+        // Compares cosines, because -π and π are the same angle.
         EXPECT_NEAR(std::cos(phase(x, y) - std::arg(z)), 1, 1e-6) << x << " " << y << " of " << w << " " << h;
       }
   }
@@ -56,7 +56,7 @@ TEST(Spectrum, EnergyIsParsevalsAndAWaveLiesInItsRing) {
   Plane<float> wave(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) wave(x, y) = static_cast<float>(std::cos(2 * M_PI * (6 * x + 8 * y) / 40));
-  const RadialProfile profile = radial_profile(fourier(wave), 10);  // frequency 10/40 = 0.25: ring 5
+  const RadialProfile profile = radial_profile(fourier(wave), 10);  // frequency 10/40 = 0.25 is in ring 5
   for (std::size_t i = 0; i < profile.power.size(); ++i)
     EXPECT_NEAR(profile.power[i] * static_cast<double>(profile.bins[i]), i == 5 ? 0.5 : 0.0, 1e-7) << i;
 }
@@ -76,7 +76,7 @@ TEST(Spectrum, GivesTheSameBitsForAnyNumberOfThreads) {
     });
 }
 
-// The promise across machines and compilers.
+// All machines and compilers give the same bits.
 TEST(Spectrum, GivesTheBitsThatItAlwaysGave) {
   std::uint64_t bits = 14695981039346656037u;
   const Spectrum spectrum = fourier(noise_plane(45, 36));

@@ -16,7 +16,7 @@ Values make_none(std::span<const double>) {
   return [](double) { return 1.0; };
 }
 
-// a0 - a1 cos 2πt + a2 cos 4πt, written about the middle so that both halves have the same bits.
+// a0 - a1 cos 2πt + a2 cos 4πt, expressed relative to the middle so that both halves have the same bits.
 Values cosines(double a0, double a1, double a2) {
   return [=](double t) {
     const double u = std::abs(2 * t - 1);

@@ -12,9 +12,9 @@
 
 namespace zoneplate {
 
-/// A window: a function by which a signal is multiplied before its transform, so that its ends meet.
+/// A window: a function by which a signal is multiplied before its transform, so that its ends match.
 struct Window {
-  std::string name;                       ///< the text it was made from: "kaiser:beta=8"
+  std::string name;                       ///< the text that it was parsed from: "kaiser:beta=8"
   std::function<double(double t)> value;  ///< for t in [0, 1]; 1 at ½, symmetric
 };
 
@@ -35,13 +35,13 @@ Window make_window(std::string_view text);
 /// The window at the centres of n pixels: value((k + ½) / n).
 std::vector<double> sampled(const Window& window, int n);
 
-/// The mean of the samples: what a wave's peak in the spectrum is multiplied with.
+/// The mean of the samples, by which the peak of a wave in the spectrum is multiplied.
 double coherent_gain(std::span<const double> samples);
 
-/// n Σ w² / (Σ w)²: the width in bins of a filter without a window that passes as much noise; 1.5 for Hann.
+/// n Σ w² / (Σ w)²: the equivalent noise bandwidth in bins; 1.5 for Hann.
 double noise_bandwidth(std::span<const double> samples);
 
-/// The plane times the window along x and along y.
+/// The plane multiplied by the window along x and along y.
 Plane<float> windowed(const Plane<float>& plane, const Window& window);
 
 }  // namespace zoneplate

@@ -51,7 +51,7 @@ TEST(Window, ValuesGainsAndBandwidthsFromHarrisTable) {
   EXPECT_NEAR(noise("blackman"), 1.73, 5e-3);
 }
 
-// The promise of a window: far from a wave that does not fit the length, little is left of it.
+// The purpose of a window: the spectrum of a wave with a fractional number of periods is small far from its frequency.
 TEST(Window, SideLobesFallAsTheTableSays) {
   const auto leak = [](const char* name) {
     const int n = 256;

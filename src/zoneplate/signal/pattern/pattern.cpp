@@ -27,7 +27,7 @@ Linear grey(double value) {
 
 int size_of(Params p) { return static_cast<int>(p[0]); }
 
-// color_at(x, y) of each pixel, x and y in pixels from the top-left pixel.
+// An image with color_at(x, y) at each pixel, x and y in pixels from the top-left pixel.
 template <class ColorAt>
 LinearImage filled(Params p, const ColorAt& color_at) {
   LinearImage image(size_of(p), size_of(p));
@@ -43,7 +43,7 @@ LinearImage make_zone_plate(Params p) {
   return filled(p, [&](int x, int y) { return grey(static_cast<double>(plate(x, y))); });
 }
 
-// The frequency x / (2 size) is that of the angle π x² / (2 size), which is reduced in integers: x is (2 i + 1) / 2.
+// The wave of frequency x / (2 size) has the angle π x² / (2 size), which is reduced in integers: x is (2 i + 1) / 2.
 LinearImage make_sweep(Params p) {
   const auto period = 16 * static_cast<std::uint64_t>(size_of(p));
   return filled(p, [&](int x, int) {
@@ -66,7 +66,7 @@ LinearImage make_checkerboard(Params p) {
   });
 }
 
-// Running bond: every second course is moved by half a brick, and each brick has its own shade.
+// Running bond: every second course is offset by half a brick, and each brick has its own shade.
 LinearImage make_bricks(Params p) {
   const double height = p[1], width = 2 * height, joint = p[2];
   return filled(p, [&](int x, int y) {

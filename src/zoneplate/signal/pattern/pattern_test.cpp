@@ -53,7 +53,7 @@ TEST(Pattern, TheImpulseHasAFlatSpectrum) {
 }
 
 TEST(Pattern, AStarRepeatsWithItsSpokes) {
-  // Four spokes: a quarter turn is the same image.
+  // With four spokes, the image is invariant under a quarter turn.
   const LinearImage star = make_pattern("star:size=31,spokes=4");
   for (int y = 0; y < 31; ++y)
     for (int x = 0; x < 31; ++x) EXPECT_NEAR(star(x, y).r, star(30 - y, x).r, 1e-6);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// CMAA2: processes only pixels at a corner of edges. They are blurred slightly, and where the corner is a step of a
-// long, nearly symmetric edge (a Z shape), the pixels along the edge are blended as by MLAA.
+// CMAA2: processes only pixels at a corner of edges. They are blurred slightly; and if the corner is a step of a long,
+// nearly symmetric edge (a Z shape), the pixels along the edge are blended as by MLAA.
 //
-// Preserves text and texture: pixels without a corner do not change. Weak on uneven or short edges, which it hardly
-// smooths.
+// It preserves text and texture: pixels without a corner do not change. Weakness: uneven or short edges are hardly
+// smoothed.
 //
 // Source: Strugar, Conservative Morphological Anti-Aliasing 2.0, Intel, 2018 (v2.3); without its packing of colours.
 #include "zoneplate/antialias/post/cmaa2/cmaa2.h"
@@ -29,7 +29,7 @@ constexpr int longest_line = 86;
 constexpr int farthest_item = longest_line / 2 + 1;
 constexpr int reach = longest_line + farthest_item + 4;
 
-/// The constants of the original, and of its extra sharpness.
+/// The constants of the original and of its extra-sharp variant.
 struct Tuning {
   float contrast, bluriness, dampening, growth, growth_offset;
   float fade_start, fade_step;  ///< of simple shapes, by the number of surrounding edges
@@ -39,14 +39,14 @@ constexpr Tuning usual = {0.10f, 0.10f, 0.15f, 1.25f, 0.25f, 1.30f, 10, 0};
 constexpr Tuning sharp = {0.15f, 0.07f, 0.11f, 1.20f, 0.20f, 1.15f, 8, 0.5f};
 constexpr float symmetry_correction = 0.22f;
 
-/// The borders of a pixel that are edges, as the bits of Cmaa2Kernels::shape_row.
+/// The borders of a pixel that are edges, as bits of the output of Cmaa2Kernels::shape_row.
 enum : std::uint8_t { right_bit = 1, below_bit = 2, left_bit = 4, above_bit = 8 };
 struct Borders {
   float r, g, b, a;  ///< right, below, left, above, as the original names them; 0 or 1
   explicit Borders(std::uint8_t bits) : r(bits & 1), g(bits >> 1 & 1), b(bits >> 2 & 1), a(bits >> 3 & 1) {}
 };
 
-/// The borders of the image turned clockwise by 90 degrees: the border above becomes the one on the right.
+/// The borders of the image rotated clockwise by 90 degrees: the border above becomes the one on the right.
 std::uint8_t turned(std::uint8_t bits) { return static_cast<std::uint8_t>((bits << 1 | bits >> 3) & 15); }
 
 float saturated(float v) { return std::clamp(v, 0.0f, 1.0f); }
@@ -67,7 +67,7 @@ struct BlockItems {
 
 using Shapes = Bordered<std::uint8_t>;
 
-/// The luma of each value of each channel.
+/// The contribution to luma of each value of each channel.
 struct LumaTables {
   std::array<float, 256> r, g, b;
   LumaTables() {
@@ -118,7 +118,7 @@ Shapes find_shapes(const Rgba8Image& image, const Cmaa2Options& options, Plane<s
   return shapes;
 }
 
-/// The corners of one block, turned into items.
+/// Converts the corners of one block to items.
 class Corners {
  public:
   Corners(const Rgba8Image& image, const Shapes& shapes, const Tuning& tuning, int block, BlockItems& items)
@@ -131,7 +131,7 @@ class Corners {
   }
 
  private:
-  /// A step between two lines: along x, or along -y if vertical.
+  /// A step between two lines, which run along x, or along -y if vertical.
   struct Z {
     float score = 0;
     bool is_inverted = false, is_vertical = false;
@@ -146,7 +146,7 @@ class Corners {
         {static_cast<std::uint32_t>(y * image_.width() + x), weight, c});
   }
 
-  /// Blends every corner slightly with the neighbours across its edges.
+  /// Blends a corner slightly with the neighbours across its edges.
   void soften(int x, int y) {
     const std::uint8_t* p = shapes_.at(x, y);
     const Borders e(*p), l(p[-1]), r(p[1]), t(*(p - shapes_.stride())), b(*(p + shapes_.stride()));
@@ -190,7 +190,8 @@ class Corners {
     return upright.score > level.score ? upright : level;
   }
 
-  /// The lengths of the lines to both sides of a step, followed in parallel so that their lengths differ only slightly.
+  /// The lengths of the lines on both sides of a step. Both are followed in parallel, so that the lengths differ only
+  /// slightly.
   struct Lengths {
     int left = 1, right = 1;
   };
@@ -257,7 +258,7 @@ std::vector<BlockItems> make_items(const Rgba8Image& image, const Shapes& shapes
   return blocks;
 }
 
-/// Adds up the contributions to one block of rows, in the order of the blocks that made them.
+/// Adds up the contributions to one block of rows, in the order of the blocks that they come from.
 void apply_items(const std::vector<BlockItems>& blocks, int block, std::span<Rgba8> out, std::size_t first_pixel,
                  std::size_t pixels) {
   struct Sum {

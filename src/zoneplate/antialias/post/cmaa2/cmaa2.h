@@ -13,7 +13,7 @@ struct Cmaa2Options {
 /// CMAA2 of an sRGB-encoded image; `memory` may be any image, whose storage is reused if it has the same size.
 ///
 /// Space     luma is 0.299 √R + 0.587 √G + 0.114 √B of linear light; pixels are blended in linear light.
-/// Edges     the image's sides are no edges; a pixel without a corner is unchanged unless it lies on a Z shape.
+/// Edges     the image's sides are not edges; a pixel without a corner is unchanged unless it is on a Z shape.
 /// Exact     the contributions of several shapes to a pixel are added in the order of the shapes' rows and columns.
 Rgba8Image apply_cmaa2(const Rgba8Image& image, const Cmaa2Options& options, Rgba8Image memory = {});
 

@@ -65,14 +65,14 @@ TEST(Cmaa2, WithoutCornersNothingChanges) {
 }
 
 TEST(Cmaa2, ALongStepBecomesARampOfLight) {
-  // One step in the middle of a border of 200 pixels: both lines are as long as is followed, and light falls evenly
-  // from one half at the step.
+  // One step in the middle of a border of 200 pixels: both lines have the maximum length of the search, and light
+  // decreases linearly from one half at the step.
   const Rgba8Image step = make_codes(200, 40, [](int x, int y) {
     return y < (x < 100 ? 20 : 21) ? Rgba8{255, 255, 255} : Rgba8{0, 0, 0};
   });
   const Rgba8Image out = apply_cmaa2(step, {});
   const auto light = [&](int x, int y) { return static_cast<double>(decode_srgb8(out(x, y).g)); };
-  // 43 pixels to each side; the ones at the step are softened too.
+  // 43 pixels on each side; those at the step are also blurred.
   for (int i = 1; i < 43; ++i) {
     EXPECT_NEAR(light(99 - i, 20), 0.5 * (42.5 - i) / 43, 0.012) << i;
     EXPECT_NEAR(light(100 + i, 20), 1 - 0.5 * (42.5 - i) / 43, 0.012) << i;
@@ -98,7 +98,7 @@ TEST(Cmaa2, AQuarterTurnTurnsTheResult) {
   const auto turned = [](const Rgba8Image& from) {
     return make_codes(120, 120, [&](int x, int y) { return from(y, 119 - x); });
   };
-  // Of equally good level and upright steps the level one is taken.
+  // Of equally good horizontal and vertical steps the horizontal one is used.
   EXPECT_LE(count_differing(apply_cmaa2(turned(image), {}), turned(apply_cmaa2(image, {})), 0), 120 * 120 / 1000);
 }
 

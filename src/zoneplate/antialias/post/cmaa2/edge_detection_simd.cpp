@@ -17,7 +17,7 @@ void shape_row(const std::uint8_t* edges, const std::uint8_t* above, std::uint8_
   const auto level = hn::Set(d, std::uint8_t{5}), upright = hn::Set(d, std::uint8_t{10});
   const auto zero = hn::Zero(d);
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-    // The bits that are moved up never leave their bytes.
+    // The shifted bits never leave their bytes.
     const auto left = hn::And(hn::LoadU(d, edges + i - 1), one), top = hn::And(hn::LoadU(d, above + i), two);
     const auto moved = hn::BitCast(d, hn::ShiftLeft<2>(hn::BitCast(wide, hn::Or(left, top))));
     const auto shape = hn::Or(hn::LoadU(d, edges + i), moved);

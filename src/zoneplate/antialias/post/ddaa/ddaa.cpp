@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// DDAA: for edges near the axes an edge search like FXAA's, but at every pixel; for edges near the diagonals a short
-// blur along the edge.
+// DDAA: for nearly horizontal or vertical edges, an edge search as in FXAA, but at every pixel; for nearly diagonal
+// ones, a short blur along the edge.
 //
-// Treats different angles more uniformly than FXAA. Weak on diagonals one pixel wide, which the blur thins.
+// It treats different angles more uniformly than FXAA. Weakness: the blur thins diagonals that are one pixel wide.
 //
 // Source: Klein, Directional Diffusion Anti-Aliasing 2.4, 2025; gradients after Scharr.
 #include "zoneplate/antialias/post/ddaa/ddaa.h"
@@ -30,7 +30,7 @@ Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8
   const DdaaKernels& kernels = DdaaKernels::of();
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
-  // Blocks are large, because both of two neighbouring blocks compute the power along their common border.
+  // Blocks are large, because two neighbouring blocks both compute the power along their common border.
   constexpr std::size_t rows = 128;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
     RollingRows<float> power(image.width(), image.height(), reach, static_cast<int>(begin));

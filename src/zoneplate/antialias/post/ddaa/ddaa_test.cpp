@@ -47,7 +47,7 @@ TEST(Ddaa, DiagonalsAreSmoothedAndThinLinesSpared) {
 }
 
 TEST(Ddaa, ComesNearerToTheAreaThanFxaa) {
-  // Edges from diagonal to level: root mean square error in codes against the exact area.
+  // Edges from diagonal to horizontal: root mean square error in codes relative to the exact area.
   double mean = 0, mean_fxaa = 0;
   for (const double run : {1.0, 1.1, 1.2, 1.5, 2.0, 2.6, 3.4, 5.1, 8.2, 12.3, 20.1}) {
     const Band plane{run, 1000};
@@ -64,7 +64,7 @@ TEST(Ddaa, ComesNearerToTheAreaThanFxaa) {
     const Rgba8Image image = plane.codes(0.5, 0.5);
     mean += codes_error(apply_ddaa(image, {}));
     mean_fxaa += codes_error(apply_fxaa(image, {}));
-    // Near the diagonal an edge search alone finds nothing to do.
+    // Near the diagonal, an edge search alone has no effect.
     if (run < 1.5) {
       EXPECT_LT(codes_error(apply_ddaa(image, {})), 0.85 * codes_error(apply_fxaa(image, {.subpixel = 0}))) << run;
     }

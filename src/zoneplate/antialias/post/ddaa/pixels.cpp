@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar twins of DDAA's kernels.
+// The scalar equivalents of DDAA's kernels.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ void power_row(const std::uint8_t* rgba, float* power, std::size_t n) {
 void seen_row(const float* power, std::ptrdiff_t stride, float threshold, float least, std::uint8_t* seen,
               std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
-    // Roots keep order, so that the greatest and the least luma are those of the sums.
+    // The square root is monotonic, so that the greatest and the least luma are those of the sums.
     const float* p = power + i;
     const auto [low, high] = std::minmax({p[0], *(p - stride), p[stride], *(p - 1), p[1]});
     const float greatest = std::sqrt(high), range = greatest - std::sqrt(low);
@@ -27,7 +27,7 @@ void seen_row(const float* power, std::ptrdiff_t stride, float threshold, float 
   }
 }
 
-/// The lumas around a pixel and what follows from them.
+/// The lumas around a pixel and the quantities derived from them.
 struct Around {
   float m, n, s, w, e, nw, ne, sw, se;
   Around(const float* p, std::ptrdiff_t stride)
@@ -54,7 +54,7 @@ struct Around {
   }
 };
 
-/// How far towards the pixel across the nearer edge the line through its ends lies.
+/// The offset towards the pixel across the nearer edge, from the line through the edge's ends.
 float search_offset(const float* pixel, std::ptrdiff_t along, std::ptrdiff_t across, float here, float there) {
   const float average = (here + there) / 2, least = 0.25f * std::abs(there - here);
   struct End {
@@ -89,7 +89,7 @@ void taps_of(const float* pixel, std::ptrdiff_t stride, float most, float* taps)
 
   const bool is_horizontal = a.is_horizontal();
   const float first = (is_horizontal ? a.n : a.w) - a.m, second = (is_horizontal ? a.s : a.e) - a.m;
-  // A line of one pixel is a ridge: it is not blurred.
+  // A line of one pixel is a ridge, and is not blurred.
   if ((first > 0) == (second > 0) && (first < 0) == (second < 0))
     strength *= 1 - std::min(1.0f, 10 * std::min(std::abs(first), std::abs(second)));
 

@@ -53,7 +53,7 @@ void seen_row(const float* power, std::ptrdiff_t stride, float threshold, float 
   }
 }
 
-/// Where the edges of a vector's pixels run.
+/// The orientation of the edges of a vector's pixels.
 enum class Direction { Level, Upright, Both };
 
 /// The edges of a vector of pixels, each with its own direction and side.
@@ -63,7 +63,7 @@ struct Walk {
   MF is_level, is_second;
   VF average, least;
 
-  /// The power on this side of the edge, i pixels along it, and on the other.
+  /// The power on this side of the edge, i pixels along it, and on the other side.
   template <Direction direction>
   HWY_INLINE void pair(std::ptrdiff_t i, VF& here, VF& across) const {
     if constexpr (direction == Direction::Both) {
@@ -81,15 +81,15 @@ struct Walk {
   }
 };
 
-/// One end of the edges: its distance, and how far its luma is off the edge's.
+/// One end of the edges: its distance, and the difference of its luma from the edge's.
 struct End {
   VF distance, off;
 };
 
 template <Direction direction>
-HWY_INLINE End find_end(const Walk& walk, MF wanted, int sign) {
+HWY_INLINE End find_end(const Walk& walk, MF selected, int sign) {
   End end{set(Constants::search + 1), hn::Zero(df)};
-  MF goes_on = wanted;
+  MF goes_on = selected;
   for (int i = 1; i <= Constants::search; ++i) {
     if (i % 2 != 0 && hn::AllFalse(df, goes_on)) break;
     VF here, across;
@@ -106,8 +106,8 @@ HWY_INLINE End find_end(const Walk& walk, MF wanted, int sign) {
 }
 
 template <Direction direction>
-HWY_INLINE VF search_offset(const Walk& walk, MF wanted, MF is_below) {
-  const End before = find_end<direction>(walk, wanted, -1), after = find_end<direction>(walk, wanted, 1);
+HWY_INLINE VF search_offset(const Walk& walk, MF selected, MF is_below) {
+  const End before = find_end<direction>(walk, selected, -1), after = find_end<direction>(walk, selected, 1);
   const MF is_before = hn::Lt(before.distance, after.distance);
   const VF off = hn::IfThenElse(is_before, before.off, after.off);
   const VF share = hn::Div(hn::Min(before.distance, after.distance), hn::Add(before.distance, after.distance));
@@ -119,7 +119,7 @@ HWY_INLINE VF bend(VF a, VF b, VF c) { return hn::Abs(hn::Sub(hn::Add(a, b), twi
 
 HWY_INLINE VF at_most_one(VF v) { return hn::Min(set(1), v); }
 
-void taps_some(const float* p, std::ptrdiff_t stride, float most, MF wanted, float* taps) {
+void taps_some(const float* p, std::ptrdiff_t stride, float most, MF selected, float* taps) {
   const VF zero = hn::Zero(df);
   const VF m = root(p), n = root(p - stride), s = root(p + stride), w = root(p - 1), e = root(p + 1);
   const VF nw = root(p - stride - 1), ne = root(p - stride + 1), sw = root(p + stride - 1), se = root(p + stride + 1);
@@ -149,12 +149,12 @@ void taps_some(const float* p, std::ptrdiff_t stride, float most, MF wanted, flo
   const Walk walk{p, stride, is_level, is_second, average, hn::Mul(set(0.25f), hn::Abs(hn::Sub(there, m)))};
   const MF is_below = hn::Lt(m, average);
   VF offset;
-  if (hn::AllFalse(df, hn::AndNot(is_level, wanted)))
-    offset = search_offset<Direction::Level>(walk, wanted, is_below);
-  else if (hn::AllFalse(df, hn::And(is_level, wanted)))
-    offset = search_offset<Direction::Upright>(walk, wanted, is_below);
+  if (hn::AllFalse(df, hn::AndNot(is_level, selected)))
+    offset = search_offset<Direction::Level>(walk, selected, is_below);
+  else if (hn::AllFalse(df, hn::And(is_level, selected)))
+    offset = search_offset<Direction::Upright>(walk, selected, is_below);
   else
-    offset = search_offset<Direction::Both>(walk, wanted, is_below);
+    offset = search_offset<Direction::Both>(walk, selected, is_below);
 
   strength = hn::Mul(strength, hn::Sub(set(1), at_most_one(hn::Abs(twice(offset)))));
   const VF moved = hn::IfThenElse(is_second, offset, hn::Neg(offset)),
@@ -168,8 +168,9 @@ void taps_row(const float* power, std::ptrdiff_t stride, float strength, const s
               std::size_t n) {
   const hn::Rebind<std::uint8_t, DF> bytes;
   for (std::size_t i = 0; i < n; i += hn::Lanes(df)) {
-    const MF wanted = hn::RebindMask(df, hn::Not(hn::Eq(hn::PromoteTo(di, hn::LoadU(bytes, seen + i)), hn::Zero(di))));
-    if (!hn::AllFalse(df, wanted)) taps_some(power + i, stride, strength, wanted, taps + 4 * i);
+    const MF selected =
+        hn::RebindMask(df, hn::Not(hn::Eq(hn::PromoteTo(di, hn::LoadU(bytes, seen + i)), hn::Zero(di))));
+    if (!hn::AllFalse(df, selected)) taps_some(power + i, stride, strength, selected, taps + 4 * i);
   }
 }
 

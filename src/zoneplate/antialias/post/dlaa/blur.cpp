@@ -54,14 +54,14 @@ float4 values_of(const std::uint8_t* c) {
           static_cast<float>(c[3]) / 255};
 }
 float luma(const float4& c) { return (c.x + c.y + c.z) / 3; }
-float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // what is not a number gives 0
+float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // NaN gives 0
 float4 mixed(const float4& a, const float4& b, float t) {
   return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
 }
-/// lambda times the luma of half a bend, less epsilon.
+/// lambda times the luma of half the second difference, minus epsilon.
 float edge_of(int bend) { return Constants::lambda * (static_cast<float>(bend) / (3 * 2 * 255)) - Constants::epsilon; }
 
-/// Where, between two neighbours at the ends of a line through `c`, the blur along it lies; both are lumas' shares.
+/// The colour between the neighbours at the ends of a line through `c` whose luma is that of the blur along it.
 float4 between(const float4& first, const float4& c, const float4& last, const float4& blur) {
   const float to_first = luma(c) - luma(first), to_last = luma(c) - luma(last);
   const float a = to_first == 0 ? 1.0f : saturated((luma(blur) - luma(first)) / to_first);
@@ -69,7 +69,7 @@ float4 between(const float4& first, const float4& c, const float4& last, const f
   return mixed(last, mixed(first, c, a), b);
 }
 
-/// The mean of the sixteen pixels around, `step` bytes from each other, the middle left out.
+/// The mean of the sixteen pixels around, `step` bytes apart, without the one in the middle.
 float4 long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
   int r = 0, g = 0, b = 0, a = 0;
   for (int i = -Constants::half_blur; i <= Constants::half_blur; ++i) {
@@ -89,7 +89,7 @@ void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float
   const float level = edge_of(level_bend), upright = edge_of(upright_bend);
   const float4 c = values_of(p), l = values_of(p - 4), r = values_of(p + 4), t = values_of(p - s), b = values_of(p + s);
 
-  // Short edges: six pixels along the direction that changes less.
+  // Short edges: a blur of six pixels along the direction of smaller change.
   const auto blurred = [&](const float4& two, const float4& one, const float4& next, const float4& after) {
     return (two + one + next + after + c * 2) * (1.0f / 6);
   };

@@ -7,7 +7,7 @@
 /// out).
 namespace zoneplate::stages {
 
-/// How much of a long edge runs through a pixel, from the sum of the sixteen edge codes around.
+/// The weight of a long edge at a pixel, from the sum of the sixteen edge codes around.
 [[gnu::always_inline]] inline float dlaa_mask(int sum) {
   return 2 * sum <= DlaaConstants::whole ? 0 : static_cast<float>(2 * sum) / DlaaConstants::whole - 1;
 }

@@ -9,7 +9,8 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Encoded values of pixels as words: red and blue of each in one vector, green in another, interleaved with zeros.
+/// Encoded values of pixels as 16-bit words: red and blue of each in one vector, green in another, interleaved with
+/// zeros.
 template <class D>
 struct Codes {
   using Words = hn::RepartitionToNarrow<D>;
@@ -23,7 +24,7 @@ struct Codes {
   }
 };
 
-/// Adds up red, green and blue of words that are not negative, a pixel a lane.
+/// The sum of red, green and blue of non-negative words, one pixel per lane.
 template <class D, class V>
 HWY_INLINE hn::Vec<D> sum_of(D d, V red_blue, V green) {
   const auto rb = hn::BitCast(d, red_blue);
@@ -55,7 +56,7 @@ HWY_INLINE void edge_some(D d, const std::uint8_t* above, const std::uint8_t* he
   };
   const auto sum = sum_of(d, off(l.red_blue, r.red_blue, t.red_blue, b.red_blue, c.red_blue),
                           off(l.green, r.green, t.green, b.green, c.green));
-  // A third of whole numbers below 2^15, rounded down.
+  // Divides integers below 2^15 by 3, rounding down.
   const auto four = hn::Add(hn::ShiftLeft<2>(sum), hn::Set(d, 1));
   const auto third = hn::ShiftRight<16>(hn::Mul(four, hn::Set(d, 21846)));
   store_bytes(d, hn::Min(third, hn::Set(d, 255)), edges + i);
@@ -110,7 +111,7 @@ void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::ui
   });
 }
 
-// The four channels of one pixel, and what follows from its luma.
+// The four channels of one pixel, and functions of its luma.
 using DF4 = hn::CappedTag<float, 4>;
 using DI4 = hn::RebindToSigned<DF4>;
 using VF4 = hn::Vec<DF4>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // DLAA: blurs every pixel slightly along the direction of smaller change; on long edges, interpolates it between its
-// neighbours by a blur of sixteen pixels along the edge.
+// neighbours according to a blur of sixteen pixels along the edge.
 //
-// Has neither searches nor discrete decisions, so that the result changes continuously. Weak in that it softens all
+// It has neither searches nor discrete decisions, so that the result changes continuously. Weakness: it softens all
 // contrast, including text and texture.
 //
 // Source: Andreev, Anti-Aliasing from a Different Perspective, GDC 2011 (Star Wars: The Force Unleashed 2).
@@ -28,7 +28,7 @@ namespace {
 using Constants = DlaaConstants;
 constexpr int reach = Constants::half_blur + 1;
 
-/// The image with its border, and the first pass: four times the luma of the Laplacian, in 8 bits.
+/// The image with its border, and the result of the first pass: four times the luma of the Laplacian, in 8 bits.
 struct Source {
   Bordered<Rgba8> colors;
   Bordered<std::uint8_t> edges;
@@ -55,7 +55,7 @@ Rgba8Image apply_dlaa(const Rgba8Image& image, Rgba8Image memory) {
   Rgba8Image out = sized_like(image, std::move(memory));
   const auto width = static_cast<std::size_t>(image.width()), room = (width + 63) / 64 * 64;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
-    // The sums of the edge values of eight rows above and below are updated from row to row.
+    // The sums of the edge values of eight rows above and below are updated incrementally from row to row.
     std::vector<std::int16_t> level(room), upright(room);
     std::vector<std::uint8_t> seen(room), nothing(room);
     ResultRow result(image, out);

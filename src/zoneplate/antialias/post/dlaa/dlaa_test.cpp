@@ -28,7 +28,7 @@ TEST(Dlaa, InstructionSetsAndThreadsLeaveNoTrace) {
 }
 
 TEST(Dlaa, KernelsFindWhatTheirTwinsFind) {
-  // Faint differences, and some of full contrast.
+  // Mostly small differences, and some of full contrast.
   const auto code = [](std::uint32_t i) {
     return static_cast<std::uint8_t>(hash(i / 40) % 4 == 0 ? hash(i) & 255 : 100 + (hash(i) & 7));
   };
@@ -66,15 +66,16 @@ TEST(Dlaa, KernelsFindWhatTheirTwinsFind) {
 }
 
 TEST(Dlaa, AShortEdgeIsBlurredAlongItself) {
-  // A grey level border of the lightest contrast that is treated, and one just below it.
+  // A grey horizontal border of the least contrast that is filtered, and one just below it.
   const auto border = [](std::uint8_t dark, std::uint8_t light) {
     return make_codes(40, 30, [=](int, int y) {
       return y < 15 ? Rgba8{dark, dark, dark} : Rgba8{light, light, light};
     });
   };
-  // Along a level border there is nothing to mix.
+  // Along a horizontal border without steps nothing changes.
   EXPECT_EQ(apply_dlaa(border(0, 255)), border(0, 255));
-  // One step in it is mixed over two pixels to either side, and the contrast above it counts: |T + B - 2 C| / 2.
+  // A step in it is blended over two pixels on either side; the contrast of the second difference |T + B - 2 C| / 2
+  // counts.
   const auto stepped = [](std::uint8_t dark, std::uint8_t light) {
     return make_codes(40, 30, [=](int x, int y) {
       return y < (x < 20 ? 15 : 16) ? Rgba8{dark, dark, dark} : Rgba8{light, light, light};
@@ -85,7 +86,7 @@ TEST(Dlaa, AShortEdgeIsBlurredAlongItself) {
 }
 
 TEST(Dlaa, LongEdgesBecomeRamps) {
-  // A step of one pixel in a border of full contrast: the long blur of 16 pixels makes a ramp of 16 steps of it.
+  // A step of one pixel in a border of full contrast: the long blur of 16 pixels turns it into a ramp of 16 steps.
   const Rgba8Image step = make_codes(80, 40, [](int x, int y) {
     return y < (x < 40 ? 20 : 21) ? Rgba8{220, 220, 220} : Rgba8{30, 30, 30};
   });

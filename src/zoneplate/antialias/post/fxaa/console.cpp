@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar twins of the console path of FXAA 3.11: two taps half a pixel
-// along the edge, and two farther ones where those stay within the lumas
-// around.
+// The scalar equivalents of the console path of FXAA 3.11: two taps half a pixel along the edge, and two more distant
+// ones if their luma is within the range of the surrounding lumas.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +31,7 @@ void seen_row(const FxaaConsoleRows& rows, float threshold, float least, std::ui
   }
 }
 
-/// A colour as four floats in codes, and the luma that goes with it.
+/// A colour as four floats in [0, 255], and its luma.
 struct Tap {
   float rgba[4], luma;
 };
@@ -43,7 +42,7 @@ Tap mean(const Tap& a, const Tap& b) {
   return out;
 }
 
-/// The bilinear fetch at a point, relative to the centre of pixel x of n.
+/// The bilinear fetch at a point relative to the centre of pixel x of n.
 Tap fetch(const FxaaConsoleRows& rows, std::ptrdiff_t x, std::ptrdiff_t n, float dx, float dy) {
   const float left = std::floor(dx), top = std::floor(dy);
   const float u = dx - left, v = dy - top;

@@ -8,25 +8,24 @@
 
 namespace zoneplate {
 
-/// What the console path reads around the pixels of a row.
+/// The input of the console path for the pixels of a row.
 struct FxaaConsoleRows {
   static constexpr int reach = 5;
-  const std::uint8_t* luma;                  ///< valid `reach` values around
-  std::ptrdiff_t stride;                     ///< of luma
-  const std::uint8_t* codes[2 * reach + 1];  ///< rows of codes, the pixels' own in the middle;
-                                             ///< their outermost go on
+  const std::uint8_t* luma;  ///< valid for `reach` values around
+  std::ptrdiff_t stride;     ///< stride of luma
+  /// Rows of codes, the pixels' own in the middle; beyond their ends the outermost pixels are repeated.
+  const std::uint8_t* codes[2 * reach + 1];
 };
 
 struct FxaaConsoleKernels : PerIsa<FxaaConsoleKernels> {
-  static constexpr float nudge = 255.0f / 384;  ///< of one of four lumas, which keeps the direction from being zero
+  static constexpr float nudge = 255.0f / 384;  ///< offset of one of four lumas, so that the direction is never zero
 
-  /// 1 where the lumas around a pixel differ by `least` and by the share
-  /// `threshold` of the greatest at least; else 0.
+  /// 1 if the range of lumas around a pixel is at least the greater of `least` and `threshold` times the greatest luma;
+  /// else 0.
   ///
-  /// Shape     reads and writes whole vectors, so that the arrays have room for
-  /// n rounded up to 64.
+  /// Shape     whole vectors are read and written, so that the arrays have capacity for n rounded up to 64.
   void (*seen_row)(const FxaaConsoleRows& rows, float threshold, float least, std::uint8_t* seen, std::size_t n);
-  /// Mixes the pixels that are seen; others of `out` are left alone.
+  /// Filters the pixels selected in `seen`; the other pixels of `out` are unchanged.
   void (*mix_row)(const FxaaConsoleRows& rows, float sharpness, const std::uint8_t* seen, std::uint8_t* out,
                   std::size_t n);
 };

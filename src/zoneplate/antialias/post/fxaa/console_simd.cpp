@@ -8,7 +8,7 @@ namespace zoneplate::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lumas at the four corners of pixels, one a lane.
+/// The lumas at the four corners of pixels, one pixel per lane.
 template <class D>
 struct Corners {
   using V = hn::Vec<D>;
@@ -19,7 +19,7 @@ struct Corners {
     const hn::Rebind<std::uint8_t, D> bytes;
     const auto load = [&](std::ptrdiff_t at) HWY_ATTR { return hn::PromoteTo(di, hn::LoadU(bytes, p + at)); };
     const auto sum = [&](auto a, auto b) HWY_ATTR { return hn::Add(a, b); };
-    // Upright pairs serve two corners each.
+    // Each vertical pair is used by two corners.
     const auto here = load(0), north = load(-stride), south = load(stride);
     const auto west = load(-1), east = load(1);
     const auto up = sum(here, north), down = sum(here, south);
@@ -40,8 +40,8 @@ void seen_row(const FxaaConsoleRows& rows, float threshold, float least, std::ui
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     const Corners<hn::CappedTag<float, 8>> c(d, rows.luma + i, rows.stride);
     const auto range = hn::Sub(hn::Max(c.high, c.m), hn::Min(c.low, c.m));
-    const auto wanted = hn::Max(hn::Set(d, least), hn::Mul(c.high, hn::Set(d, threshold)));
-    const auto is_seen = hn::RebindMask(di, hn::Ge(range, wanted));
+    const auto limit = hn::Max(hn::Set(d, least), hn::Mul(c.high, hn::Set(d, threshold)));
+    const auto is_seen = hn::RebindMask(di, hn::Ge(range, limit));
     hn::StoreU(hn::DemoteTo(bytes, hn::IfThenElseZero(is_seen, hn::Set(di, 1))), bytes, seen + i);
   }
 }
@@ -61,7 +61,7 @@ HWY_INLINE VF4 load_codes(const std::uint8_t* p) {
 
 /// A point between four pixels.
 struct Point {
-  std::ptrdiff_t x, y;  ///< the upper left one; y relative to the row
+  std::ptrdiff_t x, y;  ///< the upper left pixel; y is relative to the row
   float u, v;
 
   HWY_INLINE Point(std::ptrdiff_t at, float dx, float dy) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// FXAA 3.11: finds the direction of an edge by luma, follows it to its ends, and fetches each pixel's colour from up to
-// half a pixel across it.
+// FXAA 3.11: determines the direction of an edge by luma, follows it to its ends, and fetches each pixel's colour from
+// up to half a pixel across it.
 //
-// Smooths all visible edges, of geometry and of shading, at the lowest cost of all methods. Weak where an edge is
-// nearly horizontal or vertical, since the search ends after a dozen pixels; and it blurs fine text and single pixels.
+// It smooths all visible edges, of geometry and of shading, at the lowest cost of all methods. Weaknesses: nearly
+// horizontal or vertical edges, because the search ends after a dozen pixels; and it blurs fine text and single pixels.
 //
 // Source: Lottes, FXAA, NVIDIA whitepaper, 2009, and FXAA 3.11, 2011: the quality path with its presets and the console
-// path. Encoded values are blended, as there, unless mix=light selects linear light.
+// path. Encoded values are blended, as in the original, unless mix=light selects linear light.
 #include "zoneplate/antialias/post/fxaa/fxaa.h"
 
 #include <algorithm>
@@ -30,10 +30,10 @@ namespace zoneplate {
 namespace antialias {
 namespace {
 
-/// A preset's search: the distances from the pixel at which luma is tested, in half pixels. The last distance is used
-/// without a test.
+/// The search of a preset: the distances from the pixel at which luma is tested, in half pixels. The last distance is
+/// used without a test.
 ///
-/// Source    the steps of FXAA 3.11, FXAA_QUALITY__P0 and so on, added up.
+/// Source    the cumulative steps of FXAA 3.11, FXAA_QUALITY__P0 and so on.
 struct Search {
   int preset;
   std::array<int, 12> distance;  ///< in half pixels; zeros after the last
@@ -106,7 +106,7 @@ class Luma {
   RollingRows<std::uint8_t> rows_;
 };
 
-/// Calls `body(luma, begin, end)` for blocks of rows in parallel. Blocks are large, because two neighbouring blocks
+/// Calls `body(luma, begin, end)` in parallel for blocks of rows. Blocks are large, because two neighbouring blocks
 /// both compute the luma along their common border.
 template <class Body>
 void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const Body& body) {
@@ -118,7 +118,7 @@ void for_luma_blocks(const Rgba8Image& image, const FxaaOptions& options, const 
   });
 }
 
-/// The memory for the results of the kernels in one row.
+/// The buffers for the results of the kernels in one row.
 struct RowMemory {
   std::vector<std::uint8_t> bits, tied_bits, flags;
   std::vector<float> shift;
@@ -129,7 +129,7 @@ struct RowMemory {
   FxaaEnds ends() { return {flags.data(), shift.data(), tied_bits.data()}; }
 };
 
-/// Calls `body(x)` for every bit that is set.
+/// Calls `body(x)` for every set bit.
 template <class Body>
 void for_bits(const std::vector<std::uint8_t>& bits, const Body& body) {
   for (std::size_t byte = 0; byte < bits.size(); byte += 8) {
@@ -139,7 +139,7 @@ void for_bits(const std::vector<std::uint8_t>& bits, const Body& body) {
   }
 }
 
-/// Clears the bits of pixels beyond the image.
+/// Clears the bits of pixels outside the image.
 void clear_beyond(std::vector<std::uint8_t>& bits, std::size_t width) {
   if (width % 8 != 0) bits[width / 8] = static_cast<std::uint8_t>(bits[width / 8] & ((1 << width % 8) - 1));
   std::fill(bits.begin() + static_cast<std::ptrdiff_t>((width + 7) / 8), bits.end(), std::uint8_t{0});

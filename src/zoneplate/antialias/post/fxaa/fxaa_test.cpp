@@ -21,15 +21,16 @@ TEST(Fxaa, ChartIsTheOneThatOthersWereGiven) {
   EXPECT_EQ(sum, 1760660u);
 }
 
-/// A pixel of the chart where the original gives another colour: its codes less ours.
+/// A pixel of the chart at which the original has another colour: the original's codes minus ours.
 struct Difference {
   int x, y, r, g, b;
 };
 
-/// What the original's presets make of the chart, as a hash of its red, green and blue and where ours differs.
+/// The results of the original's presets for the chart: a hash of red, green and blue, and the pixels at which ours
+/// differ.
 ///
-/// A difference of one code is a rounding of the mixed colour. At a greater one, a tie, a search looks at a luma that
-/// differs from the pixel's by exactly a quarter of the gradient, so that rounding decides: in 16-bit fixed point
+/// A difference of one code is a rounding of the blended colour. Greater differences are ties: a search reads a luma
+/// that differs from the pixel's by exactly a quarter of the gradient, so that rounding decides: in 16-bit fixed point
 /// there, in double here. Source: NVIDIA's FXAA 3.11 as FXAAShader of three.js 0.137.5, run in headless Chromium.
 struct Original {
   int preset;
@@ -61,7 +62,7 @@ const Original originals[] = {
      {{6, 6, -1, 0, 0}, {9, 6, -1, 0, 0}, {9, 7, -1, 0, 0}, {9, 8, -1, 0, 0}, {31, 24, 1, 0, 0}}},
 };
 
-/// True if a search from this pixel may meet a luma that is exactly a quarter of the gradient off.
+/// True if a search from this pixel may read a luma that differs by exactly a quarter of the gradient.
 bool has_tie(const Rgba8Image& image, int x, int y) {
   const auto luma = [&](int i, int j) { return int{image(std::clamp(i, 0, 63), std::clamp(j, 0, 63)).g}; };
   for (const auto& [ax, ay] : {std::pair{1, 0}, {0, 1}})
@@ -135,7 +136,7 @@ TEST(Fxaa, LumaIsRec601Rounded) {
 }
 
 TEST(Fxaa, ContrastBelowEitherThresholdIsLeftAlone) {
-  // A step from `low` to `high` in a field: changed just if the range reaches max(least, high × share).
+  // A step from `low` to `high` in a uniform field changes only if its range is at least max(least, high × share).
   for (const auto& [share, least] :
        {std::pair{0.333, 0.0833}, {0.25, 0.0833}, {0.166, 0.0833}, {0.125, 0.0625}, {0.063, 0.0312}})
     for (int high = 1; high < 256; ++high)
@@ -144,7 +145,7 @@ TEST(Fxaa, ContrastBelowEitherThresholdIsLeftAlone) {
         const Rgba8 dark{code(low), code(low), code(low)}, bright{code(high), code(high), code(high)};
         const Rgba8Image image = make_codes(8, 4, [&](int x, int y) { return x > 3 + (y > 1) ? bright : dark; });
         const bool is_seen = high - low >= least * 255 && high - low >= high * share;
-        // A step of one code can round to nothing.
+        // A step of a few codes may be rounded to no change.
         if (high - low > 3) {
           ASSERT_EQ(apply_fxaa(image, {.threshold = share, .least = least}) != image, is_seen) << low << " " << high;
         }
@@ -152,7 +153,7 @@ TEST(Fxaa, ContrastBelowEitherThresholdIsLeftAlone) {
 }
 
 TEST(Fxaa, MoreSearchBringsALevelEdgeNearerToItsCoverage) {
-  // A half-plane of slope 1/24: the exact area per pixel is the reference, and longer searches come nearer to it.
+  // A half-plane of slope 1/24: the reference is the exact area per pixel, and longer searches are closer to it.
   const auto area = [](int x, int y) { return std::clamp((x + 0.5) / 24 + 20 - y, 0.0, 1.0); };
   const Rgba8Image image = make_codes(192, 40, [&](int x, int y) {
     const auto v = static_cast<std::uint8_t>(area(x, y) >= 0.5 ? 230 : 20);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar twins of FXAA's kernels, and its search where a comparison is tied.
+// The scalar equivalents of FXAA's kernels, and its search if a comparison is tied.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,19 +34,19 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
   }
 }
 
-/// Where the line through two ends at these distances leaves the pixel.
+/// The offset at which the line through two ends at these distances leaves the pixel.
 float shift_between(int before, int after) {
   return 0.5f - static_cast<float>(std::min(before, after)) / static_cast<float>(before + after);
 }
 
-/// Codes / 255.
+/// code / 255 for every code.
 constexpr std::array<double, 256> units = [] {
   std::array<double, 256> out{};
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<double>(i) / 255;
   return out;
 }();
 
-/// Walks along an edge from one of its pixels, between it and the one across.
+/// Follows the border between a pixel and the one across it, in both directions.
 class Walk {
  public:
   Walk(const std::uint8_t* pixel, std::ptrdiff_t along, std::ptrdiff_t across)
@@ -56,11 +56,11 @@ class Walk {
         gradient_(std::abs(pixel[0] - pixel[across])),
         twice_(2 * pair(0)) {}
 
-  /// Four times the luma on the border, `distance` half pixels along it, less that at the pixel.
+  /// Four times the luma on the border, `distance` half pixels along it, minus four times that at the pixel.
   int error(int distance) const { return pair(distance >> 1) + pair((distance + 1) >> 1) - twice_; }
   int gradient() const { return gradient_; }
 
-  /// Finds the ends. `is_end(distance, error)` says whether one is reached there.
+  /// Finds the ends. `is_end(distance, error)` decides whether there is one at this distance.
   template <class IsEnd>
   void find(const int* distances, std::size_t count, int& before, int& after, bool& bends, const IsEnd& is_end) const {
     before = after = distances[0];
@@ -82,7 +82,7 @@ class Walk {
     bends = (nearer < 0) != (pixel_[0] < pixel_[across_]);
   }
 
-  /// The comparison of `error` and a quarter of the gradient in rounded numbers, for where they are equal.
+  /// Compares `error` with a quarter of the gradient in rounded numbers, to decide ties.
   bool reaches_rounded(int distance) const {
     const double end = std::abs(unit(0) - unit(across_)) * 0.25;
     const double luma = (border(distance >> 1) + border((distance + 1) >> 1)) * 0.5;
@@ -117,7 +117,7 @@ void ends_of(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& sea
   });
   const float line = bends && !is_tied ? shift_between(before, after) : 0.0f;
 
-  // A pixel that is unlike the mean of its neighbours is moved towards them.
+  // A pixel that differs from the mean of its neighbours is moved towards them.
   const int range = std::max({m, n, s, w, e}) - std::min({m, n, s, w, e});
   const int unlikeness = std::abs(2 * (n + s + w + e) + nw + ne + sw + se - 12 * m);
   const float c = std::min(1.0f, static_cast<float>(unlikeness) / static_cast<float>(12 * range));

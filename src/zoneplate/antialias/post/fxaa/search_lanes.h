@@ -5,7 +5,7 @@
 
 namespace zoneplate::stages {
 
-/// FxaaKernels::mix_row of pixel i of n.
+/// FxaaKernels::mix_row for pixel i of n.
 [[gnu::always_inline]] inline void fxaa_mix_pixel(const std::uint8_t* above, const std::uint8_t* here,
                                                   const std::uint8_t* below, const FxaaEnds& ends, std::uint8_t* out,
                                                   std::size_t i, std::size_t n) {

@@ -11,12 +11,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DI16 = hn::CappedTag<std::int16_t, 16>;
 using Sums = hn::RepartitionToWide<DI16>;
 
-/// Values of two vectors, each of 32 bits, as 16 bits in their order.
+/// Narrows two vectors of 32-bit values to one of 16-bit values, in order.
 HWY_INLINE hn::Vec<DI16> narrowed(hn::Vec<Sums> first, hn::Vec<Sums> second) {
   constexpr DI16 d;
   constexpr Sums wide;
   if (hn::Lanes(d) <= 8) return hn::ReorderDemote2To(d, first, second);
-  // It works on halves of 128 bits by themselves.
+  // The demotion operates on each half of 128 bits separately.
   return hn::ReorderDemote2To(d, hn::ConcatLowerLower(wide, second, first), hn::ConcatUpperUpper(wide, second, first));
 }
 
@@ -35,7 +35,7 @@ HWY_INLINE hn::Vec<Sums> eighth_of_sum(hn::Vec<Sums> codes) {
   return hn::ShiftRight<3>(hn::Add(hn::Add(rg, hn::Set(d, 500)), hn::Mul(b, hn::Set(d, 114))));
 }
 
-/// As many of what `of(codes)` gives, one each pixel, as fit a vector of 16 bits.
+/// Applies `of(codes)` to as many pixels as a vector of 16-bit values has lanes.
 template <class Of>
 HWY_INLINE hn::Vec<DI16> for_codes(const std::uint8_t* rgba, const Of& of) {
   return narrowed(of(load_codes(rgba)), of(load_codes(rgba + 4 * hn::Lanes(Sums()))));
@@ -46,7 +46,7 @@ HWY_INLINE void store_bytes(hn::Vec<DI16> v, std::uint8_t* to) {
   hn::StoreU(hn::DemoteTo(bytes, v), bytes, to);
 }
 
-/// x / 125 for x below 2^15, and so the sum's thousandth.
+/// x / 125 for x below 2^15: applied to an eighth of the sum, it gives a thousandth of the sum.
 HWY_INLINE hn::Vec<DI16> a_125th(hn::Vec<DI16> x) {
   const hn::RebindToUnsigned<DI16> du;
   const auto quotient = hn::ShiftRight<6>(hn::MulHigh(hn::BitCast(du, x), hn::Set(du, std::uint16_t{33555})));
@@ -87,7 +87,7 @@ void contrast_row(const std::uint8_t* luma, std::ptrdiff_t stride, FxaaContrast 
     const auto greatest = hn::Max(middle, hn::Max(hn::Max(north, south), hn::Max(west, east)));
     const auto smallest = hn::Min(middle, hn::Min(hn::Min(north, south), hn::Min(west, east)));
 
-    // Every second byte at a time, widened where it is.
+    // Even and odd bytes are widened in place and processed separately.
     const auto pairs = hn::BitCast(d16, greatest);
     const auto even = hn::MulHigh(hn::And(pairs, low), factor);
     const auto odd = hn::MulHigh(hn::ShiftRight<8>(pairs), factor);
@@ -126,7 +126,7 @@ HWY_INLINE VF upper(VI16 v) {
 /// |a + b - 2 c|
 HWY_INLINE VI16 bend(VI16 a, VI16 b, VI16 c) { return hn::Abs(hn::Sub(hn::Add(a, b), hn::Add(c, c))); }
 
-/// Where the edges of a vector's pixels run.
+/// The orientation of the edges of a vector's pixels.
 enum class Direction { Level, Upright, Both };
 
 /// The edges of a vector of pixels, each with its own direction and side.
@@ -148,7 +148,7 @@ struct Walk {
       return hn::Add(load_luma(p), hn::IfThenElse(is_second, load_luma(p + across), load_luma(p - across)));
     }
   }
-  /// Four times the luma on the border, `distance` half pixels along it, less that at the pixel.
+  /// Four times the luma on the border, `distance` half pixels along it, minus four times that at the pixel.
   template <Direction direction>
   HWY_INLINE VI16 error(int distance) const {
     const VI16 first = pair<direction>(distance >> 1);
@@ -156,16 +156,17 @@ struct Walk {
   }
 };
 
-/// One end of the edges: how far away it was looked for, and the error that was found there.
+/// One end of the edges: the last tested distance, and the error there.
 struct End {
   VI16 distance, error;
 };
 
-/// Looks by fours, for to foresee wrongly where the last pixel of a vector ends costs more than to look again.
+/// Tests four distances between branches, because a mispredicted branch at the end of the search costs more than
+/// additional tests.
 template <Direction direction>
-HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 wanted, int sign) {
+HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 selected, int sign) {
   End end{hn::Set(dw, static_cast<std::int16_t>(search.distances[0])), hn::Zero(dw)};
-  MI16 goes_on = wanted;
+  MI16 goes_on = selected;
   for (std::size_t i = 0; i + 1 < search.count; ++i) {
     if (i % 4 == 0 && hn::AllFalse(dw, goes_on)) break;
     const VI16 found = walk.error<direction>(sign * search.distances[i]);
@@ -177,17 +178,17 @@ HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 wanted,
   return end;
 }
 
-/// Both ends, by the loop for the directions there are: most vectors have one.
-HWY_INLINE void find_ends(const Walk& walk, const FxaaSearch& search, MI16 wanted, End& before, End& after) {
-  if (hn::AllFalse(dw, hn::AndNot(walk.is_level, wanted))) {
-    before = find_end<Direction::Level>(walk, search, wanted, -1);
-    after = find_end<Direction::Level>(walk, search, wanted, 1);
-  } else if (hn::AllFalse(dw, hn::And(walk.is_level, wanted))) {
-    before = find_end<Direction::Upright>(walk, search, wanted, -1);
-    after = find_end<Direction::Upright>(walk, search, wanted, 1);
+/// Finds both ends with the loop for the vector's orientation: most vectors have only one.
+HWY_INLINE void find_ends(const Walk& walk, const FxaaSearch& search, MI16 selected, End& before, End& after) {
+  if (hn::AllFalse(dw, hn::AndNot(walk.is_level, selected))) {
+    before = find_end<Direction::Level>(walk, search, selected, -1);
+    after = find_end<Direction::Level>(walk, search, selected, 1);
+  } else if (hn::AllFalse(dw, hn::And(walk.is_level, selected))) {
+    before = find_end<Direction::Upright>(walk, search, selected, -1);
+    after = find_end<Direction::Upright>(walk, search, selected, 1);
   } else {
-    before = find_end<Direction::Both>(walk, search, wanted, -1);
-    after = find_end<Direction::Both>(walk, search, wanted, 1);
+    before = find_end<Direction::Both>(walk, search, selected, -1);
+    after = find_end<Direction::Both>(walk, search, selected, 1);
   }
 }
 
@@ -195,7 +196,7 @@ HWY_INLINE VI16 bit_where(MI16 mask, int bit) {
   return hn::IfThenElseZero(mask, hn::Set(dw, static_cast<std::int16_t>(bit)));
 }
 
-/// The greater of the line's shift and that of the pixel by itself, for half a vector.
+/// The greater of the line's shift and that of sub-pixel smoothing, for half a vector.
 HWY_INLINE VF shift_of(VF line, VF unlikeness, VF range, float subpixel) {
   const VF one = hn::Set(df, 1.0f);
   const VF ratio = hn::Div(unlikeness, hn::Mul(range, hn::Set(df, 12.0f)));
@@ -206,13 +207,13 @@ HWY_INLINE VF shift_of(VF line, VF unlikeness, VF range, float subpixel) {
   return hn::IfThenElse(hn::Lt(line, own), own, line);
 }
 
-/// Where the line through two ends leaves the pixel, and 0 where `nearer` is 0.
+/// The offset at which the line through two ends leaves the pixel; 0 if `nearer` is 0.
 HWY_INLINE VF line_shift(VF nearer, VF both) {
   const VF share = hn::Sub(hn::Set(df, 0.5f), hn::Div(nearer, both));
   return hn::IfThenElse(hn::Gt(nearer, hn::Zero(df)), share, hn::Zero(df));
 }
 
-void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& search, MI16 wanted,
+void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& search, MI16 selected,
                const FxaaEnds& ends, std::size_t x) {
   const VI16 m = load_luma(p), n = load_luma(p - stride), s = load_luma(p + stride), w = load_luma(p - 1),
              e = load_luma(p + 1);
@@ -231,8 +232,8 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   walk.twice = hn::Add(here, here);
 
   End before, after;
-  find_ends(walk, search, wanted, before, after);
-  // Who meets a tie goes no farther.
+  find_ends(walk, search, selected, before, after);
+  // Pixels with a tie are processed separately, by fxaa_tied_shift.
   const MI16 is_tied =
       hn::Or(hn::Eq(hn::Abs(before.error), walk.gradient), hn::Eq(hn::Abs(after.error), walk.gradient));
   const VI16 nearer = hn::IfThenElse(hn::Lt(before.distance, after.distance), before.error, after.error);
@@ -255,8 +256,8 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   hn::StoreMaskBits(dw, is_tied, ends.tied_bits + x / 8);
 }
 
-/// Where pixels of a part of a row are set: the first ones of blocks of `lanes` pixels. Listed first, so that the loop
-/// over them never guesses wrong which one comes next.
+/// The first pixels of the blocks of `lanes` pixels, within a part of a row, that contain selected pixels. They are
+/// listed before the loop over them, so that its branches are predictable.
 struct Blocks {
   static constexpr std::size_t part = 1024;  ///< pixels
   std::size_t count = 0;
@@ -284,8 +285,8 @@ void ends_row(const std::uint8_t* luma, std::ptrdiff_t stride, const FxaaSearch&
     for (std::size_t byte = begin / 8; byte < (end + lanes - 1) / lanes * lanes / 8; ++byte) ends.tied_bits[byte] = 0;
     for (std::size_t i = 0; i < blocks.count; ++i) {
       const std::size_t x = blocks.first[i];
-      const int wanted = bits[x / 8] | (lanes == 16 ? bits[x / 8 + 1] << 8 : 0);
-      const VI16 set = hn::And(hn::Set(dw, static_cast<std::int16_t>(wanted)), powers);
+      const int selected = bits[x / 8] | (lanes == 16 ? bits[x / 8 + 1] << 8 : 0);
+      const VI16 set = hn::And(hn::Set(dw, static_cast<std::int16_t>(selected)), powers);
       ends_some(luma + x, stride, search, hn::Eq(set, powers), ends, x);
     }
   }
@@ -295,8 +296,8 @@ using DI = hn::RebindToSigned<DF>;
 using VI = hn::Vec<DI>;
 constexpr DI dp;
 
-/// One channel of (1 - t) here + t there, rounded, in its place. With 2^23 added a code is the low bits of the float;
-/// what is above them is shifted out, but for the first channel's.
+/// One channel of (1 - t) here + t there, rounded, at its bit position. After adding 2^23, the code is in the low bits
+/// of the float; for all channels but the first, the higher bits are shifted out.
 template <int shift>
 HWY_INLINE VI mixed_channel(VI here, VI there, VF t) {
   const VI mask = hn::Set(dp, 255);
@@ -312,14 +313,14 @@ HWY_INLINE VI load_pixels(const std::uint8_t* p) {
   return hn::BitCast(dp, hn::LoadU(bytes, p));
 }
 
-/// A few pixels at the picture's sides, one by one.
+/// Filters single pixels at the sides of the image.
 void mix_few(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int bits,
              const FxaaEnds& ends, std::uint8_t* out, std::size_t begin, std::size_t end, std::size_t n) {
   for (std::size_t i = begin; i < end; ++i)
     if (bits >> (i - begin) & 1) stages::fxaa_mix_pixel(above, here, below, ends, out, i, n);
 }
 
-/// Eight pixels that have neighbours on both sides.
+/// Filters eight pixels that have neighbours on both sides.
 HWY_INLINE void mix_block(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int bits,
                           const FxaaEnds& ends, std::uint8_t* out, std::size_t x) {
   const hn::Rebind<std::uint8_t, DI> bytes;

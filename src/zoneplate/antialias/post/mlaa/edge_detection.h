@@ -10,13 +10,13 @@
 namespace zoneplate {
 
 struct MlaaKernels : PerIsa<MlaaKernels> {
-  /// Bit 0 of `edges`: left, bit 1: top: where luma (RowKernels::luma) differs by `threshold` at least and by half
-  /// of the greatest of the pixel's four differences.
+  /// Sets bit 0 (left) and bit 1 (top) of `edges` if luma (RowKernels::luma) differs by at least `threshold` and by at
+  /// least half of the greatest of the pixel's four differences.
   void (*luma_edges)(const EdgeRows<float>& rows, float threshold, std::uint8_t* edges, std::size_t n);
-  /// Where red, green or blue of a pixel differ by `least` at least from those before it (bit 0 of `edges`; never at
-  /// the first pixel) and above it (bit 1).
+  /// Sets bit 0 of `edges` if red, green or blue of a pixel differ by at least `least` from the previous pixel (never
+  /// at the first one), and bit 1 if they differ from the pixel above.
   ///
-  /// Shape     rows of n pixels of four codes; `least` is 16, 32, 64 or 128.
+  /// Shape     rows of n pixels of four bytes; `least` is 16, 32, 64 or 128.
   void (*edges_row)(const std::uint8_t* above, const std::uint8_t* here, int least, std::uint8_t* edges, std::size_t n);
 };
 

@@ -15,7 +15,7 @@ HWY_INLINE hn::Vec<D> load_pixels(D d, const std::uint8_t* p) {
   return hn::BitCast(d, hn::LoadU(bytes, p));
 }
 
-/// What of three channels' differences has one of the bits of `mask`.
+/// Whether the difference of any of the three channels has one of the bits of `mask`.
 template <class D>
 HWY_INLINE hn::Mask<D> differ(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> mask) {
   const hn::Repartition<std::uint8_t, D> bytes;
@@ -24,7 +24,7 @@ HWY_INLINE hn::Mask<D> differ(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> mask) 
   return hn::Not(hn::Eq(hn::And(difference, mask), hn::Zero(d)));
 }
 
-/// Stores 1 where `left` and 2 where `top` as bytes, one a lane.
+/// Stores 1 if `left` plus 2 if `top`, one byte per lane.
 template <class D, class M>
 HWY_INLINE void store_edges(D d, M left, M top, std::uint8_t* edges) {
   const hn::Rebind<std::uint8_t, D> bytes;

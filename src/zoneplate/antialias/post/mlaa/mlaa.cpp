@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Morphological antialiasing: interprets borders between different pixels as steps of straight lines, and blends each
-// pixel with the other side by the area that the line through the midpoints of the steps cuts off.
+// pixel with the other side by the area cut off by the line through the midpoints of the steps.
 //
-// The predecessor of SMAA, in both published forms. Weak at corners, which it rounds, and where noise breaks the
-// borders.
+// The predecessor of SMAA, in both published forms. Weaknesses: it rounds corners, and noise interrupts the borders.
 //
 // Source: Jimenez, Masia, Echevarria, Navarro, Gutierrez, Practical Morphological Anti-Aliasing, GPU Pro 2, 2011 (code
 // 2.0); Reshetov, Morphological Antialiasing, HPG 2009 (see reshetov.cpp).
@@ -21,7 +20,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// Areas for every pair of distances and every pair of crossing edges, without the smoothing that SMAA added; in 1/255.
+/// Areas for every pair of distances and every pair of crossing edges, in 1/255; without the smoothing that SMAA added.
 class MlaaAreas {
  public:
   explicit MlaaAreas(int greatest) : size_(greatest + 1), codes_(16 * static_cast<std::size_t>(size_ * size_)) {
@@ -60,7 +59,7 @@ EdgePlane find_edges(const Rgba8Image& image, const MlaaOptions& options, int bo
   return edges;
 }
 
-/// The edges along a line from one of its pixels, two at a time as the shader fetches them.
+/// The edges along a line, relative to one of its pixels; the shader fetches two of them at a time.
 struct Line {
   const std::uint8_t* pixel;
   std::ptrdiff_t along, across;
@@ -68,7 +67,7 @@ struct Line {
 
   int is(int i, int j, std::uint8_t edge) const { return pixel[i * along + j * across] & edge ? 1 : 0; }
 
-  /// The length of the line; of the last two pixels the fetch does not determine which one was an edge.
+  /// The length of the line; the fetch does not distinguish which one of the last two pixels is an edge.
   int distance(int direction, int steps) const {
     for (int i = 0; i < steps; ++i) {
       const int both = is(direction * (2 * i + 1), 0, own) + is(direction * (2 * i + 2), 0, own);
@@ -111,7 +110,7 @@ int reach_of(const MlaaOptions& options) {
   return options.kind == MlaaOptions::Kind::Reshetov ? whole_picture : 2 * options.steps + 4;
 }
 
-/// The second pass of one row, by the distances to the ends of its edges.
+/// The second pass for one row: weights from the distances to the ends of edges.
 void weigh(const EdgePlane& edges, const MlaaAreas& table, int steps, int y, WeightRow& out) {
   for (int block = 0; block < edges.width(); block += 8) {
     std::uint64_t any = 0;

@@ -28,9 +28,10 @@ Rgba8Image apply_mlaa(const Rgba8Image& image, const MlaaOptions& options, Rgba8
 using WeightPlane = Bordered<EdgeWeights>;
 WeightPlane mlaa_reshetov_weights(const Rgba8Image& image);
 
-/// The height in [0, 1] at which a line crosses the step between two columns, so that the mixed colours of both sides
-/// meet: ½ where none does. `near` and `across` are lumas at the line's end, this side of its border and the other;
-/// `beyond` and `beyond_near` those of the next column, in the same row as `near` and one farther from the border.
+/// The height in [0, 1] at which a line crosses the step between two columns such that the blended colours of both
+/// sides are equal; ½ if there is none. `near` and `across` are lumas at the line's end, on this side of its border and
+/// on the other; `beyond` and `beyond_near` are those of the next column, in the same row as `near` and one row farther
+/// from the border.
 float split_height(int near, int across, int beyond, int beyond_near);
 
 }  // namespace zoneplate::antialias

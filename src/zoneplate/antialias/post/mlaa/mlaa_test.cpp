@@ -59,7 +59,7 @@ TEST(Mlaa, KernelsFindTheEdgesOfTheirTwins) {
 }
 
 TEST(Mlaa, LinesAreFoundWhereverTheyBeginAndEnd) {
-  // Bars of every length, from every column and row: what a bar's end looks like does not depend on where it lies.
+  // Bars of all lengths at all columns and rows: the blending at a bar's end does not depend on its position.
   const auto bar = [](int begin, int end, bool is_level) {
     return make_codes(90, 90, [=](int x, int y) {
       const int along = is_level ? x : y, across = is_level ? y : x;
@@ -83,7 +83,7 @@ TEST(Mlaa, LinesAreFoundWhereverTheyBeginAndEnd) {
 }
 
 TEST(Mlaa, StepsOfOneLengthBecomeTheirLine) {
-  // Every step of a slope 1 / n is a Z, and the line through the middles of its ends is the edge itself.
+  // Every step of a slope 1 / n is a Z shape, and the line through the middles of its ends is the edge itself.
   for (const Kind kind : {Kind::Jimenez, Kind::Reshetov})
     for (int n = 3; n < 24; ++n) {
       const Rgba8Image stairs = make_codes(200, 90, [&](int x, int y) {
@@ -91,11 +91,11 @@ TEST(Mlaa, StepsOfOneLengthBecomeTheirLine) {
       });
       const Rgba8Image out = apply_mlaa(stairs, {.kind = kind, .mixes_light = false});
       for (int x = 2 * n; x < 200 - 2 * n; ++x) {
-        if (x % n == 0 || x % n == n - 1) continue;  // the steps themselves are lines too, of one pixel
+        if (x % n == 0 || x % n == n - 1) continue;  // the steps themselves are lines of one pixel
         for (int y = 0; y < 90; ++y) {
-          const double middle = 13.5 + (x + 0.5) / n;  // where the edge passes this column
+          const double middle = 13.5 + (x + 0.5) / n;  // the position of the edge in this column
           const double area = std::clamp(middle - y, 0.0, 1.0);
-          // A line that leaves the pixel's row inside the column is cut there: not more than 1 / (8 n).
+          // A line that leaves the pixel's row inside the column is clipped there: an error of at most 1 / (8 n).
           ASSERT_NEAR(out(x, y).g, 50 + 150 * area, 1.5 + 150 / (8.0 * n)) << n << ": " << x << "," << y;
         }
       }
@@ -110,13 +110,13 @@ TEST(Mlaa, InvertedPicturesGiveInvertedResults) {
   const Rgba8Image image = random_shapes(120, 90, 9);
   for (const Kind kind : {Kind::Jimenez, Kind::Reshetov}) {
     const MlaaOptions options{.kind = kind, .mixes_light = false};
-    // Rounding halves upwards is the one thing that is not turned.
+    // The results only differ by the rounding of halves, which is always upwards.
     EXPECT_EQ(count_differing(apply_mlaa(inverted(image), options), inverted(apply_mlaa(image, options)), 1), 0);
   }
 }
 
 TEST(Mlaa, LinesSplitWhereColoursMeet) {
-  EXPECT_EQ(split_height(0, 9, 9, 0), 0.5f);  // black and white: every height does
+  EXPECT_EQ(split_height(0, 9, 9, 0), 0.5f);  // black and white: every height is a solution
   // (1 - h) near + h across = h beyond + (1 - h) beyond_near
   for (const auto& [near, across, beyond, beyond_near] :
        {std::array{10, 90, 60, 30}, {0, 50, 20, 5}, {7, 200, 3, 150}}) {
@@ -125,7 +125,7 @@ TEST(Mlaa, LinesSplitWhereColoursMeet) {
     ASSERT_LE(h, 1);
     EXPECT_NEAR((1 - h) * near + h * across, h * beyond + (1 - h) * beyond_near, 1e-4);
   }
-  EXPECT_EQ(split_height(10, 20, 90, 30), 0.5f);  // no height does
+  EXPECT_EQ(split_height(10, 20, 90, 30), 0.5f);  // no height is a solution
 }
 
 TEST(Mlaa, WhatIsTooFaintIsNoEdge) {

@@ -2,8 +2,8 @@
 // The original morphological antialiasing: separation lines of any length, in L, Z and U shapes.
 //
 // A Z or U shape is split at its middle into two L shapes; each L is a triangle from a height on the step at its end to
-// the middle (for a single L, to the far end). The height is chosen so that the blended colours of both sides agree.
-// Lines of both directions are found in the original image, not in each other's result.
+// the middle (for a single L, to the far end). The height is chosen so that the blended colours of both sides are
+// equal. Lines of both directions are detected in the original image, not in each other's result.
 //
 // Source: Reshetov, Morphological Antialiasing, HPG 2009.
 #include <algorithm>
@@ -45,14 +45,14 @@ EdgePlane find_edges(const Rgba8Image& image) {
 
 constexpr std::uint64_t ones = 0x0101010101010101;
 
-/// For each of eight pixels with one of the edges, the bit of that edge in its byte.
+/// A mask of eight pixels that has the bit of `edge` in the byte of each pixel with that edge.
 std::uint64_t edges_of_eight(const std::uint8_t* pixels, std::uint8_t edge) {
   std::uint64_t eight = 0;
   std::memcpy(&eight, pixels, sizeof eight);
   return eight & edge * ones;
 }
 
-/// The same as eight consecutive bits, the first pixel's lowest.
+/// The same mask as eight consecutive bits, the first pixel in the lowest.
 std::uint64_t bits_of_eight(const std::uint8_t* pixels) {
   constexpr std::uint64_t gather = 0x0102040810204080;
   return edges_of_eight(pixels, left_edge) * gather >> 56;
@@ -66,7 +66,7 @@ class Lines {
   Lines(const Rgba8Image& image, const EdgePlane& edges, WeightPlane& weights, bool is_horizontal)
       : image_(image), edges_(edges), weights_(weights), is_horizontal_(is_horizontal) {}
 
-  /// Weighs the horizontal lines above row y, which are searched by eight pixels at a time.
+  /// Computes the weights of the horizontal lines above row y, which are searched eight pixels at a time.
   void weigh_row(int y) {
     const std::uint8_t* row = edges_.at(0, y);
     for (int x = 0; x < length();) {
@@ -82,8 +82,8 @@ class Lines {
     }
   }
 
-  /// Weighs the vertical lines on the left of `strip` columns from `first` on, row by row: a single column would load a
-  /// cache line for every pixel.
+  /// Computes the weights of the vertical lines on the left of `strip` columns starting at `first`, row by row: a
+  /// single column would load a cache line for every pixel.
   void weigh_strip(int first) {
     std::array<int, strip> begin;
     std::uint64_t open = 0;
@@ -113,7 +113,7 @@ class Lines {
   int count() const { return is_horizontal_ ? image_.height() : image_.width(); }
   int length() const { return is_horizontal_ ? image_.width() : image_.height(); }
   const std::uint8_t& edge(int i, int j) const { return *(is_horizontal_ ? edges_.at(i, j) : edges_.at(j, i)); }
-  /// Whether an edge crosses the line before pixel i of row j; none does at the image's sides.
+  /// Whether an edge crosses the line before pixel i of row j; false at the image's sides.
   bool crosses(int i, int j) const {
     return i > 0 && i < length() && edge(i, j) & (is_horizontal_ ? left_edge : top_edge);
   }
@@ -128,7 +128,7 @@ class Lines {
     const bool below[2] = {crosses(begin, j), crosses(end, j)}, above[2] = {crosses(begin, j - 1), crosses(end, j - 1)};
     Side side[2];
     for (int k = 0; k < 2; ++k) side[k] = below[k] == above[k] ? Side::None : below[k] ? Side::Below : Side::Above;
-    // An edge that crosses on both sides is joined with the side of the other end to a Z.
+    // If edges cross on both sides of an end, the side is chosen that makes a Z shape with the other end.
     for (int k = 0; k < 2; ++k)
       if (below[k] && above[k] && side[1 - k] != Side::None)
         side[k] = below[1 - k] && above[1 - k] ? Side::None : side[1 - k] == Side::Below ? Side::Above : Side::Below;
@@ -138,7 +138,7 @@ class Lines {
     if (side[1] != Side::None) weigh_part(end - 1, -1, reach, j, side[1]);
   }
 
-  /// The triangle that begins at the step before pixel `first` and ends `reach` pixels on.
+  /// Adds the triangle that begins at the step before pixel `first` and ends after `reach` pixels.
   void weigh_part(int first, int direction, float reach, int j, Side side) {
     const int near = side == Side::Below ? j : j - 1, across = side == Side::Below ? j - 1 : j;
     const int beyond = first - direction;

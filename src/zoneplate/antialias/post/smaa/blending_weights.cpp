@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// SMAA's second pass, blending weight calculation: how far each edge goes and what crosses its ends, and with that the
-// areas of its pixels.
+// SMAA's second pass, blending weight calculation: for each edge, the distances to its ends and the edges that cross
+// there determine the areas of its pixels.
 //
-// The shaders fetch between four or two pixels and decode what they find; here the pixels' bits are read themselves.
-// Left edges are top edges with x and y exchanged, so that one walk serves both.
+// The shaders fetch between four or two pixels and decode the result; this implementation reads the pixels' bits. Left
+// edges are top edges with x and y exchanged, so that the same code processes both.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,11 +17,11 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// What a search finds between four pixels, by their edges: of the nearer and the farther pixel of the line, and of
-/// those across from them, two bits each.
+/// The decoded result of a search fetch between four pixels. The index has the edges, two bits each, of the nearer and
+/// the farther pixel of the line and of the two across from them.
 struct SearchSteps {
-  static constexpr std::uint8_t length = 3;   ///< how many of the two belong to the line
-  static constexpr std::uint8_t goes_on = 4;  ///< both do, and nothing crosses
+  static constexpr std::uint8_t length = 3;   ///< the number of the two pixels that belong to the line
+  static constexpr std::uint8_t goes_on = 4;  ///< both pixels do, and no edge crosses
   std::array<std::uint8_t, 256> before{}, after{};
 
   SearchSteps(std::uint8_t own, std::uint8_t cross) {
@@ -41,7 +41,7 @@ struct SearchSteps {
   }
 };
 
-/// A distance as a place in the areas: whole cells and the share of the next one.
+/// The square root of a distance as a position in the area table: a cell and the fraction of the next one.
 struct Root {
   int cell = 0;
   float share = 0;
@@ -49,12 +49,12 @@ struct Root {
 
 }  // namespace
 
-/// What all pixels share.
+/// The data that is common to all pixels.
 struct SmaaTables {
   const AreaSlot* slots[4];
   SearchSteps along_top{top_edge, left_edge}, along_left{left_edge, top_edge};
   std::array<Root, 256> roots;
-  float corner_strength;  ///< how much of an area a corner takes
+  float corner_strength;  ///< the fraction of an area that a corner removes
 
   explicit SmaaTables(const SmaaOptions& o) {
     const AreaRounding rounding = o.is_postprocessing ? AreaRounding::Nearest : AreaRounding::Down;
@@ -69,12 +69,12 @@ struct SmaaTables {
 
 namespace {
 
-/// Two areas in [0, 1]: this pixel's share of the one across its border, and the other's share of this one.
+/// Two areas in [0, 1]: the weight of the pixel across the border in this one, and of this one in the other.
 struct Areas {
   float from = 0, to = 0;
 };
 
-/// The edges seen from one pixel, along or across a line that is horizontal (top edges) or vertical (left edges).
+/// The edges relative to one pixel, along or across a line that is horizontal (top edges) or vertical (left edges).
 template <std::uint8_t own>
 class Line {
  public:
@@ -88,8 +88,8 @@ class Line {
     const int right_code = 3 * crosses(after + 1, 0) + crosses(after + 1, -1);
     const Root l = tables.roots[static_cast<std::size_t>(std::abs(before))];
     const Root r = tables.roots[static_cast<std::size_t>(std::abs(after))];
-    // Where nothing crosses there is no area, but for what the fetch at the longest distances takes of the next
-    // pattern.
+    // Without crossing edges there is no area, except that at the longest distances the fetch interpolates with the
+    // next pattern.
     if (left_code + right_code == 0 && std::max(l.cell, r.cell) < 15) return {};
     Areas areas = fetch(slot, 16 * left_code + l.cell, l.share, 16 * right_code + r.cell, r.share);
     if (options.corner_rounding < 100) round_corners(before, after, tables.corner_strength, options, areas);
@@ -102,14 +102,14 @@ class Line {
 
   int crosses(int i, int j) const { return pixel_[i * along_ + j * across_] & cross ? 1 : 0; }
 
-  /// Where SearchSteps holds what is between pixel i of the line and the one beyond it.
+  /// The index in SearchSteps of the edges of pixel i of the line and of pixel `beyond`.
   std::size_t four(int i, int beyond) const {
     const std::uint8_t *p = pixel_ + i * along_, *q = pixel_ + beyond * along_;
     return static_cast<std::size_t>(p[0] | q[0] << 2 | *(p - across_) << 4 | *(q - across_) << 6);
   }
 
-  /// How many pairs of pixels from `first` on, to one side or the other, are a line that nothing crosses; no more than
-  /// `limit`. The pixels of a horizontal line follow each other: they are looked at by eight.
+  /// The number of consecutive pairs of pixels from `first` in one direction that continue the line without crossing
+  /// edges; at most `limit`. The pixels of a horizontal line are adjacent in memory and are tested eight at a time.
   int pairs_on(const SearchSteps& steps, int first, int direction, int limit) const {
     if constexpr (!is_top) {
       int k = 0;
@@ -130,7 +130,8 @@ class Line {
     return limit;
   }
 
-  /// The first and the last pixel of the line, as distances; the search goes by two pixels, `most` times at most.
+  /// The distances of the first and of the last pixel of the line; the search steps by two pixels, at most `most`
+  /// times.
   int start(const SearchSteps& steps, int most) const {
     const int k = pairs_on(steps, 0, -1, most - 1);
     return 1 - 2 * k - (steps.before[four(-2 * k, -2 * k - 1)] & SearchSteps::length);
@@ -153,7 +154,8 @@ class Line {
     return {mixed(0), mixed(1)};
   }
 
-  /// Where an edge crosses a little farther away, the line is the side of a sharp corner: less of it is taken.
+  /// If the edge that crosses an end continues one pixel farther across the line, the corner is sharp: the area is
+  /// reduced.
   void round_corners(int before, int after, float strength, const SmaaOptions& options, Areas& areas) const {
     const int l = options.is_postprocessing ? before : -before, r = after;
     const bool is_left = l <= r, is_right = r <= l;
@@ -189,16 +191,16 @@ class Diagonals {
   struct Found {
     int distance = 0;
     bool goes_on = false;  ///< the search ended on an edge
-    bool is_top = false;   ///< of the last pixel
+    bool is_top = false;   ///< whether the last pixel has a top edge
   };
   int left(int x, int y) const { return pixel_[y * stride_ + x] & left_edge ? 1 : 0; }
   int top(int x, int y) const { return pixel_[y * stride_ + x] & top_edge ? 1 : 0; }
 
-  /// False where neither search goes beyond its first pixel, which is too short.
+  /// False if both searches end at their first pixel, so that the diagonal is too short.
   bool may_rise() const { return (top(1, -1) && left(1, -1)) || (left(0, 0) && top(-1, 1) && left(-1, 1)); }
   bool may_fall() const { return (top(-1, -1) && left(0, -1)) || (left(1, 0) && top(1, 1) && left(2, 1)); }
 
-  /// Follows a diagonal as long as pixels have both edges; the left one is that of the pixel `shift` to the right.
+  /// Follows a diagonal while pixels have both edges; the left edge is that of the pixel `shift` to the right.
   Found search(int dx, int dy, int shift) const {
     Found f{-1, true, false};
     for (int x = 0, y = 0; f.distance < steps_ - 1 && f.goes_on;) {
@@ -284,7 +286,8 @@ void SmaaBlendingWeights::find(int y, WeightRow& out) const {
 }
 
 int smaa_reach(const SmaaOptions& options) {
-  // The search, the pixel across its end, what crosses two pixels away, and the edges' own look at their surroundings.
+  // The search, the pixel across its end, the edges that cross two pixels away, and the neighbourhood of edge
+  // detection.
   return std::max(2 * options.steps + 1, options.diagonal_steps + 1) + 4;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// SMAA's first pass, edge detection: a border is an edge where its difference reaches the threshold and half of the
+// SMAA's first pass, edge detection: a border is an edge if its difference reaches the threshold and half of the
 // greatest difference around it (local contrast adaptation). With predication a border's threshold depends on whether a
-// second buffer crosses it, which is found out first and noted in the edges themselves.
+// second buffer changes across it, which is determined first and stored in the edges themselves.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,7 +21,7 @@ const SmaaKernels PerIsa<SmaaKernels>::scalar = stages::smaa_edge_detection<scal
 namespace antialias {
 namespace {
 
-/// Differences of depth or of the predication buffer, without adaptation.
+/// Detects edges in depth or in the predication buffer, without adaptation.
 void detect_plain_edges(const Plane<float>& values, float threshold, EdgePlane& edges) {
   for_rows(edges.height(), [&](int y) {
     for (int x = 0; x < edges.width(); ++x) {
@@ -33,7 +33,7 @@ void detect_plain_edges(const Plane<float>& values, float threshold, EdgePlane& 
   });
 }
 
-/// The thresholds of both kinds of borders, each rounded by `rounded` to what the kernels compare with.
+/// The thresholds of both kinds of borders, each converted by `rounded` to the number that the kernels compare with.
 template <class T, class Rounded>
 PredicatedThreshold<T> predicated(const SmaaOptions& options, Rounded rounded) {
   const double plain = options.predication_scale * options.threshold;

@@ -26,7 +26,7 @@ template <class F, class Number, class T>
 [[gnu::always_inline]] inline BorderThresholds<Number> thresholds_of(T threshold, const std::uint8_t*) {
   return {number_of<Number>(threshold), number_of<Number>(threshold)};
 }
-/// `crossed`: what the edges hold before.
+/// `crossed` is the initial contents of the edges.
 template <class F, class Number, class T>
 [[gnu::always_inline]] inline BorderThresholds<Number> thresholds_of(PredicatedThreshold<T> threshold,
                                                                      const std::uint8_t* crossed) {
@@ -56,7 +56,7 @@ template <class Full, class One, class Threshold>
   });
 }
 
-// The original compares the pixel itself, not its neighbour, with the one after that.
+// As in the original, the pixel itself is compared with the second neighbour, not the neighbour with its next one.
 template <class Full, class One, class Threshold>
 [[gnu::flatten]] void smaa_color_edges(const EdgeRows<std::uint32_t>& rows, Threshold threshold, std::uint8_t* edges,
                                        std::size_t n) {

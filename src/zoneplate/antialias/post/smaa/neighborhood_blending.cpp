@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SMAA's third pass, neighborhood blending: each pixel is mixed with its neighbours on the axis of its greater weight.
+// SMAA's third pass, neighborhood blending: each pixel is blended with its neighbours on the axis of its greater
+// weight.
 #include <algorithm>
 #include <utility>
 
@@ -9,7 +10,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// A pixel mixed with its neighbours on the axis of its greater weight.
+/// Blends a pixel with its neighbours on the axis of its greater weight.
 Rgba8 mixed_pixel(const Rgba8Image& image, int x, int y, const TakenWeights& taken, bool mixes_light) {
   const auto at = [&](int i, int j) {
     const Rgba8 c = image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1));

@@ -2,18 +2,18 @@
 // SMAA: detects edges by contrast, follows each to its ends, and blends its pixels by the area under the line through
 // the ends.
 //
-// Preserves corners, detects diagonals, and smooths long edges better than FXAA. Weak on details thinner than a pixel:
-// thin wires stay broken, and an edge longer than the search is split in two. S2x improves wires and steep edges; long
-// isolated edges have a greater error than with one sample, because the original's areas for off-centre samples are the
-// mean of each step's line and of two halves.
+// It preserves corners, detects diagonals, and smooths long edges better than FXAA. Weaknesses: details thinner than a
+// pixel: thin wires stay broken, and an edge longer than the search is split in two. S2x improves wires and steep
+// edges; long isolated edges have a greater error than with one sample, because the original's areas for off-centre
+// samples are the mean of each step's line and of two halves.
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
 // code v2.8: 1x, S2x and predicated thresholds. Edges are detected on encoded values, colours blended in linear light.
 //
-// Predication doubles the thresholds except where a second buffer changes, which leaves textures unchanged and still
-// finds faint outlines. The original reads any buffer, and notes that the depth buffer itself works for short depth
-// ranges only. Here the buffer holds the logarithm of the distance along the view axis, so that 0.01 is one percent
-// everywhere, or object ids. Weak where neither changes: creases and coplanar borders.
+// Predication doubles the thresholds except where a second buffer changes, so that textures are unchanged and faint
+// outlines are still detected. The original accepts any buffer, and notes that the depth buffer itself is suitable for
+// short depth ranges only. Here the buffer is the logarithm of the distance along the view axis, so that 0.01 is one
+// percent everywhere, or object ids. Weakness: borders across which neither changes: creases and coplanar borders.
 #include "zoneplate/antialias/post/smaa/smaa.h"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ SmaaOptions options_of(const Settings& s) {
 
 Mixing mixing_of(const SmaaOptions& options) { return options.mixes_light ? Mixing::Linear : Mixing::Encoded; }
 
-/// A plane of the same size whose values are those of another plane, changed by `change`.
+/// A plane with the values of another plane, each transformed by `change`.
 template <class T, class Change>
 Plane<float> changed(const Plane<T>& from, Change change) {
   Plane<float> out(from.width(), from.height());
@@ -154,7 +154,7 @@ Display mean_of(const Display& a, const Display& b, Mixing mixing) {
   return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
 }
 
-/// S2x: each sample of the standard pattern of two makes a display-referred image, which is filtered on its own, with
+/// S2x: each sample of the standard pattern of two gives a display-referred image, which is filtered separately, with
 /// the areas for the sample's position.
 class SmaaS2x : public Resolver {
  public:

@@ -27,7 +27,7 @@ struct SmaaOptions {
   bool is_postprocessing = false;       ///< for tests: the rounded areas and signed corner distances of another program
 };
 
-// The three passes, by the names of the paper and its code:
+// The three passes, with the names of the paper and its code:
 //
 //   image, sRGB-encoded --+--> edge detection ------------------> edges: left, top of each pixel
 //   depth, ids (optional) --'                                         |
@@ -38,8 +38,8 @@ struct SmaaOptions {
 //   image, sRGB-encoded ------------------------> neighborhood blending ---> image, sRGB-encoded
 //                                                   (decodes the pixels that it blends, blends linear light, encodes)
 //
-// Luma and colour differences are computed on sRGB-encoded values: a threshold is then about equally visible in dark
-// and bright regions. Only the last pass needs linear light.
+// Luma and colour differences are computed on sRGB-encoded values: the visibility of a threshold is then about equal in
+// dark and bright regions. Only the last pass needs linear light.
 
 /// Edge detection, on the sRGB-encoded image or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer,
 /// of any unit, if `is_predicated` is set; a difference that is NaN (of two infinities) is below any threshold.

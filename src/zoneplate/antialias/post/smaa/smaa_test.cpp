@@ -20,12 +20,13 @@ namespace {
 
 using Edges = SmaaOptions::Edges;
 
-/// Hashes of what another implementation makes of the chart: edges and image of red, green and blue, weights of all.
+/// Hashes of another implementation's results for the chart: edges and image of red, green and blue, weights of all
+/// channels.
 struct Passes {
   std::uint64_t edges, weights, picture;
 };
 
-/// The presets, whether corners were looked for, and the passes for edges by luma and by colour.
+/// The presets, whether corners are detected, and the passes for edges by luma and by colour.
 ///
 /// Source: postprocessing 6.39 for three.js, whose shaders are those of SMAA 2.8, run in headless Chromium.
 struct Case {
@@ -154,7 +155,7 @@ TEST(Smaa, MixCodesBlendsEncodedValues) {
   EXPECT_NEAR(mean("smaa:mode=s2x"), encode_srgb(0.5f), 1e-6);
 }
 
-/// An image with texture of small contrast, and a predication buffer of steps, slopes and infinities.
+/// An image with a texture of small contrast, and a predication buffer with steps, slopes and infinities.
 struct Predicated {
   Rgba8Image image = random_shapes(203, 77, 3);
   Plane<float> buffer{203, 77};
@@ -176,8 +177,8 @@ struct Predicated {
   }
 };
 
-/// SMAALumaEdgeDetectionPS and SMAAColorEdgeDetectionPS of SMAA.hlsl v2.8 with SMAA_PREDICATION, written out for one
-/// pixel: the edges of its left and its top.
+/// SMAALumaEdgeDetectionPS and SMAAColorEdgeDetectionPS of SMAA.hlsl v2.8 with SMAA_PREDICATION, ported for one pixel:
+/// its left and top edges.
 class ShaderEdges {
  public:
   ShaderEdges(const Predicated& scene, const SmaaOptions& options) : scene_(scene), options_(options) {}
@@ -201,7 +202,7 @@ class ShaderEdges {
   }
 
  private:
-  /// Ties, which are of whole codes, count as reached.
+  /// Ties, which occur with integer codes, count as reached.
   static bool reaches(double value, double threshold) { return value > threshold - 1e-9; }
   static int clamped(int i, int size) { return std::clamp(i, 0, size - 1); }
   float predicate(int x, int y) const { return scene_.buffer(clamped(x, 203), clamped(y, 77)); }
@@ -295,10 +296,10 @@ TEST(Smaa, PredicationByDepthLeavesTexturesAlone) {
   // 1.5 % are less than a threshold of 2 %.
   EXPECT_EQ(treated("smaa:predication=depth,pthreshold=0.02"), before);
   EXPECT_EQ(treated("smaa:predication=depth,pscale=1,pstrength=0"), plain);
-  const auto asks = [](const char* method) { return make_resolver(methods(), method)->request({}).planes; };
-  EXPECT_TRUE(asks("smaa:predication=depth").depth);
-  EXPECT_TRUE(asks("smaa:predication=objects").object_id);
-  EXPECT_FALSE(asks("smaa").depth);
+  const auto planes_of = [](const char* method) { return make_resolver(methods(), method)->request({}).planes; };
+  EXPECT_TRUE(planes_of("smaa:predication=depth").depth);
+  EXPECT_TRUE(planes_of("smaa:predication=objects").object_id);
+  EXPECT_FALSE(planes_of("smaa").depth);
   for (const char* wrong : {"smaa:predication=depth,edges=depth", "smaa:predication=depth,mode=s2x", "smaa:pscale=3"})
     EXPECT_THROW(make_resolver(methods(), wrong), Error) << wrong;
 }
@@ -366,7 +367,7 @@ TEST(Smaa, LevelEdgesComeNearTheirArea) {
   }
 }
 
-/// The error of smaa:mode=s2x on a band; `exchanged` gives each sample's image to the other's place.
+/// The error of smaa:mode=s2x on a band; `exchanged` swaps the images of the two samples.
 double error_of_s2x(const Band& band, bool exchanged) {
   const std::unique_ptr<Resolver> resolver = make_resolver(methods(), "smaa:mode=s2x");
   const Request request = resolver->request({});
@@ -388,7 +389,7 @@ double error_of_s2x(const Band& band, bool exchanged) {
 TEST(Smaa, TwoSamplesSeeThinBandsAndExchangedPlacesSpoilThem) {
   double one = 0, two = 0;
   for (const double run : {3.0, 4.5, 7.0, 11.0, 20.0}) {
-    // A band of two thirds of a pixel is broken at one sample a pixel.
+    // A band of two thirds of a pixel is interrupted at one sample per pixel.
     const Band thin{run, 0.67}, plane{run, 1000};
     one += thin.error(apply_smaa(thin.codes(0.5, 0.5), nullptr, {}));
     two += error_of_s2x(thin, false);
@@ -399,8 +400,8 @@ TEST(Smaa, TwoSamplesSeeThinBandsAndExchangedPlacesSpoilThem) {
 }
 
 TEST(Smaa, TwoSamplesBeatOneWhereEdgesAreSteepAndLoseWhereTheyAreLongAndAlone) {
-  // For samples beside the centre the original's areas of a step are the mean of the line's and of its two halves'
-  // (SmaaTables.StepsSeenFromBesideTheCentreAreHalfwayToTheirHalves), which costs what two samples gain.
+  // For off-centre samples the original's areas of a step are the mean of the line's and of its two halves'
+  // (SmaaTables.StepsSeenFromBesideTheCentreAreHalfwayToTheirHalves), whose error cancels the gain of two samples.
   for (const double run : {2.0, 4.5, 20.0, 30.0}) {
     double one = 0, two = 0;
     for (int k = 0; k < 4; ++k) {
@@ -417,7 +418,8 @@ TEST(Smaa, TwoSamplesBeatOneWhereEdgesAreSteepAndLoseWhereTheyAreLongAndAlone) {
 }
 
 TEST(Smaa, TwoSamplesAloneSeeALevelEdgeToTheHalf) {
-  // Nothing crosses an exactly level edge, so that nothing is followed: its pixels are the mean of their two samples.
+  // No edge crosses an exactly horizontal edge, so that no search applies: its pixels are the mean of their two
+  // samples.
   for (const double height : {20.1, 20.4, 20.6, 20.9}) {
     const Band level{1e12, 1000, height};
     EXPECT_NEAR(error_of_s2x(level, false),
@@ -429,8 +431,8 @@ TEST(Smaa, TwoSamplesAloneSeeALevelEdgeToTheHalf) {
 }
 
 TEST(Smaa, TwoSamplesUseTheAreasOfTheirDiagonals) {
-  // Rising edges near the diagonal, across which the two samples lie: with their slots they come nearer to the area
-  // than one sample does; with each other's or with none they do not.
+  // Rising edges near the diagonal, between the two samples: with the samples' own slots the result is closer to the
+  // area than with one sample; with exchanged slots or without slots it is not.
   for (const double run : {1.15, 1.3}) {
     const auto depth = [&](double x, double y) { return y - (10.13 + (64 - x) / run); };
     const auto seen = [&](double u, double v) {
@@ -448,9 +450,9 @@ TEST(Smaa, TwoSamplesUseTheAreasOfTheirDiagonals) {
       int count = 0;
       for (int y = 0; y < 80; ++y)
         for (int x = 12; x < 52; ++x) {
-          const double wanted = area(x, y);
+          const double expected = area(x, y);
           const double light = static_cast<double>(decode_srgb8(a(x, y).g) + decode_srgb8(b(x, y).g)) / 2;
-          if (wanted > 0 && wanted < 1) sum += (light - wanted) * (light - wanted), ++count;
+          if (expected > 0 && expected < 1) sum += (light - expected) * (light - expected), ++count;
         }
       return std::sqrt(sum / count);
     };

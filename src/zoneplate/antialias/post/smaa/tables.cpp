@@ -21,7 +21,7 @@ struct Point {
 AreaPair operator+(AreaPair a, AreaPair b) { return {a.below + b.below, a.above + b.above}; }
 AreaPair half(AreaPair a) { return {a.below / 2, a.above / 2}; }
 
-/// What the line from p to q takes of the pixel column [left, left + 1].
+/// The areas of the pixel column [left, left + 1] below and above the line from p to q.
 AreaPair area_under(Point p, Point q, int left) {
   const double dx = q.x - p.x, dy = q.y - p.y;
   const double x1 = left, x2 = left + 1.0;
@@ -43,7 +43,7 @@ AreaPair area_under(Point p, Point q, int left) {
   return a < 0 ? AreaPair{std::abs(a1), std::abs(a2)} : AreaPair{std::abs(a2), std::abs(a1)};
 }
 
-/// A short U is made rounder than its lines: from half the root of twice the area to the area, over 32 pixels.
+/// Rounds a short U shape: interpolates from half the root of twice the area to the area, over 32 pixels.
 AreaPair smoothed(double length, AreaPair a) {
   const double p = std::clamp(length / 32, 0.0, 1.0);
   const auto smooth = [p](double v) {
@@ -97,7 +97,7 @@ AreaPair orthogonal_area(int pattern, int left, int right, double offset, bool i
 
 namespace {
 
-/// Where a pattern's cell begins, in units of a cell's size: x by the left end, y by the right one.
+/// The first cell of a pattern, in units of a pattern's size: x by the left end, y by the right one.
 struct Cell {
   int x, y;
 };
@@ -106,8 +106,8 @@ constexpr Cell orthogonal_cells[16] = {{0, 0}, {3, 0}, {0, 3}, {3, 3}, {1, 0}, {
 constexpr Cell diagonal_cells[16] = {{0, 0}, {1, 0}, {0, 2}, {1, 2}, {2, 0}, {3, 0}, {2, 2}, {3, 2},
                                      {0, 1}, {1, 1}, {0, 3}, {1, 3}, {2, 1}, {3, 1}, {2, 3}, {3, 3}};
 
-/// The one or two lines by which a diagonal pattern is revectorised: from a corner of the first pixel to one beyond
-/// the last.
+/// A line by which a diagonal pattern is revectorised, from a corner of the first pixel to one beyond the last; a
+/// pattern has one or two.
 struct DiagonalLine {
   Point from, to;
 };
@@ -132,9 +132,9 @@ constexpr DiagonalLines diagonal_lines[16] = {{2, {{{1, 1}, {1, 1}}, {{1, 0}, {1
                                               {2, {{{1, 1}, {1, 1}}, {{1, 1}, {1, 0}}}},
                                               {2, {{{1, 1}, {1, 1}}, {{1, 0}, {1, 0}}}}};
 
-/// The share of 30 × 30 points of the pixel at `corner` that lie on the positive side of the line from p to q.
+/// The fraction of 30 × 30 points of the pixel at `corner` that are on the positive side of the line from p to q.
 ///
-/// Rounding keeps order, so that along a row of points the side changes once, and is looked for by halving.
+/// Rounding is monotonic, so that along a row of points the side changes at most once, and bisection finds where.
 double share_beyond(Point p, Point q, Point corner) {
   constexpr int points = 30;
   if (p.x == q.x && p.y == q.y) return 1;
@@ -147,7 +147,7 @@ double share_beyond(Point p, Point q, Point corner) {
   int count = 0;
   for (int j = 0; j < points; ++j) {
     const bool rises = a >= 0;
-    int low = 0, high = points;  // the first point whose side is that of the row's end
+    int low = 0, high = points;  // the first point that is on the same side as the row's end
     while (low < high) {
       const int i = (low + high) / 2;
       if (is_beyond(i, j) == rises)

@@ -7,28 +7,28 @@
 
 namespace zoneplate::antialias {
 
-/// The two areas that a revectorised edge takes: of the pixel below (or right of) the border and of the one above.
+/// The two areas of a revectorised edge: in the pixel below (or right of) the border and in the one above (or left of)
+/// it.
 struct AreaPair {
   double below = 0, above = 0;
 };
 
-/// What crosses an edge's two ends, as bits of a pattern in [0, 16).
+/// The edges that cross the two ends of an edge, as bits of a pattern in [0, 16).
 enum : int { left_down = 1, right_down = 2, left_up = 4, right_up = 8 };
 
-/// Areas in a pixel of an axis-parallel edge, `left` pixels from its left end and `right` from its right one.
+/// The areas in a pixel of an axis-parallel edge, `left` pixels from its left end and `right` from its right one.
 ///
-/// Edges     `offset` is where the sample lies across the edge, in pixels; `is_smooth` rounds short U shapes, as SMAA
-///           does and MLAA does not.
+/// Edges     `offset` is the position of the sample across the edge, in pixels; `is_smooth` rounds short U shapes, as
+///           SMAA does and MLAA does not.
 /// Exact     the operations of the reference generator in its order.
 AreaPair orthogonal_area(int pattern, int left, int right, double offset, bool is_smooth);
 
-/// Areas at a diagonal edge whose sample is displaced by `offset_x`, `offset_y`.
+/// The areas at a diagonal edge whose sample is displaced by `offset_x`, `offset_y`.
 ///
-/// Exact     shares of a grid of 30 × 30 points, as in the reference generator.
+/// Exact     fractions of a grid of 30 × 30 points, as in the reference generator.
 AreaPair diagonal_area(int pattern, int left, int right, double offset_x, double offset_y);
 
-/// How many pixels of the last two that a search has seen still belong to its line, and where a pattern lies in a
-/// table.
+/// The rounding of areas to 8 bits.
 enum class AreaRounding {
   Down,     ///< as in SMAA's own table
   Nearest,  ///< as in other generators of it
@@ -43,15 +43,15 @@ struct AreaSlot {
   std::array<std::uint8_t, 2 * size * size> orthogonal{}, diagonal{};
 };
 
-/// Slots 0 to 6; the diagonal part of 5 and 6 is empty. A table is made at its first use, and kept.
+/// Slots 0 to 6; the diagonal part of 5 and 6 is empty. A table is computed at its first use, and kept.
 ///
 /// Source    Jimenez et al., SMAA, v2.8, AreaTex.
 const AreaSlot& area_slot(int slot, AreaRounding rounding = AreaRounding::Down);
 
-/// SMAA's search texture: 127 times how many of the last two pixels that a search fetched belong to its line.
+/// SMAA's search texture: 127 times the number of the last two fetched pixels that belong to the line of a search.
 ///
-/// Shape     64 × 16, by the fetched values in 1/32: x of the crossing edges (the left search's half, then the right
-///           one's), y of the edges along, from 32 downwards.
+/// Shape     64 × 16, indexed by the fetched values in 1/32: x by the crossing edges (first the left search's half,
+///           then the right one's), y by the edges along the line, from 32 downwards.
 std::vector<std::uint8_t> make_search_table();
 
 }  // namespace zoneplate::antialias

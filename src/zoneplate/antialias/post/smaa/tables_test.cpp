@@ -9,7 +9,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// The slots put together as the texture of 160 × 560.
+/// The slots assembled to the texture of 160 × 560.
 std::vector<std::uint8_t> whole_area_table() {
   std::vector<std::uint8_t> table;
   for (int slot = 0; slot < 7; ++slot)
@@ -19,7 +19,7 @@ std::vector<std::uint8_t> whole_area_table() {
   return table;
 }
 
-// The sums below are those of AreaTex.h and SearchTex.h of SMAA 2.8.
+// The checksums below are those of AreaTex.h and SearchTex.h of SMAA 2.8.
 std::uint64_t crc_of(const std::vector<std::uint8_t>& bytes) {
   return crc32(0, bytes.data(), static_cast<uInt>(bytes.size()));
 }
@@ -37,7 +37,7 @@ TEST(SmaaTables, SearchLengthsEqualThoseOfVersion28) {
 }
 
 TEST(SmaaTables, ALongStepsAreasAreThoseOfTheLineThroughIt) {
-  // Pattern 6 falls from half a pixel above the border to half a pixel below it: what a column takes is exact.
+  // Pattern 6 falls from half a pixel above the border to half a pixel below it: the areas of a column are exact.
   for (int length = 1; length < 40; ++length)
     for (int left = 0; left < length; ++left) {
       const AreaPair a = orthogonal_area(left_up | right_down, left, length - 1 - left, 0, true);
@@ -52,8 +52,9 @@ TEST(SmaaTables, ALongStepsAreasAreThoseOfTheLineThroughIt) {
 }
 
 TEST(SmaaTables, StepsSeenFromBesideTheCentreAreHalfwayToTheirHalves) {
-  // A sample a quarter of a pixel above or below the centre sees the line that far off. The original takes the mean of
-  // that line and of two that meet on the border: an error of an eighth of a pixel in the middle of a long step.
+  // For a sample a quarter of a pixel above or below the centre, the line is displaced by as much. The original uses
+  // the mean of that line and of two lines that meet on the border: an error of an eighth of a pixel in the middle of a
+  // long step.
   for (const double offset : {-0.25, 0.25})
     for (const int length : {2, 7, 40}) {
       double farthest = 0;
@@ -84,7 +85,7 @@ TEST(SmaaTables, MirroredPatternsHaveMirroredAreas) {
           const AreaPair a = orthogonal_area(pattern, left, right, offset, true);
           const AreaPair m = orthogonal_area(mirrored(pattern), right, left, offset, true);
           const AreaPair t = orthogonal_area(turned(pattern), left, right, -offset, true);
-          // Of patterns with three or four ends the line is a choice, and of the choice left and right are not alike.
+          // For patterns with three or four ends the line is a choice, which is not symmetric in left and right.
           if (std::popcount(static_cast<unsigned>(pattern)) < 3) {
             ASSERT_NEAR(a.below, m.below, 1e-12) << pattern;
             ASSERT_NEAR(a.above, m.above, 1e-12) << pattern;

@@ -6,11 +6,13 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr float suspicious = 1.0f / 16;  // of the margin: a change of the mean that a hole in the part would cause
+// Relative difference of alpha at the centre from the mean of the corners that indicates a hole in the part.
+constexpr float suspicious = 1.0f / 16;
 
 bool is_there(float margin) { return margin >= 0; }
 
-/// A line through two places, the inner side on the right of the way from p to q (y down); nothing where they coincide.
+/// The line through two positions, with the inner side on the right of the direction from p to q (y down). If they
+/// coincide, no point is inside.
 Line line_through(Place p, Place q) {
   const double dx = q.x - p.x, dy = q.y - p.y, length = std::sqrt(dx * dx + dy * dy);
   if (!(length > 1e-9)) return {0, 0, -1};
@@ -30,7 +32,7 @@ std::uint32_t AlphaEdges::add_query(int x, int y, std::int32_t id, std::uint32_t
   return static_cast<std::uint32_t>(queries_.size() - 1);
 }
 
-/// The lattice's place nearest to the border of a square of the pixel, of which there are grid × cells along its side.
+/// The position of the lattice nearest to the border of a square, of which there are grid × cells along a pixel's side.
 std::int32_t AlphaEdges::place(int cell) const {
   const int count = grid_ * cells;
   return (2 * 256 * cell + count) / (2 * count);
@@ -47,7 +49,7 @@ void AlphaEdges::solve() {
   find_crossings();
 }
 
-/// Which parts have an edge in them.
+/// Determines the parts that contain an edge.
 void AlphaEdges::find_mixed() {
   points_.clear(), centres_.clear();
   for (const Query& a : queries_) {
@@ -102,7 +104,8 @@ void AlphaEdges::add_crossing(std::uint32_t edge, std::uint32_t side, int column
   crossings_.push_back({edge, side, p, q, low, high, begin, end - begin});
 }
 
-/// Halves what holds the crossings until they lie between neighbours of the lattice, a step of all of them at a time.
+/// Bisects the intervals that contain the crossings until each is between neighbouring lattice positions. Each step
+/// evaluates alpha for all intervals at once.
 void AlphaEdges::bisect() {
   const auto span = [](const Crossing& c) { return (c.high.x - c.low.x) + (c.high.y - c.low.y); };
   const auto middle = [](const Crossing& c) {
@@ -166,7 +169,7 @@ AlphaEdges::Cuts AlphaEdges::cuts_of(const Query& a, const Edge& e, int column, 
         return crossing_place(a, e, column, row, true);
     }
   };
-  // Each run of corners that are cut off ends at two crossings: the line leaves by that before it.
+  // Each run of consecutive corners with state `keeps` is bounded by two crossings, through which a line is cut.
   for (int k = 0; k < 4; ++k) {
     if (there[k] != out.keeps || there[(k + 3) & 3] == out.keeps) continue;
     int last = k;

@@ -19,9 +19,9 @@ class AlphaTester {
       : target_(std::move(target)), shader_(projected, shader, target_) {
     target_.spacing = spacing;
   }
-  AlphaTester(const AlphaTester&) = delete;  // the shader refers to this target
+  AlphaTester(const AlphaTester&) = delete;  // the shader stores a reference to this target
 
-  /// By position: alpha minus the cutoff. The surface is present where that is >= 0.
+  /// For each position, alpha minus the cutoff. The surface is present where that is >= 0.
   std::span<const float> margins(std::span<const Fragment> points) {
     shader_.find_alpha_margins(points, margins_);
     return margins_;
@@ -34,18 +34,18 @@ class AlphaTester {
   std::vector<float> margins_;
 };
 
-/// The regions of a pixel where alpha-tested triangles are present: the contour where alpha crosses the cutoff, as a
-/// polyline, computed in parts of a pixel.
+/// The regions of a pixel where alpha-tested triangles are present: the contour where alpha equals the cutoff, as a
+/// polyline, computed separately for parts of a pixel.
 ///
-/// A part is one of grid × grid squares. If alpha at its four corners lies on one side of the cutoff, and alpha at its
+/// A part is one of grid × grid squares. If alpha at its four corners is on one side of the cutoff, and alpha at its
 /// centre for the footprint of the whole part hardly differs from their mean, the triangle is present in all of the
 /// part or in none of it. Otherwise the part is divided into 4 × 4 squares; where the corners of a square differ, the
 /// contour is a straight line between its crossings of the square's sides (marching squares). A crossing is found by
-/// bisection to 1/256 pixel and interpolated from there.
+/// bisection to 1/256 pixel and then interpolated.
 ///
-/// Alpha     is evaluated for a footprint of 1/16 of a part, also beyond the triangle's sides, by extrapolation.
-/// Errors    of a smooth contour: its sagitta over a quarter of a part; of a contour where alpha jumps (nearest-texel
-///           filtering): 1/512 pixel. Holes and islands smaller than a quarter of a part may be missed.
+/// Alpha     is evaluated for a footprint of 1/16 of a part, and extrapolated beyond the triangle's sides.
+/// Errors    of a smooth contour: its sagitta over a quarter of a part; of a contour where alpha is discontinuous
+///           (nearest-texel filtering): 1/512 pixel. Holes and islands smaller than a quarter of a part may be missed.
 /// Source    Lorensen and Cline, Marching Cubes, SIGGRAPH 1987, in two dimensions.
 class AlphaEdges {
  public:
@@ -65,7 +65,7 @@ class AlphaEdges {
 
   /// Splits a polygon by result `number`: calls there(p) for the pieces where the triangle is present, away(p) for the
   /// others.
-  /// Requires  not more than 12 corners.
+  /// Requires  at most 12 corners.
   template <class There, class Away>
   void split(std::uint32_t number, const ConvexPolygon& polygon, There there, Away away) const;
 
@@ -78,19 +78,20 @@ class AlphaEdges {
   struct Query {
     std::int32_t x, y;  ///< the pixel, in 1/256 pixel
     std::int32_t id;
-    int column, row;  ///< of the part
+    int column, row;  ///< column and row of the part
     bool is_there = false;
     std::int32_t edge = -1;  ///< index into edges_ if the contour crosses the part
   };
   struct Edge {
     std::uint32_t query;
     std::array<float, corners> margin;  ///< row by row
-    std::array<float, sides> crossing;  ///< position of the crossing on a side, from its left or upper end: in [0, 1]
+    /// Position of the crossing on each side, from its left or upper end, in [0, 1].
+    std::array<float, sides> crossing;
   };
-  /// A crossing of alpha's contour with a side of a square, between two points of the lattice.
+  /// A crossing of alpha's contour with a side of a square, between two lattice positions.
   struct Crossing {
     std::uint32_t edge, side;
-    Fragment low, high;  ///< in x or y
+    Fragment low, high;  ///< the ends of the interval, in x or y
     float margin_low, margin_high;
     std::int32_t begin, length;
   };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact coverage: the visible polygons of every pixel, with exact hidden-surface removal, and the integral of the
-// filter over each polygon in closed form. A reference for all other methods, free of sampling noise.
+// filter over each polygon in closed form. A reference for all other methods, without sampling noise.
 //
 // Coverage is exact; the colour is that of each visible surface at the centroid of its visible part of the pixel, or
-// with shading=n the mean over n × n parts of the pixel. Alpha-tested surfaces end along the line where alpha crosses
-// the cutoff, which is followed in mask × mask parts; blended ones are composited in their exact order. Pixels that are
-// too crowded for polygons are sampled, up to 4,096 times, with an estimate of the error (--aov error: 0 where no
-// samples were taken). Weak where shading varies faster than the parts of a pixel: highlights and textures far smaller
+// with shading=n the mean over n × n parts of the pixel. Alpha-tested surfaces end at the contour where alpha equals
+// the cutoff, which is approximated in mask × mask parts; blended ones are composited in their exact order. Pixels that
+// are too crowded for polygons are sampled, up to 4,096 times, with an estimate of the error (--aov error: 0 if no
+// samples were taken). Weaknesses: shading that varies within a part of a pixel: highlights and textures far smaller
 // than a pixel are only sampled.
 //
 // Source: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978; wider filters: Duff, Polygon Scan

@@ -20,7 +20,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr Linear white{1, 1, 1, 1}, red{0.8f, 0.1f, 0.1f, 1}, blue{0.1f, 0.2f, 0.9f, 1};
 
-/// The pixel's area on the side of a line where dot(normal, p) < distance from its centre: a sum of two uniforms.
+/// The area of the pixel's part where dot(normal, p) < distance from its centre: the distribution of a sum of two
+/// uniform variables.
 double half_plane(double nx, double ny, double distance) {
   const double m = std::max(std::abs(nx), std::abs(ny)), n = std::min(std::abs(nx), std::abs(ny));
   const double d = std::abs(distance);
@@ -34,7 +35,7 @@ double half_plane(double nx, double ny, double distance) {
 
 double snapped(double v) { return std::floor(v * 256 + 0.5) / 256; }
 
-/// A half-plane over an image, its edge through snapped places.
+/// A half-plane over an image, with its edge through snapped positions.
 struct HalfPlane {
   double nx, ny, offset;  ///< nx x + ny y < offset, in pixels
   FlatTriangles scene;
@@ -51,7 +52,7 @@ struct HalfPlane {
   double area(int x, int y) const { return half_plane(nx, ny, offset - nx * (x + 0.5) - ny * (y + 0.5)); }
 };
 
-/// Triangles of all sizes that overlap and pass through each other, as sharp as snapping allows.
+/// Triangles of all sizes that overlap and intersect each other, with snapped vertices.
 FlatTriangles soup(std::uint32_t seed, int count, int side) {
   Numbers random(seed);
   FlatTriangles scene(side, side);
@@ -91,7 +92,7 @@ TEST(Analytic, CoverageIsTheAreaItself) {
 }
 
 TEST(Analytic, OfGridsTheErrorFallsAsTheirNumberToThreeHalves) {
-  // Root mean squares over all half-planes that cross a pixel: 0.0887, 0.0315, 0.0112 of grids of 2, 4, 8.
+  // Root mean square errors over all half-planes that cross a pixel: 0.0887, 0.0315, 0.0112 for grids of 2, 4, 8.
   constexpr int side = 32, lines = 60;
   for (const auto& [n, expected] : {std::pair{2, 0.0887}, {4, 0.0315}, {8, 0.0112}}) {
     double squares = 0;
@@ -109,14 +110,14 @@ TEST(Analytic, OfGridsTheErrorFallsAsTheirNumberToThreeHalves) {
 }
 
 TEST(Analytic, GridsOf64x64ComeToIt) {
-  // A single edge: within a row of the grid and its ends.
+  // A single edge: the error of the grid is at most a row and its ends.
   for (int k = 0; k < 6; ++k) {
     const HalfPlane edge(16, 2 * pi * (k + 0.21) / 6, 0.7 * k);
     const LinearImage exact = edge.scene.analytic(), grid = edge.scene.sampled(grid_pattern(64));
     for (std::size_t i = 0; i < exact.values().size(); ++i)
       EXPECT_NEAR(exact.values()[i].a, grid.values()[i].a, 1.0 / 128);
   }
-  // Scenes of many triangles that hide and cross one another.
+  // Scenes of many triangles that occlude and intersect each other.
   double squares = 0;
   int count = 0;
   for (std::uint32_t seed = 0; seed < 4; ++seed) {
@@ -129,7 +130,7 @@ TEST(Analytic, GridsOf64x64ComeToIt) {
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 6e-4);
-  EXPECT_GT(std::sqrt(squares / count), 1e-5);  // there are edges in it
+  EXPECT_GT(std::sqrt(squares / count), 1e-5);  // the scene has edges
 }
 
 TEST(Analytic, NeitherOrderNorThreadsNorCropsLeaveATrace) {
@@ -148,8 +149,9 @@ TEST(Analytic, NeitherOrderNorThreadsNorCropsLeaveATrace) {
 }
 
 TEST(Analytic, WhatIsSeenOfAPixelSumsToAllOfIt) {
-  // Before a backdrop the pixels of any soup are full, to the last bit that a float has: nothing leaks, nothing counts
-  // twice. Doubles and neighbours are in it, and a crowd of slivers in one pixel.
+  // In front of a backdrop, all pixels of a soup of triangles are covered completely, to the last bit of a float:
+  // coverage has no gaps and no overlaps. The soup includes duplicates, adjacent triangles, and many slivers in one
+  // pixel.
   for (std::uint32_t seed = 20; seed < 24; ++seed) {
     FlatTriangles scene = soup(seed, 80, 16);
     Numbers random(seed);
@@ -189,7 +191,7 @@ TEST(Analytic, NeighboursLeaveNoSeamHoweverSmall) {
 }
 
 TEST(Analytic, WideFiltersAreTheirIntegralsOverAnEdge) {
-  // An upright edge at x = 7.3 and a level one at 5.7: the product of two integrals of the kernel.
+  // A vertical edge at x = 7.3 and a horizontal one at 5.7: the result is the product of two integrals of the kernel.
   constexpr int side = 16;
   const double ex = snapped(7.3), ey = snapped(5.7);
   FlatTriangles scene(side, side);
@@ -204,7 +206,8 @@ TEST(Analytic, WideFiltersAreTheirIntegralsOverAnEdge) {
 }
 
 TEST(Analytic, BlendedSurfacesAreLaidOverInTheirOrderWhereTheyAre) {
-  // Half of a pixel: glass before paint; the glass passes through a second one at x = 4.5, so that both orders show.
+  // Half of a pixel: glass in front of paint; the glass intersects a second one at x = 4.5, so that both orders are
+  // visible.
   FlatTriangles scene(8, 8);
   const Linear glass{0.5f, 0, 0, 0.5f}, smoke{0, 0.25f, 0, 0.25f};
   scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 4.5, 0.2f}, {0, 4.5, 0.2f}, blue);
@@ -227,14 +230,14 @@ TEST(Analytic, BlendedSurfacesAreLaidOverInTheirOrderWhereTheyAre) {
   expect_near(image(6, 6), over(glass, over(smoke, nothing)));
 }
 
-/// A masked red surface, which ends at y = 4.5, over a blue one.
+/// An alpha-tested red surface, which ends at y = 4.5, over a blue one.
 FlatTriangles masked_over_blue() {
   FlatTriangles scene(8, 8);
   scene.add_quad({0, 0, 0.2f}, {8, 0, 0.2f}, {8, 8, 0.2f}, {0, 8, 0.2f}, blue);
   scene.add_quad({0, 0, 0.6f}, {8, 0, 0.6f}, {8, 4.5, 0.6f}, {0, 4.5, 0.6f}, red, AlphaMode::Mask);
   return scene;
 }
-/// How much of a pixel of that is red.
+/// The red fraction of a pixel of that scene.
 double red_share(Linear c) { return (c.b - blue.b) / (red.b - blue.b); }
 
 TEST(Analytic, MasksEndAlongTheLineWhereAlphaCrossesTheCutoff) {
@@ -249,10 +252,10 @@ TEST(Analytic, MasksEndAlongTheLineWhereAlphaCrossesTheCutoff) {
   EXPECT_NEAR(red_share(smooth(3, 2)), 100.3 / 256, 1e-5);
   EXPECT_NEAR(red_share(smooth(2, 4)), 0.5, 1e-6);  // its own edge is exact
   EXPECT_NEAR(red_share(smooth(3, 4)), 100.3 / 512, 1e-5);
-  // Where alpha jumps, the line is known to half a step of the lattice on either side.
+  // If alpha is discontinuous, the contour has an uncertainty of half a lattice step on either side.
   scene.alpha_at = [](std::int32_t x, std::int32_t, float, std::uint32_t) { return x < end ? 1.0f : 0.0f; };
   EXPECT_NEAR(red_share(scene.analytic()(3, 2)), 100.3 / 256, 1.0 / 512 + 1e-6);
-  // One alpha of a texture's level of detail decides: that of a footprint of 1/16 of a part.
+  // The texture's level of detail for alpha is that of a footprint of 1/16 of a part.
   scene.alpha_at = [](std::int32_t, std::int32_t, float dbdx, std::uint32_t) {
     return std::abs(dbdx) > 1.01f / 64 ? 0.0f : 1.0f;
   };
@@ -260,7 +263,7 @@ TEST(Analytic, MasksEndAlongTheLineWhereAlphaCrossesTheCutoff) {
 }
 
 TEST(Analytic, MasksWithCurvedEdgesHaveTheirArea) {
-  // A disc; what it holds of each pixel is counted at 256 × 256 places.
+  // A disc, whose area in each pixel is counted at 256 × 256 positions.
   constexpr double cx = 4.13 * 256, cy = 2.2 * 256, radius = 1.7 * 256;
   const auto inside = [](double x, double y) { return radius - std::sqrt((x - cx) * (x - cx) + (y - cy) * (y - cy)); };
   FlatTriangles scene = masked_over_blue();
@@ -278,16 +281,16 @@ TEST(Analytic, MasksWithCurvedEdgesHaveTheirArea) {
         worst_coarse = std::max(worst_coarse, std::abs(red_share(coarse(x, y)) - count / 65536.0));
       }
     EXPECT_LT(worst, is_smooth ? 5e-4 : 2e-3);
-    EXPECT_GT(worst_coarse, is_smooth ? 7e-4 : 0.0);  // `mask` sets how finely the line is followed
+    EXPECT_GT(worst_coarse, is_smooth ? 7e-4 : 0.0);  // `mask` determines the resolution of the contour
   }
 }
 
 TEST(Analytic, AHoleWithinOnePartOfAMaskIsFoundByItsMean) {
-  // Alpha for the footprint of a part is the mean over it, as textures give it; its corners say nothing of the hole.
+  // Alpha for the footprint of a part is its mean, as texture filtering gives it; the corners do not detect the hole.
   constexpr double cx = 2.44 * 256, cy = 2.44 * 256, radius = 0.04 * 256, area = pi * 0.04 * 0.04;
   FlatTriangles scene = masked_over_blue();
   scene.alpha_at = [](std::int32_t x, std::int32_t y, float dbdx, std::uint32_t) {
-    const bool is_for_part = std::abs(dbdx) > 0.99f / 64;  // the weight changes by 1/8 over a pixel
+    const bool is_for_part = std::abs(dbdx) > 0.99f / 64;  // the barycentric weight changes by 1/8 per pixel
     const double off = std::sqrt((x - cx) * (x - cx) + (y - cy) * (y - cy)) - radius;
     const bool is_its_part = x / 32 == 19 && y / 32 == 19;
     if (is_for_part) return static_cast<float>(is_its_part ? 1 - area * 64 : 1.0);
@@ -296,7 +299,8 @@ TEST(Analytic, AHoleWithinOnePartOfAMaskIsFoundByItsMean) {
   EXPECT_NEAR(red_share(scene.analytic()(2, 2)), 1 - area, 1e-3);
 }
 
-/// Masked triangles, each with a round hole pattern of its own, so thick that they hide nearly all behind them.
+/// Alpha-tested triangles, each with its own pattern of round holes, so many that they hide nearly all surfaces behind
+/// them.
 FlatTriangles masked_crowd(int count, int side) {
   Numbers random(77);
   FlatTriangles scene(side, side);
@@ -330,7 +334,7 @@ TEST(Analytic, MaskedCrowdsAgreeWithManySamplesAsTheirErrorSays) {
     EXPECT_EQ(p.a, 1.0f);
   }
   const double n = static_cast<double>(image.values().size());
-  EXPECT_GT(std::sqrt(estimated / n), 5e-4);  // pixels are sampled, and say so
+  EXPECT_GT(std::sqrt(estimated / n), 5e-4);  // pixels are sampled and have an error estimate
   EXPECT_LT(std::sqrt(squares / n), 1.5 * std::sqrt(estimated / n));
   EXPECT_LT(worst, 0.012);
 }
@@ -352,7 +356,8 @@ TEST(Analytic, CrowdsLeaveNoTraceOfThreadsInstructionsOrdersOrCrops) {
 }
 
 TEST(Analytic, TheWorkOfACrowdIsThatOfItsSamples) {
-  // Ten times the triangles: queries and shaded samples are bounded by the samples, and they by 4,096 a pixel.
+  // Ten times the triangles: queries and shaded samples are bounded by the number of samples, which is at most 4,096
+  // per pixel.
   std::uint64_t shaded[2] = {};
   for (const int k : {0, 1}) {
     const FlatTriangles scene = masked_crowd(k == 0 ? 300 : 3000, 4);
@@ -385,8 +390,9 @@ TEST(Analytic, BlendedCrowdsPastTheLimitsAreSampled) {
 }
 
 TEST(Analytic, LightBehindManyLayersKeepsItsValue) {
-  // TransparentStack of alpha 1/2 before a lamp: 2^-n of it is left, a number that a float holds exactly. Once among
-  // polygons, once among samples, where nine masked triangles that are nowhere make the crowd.
+  // Layers of alpha 1/2 in front of a lamp transmit 2^-n of it, which a float represents exactly. They are tested once
+  // with polygons, and once with samples, for which nine alpha-tested triangles that are absent everywhere make the
+  // pixel crowded.
   for (const int masked : {0, 9})
     for (const int layers : {25, 40, 60})
       for (const float lamp : {1.0f, 1e4f, 1e8f}) {
@@ -410,8 +416,8 @@ TEST(Analytic, LightBehindManyLayersKeepsItsValue) {
 }
 
 TEST(Analytic, BothTruthsOfBrightEdges) {
-  // Half of a pixel at 10 times white: the mean is 5.5, displayed as white; half of that is a mean of display-referred
-  // values.
+  // Half of a pixel is 10 times as bright as white: the scene-linear mean is 5.5, displayed as white; the mean of
+  // display-referred values is half of white.
   FlatTriangles scene(8, 8);
   scene.add_quad({0, 0}, {8, 0}, {8, 8}, {0, 8}, {0.2f, 0.2f, 0.2f, 1});
   scene.add_quad({0, 0, 0.6f}, {3.5, 0, 0.6f}, {3.5, 8, 0.6f}, {0, 8, 0.6f}, {10, 10, 10, 1});
@@ -424,10 +430,11 @@ TEST(Analytic, BothTruthsOfBrightEdges) {
 }
 
 TEST(Analytic, ScenesAgreeWithManySamples) {
-  // Clipping, light, textures and masks: all that flat triangles do not have. What is left is the samples' own error:
-  // of 1,024 scrambled ones 3e-4 at edges, of a grid of 8 × 8 0.0112 at edges, which are few pixels of the city; and
-  // what a texture's level for their footprint adds. The samples of a grid have the footprint of the parts.
-  // The diagonals of 32 layers run side by side through their pixels and cut each other into hundreds of polygons.
+  // Clipping, lighting, textures and alpha tests, which flat triangles do not have. The remaining differences are the
+  // errors of the samples: 3e-4 at edges for 1,024 scrambled ones, 0.0112 at edges for a grid of 8 × 8, where the city
+  // has few edge pixels; and the effect of the texture level for their footprint. The samples of a grid have the
+  // footprint of the parts.
+  // The diagonals of 32 layers are nearly parallel within their pixels and cut each other into hundreds of polygons.
   struct Expected {
     const char *scene, *sampled;
     double bound;

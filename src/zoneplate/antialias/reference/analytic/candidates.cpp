@@ -9,9 +9,9 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int unit = 256;  // of vertices, in a pixel
+constexpr int unit = 256;  // lattice units of vertices per pixel
 
-/// Nearest first, so that what hides comes before what is hidden; then by place and shape.
+/// Orders triangles nearest first, so that occluders precede occluded triangles; then by position and shape.
 bool comes_before(const Triangle& p, const Triangle& q) {
   const auto key = [](const Triangle& t) {
     return std::tie(t.min_y, t.min_x, t.y0, t.x0, t.a[0], t.b[0], t.a[1], t.b[1], t.z0, t.dzdx, t.dzdy, t.id);
@@ -19,7 +19,7 @@ bool comes_before(const Triangle& p, const Triangle& q) {
   return p.z_high != q.z_high ? p.z_high > q.z_high : key(p) < key(q);
 }
 
-/// An edge function's least and greatest value over a pixel, less its value at the pixel's top-left corner.
+/// The minimum and maximum of an edge function over a pixel, relative to its value at the pixel's top-left corner.
 struct Range {
   std::int64_t least, greatest;
 };
@@ -75,7 +75,7 @@ void PixelCandidates::find_pixels(std::uint32_t number, const ScreenTriangle& tr
     }
 }
 
-/// The candidates by pixel, each pixel's in the order in which they were found.
+/// Sorts the candidates by pixel; those of a pixel stay in the order in which they were found.
 void PixelCandidates::sort_by_pixel(std::size_t pixels) {
   const auto is_seen = [&](const Candidate& c) { return !(c.greatest_depth < hidden_below_[c.pixel]); };
   first_.assign(pixels + 1, 0);

@@ -12,7 +12,7 @@ namespace zoneplate::antialias {
 
 /// A rectangle of pixels of the image.
 struct PixelRect {
-  int left = 0, top = 0, right = 0, bottom = 0;  ///< right and bottom are excluded
+  int left = 0, top = 0, right = 0, bottom = 0;  ///< right and bottom are exclusive
 
   int width() const { return right - left; }
   int height() const { return bottom - top; }
@@ -21,15 +21,15 @@ struct PixelRect {
 
 /// For each pixel of a rectangle, the triangles that may be visible in it, in an order independent of their ids.
 ///
-/// A triangle is listed if it has area within the pixel and is not wholly behind an opaque one that covers the pixel.
-/// Whether a triangle covers the pixel is decided by exact integers.
+/// A triangle is listed if it has area within the pixel and is not entirely behind an opaque one that covers the pixel.
+/// Whether a triangle covers the pixel is computed with exact integers.
 class PixelCandidates {
  public:
   struct Candidate {
     std::uint32_t pixel;     ///< within the rectangle, row by row
-    std::uint32_t triangle;  ///< in the list
+    std::uint32_t triangle;  ///< index into the list of triangles
     bool covers_pixel;
-    double greatest_depth;  ///< no depth in the pixel is above it
+    double greatest_depth;  ///< upper bound of the triangle's depths in the pixel
   };
 
   void find(std::span<const ScreenTriangle> triangles, const PixelRect& rect);
@@ -45,7 +45,7 @@ class PixelCandidates {
   std::vector<std::uint32_t> order_;
   std::vector<Candidate> found_, sorted_;
   std::vector<std::uint32_t> first_, next_;
-  std::vector<double> hidden_below_;  ///< by pixel: the least depth of the nearest opaque triangle that covers it
+  std::vector<double> hidden_below_;  ///< for each pixel: the least depth of the nearest opaque triangle that covers it
 };
 
 /// The triangle relative to the pixel (x, y).

@@ -7,17 +7,17 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int many_corners = 12;  // of a cell; three edges, or a grid, may add four before the next check
+constexpr int many_corners = 12;  // corners of a cell; three edges, or a grid, may add four before the next check
 
-/// Where a is nearer than b.
+/// The line whose inner side is where a is nearer than b.
 Line nearer(const PixelTriangle& a, const PixelTriangle& b) { return {a.zx - b.zx, a.zy - b.zy, a.z - b.z}; }
 
 enum class Order { InFront, Behind, Crossing };
 
-/// How triangle a stands to b over a polygon.
+/// The order of triangle a relative to b over a polygon.
 Order order_over(const ConvexPolygon& polygon, const PixelTriangle& a, const PixelTriangle& b) {
   const Line line = nearer(a, b);
-  const double least = on_line * (std::abs(line.a) + std::abs(line.b));  // that far from the line at least
+  const double least = on_line * (std::abs(line.a) + std::abs(line.b));  // minimum distance of a corner from the line
   double sum = 0;
   bool in_front = false, behind = false;
   for (int i = 0; i < polygon.count; ++i) {
@@ -28,12 +28,12 @@ Order order_over(const ConvexPolygon& polygon, const PixelTriangle& a, const Pix
   }
   if (in_front && behind) return Order::Crossing;
   if (in_front || behind) return in_front ? Order::InFront : Order::Behind;
-  // A polygon so near to the line belongs to one side of it; only where depths are equal all over do numbers decide.
+  // A polygon so close to the line belongs to one side of it; only if depths are equal everywhere, ids decide.
   if (sum != 0) return sum > 0 ? Order::InFront : Order::Behind;
   return a.id < b.id ? Order::InFront : Order::Behind;
 }
 
-/// Where a and b cross, scaled to distances in pixels; inside is where a is nearer.
+/// The line along which a and b intersect, scaled to distances in pixels; inside is where a is nearer.
 Line crossing(const PixelTriangle& a, const PixelTriangle& b) {
   const Line line = nearer(a, b);
   const double slope = std::sqrt(line.a * line.a + line.b * line.b);
@@ -58,7 +58,7 @@ void PixelCells::insert(const PixelTriangle& triangle) {
   for (std::size_t i = 0; i < count && !is_full_; ++i) insert_in(i, number);
 }
 
-/// True if the cell's last layer is opaque and nearer than the triangle all over the polygon.
+/// True if the cell's last layer is opaque and nearer than the triangle over the whole polygon.
 bool PixelCells::is_hidden(const ConvexPolygon& polygon, const Cell& cell, const PixelTriangle& triangle) const {
   if (cell.layers == 0) return false;
   const PixelTriangle& last = triangles_[layers_[cell.first_layer + cell.layers - 1]];
@@ -66,7 +66,7 @@ bool PixelCells::is_hidden(const ConvexPolygon& polygon, const Cell& cell, const
 }
 
 void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
-  // Most cells are outside of the triangle or hide it; nothing is cut before that is known.
+  // Most cells do not overlap the triangle or hide it, which is tested before anything is cut.
   const PixelTriangle& triangle = triangles_[number];
   if (triangle.covers_all) {
     if (is_hidden(cells_[at].polygon, cells_[at], triangle)) return;
@@ -85,7 +85,8 @@ void PixelCells::insert_in(std::size_t at, std::uint32_t number) {
     for (const std::uint32_t layer : layers_of(cell))
       if (triangles_[layer].id == triangle.id) return;
 
-  // What of the cell is outside of the triangle stays as it is, in up to three parts; the rest is sorted in.
+  // The region of the cell outside the triangle is stored unchanged, in up to three parts; the triangle is inserted
+  // into the layers of the rest.
   free_ = at;
   ConvexPolygon rest = cell.polygon, inside, outside;
   if (!triangle.covers_all)
@@ -113,9 +114,9 @@ void PixelCells::sort_in(const Cell& cell, std::uint32_t number) {
   }
 }
 
-/// Finds the piece's first layer behind the triangle; cuts it where they pass through each other.
+/// Finds the piece's first layer behind the triangle, and cuts the piece where they intersect.
 void PixelCells::place(const Piece& piece, const Cell& cell, std::uint32_t number) {
-  // Triangles come nearest first as a rule: what is behind the last layer is behind all of them.
+  // Triangles are usually inserted nearest first: a triangle behind the last layer is behind all layers.
   const PixelTriangle& triangle = triangles_[number];
   if (cell.layers > 1) {
     const PixelTriangle& last = triangles_[layers_[cell.first_layer + cell.layers - 1]];
@@ -159,11 +160,12 @@ void PixelCells::store(const ConvexPolygon& polygon, std::uint32_t first_layer, 
   is_full_ = is_full_ || cells_.size() > most_cells || layers_.size() > most_layers;
 }
 
-/// The cell's layers with the triangle before layer `at`; nothing is behind an opaque one.
+/// Stores the cell's layers with the triangle inserted before layer `at`; an opaque triangle is the last layer.
 void PixelCells::store_with(const ConvexPolygon& polygon, const Cell& cell, std::uint32_t at, std::uint32_t number) {
   if (at == cell.layers && cell.first_layer + at == layers_.size()) {
     is_full_ = layers_.size() >= most_layers;
-    layers_.push_back(number);  // the list is the last one: others that begin like it keep their length
+    // The cell's list is at the end: the lists of other cells that start with it keep their lengths.
+    layers_.push_back(number);
     return store(polygon, cell.first_layer, at + 1);
   }
   if (layers_.size() + cell.layers >= most_layers) {

@@ -13,22 +13,22 @@ namespace zoneplate::antialias {
 /// A triangle relative to one pixel.
 struct PixelTriangle {
   Line edge[3];                  ///< inside where all are positive
-  bool covers_all = false;       ///< covers the whole region: the edges are ignored
-  bool is_piece = false;         ///< a piece of a clipped triangle: others may have its id
+  bool covers_all = false;       ///< the triangle covers the whole region, so that the edges are ignored
+  bool is_piece = false;         ///< a piece of a clipped triangle, whose other pieces have the same id
   double z = 0, zx = 0, zy = 0;  ///< reversed depth at the pixel's top-left corner, and its change per pixel
   std::int32_t id = 0;
   AlphaMode alpha_mode = AlphaMode::Opaque;
 };
 
-/// The visible surfaces of a pixel, or of a convex region of it: convex polygons that fill it without gaps or overlaps,
-/// each with its layers.
+/// The visible surfaces of a pixel, or of a convex region of it: convex polygons that partition it, each with its
+/// layers.
 ///
-/// Layers are triangles from near to far, in the same order all over the polygon; an opaque triangle is the last layer.
-/// Alpha-tested triangles are layers like blended ones: their alpha is tested later. Where triangles intersect,
+/// Layers are triangles from near to far, in the same order over the whole polygon; an opaque triangle is the last
+/// layer. Alpha-tested triangles are layers like blended ones: their alpha is tested later. Where triangles intersect,
 /// polygons are cut along the line of equal depths. Of triangles with equal depths the one with the lower id is nearer;
 /// a polygon has at most one piece of a clipped triangle (one id).
 ///
-/// Exact     the areas of the polygons add up to the region's within 1e-12; no part is dropped, however small.
+/// Exact     the areas of the polygons add up to the region's within 1e-12; no polygon is dropped, however small.
 /// Requires  an order of insertion that is independent of triangle ids, for results that are independent of them.
 /// Source    subtraction of nearer polygons: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978.
 class PixelCells {
@@ -40,7 +40,7 @@ class PixelCells {
     std::uint32_t first_layer = 0, layers = 0;
   };
 
-  /// Begins an empty region, a convex part of the pixel or all of it.
+  /// Starts with an empty region, a convex part of the pixel or all of it.
   void clear(const ConvexPolygon& region);
   void insert(const PixelTriangle& triangle);
 
@@ -59,7 +59,7 @@ class PixelCells {
  private:
   struct Piece {
     ConvexPolygon polygon;
-    std::uint32_t next_layer;  ///< the layers before it are in front of the piece
+    std::uint32_t next_layer;  ///< the layers before this one are in front of the piece
   };
 
   void insert_in(std::size_t cell, std::uint32_t number);
@@ -72,9 +72,9 @@ class PixelCells {
   std::vector<PixelTriangle> triangles_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> layers_;
-  std::vector<Piece> pieces_;  ///< still to be placed
+  std::vector<Piece> pieces_;  ///< pieces that are not yet inserted
   bool is_full_ = false;
-  std::size_t free_ = 0;  ///< a cell whose place may be taken; cells_.size() if there is none
+  std::size_t free_ = 0;  ///< index of a cell that may be overwritten; cells_.size() if there is none
 };
 
 }  // namespace zoneplate::antialias

@@ -17,7 +17,7 @@ struct Corner {
   double x, y, z;
 };
 
-/// A triangle about the unit square as a pixel sees it, corners in any order.
+/// A triangle relative to a pixel, which is the unit square; the corners are in any order.
 PixelTriangle make(std::array<Corner, 3> c, std::int32_t id, AlphaMode alpha_mode = AlphaMode::Opaque) {
   const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
   if (area < 0) std::swap(c[1], c[2]);
@@ -36,7 +36,7 @@ PixelTriangle make(std::array<Corner, 3> c, std::int32_t id, AlphaMode alpha_mod
   return t;
 }
 
-/// Triangles of all kinds: large, small, needles, neighbours along an edge, doubles, planes that pass through others.
+/// Triangles of all kinds: large, small, needles, adjacent along an edge, duplicates, and intersecting planes.
 std::vector<PixelTriangle> soup(std::uint32_t seed, int count, bool has_layers) {
   Numbers random(seed);
   std::vector<PixelTriangle> out;
@@ -44,7 +44,7 @@ std::vector<PixelTriangle> soup(std::uint32_t seed, int count, bool has_layers) 
   for (int i = 0; i < count; ++i) {
     const int kind = static_cast<int>(random(0, 5));
     if (kind == 1 && i > 0) {
-      c[0] = {random(-1, 2), random(-1, 2), random(0.1, 0.9)};  // shares the last one's edge 1 2
+      c[0] = {random(-1, 2), random(-1, 2), random(0.1, 0.9)};  // shares the edge 1 2 of the last triangle
     } else if (kind == 2) {
       for (Corner& p : c) p = {random(0.3, 0.7), random(0.3, 0.7), random(0.1, 0.9)};
     } else if (kind == 3) {
@@ -84,14 +84,15 @@ TEST(PixelCells, AreasSumToOneForAnySoup) {
 }
 
 TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
-  int asked = 0;
+  int tested = 0;
   for (std::uint32_t seed = 0; seed < 120; ++seed) {
     const std::vector<PixelTriangle> triangles = soup(1000 + seed, 12, seed % 2 == 1);
     const PixelCells cells = cells_of(triangles);
     Numbers random(seed + 7000);
     for (int k = 0; k < 40; ++k) {
       const Place p{random(0, 1), random(0, 1)};
-      // What is there, near to far, by asking each triangle; places too near to a border of anything are left out.
+      // The expected layers at a point, near to far, by testing each triangle; points too close to any border are
+      // skipped.
       std::vector<std::int32_t> expected;
       bool is_clear = true;
       const auto depth = [&](const PixelTriangle& t) { return (t.z + t.zx * p.x) + t.zy * p.y; };
@@ -111,7 +112,7 @@ TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
         if (there[i]->alpha_mode == AlphaMode::Opaque) break;
       }
       if (!is_clear) continue;
-      ++asked;
+      ++tested;
       int holders = 0;
       for (const PixelCells::Cell& cell : cells.cells()) {
         bool holds = true;
@@ -128,7 +129,7 @@ TEST(PixelCells, EveryPlaceHasTheLayersThatItsDepthsSay) {
       EXPECT_EQ(holders, 1) << "seed " << seed << " at " << p.x << ", " << p.y;
     }
   }
-  EXPECT_GT(asked, 3000);
+  EXPECT_GT(tested, 3000);
 }
 
 TEST(PixelCells, TrianglesThatPassThroughEachOtherMeetAlongTheirLine) {
@@ -153,14 +154,14 @@ TEST(PixelCells, OfEqualDepthsTheLowerNumberIsSeen) {
     ASSERT_EQ(cells.cells().size(), 1u);
     EXPECT_EQ(cells.triangle(cells.layers_of(cells.cells()[0])[0]).id, 3);
   }
-  // Pieces of one triangle count once.
+  // Pieces of one triangle form one layer.
   PixelTriangle piece = make(c, 1, AlphaMode::Blend);
   piece.is_piece = true;
   const PixelCells pieces = cells_of({piece, piece});
   EXPECT_EQ(pieces.layers_of(pieces.cells()[0]).size(), 1u);
 }
 
-/// By the nearest layer's number (-1: nothing), the area where it is seen.
+/// The area in which each layer is the nearest, by its index (-1: no layer).
 using SeenAreas = std::map<std::int32_t, double>;
 void add_areas(const PixelCells& cells, SeenAreas& out) {
   for (const PixelCells::Cell& c : cells.cells())
@@ -185,13 +186,13 @@ TEST(PixelRegions, CrowdedPixelsShowTheSameAsOneRegionWould) {
     }
     double sum = 0;
     for (const auto& [id, area] : found) sum += area;
-    EXPECT_LT(sum, 1 + 1e-9);  // regions without triangles are not given
+    EXPECT_LT(sum, 1 + 1e-9);  // regions without triangles are not passed
   }
 }
 
 TEST(PixelRegions, LayersInOneOrderAreNoCrowdAndLinesSideBySideAreQuarteredButTwice) {
-  // Forty layers, the nearest first; those of `cut` end at lines hardly apart that leave the pixel's lower left to
-  // them.
+  // Forty layers, the nearest first; those of `cut` end at nearly identical lines, beyond which the pixel's lower left
+  // remains uncovered.
   const auto layers = [](bool cut) {
     std::vector<PixelTriangle> out;
     for (int i = 0; i < 40; ++i) {
@@ -216,18 +217,19 @@ TEST(PixelRegions, LayersInOneOrderAreNoCrowdAndLinesSideBySideAreQuarteredButTw
     EXPECT_EQ(most, 40u);
     if (cut) {
       EXPECT_GT(regions_used, 4);
-      EXPECT_LE(regions_used, 64);  // 4096 if nothing stopped it
+      EXPECT_LE(regions_used, 64);  // without the limit there would be 4096
     } else {
       EXPECT_EQ(regions_used, 1);
     }
     for (const auto& [id, area] : expected) {
-      EXPECT_NEAR(found[id], id < 0 ? found[id] : area, 1e-12);  // regions without triangles are not given
+      EXPECT_NEAR(found[id], id < 0 ? found[id] : area, 1e-12);  // regions without triangles are not passed
     }
   }
 }
 
 TEST(PixelRegions, PixelsWithTooManyPolygonsAreGivenUp) {
-  // Blended triangles of all kinds about the pixel's middle: past the limits of one region long before the last.
+  // Blended triangles of all kinds around the pixel's centre, which exceed the limits of one region long before the
+  // last one.
   Numbers random(3);
   std::vector<PixelTriangle> triangles;
   for (int i = 0; i < 1000; ++i) {
@@ -240,7 +242,7 @@ TEST(PixelRegions, PixelsWithTooManyPolygonsAreGivenUp) {
     EXPECT_LE(cells.cells().size(), PixelCells::most_cells);
     return true;
   }));
-  // The next pixel knows nothing of it; who looks at the cells may give up too.
+  // The next pixel is not affected; the callback may give up too.
   EXPECT_TRUE(regions.find(std::span(triangles).first(5), [](const PixelCells&) { return true; }));
   EXPECT_FALSE(regions.find(std::span(triangles).first(5), [](const PixelCells&) { return false; }));
 }

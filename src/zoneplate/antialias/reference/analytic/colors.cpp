@@ -8,7 +8,7 @@ namespace zoneplate::antialias {
 namespace {
 
 Fragment point_of(const AreaFragment& f, std::int32_t id) {
-  // A sliver too thin for its own area has its centroid anywhere in the pixel.
+  // The centroid of a sliver with numerically no area may be outside the pixel, and is clamped.
   const AreaMoments& m = f.moments;
   const auto within = [&](double moment) {
     const double at = m.area > 0 ? moment / m.area : 0.5;

@@ -9,12 +9,13 @@
 
 namespace zoneplate::antialias {
 
-/// The texture footprint of fragments: the side of a fragment's part of the pixel, in pixels.
+/// The sides of texture footprints, in pixels.
 struct Footprints {
-  float part = 1;        ///< of most fragments
-  float fine = 1;        ///< of fragments in a part of the grid of alpha-tested surfaces: half of its side
+  float part = 1;  ///< of most fragments: the side of a part of the pixel
+  /// The side for fragments in a part of the finer grid for alpha-tested surfaces: half of the part's side.
+  float fine = 1;
   float alpha = 1;       ///< of alpha tests at a point
-  float alpha_part = 1;  ///< of alpha tests for a whole part of that grid
+  float alpha_part = 1;  ///< of alpha tests for a whole part of the finer grid
 };
 
 /// Computes the colours of fragments: shades their layers and composites them from far to near.
@@ -25,7 +26,7 @@ class AreaFragmentColors {
 
   void find(const AreaFragmentTable& table);
 
-  /// The colour of fragment i of that table.
+  /// The colour of fragment i of the table that was passed to `find`.
   Linear color(std::size_t i) const { return colors_[i]; }
 
   std::uint64_t shaded() const { return parts_.shader.shaded() + fine_.shader.shaded(); }
@@ -34,7 +35,7 @@ class AreaFragmentColors {
   /// Fragments of one footprint, with the indices of their colours.
   struct Group {
     Group(const ProjectedDraws& projected, const FragmentShader& point_shader, Target of, float spacing);
-    Group(const Group&) = delete;  // the shader looks at this target
+    Group(const Group&) = delete;  // the shader stores a reference to this target
     Target target;
     FragmentBatcher shader;
     std::vector<Fragment> points;
@@ -44,7 +45,7 @@ class AreaFragmentColors {
   /// A layer of a fragment.
   struct Seen {
     std::size_t fragment;
-    bool is_surface;  ///< opaque: hides all layers behind it
+    bool is_surface;  ///< opaque or alpha-tested: hides all layers behind it
     Linear color;
   };
 

@@ -10,12 +10,13 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t most_hits = std::size_t{1} << 16;    // before samples are finished
-constexpr std::size_t most_layers = std::size_t{1} << 16;  // before fragments are shaded
-constexpr std::size_t few_members = 3;                     // in a square that is not divided
-constexpr int squares = 8;                                 // along a pixel's side, of the filter's weights
+constexpr std::size_t most_hits = std::size_t{1} << 16;    // hits that are collected before samples are finished
+constexpr std::size_t most_layers = std::size_t{1} << 16;  // layers that are collected before fragments are shaded
+constexpr std::size_t few_members = 3;                     // a square with at most so many members is not divided
+// Squares along a pixel's side for which the filter's weights are tabulated.
+constexpr int squares = 8;
 
-/// True if a place is inside of an edge; of two triangles that share an edge it is inside of one.
+/// True if a point is inside of an edge; of two triangles that share an edge, it is inside of exactly one.
 bool is_inside(const Line& edge, Place p) {
   const double d = edge.distance(p);
   return d > 0 || (d == 0 && (edge.a > 0 || (edge.a == 0 && edge.b > 0)));
@@ -76,7 +77,7 @@ void CrowdSampler::take_round(std::size_t round) {
   fold();
 }
 
-/// Samples a square of the pixel's quadtree, of the members of the square around it.
+/// Samples a square of the pixel's quadtree, given the members of its parent.
 void CrowdSampler::visit(std::size_t round, int level, std::uint32_t column, std::uint32_t row) {
   const double side = 1.0 / (1 << level);
   gather(level, {(column + 0.5) * side, (row + 0.5) * side}, side / 2);
@@ -86,7 +87,8 @@ void CrowdSampler::visit(std::size_t round, int level, std::uint32_t column, std
   for (std::uint32_t k = 0; k < 4; ++k) visit(round, level + 1, 2 * column + k % 2, 2 * row + k / 2);
 }
 
-/// members_[level + 1]: those of members_[level] that are in the square and not hidden all over it.
+/// Computes members_[level + 1]: the members of members_[level] that overlap the square and are not entirely hidden in
+/// it.
 void CrowdSampler::gather(int level, Place centre, double half) {
   const std::vector<Member>& from = members_[static_cast<std::size_t>(level)];
   std::vector<Member>& found = members_[static_cast<std::size_t>(level) + 1];
@@ -149,7 +151,7 @@ void CrowdSampler::add_hits(SampleNet::Sample place, std::span<const Member> mem
                         static_cast<std::uint32_t>(hits_.size() - first), 0, 0});
 }
 
-/// Goes on to the next masked hit; false if there is none before something opaque or the end.
+/// Advances to the next alpha-tested hit; false if an opaque hit or the end comes first.
 bool CrowdSampler::advance(Sample& s) {
   for (; s.next < s.hits; ++s.next) {
     const Hit hit = hits_[s.first + s.next];
@@ -159,7 +161,7 @@ bool CrowdSampler::advance(Sample& s) {
   return false;
 }
 
-/// Tests alpha for all samples together, from the nearest surface on, and adds visible layers to the fragments.
+/// Tests alpha for all samples together, starting with the nearest surfaces, and adds visible layers to the fragments.
 void CrowdSampler::finish_samples() {
   waiting_.clear();
   for (std::uint32_t i = 0; i < samples_.size(); ++i)
@@ -225,7 +227,7 @@ void CrowdSampler::fold() {
   table_.begin_pixel(x_, y_);
 }
 
-/// What was sampled so far is the first group of the next round.
+/// Merges all groups into the first group of the next round.
 void CrowdSampler::join_groups() {
   const std::size_t around = filter_.weight_count();
   for (std::size_t k = 0; k < around; ++k)
@@ -236,7 +238,7 @@ void CrowdSampler::join_groups() {
     }
 }
 
-/// The pixel's shares after `count` samples.
+/// Computes the pixel's shares after `count` samples.
 void CrowdSampler::estimate(std::size_t count) {
   constexpr std::size_t groups = SampleNet::groups;
   const std::size_t around = filter_.weight_count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact image, tile by tile: the candidates of each pixel, its visible polygons, their colours, their sum.
+// The exact image, tile by tile: the candidates of each pixel, its visible polygons, their colours, and the sum.
 #include "zoneplate/antialias/reference/analytic/draw.h"
 
 #include <algorithm>
@@ -22,11 +22,11 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t enough_fragments = 2048;   // that are shaded together
-constexpr std::size_t mixed_primitives = 32768;  // of a tile that is not drawn at once
-constexpr std::size_t enough_masked = 8192;      // polygons and alphas that are resolved together
+constexpr std::size_t enough_fragments = 2048;   // fragments that are shaded together
+constexpr std::size_t mixed_primitives = 32768;  // primitives of a tile that is not drawn all at once
+constexpr std::size_t enough_masked = 8192;      // polygons and alpha queries that are resolved together
 
-/// The data that all tiles read.
+/// The data that all tiles share.
 struct Whole {
   const CustomDraw& drawing;
   const ProjectedDraws& projected;
@@ -37,7 +37,7 @@ struct Whole {
   std::optional<DisplayLight> display_light;
 };
 
-/// The part of a tile that is drawn, and the pixels around that count for it.
+/// The part of a tile that is drawn, extended by the neighbouring pixels that contribute to it.
 PixelRect drawn_rect(const Whole& whole, std::size_t tile) {
   const TileTriangles& t = whole.triangles;
   const Target& target = whole.target;
@@ -54,7 +54,7 @@ PixelRect rect_around(const PixelRect& r, int reach, Viewport viewport) {
 
 int fine_grid(const Whole& whole) { return std::max(whole.options.shading, whole.options.mask); }
 
-/// Textures are filtered over the footprint of a part of a pixel, or of the whole pixel if the options say so.
+/// Textures are filtered over the footprint of a part of a pixel, or of the whole pixel if the options request it.
 Footprints footprints(const Whole& whole) {
   if (!whole.drawing.options.sample_footprint) return {};
   const float fine = 1 / static_cast<float>(fine_grid(whole));
@@ -64,14 +64,14 @@ Footprints footprints(const Whole& whole) {
           .alpha_part = fine};
 }
 
-/// What is added up for a pixel.
+/// The sums of a pixel.
 struct PixelSum {
   double r = 0, g = 0, b = 0, a = 0;
-  double covered = 0;   ///< the area that surfaces own
-  double variance = 0;  ///< of what was sampled
+  double covered = 0;   ///< area covered by surfaces that are not blended
+  double variance = 0;  ///< variance of the sampled contributions
 };
 
-/// Samples cost little compared with their alpha tests: fragments are shaded in parts of half the side.
+/// Samples cost little compared with their alpha tests, so that fragments are shaded in parts of half the side.
 int crowd_grid(const Whole& whole) { return std::min(2 * fine_grid(whole), 64); }
 
 Footprints crowd_footprints(const Whole& whole) {
@@ -109,7 +109,7 @@ class TileIntegrator {
   }
 
  private:
-  /// Of a tile with many triangles only a few rows are at work at a time: that bounds what is stored.
+  /// Tiles with many triangles are drawn a few rows at a time, which bounds the memory.
   static int rows_at_once(std::size_t triangles) {
     return triangles <= mixed_primitives ? 2 * tile_size : triangles <= 8 * mixed_primitives ? 8 : 1;
   }
@@ -141,7 +141,7 @@ class TileIntegrator {
     if (list_.fragments().size() >= enough_fragments || masks_.size() >= enough_masked) add_fragments();
   }
 
-  /// Adds the pixel's visible polygons; false, and nothing is added, if it is too crowded.
+  /// Adds the pixel's visible polygons. Returns false, and adds nothing, if the pixel is too crowded.
   bool add_polygons(int x, int y) {
     const auto is_masked = [](const PixelTriangle& t) { return t.alpha_mode == AlphaMode::Mask; };
     if (std::ranges::count_if(here_, is_masked) > std::ptrdiff_t{MaskedPolygons::most_triangles}) return false;
@@ -172,7 +172,7 @@ class TileIntegrator {
   }
 
   void add_samples(int x, int y) {
-    if (whole_.filter.reach() > 0) add_fragments();  // what a pixel gets comes in the order of the pixels around
+    if (whole_.filter.reach() > 0) add_fragments();  // contributions are added in the order of the neighbouring pixels
     crowd_.find(here_, x, y, whole_.display_light ? &*whole_.display_light : nullptr);
     if (drawn_.contains(x, y)) sum_at(x, y).covered += crowd_.covered();
     for_around(x, y, [&](PixelSum& s, std::size_t k) {
@@ -181,7 +181,7 @@ class TileIntegrator {
     });
   }
 
-  /// Shades the fragments and adds them to the pixels around, in the order of the fragments' own pixels.
+  /// Shades the fragments and adds them to the neighbouring pixels, in the order of the fragments' own pixels.
   void add_fragments() {
     if (masks_.size() > 0) masks_.resolve(masked_list_);
     colors_.find(list_.table());
@@ -211,7 +211,7 @@ class TileIntegrator {
     });
   }
 
-  /// Calls use(sum, k) for the pixels that are drawn around one, k by rows from the top.
+  /// Calls use(sum, k) for the drawn pixels around a pixel, k by rows from the top.
   template <class Use>
   void for_around(int px, int py, Use use) {
     const int reach = whole_.filter.reach();
@@ -242,14 +242,14 @@ class TileIntegrator {
   }
 
   const Whole& whole_;
-  AreaFragmentList list_, masked_list_;  ///< without and with masked surfaces
+  AreaFragmentList list_, masked_list_;  ///< without and with alpha-tested surfaces
   AreaFragmentColors colors_, masked_colors_;
   MaskedPolygons masks_;
   CrowdSampler crowd_;
-  std::vector<ScreenTriangle> triangles_;  ///< of the rows at work
+  std::vector<ScreenTriangle> triangles_;  ///< of the current rows
   PixelCandidates candidates_;
-  std::vector<PixelTriangle> here_;  ///< of the pixel at work
-  std::vector<Layer> layers_;        ///< of the cell at work
+  std::vector<PixelTriangle> here_;  ///< of the current pixel
+  std::vector<Layer> layers_;        ///< of the current cell
   PixelRegions regions_;
 
   PixelRect drawn_;
@@ -262,7 +262,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   const Stopwatch geometry;
   const PolynomialFilter filter(options.filter);
   const Target& target = drawing.target;
-  // Of the draws that are not kept, a triangle's vertices are transformed where it is looked at.
+  // Vertices of draws that are not kept are transformed when their triangles are set up.
   ProjectedDraws projected = number_draws(drawing.draws, target.viewport, drawing.rules.capacity.screen_vertices);
   project_kept(projected);
   const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};

@@ -74,7 +74,7 @@ PolynomialFilter::PolynomialFilter(std::string_view name) {
 }
 
 std::array<double, 4> PolynomialFilter::expanded(double x0) const {
-  // On the left of 0 the filter is its mirror image: the same pieces of -x.
+  // To the left of 0 the filter is mirrored: the same pieces with -x.
   const double middle = std::abs(x0 + 0.25);
   for (const Piece& piece : pieces_) {
     if (middle > piece.end) continue;
@@ -101,7 +101,7 @@ void PolynomialFilter::add_weights(const ConvexPolygon& polygon, std::span<doubl
     weights[0] += area_moments(polygon).area;
     return;
   }
-  // The pieces of every pixel's filter meet at the middle of this pixel and at its sides.
+  // The pieces of all pixels' filters meet at this pixel's centre lines and at its sides.
   ConvexPolygon left_right[2], quarter[2];
   cut(polygon, {-1, 0, 0.5}, left_right[0], left_right[1]);
   const auto width = static_cast<std::size_t>(span());

@@ -13,43 +13,45 @@ namespace zoneplate::antialias {
 /// A reconstruction filter that is a polynomial between multiples of half a pixel, and its exact integrals over
 /// polygons.
 ///
-/// In two dimensions it is the product f(x) f(y) about the centre of the pixel that is filtered. The part of a pixel
-/// then counts for all pixels within `reach` of its own: `weights_of` gives all of these at once, rows from the top.
+/// In two dimensions it is the product f(x) f(y) about the centre of the filtered pixel. A region of a pixel
+/// contributes to all pixels within `reach` of its own: `add_weights` computes the weights of all of these at once,
+/// rows from the top.
 ///
 /// Units     pixels; ∫ f = 1.
-/// Exact     within 1e-14: moments of the polygon by Green's theorem, edge by edge, each a polynomial of degree 7 at
-///           most that four points of Gauss and Legendre integrate without error.
+/// Exact     within 1e-14: moments of the polygon by Green's theorem, edge by edge; each is the integral of a
+///           polynomial of degree at most 7, which four-point Gauss-Legendre quadrature computes exactly.
 /// Source    Duff, Polygon Scan Conversion by Exact Convolution, Raster Imaging and Digital Typography 1989.
 class PolynomialFilter {
  public:
   /// "box", "tent", "quadratic" (the B-spline of degree 2), "b-spline" (of degree 3), "mitchell", "catmull-rom".
   explicit PolynomialFilter(std::string_view name);
 
-  int reach() const { return reach_; }  ///< radius, in pixels, of the pixels to which a part of a pixel contributes
-  int span() const { return 2 * reach_ + 1; }  ///< the same, as a width
+  int reach() const { return reach_; }         ///< radius, in pixels, of the pixels to which a region contributes
+  int span() const { return 2 * reach_ + 1; }  ///< the same as a width
   std::size_t weight_count() const { return static_cast<std::size_t>(span() * span()); }
 
-  double value(double x) const;  ///< f(x), on one side of a jump
+  double value(double x) const;  ///< f(x); at a discontinuity, the value of one side
 
-  /// Adds ∫∫ f(x - x_k) f(y - y_k) over a part of the pixel to `weights`, for each neighbouring pixel k.
+  /// Adds ∫∫ f(x - x_k) f(y - y_k) over a region of the pixel to `weights`, for each neighbouring pixel k.
   void add_weights(const ConvexPolygon& polygon, std::span<double> weights) const;
 
-  /// Σ of a pixel's weights along an axis over the pixels in [0, size) of an image: 1 where the image's end is out
-  /// of reach.
+  /// Σ of a pixel's weights along an axis over the pixels in [0, size) of an image: 1 unless the image's end is within
+  /// reach.
   double share_inside(int pixel, int size) const;
 
  private:
-  /// Of |x|: a polynomial up to `end`.
+  /// A polynomial of |x| that is valid up to `end`.
   struct Piece {
     double end;
     std::array<double, 4> coefficient;
   };
-  /// f(x0 + t) as a polynomial of t that holds for t in [0, ½].
+  /// f(x0 + t) as a polynomial of t that is valid for t in [0, ½].
   std::array<double, 4> expanded(double x0) const;
 
   std::vector<Piece> pieces_;
   int degree_ = 0, reach_ = 0;
-  std::vector<std::array<double, 4>> half_;  ///< by half of the pixel and pixel around: its filter over this half
+  /// For each half of the pixel and each neighbouring pixel: its filter over this half.
+  std::vector<std::array<double, 4>> half_;
 };
 
 }  // namespace zoneplate::antialias

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* names[] = {"box", "tent", "quadratic", "b-spline", "mitchell", "catmull-rom"};
 
-/// A convex polygon inside of the pixel: a triangle cut off by its sides.
+/// A convex polygon inside of the pixel: a triangle clipped to its sides.
 ConvexPolygon some_polygon(Numbers& random) {
   ConvexPolygon out;
   do {
@@ -32,7 +32,7 @@ TEST(AnalyticFilter, IsTheKernelOfItsName) {
     const PolynomialFilter filter(name);
     for (double x = -3.001; x < 3; x += 0.013) EXPECT_NEAR(filter.value(x), kernel.value(x), 1e-14) << name << x;
   }
-  // The quadratic one is the box of the tent: its slope is the tent's difference over a pixel.
+  // The quadratic filter is the convolution of box and tent: its derivative is the tent's difference over a pixel.
   const Kernel tent = make_kernel("tent");
   const PolynomialFilter quadratic("quadratic");
   for (double x = -2.001; x < 2; x += 0.013)
@@ -40,7 +40,7 @@ TEST(AnalyticFilter, IsTheKernelOfItsName) {
 }
 
 TEST(AnalyticFilter, WeightsOfAnyPolygonSumToItsArea) {
-  // All six are partitions of unity: what a place gives to the pixels around is 1 in all.
+  // All six filters are partitions of unity: the weights of a point for all pixels sum to 1.
   for (const char* name : names) {
     const PolynomialFilter filter(name);
     Numbers random(5);
@@ -56,7 +56,7 @@ TEST(AnalyticFilter, WeightsOfAnyPolygonSumToItsArea) {
 }
 
 TEST(AnalyticFilter, WeightsAreTheIntegralsThatQuadratureFinds) {
-  // The midpoint rule over many thin rows, each cut exactly.
+  // The midpoint rule over many thin rows, each clipped exactly.
   for (const char* name : names) {
     const PolynomialFilter filter(name);
     Numbers random(11);

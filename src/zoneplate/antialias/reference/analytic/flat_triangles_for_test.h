@@ -17,7 +17,7 @@ struct FlatCorner {
   float z = 0.5f;
 };
 
-/// Triangles of one colour each, which images of a power of two of pixels a side show exactly where they were put.
+/// Triangles of one colour each, whose vertices are exact in images whose sides are powers of two.
 class FlatTriangles : public FragmentShader {
  public:
   FlatTriangles(int width, int height) : width_(width), height_(height) {}
@@ -34,7 +34,7 @@ class FlatTriangles : public FragmentShader {
     add(p, q, r, color, alpha_mode);
     add(p, r, s, color, alpha_mode);
   }
-  /// The same triangles of each surface, numbered the other way round.
+  /// The same triangles of each surface in the opposite order.
   FlatTriangles reversed() const {
     FlatTriangles out(width_, height_);
     for (std::size_t s = 0; s < 3; ++s)
@@ -44,8 +44,8 @@ class FlatTriangles : public FragmentShader {
       }
     return out;
   }
-  /// Of masked ones, by place in 1/256 pixel, the change of the first weight over the point's footprint, and number
-  /// among the masked ones. The cutoff is 1/2.
+  /// The alpha of masked triangles as a function of the position in 1/256 pixel, the change of the first barycentric
+  /// weight over the fragment's footprint, and the index among the masked triangles. The cutoff is 1/2.
   std::function<float(std::int32_t x, std::int32_t y, float dbdx, std::uint32_t number)> alpha_at;
 
   LinearImage analytic(const AnalyticOptions& options = {}, std::optional<Crop> crop = {},
@@ -65,7 +65,7 @@ class FlatTriangles : public FragmentShader {
     });
   }
   RenderOptions render_options;
-  mutable RasterCounts counts;  ///< of the last image that `analytic` or `converged` drew
+  mutable RasterCounts counts;  ///< counts of the last image that `analytic` or `converged` drew
 
   void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
     for (int i = 0; i < batch.padded(); ++i) {
@@ -89,7 +89,7 @@ class FlatTriangles : public FragmentShader {
     std::vector<Linear> color;
   };
 
-  /// Triangles are numbered through the lists; three vertices each.
+  /// Triangles have consecutive numbers across the lists, and three vertices each.
   std::size_t number_of(const FragmentBatch& batch, std::size_t leader) const {
     std::size_t number = batch.triangle[leader];
     for (std::size_t s = 0; s < batch.instance[leader]; ++s) number -= lists_[s].clip.size() / 3;
@@ -129,7 +129,7 @@ class FlatTriangles : public FragmentShader {
   List lists_[3];  ///< by Surface
 };
 
-/// Numbers in [low, high) that follow from a seed.
+/// Pseudorandom numbers in [low, high).
 class Numbers {
  public:
   explicit Numbers(std::uint32_t seed) : seed_(seed) {}

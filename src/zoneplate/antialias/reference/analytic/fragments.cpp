@@ -6,7 +6,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::uint32_t hashes = 256;  // of a pixel's fragments
+constexpr std::uint32_t hashes = 256;  // hash values of a pixel's fragments
 
 }  // namespace
 

@@ -32,7 +32,7 @@ void MaskedPolygons::abandon_pixel() {
   edges_.shrink(asked_before_);
 }
 
-/// Gives each masked triangle of the pixel a place; false if there are too many.
+/// Assigns an index to each masked triangle of the pixel; false if there are too many.
 bool MaskedPolygons::knows_masked(std::span<const Layer> layers) {
   for (const Layer& layer : layers) {
     if (layer.alpha_mode != AlphaMode::Mask || std::ranges::find(masked_, layer.id) != masked_.end()) continue;
@@ -77,7 +77,8 @@ void MaskedPolygons::resolve(AreaFragmentList& out) {
   }
 }
 
-/// The visible parts of a piece behind seen_, from a layer on; `answer` is that of the next masked layer.
+/// Adds the visible parts of a piece behind seen_, from a layer on; `answer` is the index of the next masked layer's
+/// query.
 void MaskedPolygons::walk(const Stored& stored, const ConvexPolygon& polygon, std::uint32_t layer, std::uint32_t answer,
                           AreaFragmentList& out) {
   if (polygon.count > many_corners) {

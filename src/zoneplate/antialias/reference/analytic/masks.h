@@ -11,10 +11,11 @@
 
 namespace zoneplate::antialias {
 
-/// The polygons under alpha-tested surfaces until alpha is evaluated: cut by a grid, then along the contours of alpha.
+/// The polygons under alpha-tested surfaces until alpha is evaluated: they are cut by a grid, then along the contours
+/// of alpha.
 class MaskedPolygons {
  public:
-  static constexpr std::size_t most_triangles = 8;  ///< alpha-tested ones in a pixel
+  static constexpr std::size_t most_triangles = 8;  ///< alpha-tested triangles in a pixel
 
   MaskedPolygons(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
                  Footprints footprints)
@@ -26,7 +27,7 @@ class MaskedPolygons {
   void begin_pixel(int x, int y);
   /// Drops the polygons of this pixel.
   void abandon_pixel();
-  /// Stores a polygon with its layers. Returns false, and stores nothing, beyond the limits of a pixel.
+  /// Stores a polygon with its layers. If the limits of a pixel are exceeded, returns false and stores nothing.
   bool add(const ConvexPolygon& polygon, std::span<const Layer> layers);
 
   /// Evaluates alpha and adds the visible fragments to the list, pixel by pixel.
@@ -40,7 +41,7 @@ class MaskedPolygons {
     int x, y;
     std::uint32_t part;
     std::uint32_t first_layer, layers;
-    std::uint32_t first_answer;  ///< of its masked layers, in their order
+    std::uint32_t first_answer;  ///< index of the first query of its masked layers; the others follow in order
   };
 
   bool knows_masked(std::span<const Layer> layers);
@@ -53,13 +54,13 @@ class MaskedPolygons {
   AlphaEdges edges_;
   std::vector<Stored> stored_;
   std::vector<Layer> layers_;
-  std::vector<std::uint32_t> answers_;  ///< numbers in edges_
-  std::vector<Layer> seen_;             ///< in front of the piece at work
+  std::vector<std::uint32_t> answers_;  ///< indices in edges_
+  std::vector<Layer> seen_;             ///< layers in front of the current piece
 
-  int x_ = 0, y_ = 0;  ///< the pixel at work
+  int x_ = 0, y_ = 0;  ///< the current pixel
   std::size_t stored_before_ = 0, layers_before_ = 0, answers_before_ = 0, asked_before_ = 0;
-  std::vector<std::int32_t> masked_;         ///< its masked triangles
-  std::vector<std::uint32_t> known_answer_;  ///< by masked triangle and part: the answer's number and one, or 0
+  std::vector<std::int32_t> masked_;         ///< the pixel's masked triangles
+  std::vector<std::uint32_t> known_answer_;  ///< for each masked triangle and part: the query's index plus 1, or 0
 };
 
 }  // namespace zoneplate::antialias

@@ -8,7 +8,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// The number of a place's square on the Z-order curve of 2^16 × 2^16 squares.
+/// The index of a position's square on the Z-order curve of 2^16 × 2^16 squares.
 std::uint32_t z_order(std::uint32_t x, std::uint32_t y) {
   std::uint32_t out = 0;
   for (int bit = 31; bit >= 16; --bit) out = out << 2 | (y >> bit & 1) << 1 | (x >> bit & 1);

@@ -9,23 +9,24 @@
 
 namespace zoneplate::antialias {
 
-/// The places where a crowded pixel is sampled: a scrambled Sobol sequence in rounds, each of which makes the number of
-/// samples four times as large.
+/// The sample positions of a crowded pixel: a scrambled Sobol sequence in rounds, each of which quadruples the number
+/// of samples.
 ///
 /// Round r ends at `ends[r]` samples. A round is sorted along a Z-order curve, so that the samples of a square of the
-/// pixel's quadtree stand in one run; every square of a level holds equally many. `Shift` moves the points of a pixel
-/// by exclusive or, which keeps the stratification and makes the errors of neighbouring pixels independent.
+/// pixel's quadtree are consecutive; all squares of a level have the same number. `Shift` is combined with the
+/// positions of a pixel by exclusive or, which keeps the stratification and makes the errors of neighbouring pixels
+/// independent.
 ///
-/// Units     pixels from the pixel's top-left corner; all coordinates are odd multiples of 2^-33, so that no sample
-/// lies
-///           on a vertex or on an upright or level edge.
+/// Units     pixels from the pixel's top-left corner; all coordinates are odd multiples of 2^-33, so that no sample is
+///           on a vertex or on a vertical or horizontal edge.
 /// Source    Owen, Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences, 1995; digital shifts: Kollig and Keller,
 ///           Efficient Multidimensional Sampling, Eurographics 2002, section 3.
 class SampleNet {
  public:
   static constexpr std::array<std::size_t, 3> ends = {256, 1024, 4096};
-  static constexpr std::size_t groups = 4;  ///< of the samples up to the end of a round, each stratified by itself
-  static constexpr int deepest = 4;         ///< the level whose squares hold 1 sample of the first round
+  /// Groups of the samples up to the end of a round, each of which is stratified.
+  static constexpr std::size_t groups = 4;
+  static constexpr int deepest = 4;  ///< the level whose squares have 1 sample of the first round
 
   struct Shift {
     std::uint32_t x = 0, y = 0;

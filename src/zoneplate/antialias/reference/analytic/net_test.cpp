@@ -24,7 +24,8 @@ TEST(SampleNet, EverySquareHoldsItsShareOfEveryRoundAndGroup) {
               ++found, ++by_group[s.group];
             });
             ASSERT_EQ(found, net.size(round) / (count * count));
-            if (level == SampleNet::deepest) continue;  // of the first round only all groups together are so fine
+            // At this level only all groups of the first round together are stratified.
+            if (level == SampleNet::deepest) continue;
             for (std::size_t g = 0; g < SampleNet::groups; ++g)
               ASSERT_EQ(by_group[g], round > 0 && g == 0 ? 0 : SampleNet::ends[round] / 4 / (count * count));
           }

@@ -6,7 +6,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// On which side of a line each corner lies, and how far away.
+/// The side and distance of each corner relative to a line.
 struct Sides {
   std::array<double, ConvexPolygon::capacity> distance;
   bool has_inside = false, has_outside = false;
@@ -24,7 +24,7 @@ Sides sides_of(const ConvexPolygon& polygon, const Line& line) {
   return out;
 }
 
-/// Calls inside(p) and outside(p) with the corners of both parts, in their order.
+/// Calls inside(p) and outside(p) with the corners of both parts, in order.
 template <class Inside, class Outside>
 void walk(const ConvexPolygon& polygon, const Sides& sides, Inside inside, Outside outside) {
   for (int i = 0; i < polygon.count; ++i) {
@@ -90,7 +90,7 @@ void halve(const ConvexPolygon& polygon, ConvexPolygon& first, ConvexPolygon& se
 }
 
 AreaMoments area_moments(const ConvexPolygon& polygon) {
-  // From the first corner, so that a sliver far from the origin keeps its digits.
+  // Relative to the first corner, so that a sliver far from the origin keeps its precision.
   AreaMoments m;
   if (polygon.count < 3) return m;
   const Place o = polygon[0];

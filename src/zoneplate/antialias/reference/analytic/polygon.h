@@ -6,27 +6,27 @@
 
 namespace zoneplate::antialias {
 
-/// A place in or near a pixel.
+/// A position in or near a pixel.
 ///
 /// Units     pixels from the pixel's top-left corner, x right, y down.
 struct Place {
   double x = 0, y = 0;
 };
 
-/// A straight line; `distance` is positive on its inner side, in pixels where a² + b² = 1.
+/// A straight line; `distance` is positive on its inner side, in pixels if a² + b² = 1.
 struct Line {
   double a = 0, b = 0, c = 0;
   double distance(Place p) const { return (a * p.x + b * p.y) + c; }
 };
 
-/// A convex part of a pixel, its corners clockwise on the screen. A polygon without corners is nothing.
+/// A convex region of a pixel, with corners clockwise on the screen. A polygon without corners is empty.
 struct ConvexPolygon {
   static constexpr int capacity = 20;
   int count = 0;
   std::array<Place, capacity> corner;
 
   ConvexPolygon() {}
-  /// Most have four or five corners: only those are copied.
+  /// Copies only the used corners: most polygons have four or five.
   ConvexPolygon(const ConvexPolygon& other) { *this = other; }
   ConvexPolygon& operator=(const ConvexPolygon& other) {
     count = other.count;
@@ -42,28 +42,29 @@ struct ConvexPolygon {
 /// The pixel itself: the unit square.
 ConvexPolygon unit_square();
 
-/// A corner nearer to a line than this many pixels lies on it: far above rounding, far below anything seen.
+/// A corner within this distance of a line, in pixels, counts as on it: far above rounding errors, far below
+/// visibility.
 inline constexpr double on_line = 0x1p-36;
 
-/// Cuts a polygon in two along a line. What lies within `on_line` of the line goes with the rest of its side.
+/// Cuts a polygon in two along a line. Corners within `on_line` of the line are assigned to the side of the others.
 ///
-/// Exact     both parts get the same new corners, so the areas of the parts sum to that of the whole within 1e-15.
-/// Requires  less than capacity corners.
+/// Exact     both parts get the same new corners, so that the areas of the parts sum to that of the whole within 1e-15.
+/// Requires  fewer than `capacity` corners.
 void cut(const ConvexPolygon& polygon, const Line& line, ConvexPolygon& inside, ConvexPolygon& outside);
 
-/// True if nothing of a polygon is inside of the line.
+/// True if no part of a polygon is inside of the line.
 bool is_outside(const ConvexPolygon& polygon, const Line& line);
 
-/// The part of `cut` that is inside.
+/// The inner part of `cut`.
 ConvexPolygon clipped(const ConvexPolygon& polygon, const Line& line);
 
 /// Cuts a polygon in two from its first corner to its middle one.
 ///
-/// Requires  four corners at least.
+/// Requires  at least four corners.
 void halve(const ConvexPolygon& polygon, ConvexPolygon& first, ConvexPolygon& second);
 
-/// Calls use(column, row, part) for what of the polygon lies in each cell of a grid of count × count squares, row by
-/// row. What is outside of the grid goes with the outermost cells.
+/// Calls use(column, row, part) for the intersection of the polygon with each cell of a grid of count × count squares,
+/// row by row. The outermost cells extend beyond the grid.
 ///
 /// Requires  fewer than capacity - 4 corners.
 template <class Use>

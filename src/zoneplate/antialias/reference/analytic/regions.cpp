@@ -8,9 +8,10 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t crowd = 16;       // triangles that cut, beyond which a region is quartered
-constexpr std::size_t large = 256;      // regions with more are divided even if the last two divisions did not help
-constexpr std::size_t most_levels = 6;  // of quartering: regions of 1/64 pixel
+constexpr std::size_t crowd = 16;  // a region with more cutting triangles is divided into quarters
+// Regions with more are divided even if the last two divisions had little effect.
+constexpr std::size_t large = 256;
+constexpr std::size_t most_levels = 6;  // levels of division: the smallest regions have a side of 1/64 pixel
 
 ConvexPolygon square_at(double x, double y, double side) {
   ConvexPolygon out;
@@ -53,7 +54,7 @@ bool PixelRegions::insert(const PixelTriangle& triangle) {
   return !cells_.is_full() && work_ <= most_work;
 }
 
-/// members_[level]: those of the level above that are in the square and not hidden all over it.
+/// Computes members_[level]: the members of the level above that overlap the square and are not entirely hidden in it.
 void PixelRegions::gather(const ConvexPolygon& square, std::size_t level) {
   std::vector<Member>& found = members_[level];
   found.clear();
@@ -74,7 +75,7 @@ void PixelRegions::gather(const ConvexPolygon& square, std::size_t level) {
   std::erase_if(found, [&](const Member& m) { return m.greatest_depth < hidden_below; });
 }
 
-/// Of members_[level]: those with an edge in the region, and those that may pass through another one in it.
+/// The number of members of members_[level] that have an edge in the region, or may intersect another one in it.
 std::size_t PixelRegions::count_cutters(std::size_t level) {
   covering_.clear();
   for (const Member& m : members_[level])
@@ -93,7 +94,7 @@ bool PixelRegions::find_in(const ConvexPolygon& square, std::size_t level, Crowd
   check_deadline();
   gather(square, level);
   if (members_[level].empty()) return true;
-  // Lines that run side by side through a pixel do so through its quarters too.
+  // Nearly parallel lines through a pixel also pass together through its quarters, so that division has little effect.
   const std::size_t cutters = count_cutters(level);
   const Crowd here{cutters, 4 * cutters > 3 * above.cutters && above.cutters > 0 ? above.in_vain + 1 : 0};
   if (cutters > crowd && level < most_levels + 1 && (here.in_vain < 2 || cutters > large)) {

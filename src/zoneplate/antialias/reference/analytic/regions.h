@@ -11,33 +11,33 @@
 namespace zoneplate::antialias {
 
 /// Finds the visible surfaces of a pixel, region by region: a crowded pixel is divided into quarters, and crowded
-/// quarters again, so that each triangle is compared only with triangles near it. Any number of triangles that cover a
-/// region in one order is no crowd, since they cause no cuts.
+/// quarters again, so that each triangle is compared only with nearby triangles. Triangles that cover a region in one
+/// order, in any number, do not count as a crowd, because they cause no cuts.
 ///
-/// Exact     as PixelCells: the polygons of all regions together fill the pixel. Whether a region is divided depends only
-///           on the positions of the triangles.
-/// Cost      about n log n for n visible triangles, instead of n². A pixel that would need more than `most_work` is given
-///           up.
+/// Exact     as PixelCells: the polygons of all regions together fill the pixel. Whether a region is divided depends
+///           only on the positions of the triangles.
+/// Cost      about n log n for n visible triangles, instead of n². A pixel that would exceed `most_work` is given up.
 class PixelRegions {
  public:
-  /// Returns false to give the pixel up.
+  /// Returns false to give up the pixel.
   using Use = std::function<bool(const PixelCells&)>;
 
-  static constexpr std::size_t most_work = std::size_t{1}
-                                           << 24;  ///< cells that triangles are compared with, and layers in four
+  /// Maximum number of cells that triangles are compared with, plus a quarter of the number of layers.
+  static constexpr std::size_t most_work = std::size_t{1} << 24;
 
   /// Calls `use` with the cells of every region that has triangles. Returns false if the pixel is given up, because of
   /// `use` or because it has too many cells; `use` was then not called for all regions.
   bool find(std::span<const PixelTriangle> triangles, const Use& use);
 
  private:
-  /// A triangle within a region.
+  /// A triangle that overlaps a region.
   struct Member {
     std::uint32_t number;
     bool covers;
     double least_depth, greatest_depth;
   };
-  /// How many triangles cut what is above a region, and how often quartering has hardly lessened them.
+  /// The number of cutting triangles in a region's parent, and the number of successive divisions that hardly reduced
+  /// it.
   struct Crowd {
     std::size_t cutters = 0;
     int in_vain = 0;
@@ -50,9 +50,9 @@ class PixelRegions {
 
   std::span<const PixelTriangle> triangles_;
   std::vector<std::vector<Member>> members_;  ///< by level
-  std::vector<Member> covering_;              ///< of the region at work, nearest first
+  std::vector<Member> covering_;              ///< members that cover the current region, nearest first
   PixelCells cells_;
-  std::size_t work_ = 0;  ///< done for the pixel
+  std::size_t work_ = 0;  ///< work done for the pixel
 };
 
 }  // namespace zoneplate::antialias

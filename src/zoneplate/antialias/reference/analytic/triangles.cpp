@@ -42,7 +42,7 @@ TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& targ
   for (std::size_t i = 0; i < tiles; ++i) first_[i + 1] = first_[i] + counter_[i];
 }
 
-/// Calls use(p, q, r, is_piece) for what is left of a triangle after culling and clipping.
+/// Calls use(p, q, r, is_piece) for the pieces of a triangle after culling and clipping.
 template <class Use>
 void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) const {
   const Draw& draw = projected_.draws[number];
@@ -60,7 +60,7 @@ void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) con
                         });
 }
 
-/// Calls use(id, box) for the triangles of a part that touch the target; the box is that of all pieces.
+/// Calls use(id, box) for the triangles of a part that overlap the target; the box includes all pieces.
 template <class Use>
 void TileTriangles::for_triangles(const Part& part, Use use) const {
   const int centre_x = rules_.viewport.width * 128, centre_y = rules_.viewport.height * 128;

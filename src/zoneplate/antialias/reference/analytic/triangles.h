@@ -13,43 +13,43 @@
 
 namespace zoneplate::antialias {
 
-/// A triangle on the screen, with the rasterizer's snapped vertices and depth plane, whether it covers a sample or not.
+/// A triangle on the screen, with the rasterizer's snapped vertices and depth plane, even if it covers no sample.
 struct ScreenTriangle {
-  Triangle shape;  ///< every triangle owns its edges: E is the exact doubled area
+  Triangle shape;  ///< without the top-left rule: E is the exact doubled area
   AlphaMode alpha_mode = AlphaMode::Opaque;
-  bool is_piece = false;  ///< of a clipped triangle
+  bool is_piece = false;  ///< piece of a clipped triangle
 };
 
-/// The triangles of a frame, culled and clipped as for drawing, by the tiles whose pixels they may touch.
+/// The triangles of a frame, culled and clipped as for drawing, binned by the tiles whose pixels they may overlap.
 ///
 /// Only ids are stored, for some rows of tiles at a time; the triangles are set up for the current rows of pixels.
 ///
 /// Exact     each tile gets the same triangles for any number of threads, in any order.
-/// Memory    4 bytes for each triangle and tile of the rows that are listed: not more than `most_listed`, or one row.
+/// Memory    4 bytes for each triangle and tile of the listed rows: at most `most_listed`, or one row.
 class TileTriangles {
  public:
   static constexpr std::size_t most_listed = std::size_t{1} << 24;
 
-  /// A tile's list holds what comes within `reach` pixels of the tile.
+  /// A tile's list contains the triangles within `reach` pixels of the tile.
   TileTriangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, int reach);
 
-  int first_column() const { return first_column_; }  ///< tiles of 64 × 64 on the image's own grid
+  int first_column() const { return first_column_; }  ///< in tiles of 64 × 64 on the image's own grid
   int first_row() const { return first_row_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  std::uint64_t count() const { return count_; }  ///< triangles that are seen from their front and touch the target
+  std::uint64_t count() const { return count_; }  ///< front-facing triangles that overlap the target
 
-  /// Lists the tiles of the rows from `first` on, in place of what was listed; gives the row after the last.
+  /// Replaces the lists by those of the tiles of the rows from `first` on; returns the row after the last listed one.
   int list_rows(int first);
-  /// The triangles' numbers, of a tile that is listed: row by row from the first row of all.
+  /// The ids of the triangles of a listed tile; tiles are numbered row by row from the first row.
   std::span<const std::int32_t> of_tile(std::size_t tile) const {
     return std::span(listed_).subspan(first_[tile] - listed_from_, first_[tile + 1] - first_[tile]);
   }
-  /// Makes the tile's triangles that touch the rows of pixels [top, bottom).
+  /// Sets up the tile's triangles that overlap the rows of pixels [top, bottom).
   void make(std::size_t tile, int top, int bottom, std::vector<ScreenTriangle>& out) const;
 
  private:
-  /// The pixels that a triangle may touch, its right and lower end included.
+  /// The pixels that a triangle may overlap; right and bottom are inclusive.
   struct Box {
     int left, top, right, bottom;
   };
@@ -73,10 +73,11 @@ class TileTriangles {
   int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;
   std::uint64_t count_ = 0;
   std::vector<Part> parts_;
-  std::vector<std::size_t> first_;                         ///< of each tile among all, and the total at the end
+  /// Index of each tile's first entry among all, and the total at the end.
+  std::vector<std::size_t> first_;
   std::unique_ptr<std::atomic<std::uint32_t>[]> counter_;  ///< by tile
   std::vector<std::int32_t> listed_;
-  std::size_t listed_from_ = 0;  ///< the first that is listed, among all
+  std::size_t listed_from_ = 0;  ///< index of the first listed entry among all
 };
 
 }  // namespace zoneplate::antialias

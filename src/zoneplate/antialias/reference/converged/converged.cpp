@@ -2,8 +2,9 @@
 // The converged reference: many shaded samples per pixel, whose variance gives an estimate of the remaining error.
 //
 // The reference for shading inside surfaces (textures, highlights, alpha), for which exact coverage has no closed form;
-// with any reconstruction filter, and an error estimate for each pixel (--aov error). Weak in its cost, and on edges
-// along an axis, which the samples' lattice of 1/256 pixel resolves to half a step: there `analytic` is exact.
+// with any reconstruction filter, and an error estimate for each pixel (--aov error). Weaknesses: its cost; and edges
+// along an axis, for which the sample lattice of 1/256 pixel has a resolution of half a step: there `analytic` is
+// exact.
 //
 // Source: Owen-scrambled Sobol points, Owen 1995; the estimate by independent groups is the method of batch means.
 #include "zoneplate/antialias/reference/converged/draw.h"

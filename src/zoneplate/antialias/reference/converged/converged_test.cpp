@@ -10,7 +10,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-/// Crossing triangles in several colours.
+/// Intersecting triangles in several colours.
 FlatTriangles some_scene(int side) {
   Numbers random(9);
   FlatTriangles scene(side, side);
@@ -36,7 +36,8 @@ TEST(ConvergedPattern, EveryRunIsStratified) {
   const SamplePattern pattern = scrambled_pattern(1024);
   for (std::size_t first = 0; first < 1024; first += 64)
     for (const int columns : {8, 16, 4}) {
-      // One place in each of 64 boxes; rounding moves some over a border by half a step, so boxes are asked loosely.
+      // One position in each of 64 boxes; rounding moves some across a border by half a step, so that the test has a
+      // tolerance.
       std::vector<int> count(64);
       const int rows = 64 / columns;
       for (std::size_t i = first; i < first + 64; ++i)
@@ -69,7 +70,7 @@ TEST(Converged, ItsEstimateIsNearItsErrorAndNotBelow) {
   for (const int samples : {64, 256}) {
     Plane<float> error;
     const LinearImage image = scene.converged({.samples = samples}, &error);
-    // Of the greatest channel, as the estimate is.
+    // The greatest error of the channels, as in the estimate.
     double squares = 0, estimated = 0;
     for (std::size_t i = 0; i < exact.values().size(); ++i) {
       const Linear p = image.values()[i], q = exact.values()[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The converged image: passes of a few samples over one strip of the image at a time, each added up at once.
+// The converged image: passes of a few samples over one strip of the image at a time, each accumulated immediately.
 #include "zoneplate/antialias/reference/converged/draw.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t groups = 4;
 constexpr std::size_t pass_samples = 16;
-constexpr std::size_t strip_bytes = std::size_t{1} << 27;  // of sample planes
+constexpr std::size_t strip_bytes = std::size_t{1} << 27;  // bytes of sample planes
 
 /// Weighted sums of a pixel's samples.
 struct Sum {
@@ -26,7 +26,7 @@ struct Sum {
 
 Sum operator+(const Sum& p, const Sum& q) { return {p.r + q.r, p.g + q.g, p.b + q.b, p.a + q.a, p.weight + q.weight}; }
 
-/// The filter along one axis: by pixel around and sample, its value there.
+/// The filter along one axis: its value for each neighbouring pixel and each sample.
 class AxisWeights {
  public:
   AxisWeights(const std::function<double(double)>& value, int reach, std::span<const std::uint8_t> places)
@@ -44,7 +44,7 @@ class AxisWeights {
   std::vector<double> weights_;
 };
 
-/// A filter as values along an axis.
+/// A filter as a function of the position along an axis.
 struct AxisFilter {
   std::function<double(double)> value;
   int reach = 0;
@@ -100,7 +100,7 @@ class Strips {
     write_strip();
   }
 
-  /// The strip's own pixels, and around them those of the image that the filter reaches.
+  /// Starts a strip: its pixels, and the neighbouring pixels within reach of the filter.
   void begin_strip(int top, int height) {
     const Target& whole = drawing_.target;
     top_ = top, height_ = height;
@@ -142,7 +142,7 @@ class Strips {
     });
   }
 
-  /// Adds the samples of line y of the image, kx pixels to the right of each sum's own.
+  /// Adds the samples of row y of the image to the sums, each from the pixel that is kx to the right.
   void add_row(std::span<Sum> sums, int y, int kx, std::span<const double> weight) const {
     if (y < 0 || y >= strip_.viewport.height) return;
     const int left = drawing_.target.x + kx;
@@ -175,7 +175,7 @@ class Strips {
       }
   }
 
-  /// Of the mean of the groups' means, the greatest of the channels.
+  /// The standard error of the mean of the groups' means, the greatest of the channels.
   static float standard_error(const std::array<Sum, groups>& sum, const Sum& all) {
     double greatest = 0;
     for (double Sum::*channel : {&Sum::r, &Sum::g, &Sum::b, &Sum::a}) {
@@ -196,13 +196,13 @@ class Strips {
   std::optional<DisplayLight> shown_;
   RasterMemory memory_;
 
-  int top_ = 0, height_ = 0;  ///< of the strip, without what is around
+  int top_ = 0, height_ = 0;  ///< of the strip, without the neighbouring pixels
   Target strip_;
   std::vector<LinearImage> color_;
   std::vector<Plane<float>> depth_;
   std::vector<Plane<std::uint32_t>> triangle_;
   std::array<Plane<Sum>, groups> sums_;
-  Plane<int> covered_;  ///< samples that a surface owns
+  Plane<int> covered_;  ///< number of samples that hit a surface
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ std::uint32_t reversed(std::uint32_t v) {
   return out;
 }
 
-/// The second coordinate of point i: direction numbers of Pascal's triangle modulo two.
+/// The second coordinate of point i: its direction numbers are Pascal's triangle modulo two.
 std::uint32_t second(std::uint32_t i) {
   std::uint32_t out = 0, direction = 0x80000000u;
   for (; i > 0; i >>= 1) {
