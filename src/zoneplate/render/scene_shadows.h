@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "zoneplate/render/render.h"
+#include "zoneplate/shade/cast/casters.h"
 #include "zoneplate/shade/shadow/shadow_map.h"
 #include "zoneplate/shade/shadow/traced_visibility.h"
-#include "zoneplate/shade/cast/casters.h"
 #include "zoneplate/shade/surface/surface.h"
 
 namespace zoneplate {

@@ -17,7 +17,7 @@ namespace zoneplate::cli {
 /// The common options of the subcommands of `signal` and `texture`.
 struct SignalArgs {
   std::string report = "zoneplate-signal";  ///< "format" of the JSON
-  std::string output;  ///< a file, "-" for stdout, or empty: numbers only
+  std::string output;                       ///< a file, "-" for stdout, or empty: numbers only
   bool prints_json = false;
   bool uses_codes = false;  ///< operates on display codes instead of linear light
   int threads = 0;
