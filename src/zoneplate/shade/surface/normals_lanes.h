@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "zoneplate/shade/surface/brdf.h"
+#include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
 
 /// The stages of shade/surface/shading.h about the variance and the bumps of normals, over the lane types of
