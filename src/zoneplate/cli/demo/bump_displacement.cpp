@@ -9,7 +9,7 @@
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
 #include "zoneplate/scene/builtin/make.h"
-#include "zoneplate/scene/displacement.h"
+#include "zoneplate/scene/geometry/displacement.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::cli {

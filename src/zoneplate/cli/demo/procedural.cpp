@@ -92,8 +92,9 @@ Lesson make(const DemoSize& size) {
       "has "
       "no seams. There is no image to build mip levels from; instead the function itself is filtered. A wave of f "
       "cycles "
-      "per pixel is multiplied by sin(πf)/(πf), the response of a box one pixel wide; an octave of noise fades out "
-      "between 0.2 and 0.75 lattice cells per pixel. (Errors against 256 samples per pixel, root mean square of linear "
+      "per pixel is multiplied by sin(πf)/(πf), the response of a box one pixel wide; an octave of noise by the "
+      "measured regression of its mean over the pixel. (Errors against 256 samples per pixel, root mean square of "
+      "linear "
       "light.)";
   return {.frames = {figure}};
 }

@@ -19,7 +19,7 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/os/file.h"
-#include "zoneplate/scene/displacement.h"
+#include "zoneplate/scene/geometry/displacement.h"
 
 namespace zoneplate::cli {
 namespace {

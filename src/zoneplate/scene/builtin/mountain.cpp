@@ -6,6 +6,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/builtin/bench.h"
+#include "zoneplate/scene/geometry/smooth_normals.h"
 #include "zoneplate/signal/pattern/gradient_noise.h"
 
 namespace zoneplate {
@@ -44,19 +45,17 @@ Mesh height_field(int cells, int octaves) {
   parallel_for(columns, [&](std::size_t row) {
     for (std::size_t column = 0; column < columns; ++column) {
       const float x = static_cast<float>(column) * step - 1, z = 1 - static_cast<float>(row) * step;
-      const auto height = [&](float dx, float dz) { return height_at(x + dx, z + dz, octaves); };
-      const float half = 0.5f * step, slope_x = (height(half, 0) - height(-half, 0)) / step,
-                  slope_z = (height(0, half) - height(0, -half)) / step;
       const std::size_t at = row * columns + column;
-      out.mesh.position[at] = {x, height(0, 0), z};
-      out.mesh.normal[at] = normalize(float3{-slope_x, 1, -slope_z}, {0, 1, 0});
+      out.mesh.position[at] = {x, height_at(x, z, octaves), z};
       out.mesh.uv0[at] = {0.5f * (x + 1), 0.5f * (z + 1)};
     }
   });
   Mesh mesh = std::move(out.mesh);
+  fill_grid(mesh.index, 0, cells, cells);
+  mesh.normal.clear();
+  make_smooth_normals(mesh);
   mesh.color.resize(mesh.position.size());
   for (std::size_t v = 0; v < mesh.color.size(); ++v) mesh.color[v] = color_at(mesh.position[v].y, mesh.normal[v]);
-  fill_grid(mesh.index, 0, cells, cells);
   return mesh;
 }
 

@@ -13,8 +13,8 @@ template <class F>
 struct SolidPoint {
   Vector<F> p, dx, dy;
 
-  /// The greatest change of a lattice coordinate's length per pixel.
-  [[gnu::always_inline]] F footprint() const { return sqrt(max(dot(dx, dx), dot(dy, dy))); }
+  /// The sum of the squares of the pixel's sides, as noise_fade takes it.
+  [[gnu::always_inline]] F square() const { return dot(dx, dx) + dot(dy, dy); }
 };
 
 /// sin(πx) / (πx): the response of a box filter one pixel wide to a wave of x cycles per pixel.
@@ -46,7 +46,7 @@ inline float total_amplitude(const Octaves& octaves) {
 
 template <class F>
 [[gnu::always_inline]] inline F noise_pattern(const SolidPoint<F>& at, const Octaves& octaves, bool is_turbulence) {
-  const F sum = fractal_noise<F>(at.p, at.footprint(), octaves, is_turbulence).value;
+  const F sum = fractal_noise<F>(at.p, at.square(), octaves, is_turbulence).value;
   if (is_turbulence) return sum;
   return F(0.5f) + sum * F(1 / total_amplitude(octaves));
 }
@@ -54,7 +54,7 @@ template <class F>
 /// Veins: ((1 + cos φ) / 2)³, which is 10/32 + 15/32 cos φ + 6/32 cos 2φ + 1/32 cos 3φ.
 template <class F>
 [[gnu::always_inline]] inline F marble_pattern(const SolidPoint<F>& at, const Octaves& octaves, float distortion) {
-  const NoiseSample<F> n = fractal_noise<F>(at.p, at.footprint(), octaves, true);
+  const NoiseSample<F> n = fractal_noise<F>(at.p, at.square(), octaves, true);
   Vector<F> gradient = n.gradient * F(distortion);
   gradient.x = gradient.x + F(1.0f);
   const Phase<F> phase(at.p.x + n.value * F(distortion), gradient, at);
@@ -74,7 +74,7 @@ template <class F>
   constexpr Octaves two{2, 0.5f};
   const Vector<F> stretch{F(0.5f), F(0.08f), F(0.5f)};
   const SolidPoint<F> bent{at.p * stretch, at.dx * stretch, at.dy * stretch};
-  const NoiseSample<F> n = fractal_noise<F>(bent.p, bent.footprint(), two, false);
+  const NoiseSample<F> n = fractal_noise<F>(bent.p, bent.square(), two, false);
   const F radius = sqrt(at.p.x * at.p.x + at.p.z * at.p.z), inverse = F(1.0f) / max(radius, F(1e-6f));
   const Vector<F> outwards{at.p.x * inverse, F(0.0f), at.p.z * inverse};
   const Phase<F> phase(radius + n.value * F(distortion), outwards + n.gradient * stretch * F(distortion), at);
@@ -87,16 +87,16 @@ template <class F>
   }
   const Vector<F> fine{F(12.0f), F(0.4f), F(12.0f)};
   const SolidPoint<F> grain{at.p * fine, at.dx * fine, at.dy * fine};
-  return ring + fractal_noise<F>(grain.p, grain.footprint(), two, false).value * F(0.12f);
+  return ring + fractal_noise<F>(grain.p, grain.square(), two, false).value * F(0.12f);
 }
 
 /// Mottled noise, darkened along the creases of turbulence.
 template <class F>
 [[gnu::always_inline]] inline F rock_pattern(const SolidPoint<F>& at, const Octaves& octaves) {
-  const F mottle = fractal_noise<F>(at.p, at.footprint(), octaves, false).value * F(0.9f / total_amplitude(octaves));
+  const F mottle = fractal_noise<F>(at.p, at.square(), octaves, false).value * F(0.9f / total_amplitude(octaves));
   const F three(3.1f);
   const SolidPoint<F> fine{at.p * three + Vector<F>{F(17.3f), F(5.7f), F(11.9f)}, at.dx * three, at.dy * three};
-  const F crease = fractal_noise<F>(fine.p, fine.footprint(), octaves, true).value;
+  const F crease = fractal_noise<F>(fine.p, fine.square(), octaves, true).value;
   return F(0.2f) + mottle + crease * F(0.75f);
 }
 

@@ -135,25 +135,23 @@ struct Octaves {
   float gain = 0.5f;
 };
 
-/// The amplitude of noise whose lattice cell is 1 / `footprint` pixels wide: 1 up to 0.2 cells per pixel, 0 from 0.75
-/// on.
+/// The amplitude with which noise contributes to its mean over a pixel: the regression coefficient of the mean on the
+/// noise in the middle of the pixel, e^(-rate s²), fitted to 20,000 pixels of 0.1 to 1 cells.
 ///
-/// Source    Peachey, Building Procedural Textures, in Ebert et al., Texturing and Modeling, 3rd edition 2003:
-///           1 - smoothstep(0.2, 0.75, footprint).
+/// `square` is the sum of the squares of the pixel's two sides, in lattice cells.
 template <class F>
-[[gnu::always_inline]] inline F noise_fade(F footprint) {
-  const F t = min(max((footprint - F(0.2f)) * F(1 / 0.55f), F(0.0f)), F(1.0f));
-  return F(1.0f) - t * t * (F(3.0f) - F(2.0f) * t);
+[[gnu::always_inline]] inline F noise_fade(F square, bool is_turbulence) {
+  return exp(min(square, F(100.0f)) * F(is_turbulence ? -0.68f : -0.265f));
 }
 
-/// The fractal sum Σ gain^i noise(2^i p), with its gradient. Each octave is faded by noise_fade; `footprint` is that of
-/// the first octave, in lattice cells per pixel.
+/// The fractal sum Σ gain^i noise(2^i p), with its gradient. Each octave is faded by noise_fade; `square` is that of
+/// the first octave.
 ///
 /// With `is_turbulence` the octaves' absolute values are added, and an octave that is too fine for the pixels counts
 /// with its mean.
 /// Source    Perlin, An Image Synthesizer, SIGGRAPH 1985.
 template <class F>
-[[gnu::always_inline]] inline NoiseSample<F> fractal_noise(Vector<F> p, F footprint, const Octaves& octaves,
+[[gnu::always_inline]] inline NoiseSample<F> fractal_noise(Vector<F> p, F square, const Octaves& octaves,
                                                            bool is_turbulence) {
   // The mean of |noise|, measured over 10^7 points.
   constexpr float mean_magnitude = 0.2204f;
@@ -161,7 +159,7 @@ template <class F>
   float frequency = 1, amplitude = 1;
   for (int i = 0; i < octaves.count; ++i) {
     NoiseSample<F> n = gradient_noise<F>(p * F(frequency));
-    const F weight = noise_fade<F>(footprint * F(frequency));
+    const F weight = noise_fade<F>(square * F(frequency * frequency), is_turbulence);
     if (is_turbulence) {
       const F sign = select(n.value < F(0.0f), F(-1.0f), F(1.0f));
       n.value = F(mean_magnitude) + (n.value * sign - F(mean_magnitude)) * weight;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/scene/displacement.h"
+#include "zoneplate/scene/geometry/displacement.h"
 
 #include <algorithm>
 #include <cmath>
