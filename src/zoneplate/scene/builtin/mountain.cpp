@@ -27,14 +27,14 @@ float height_at(float x, float z, int octaves) {
     amplitude *= 0.5f, frequency *= 2.1f;
   }
   const float distance = std::min(x * x + z * z, 1.0f), hump = (1 - distance) * (1 - distance);
-  return hump * (0.15f + 0.85f * sum);
+  return hump * (0.10f + 0.55f * sum);
 }
 
 float4 color_at(float height, float3 normal) {
   constexpr float3 grass{0.09f, 0.13f, 0.035f}, rock{0.19f, 0.165f, 0.145f}, snow{0.86f, 0.89f, 0.94f};
   const auto ramp = [](float from, float to, float v) { return std::clamp((v - from) / (to - from), 0.0f, 1.0f); };
-  float3 color = grass + (rock - grass) * std::max(ramp(0.18f, 0.32f, height), ramp(0.80f, 0.62f, normal.y));
-  color = color + (snow - color) * (ramp(0.42f, 0.52f, height) * ramp(0.50f, 0.68f, normal.y));
+  float3 color = grass + (rock - grass) * std::max(ramp(0.12f, 0.22f, height), ramp(0.80f, 0.62f, normal.y));
+  color = color + (snow - color) * (ramp(0.28f, 0.36f, height) * ramp(0.50f, 0.68f, normal.y));
   return {color.x, color.y, color.z, 1};
 }
 
@@ -69,7 +69,7 @@ Scene make(std::span<const std::int64_t> values) {
   ground.metallic = 0, ground.roughness = 0.9f;
   scene.materials.push_back(ground);
   add_object(scene, "mountain", height_field(static_cast<int>(values[0]), static_cast<int>(values[1])));
-  scene.cameras.push_back(camera_at({1.25f, 0.85f, 2.0f}, {0, 0.18f, 0}, 0.60f, 0.1f, 10));
+  scene.cameras.push_back(camera_at({1.5f, 1.0f, 2.5f}, {0, 0.16f, 0}, 0.56f, 0.1f, 10));
   return scene;
 }
 

@@ -24,15 +24,20 @@ template <class F>
   return select(angle > F(1e-3f), sin(angle) / max(angle, F(1e-3f)), F(1.0f));
 }
 
-/// A phase in cycles, and its change per pixel along x and y.
+/// A phase in cycles, its change per pixel along x and y, and the variance of its unresolved part.
 template <class F>
 struct Phase {
-  F value, dx, dy;
+  F value, dx, dy, variance;
 
-  [[gnu::always_inline]] Phase(F at, Vector<F> gradient, const SolidPoint<F>& point)
-      : value(at), dx(dot(gradient, point.dx)), dy(dot(gradient, point.dy)) {}
-  /// The response of the pixel to harmonic k.
-  [[gnu::always_inline]] F response(float k) const { return box_response<F>(dx * F(k)) * box_response<F>(dy * F(k)); }
+  [[gnu::always_inline]] Phase(F at, Vector<F> gradient, F lost_variance, const SolidPoint<F>& point)
+      : value(at), dx(dot(gradient, point.dx)), dy(dot(gradient, point.dy)), variance(lost_variance) {}
+  /// The response of the pixel to harmonic k: of a box to a wave, times the mean of cos(2πk δ) over normally
+  /// distributed displacements δ of the phase.
+  [[gnu::always_inline]] F response(float k) const {
+    constexpr float two_pi_squared = 19.7392088f;
+    return box_response<F>(dx * F(k)) * box_response<F>(dy * F(k)) *
+           exp(min(variance, F(100.0f)) * F(-two_pi_squared * k * k));
+  }
   /// The angle of harmonic k, with whole cycles removed.
   [[gnu::always_inline]] F angle(float k) const { return (value - floor(value)) * F(k * 6.28318531f); }
 };
@@ -57,7 +62,7 @@ template <class F>
   const NoiseSample<F> n = fractal_noise<F>(at.p, at.square(), octaves, true);
   Vector<F> gradient = n.gradient * F(distortion);
   gradient.x = gradient.x + F(1.0f);
-  const Phase<F> phase(at.p.x + n.value * F(distortion), gradient, at);
+  const Phase<F> phase(at.p.x + n.value * F(distortion), gradient, n.lost_variance * F(distortion * distortion), at);
   constexpr float harmonic[3] = {15.0f / 32, 6.0f / 32, 1.0f / 32};
   F sum(10.0f / 32);
   for (int k = 0; k < 3; ++k) {
@@ -77,7 +82,8 @@ template <class F>
   const NoiseSample<F> n = fractal_noise<F>(bent.p, bent.square(), two, false);
   const F radius = sqrt(at.p.x * at.p.x + at.p.z * at.p.z), inverse = F(1.0f) / max(radius, F(1e-6f));
   const Vector<F> outwards{at.p.x * inverse, F(0.0f), at.p.z * inverse};
-  const Phase<F> phase(radius + n.value * F(distortion), outwards + n.gradient * stretch * F(distortion), at);
+  const Phase<F> phase(radius + n.value * F(distortion), outwards + n.gradient * stretch * F(distortion),
+                       n.lost_variance * F(distortion * distortion), at);
   // sin(πk/5) / (πk/5) / (πk).
   constexpr float harmonic[4] = {0.29778f, 0.12045f, 0.05353f, 0.01861f};
   F ring(0.5f);
