@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint8_t identifier[12] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
 constexpr std::size_t header_bytes = 80;  // to the level index
-constexpr std::size_t level_bytes = 24, global_header_bytes = 20, image_bytes = 20;
+constexpr std::size_t global_header_bytes = 20, image_bytes = 20;
 enum Supercompression : std::uint32_t { none = 0, basis_lz = 1, zstandard = 2 };
 enum ColorModel : std::uint32_t { etc1s = 163, uastc = 166 };
 

@@ -96,7 +96,7 @@ Bytes literal_stream(const std::vector<std::uint32_t>& values, std::size_t chann
 
 TEST(VertexStream, DecodesEveryChannelMode) {
   constexpr std::size_t channels = 4;
-  for (const std::size_t count : {1, 15, 256, 300, 600}) {
+  for (const std::size_t count : {1u, 15u, 256u, 300u, 600u}) {
     std::vector<std::uint32_t> values(count * channels);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = hash(static_cast<std::uint32_t>(i), 5u);
     const Bytes out = decoded(literal_stream(values, channels, {0, 1, 2, 0x72}), 4 * channels, count);

@@ -327,14 +327,14 @@ void SurfaceShader::Data::BatchShading::tilt_normals() {
   };
   const auto scratch = std::make_unique<Scratch>();
   const TextureSlot& slot = plan.slot(TextureSlotIndex::Height);
-  const TextureView& view = slot.texture->view();
+  const TextureView& heights = slot.texture->view();
   find_surface_gradients(d.scene, batch, slot.uv_set, scratch->surface);
   const Footprint at = footprint(slot);
-  measure_footprints(view, at, scratch->level, scratch->ratio, p.count);
+  measure_footprints(heights, at, scratch->level, scratch->ratio, p.count);
   for (auto& axis : scratch->gradient) std::fill_n(axis, p.count, 0.0f);
   for (int axis = 0; axis < 2; ++axis) {
     const float* const coordinate = axis == 0 ? at.u : at.v;
-    const float spacing = 1 / static_cast<float>(axis == 0 ? view.width[0] : view.height[0]);
+    const float spacing = 1 / static_cast<float>(axis == 0 ? heights.width[0] : heights.height[0]);
     const auto step = [&](int i) { return spacing * exp2(std::max(scratch->level[i], 0.0f)); };
     const auto heights_at = [&](float sign, float* out) {
       for (int i = 0; i < p.count; ++i) scratch->shifted[i] = coordinate[i] + sign * step(i);
@@ -421,13 +421,13 @@ void SurfaceShader::Data::BatchShading::widen_roughness() {
   if (!plan.widens_by_curvature || is_corner) kernels.fill(p.normal_variance, 0, p.count);
   if (plan.normal_spread != nullptr) {
     const TextureSlot& slot = plan.slot(TextureSlotIndex::Normal);
-    SamplerState filtering = slot.filtering;
-    if (filtering.kind != TextureFilter::Kind::BySampler)
-      filtering.kind = TextureFilter::Kind::BySampler, filtering.anisotropy = 1;
-    if (filtering.anisotropy > 1) {
-      d.filtering.sample_anisotropic(*plan.normal_spread, filtering, footprint(slot), texel, p.count);
+    SamplerState sampler = slot.filtering;
+    if (sampler.kind != TextureFilter::Kind::BySampler)
+      sampler.kind = TextureFilter::Kind::BySampler, sampler.anisotropy = 1;
+    if (sampler.anisotropy > 1) {
+      d.filtering.sample_anisotropic(*plan.normal_spread, sampler, footprint(slot), texel, p.count);
     } else {
-      d.filtering.find_taps(*plan.normal_spread, filtering, footprint(slot), taps, p.count);
+      d.filtering.find_taps(*plan.normal_spread, sampler, footprint(slot), taps, p.count);
       d.filtering.mix_taps(*plan.normal_spread, taps, texel, p.count);
       taps_of = nullptr;
     }
