@@ -13,8 +13,8 @@ namespace zoneplate {
 
 /// The lights and the environment of a scene.
 struct Lighting {
-  std::vector<Light> lights;  ///< in world space or camera space
-  Environment environment;
+  std::vector<Light> lights;      ///< in world space or camera space
+  Environment environment;        ///< light from infinitely far away
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
 };
 

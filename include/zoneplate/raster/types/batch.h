@@ -94,7 +94,7 @@ struct FragmentOutputs {
   alignas(64) float mip_level[FragmentBatch::padded_capacity];
   alignas(
       64) float anisotropy[FragmentBatch::padded_capacity];  ///< its longer axis over its shorter; 0 without a texture
-  static constexpr float no_mip_level = -128;
+  static constexpr float no_mip_level = -128;                ///< `mip_level` of a fragment without a texture
 };
 
 }  // namespace zoneplate
