@@ -68,7 +68,7 @@ struct CourseShader {
   static float3 look_up(const Texture& texture, float u, float v) {
     return xyz(sample(texture, {.level = LevelFilter::None}, {u, v}, {}, {}));
   }
-  // The height is the length of the colour in codes of 8 bits.
+  // The height is the length of the colour vector in 8-bit values.
   float height_at(float u, float v) const { return 255 * length(look_up(height_texture, u, v)); }
 
   // The normal perturbed by the height's differences of one texel, in the course's tangent frame. The course's v grows

@@ -94,9 +94,10 @@ struct Material {
   /// Heights along the normal, in the red channel: their gradient turns the normal of the shading (bump mapping). It
   /// counts where there is no normal texture.
   TextureUse height_texture;
-  float height_scale = 1;   ///< height of the value 1 above the value 0, in world units
-  int parallax_layers = 0;  ///< above 0: the coordinates of all textures move to where the ray meets the heights, which
-                            ///< lie below the surface, found in so many steps (parallax occlusion mapping)
+  float height_scale = 1;  ///< height of the value 1 above the value 0, in world units
+  /// The number of steps of parallax occlusion mapping, which moves the coordinates of all textures to where the
+  /// viewing ray meets the heights; these lie below the surface. 0: bump mapping only.
+  int parallax_layers = 0;
   TextureUse occlusion_texture;  ///< red channel
   float occlusion_strength = 1;  ///< 0: no occlusion; 1: as the texture has it
 

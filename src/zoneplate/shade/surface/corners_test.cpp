@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "zoneplate/math/random.h"
@@ -62,6 +63,22 @@ TEST(ShadingFrequency, TheBaseColoursTextureKeepsTheDetailOfFragments) {
   EXPECT_EQ(textured.x, plain.x);
   EXPECT_NEAR(textured.y, plain.y * 0.5029f, 1e-4f);
   EXPECT_EQ(textured.z, 0);
+}
+
+TEST(ShadingFrequency, TheSolidTextureIsEvaluatedAtFragments) {
+  constexpr SolidTexture noise{.pattern = SolidPattern::Noise, .scale = 3.7f, .is_filtered = false};
+  Scene scene = bent_triangle();
+  const auto plain = shade(scene, from({0, 1, 3}, ShadingFrequency::Vertex), places());
+  scene.materials[0].solid_texture = noise;
+  const auto textured = shade(scene, from({0, 1, 3}, ShadingFrequency::Vertex), places());
+  scene.materials[0].model = ShadingModel::Unlit, scene.materials[0].base_color = {1, 1, 1, 1};
+  const auto pattern = shade(scene, from({0, 1, 3}, ShadingFrequency::Fragment), places());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float4 expected{plain->color(i).x * pattern->color(i).x, plain->color(i).y * pattern->color(i).y,
+                          plain->color(i).z * pattern->color(i).z, 1};
+    expect_near(textured->color(i), expected, 1e-6f);
+  }
+  EXPECT_GT(std::abs(pattern->color(0).x - pattern->color(1).x), 0.01f);
 }
 
 TEST(TriangleCorners, FullBatchesHaveTheColoursOfSmallOnes) {

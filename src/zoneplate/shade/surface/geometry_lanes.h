@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "zoneplate/math/lanes_vector.h"
@@ -27,6 +28,13 @@ void fill(float* out, float value, int count) {
 template <class F>
 void saturate(float* values, int count) {
   for (int i = 0; i < count; i += F::lanes) min(max(F::load(values + i), F(0.0f)), F(1.0f)).store(values + i);
+}
+
+/// Fills the derivatives that interpolation leaves out: they are those of the fragment before.
+inline void fill_repeated(const FragmentBatch& batch, int count, float* derivative) {
+  for (int i = FragmentBatch::group; i < count; i += FragmentBatch::group)
+    if (batch.has_uniform_derivatives[i / FragmentBatch::group])
+      std::fill_n(derivative + i, FragmentBatch::group, derivative[i - 1]);
 }
 
 /// One float of the vertices, for several fragments: its value at the first vertex, and the differences of the second

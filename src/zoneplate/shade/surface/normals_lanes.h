@@ -10,13 +10,6 @@
 /// math/lanes.h.
 namespace zoneplate::stages {
 
-/// Fills the derivatives that interpolation leaves out: they are those of the fragment before.
-inline void fill_repeated(const FragmentBatch& batch, int count, float* derivative) {
-  for (int i = FragmentBatch::group; i < count; i += FragmentBatch::group)
-    if (batch.has_uniform_derivatives[i / FragmentBatch::group])
-      std::fill_n(derivative + i, FragmentBatch::group, derivative[i - 1]);
-}
-
 template <class F>
 void find_normal_variance(const FragmentBatch& batch, const TriangleVertices& vertices,
                           const InstanceTransform* transforms, ShadingState& p) {

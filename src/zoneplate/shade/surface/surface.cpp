@@ -137,8 +137,7 @@ struct SurfaceShader::Data::BatchShading {
   std::unique_ptr<float[]> random;       ///< for stochastic filtering: three numbers of each fragment
   std::unique_ptr<float[]> light_visibility;
   LayerState q;
-  bool is_corner =
-      false;  ///< shaded at a corner of a triangle: the texture of the base colour is left to its fragments
+  bool is_corner = false;  ///< a corner of a triangle, whose fragments sample the textures of the base colour
   alignas(64) float texel_values[4][FragmentBatch::padded_capacity];
   float* const texel[4] = {texel_values[0], texel_values[1], texel_values[2], texel_values[3]};
 
@@ -259,17 +258,10 @@ void SurfaceShader::Data::BatchShading::find_base() {
 
 /// Multiplies the base colour by the solid texture at the fragments' positions in object space.
 void SurfaceShader::Data::BatchShading::apply_solid_texture() {
-  if (is_corner)
-    for (auto* const derivatives : {p.object_dx, p.object_dy})
-      for (int c = 0; c < 3; ++c) std::fill_n(derivatives[c], p.count, 0.0f);
-  // A group that repeats the derivatives of the fragment before it gets copies of them.
-  for (int g = 1; g < p.count / FragmentBatch::group; ++g)
-    if (const int first = g * FragmentBatch::group; batch.has_uniform_derivatives[g])
-      for (auto* const derivatives : {p.object_dx, p.object_dy})
-        for (int c = 0; c < 3; ++c)
-          std::fill_n(derivatives[c] + first, FragmentBatch::group, derivatives[c][first - 1]);
   SolidPoints points;
   for (int c = 0; c < 3; ++c) {
+    stages::fill_repeated(batch, p.count, p.object_dx[c]);
+    stages::fill_repeated(batch, p.count, p.object_dy[c]);
     points.position[c] = p.object_position[c];
     points.dx[c] = p.object_dx[c], points.dy[c] = p.object_dy[c];
   }
@@ -575,7 +567,6 @@ void SurfaceShader::Data::BatchShading::light(FragmentOutputs& out) {
 void SurfaceShader::Data::BatchShading::shade_color(FragmentOutputs& out) {
   interpolate(d.needs_of_color[static_cast<std::size_t>(batch.material)]);
   find_base();
-  if (plan.attributes.object_position) apply_solid_texture();
   if (plan.attributes.normal) find_normals();
   light(out);
 }
@@ -598,7 +589,7 @@ void SurfaceShader::shade(const FragmentBatch& batch, OutputMask outputs, Fragme
 }
 
 /// Shades the triangles of a batch at their vertices or middles, interpolates their colours, and multiplies them by the
-/// texture of the base colour.
+/// textures of the base colour.
 void SurfaceShader::shade_triangles(const FragmentBatch& batch, FragmentOutputs& out) const {
   const bool is_flat = data_->view.shading_frequency == ShadingFrequency::Triangle;
   TriangleCorners corners(is_flat ? 1 : 3);
@@ -616,16 +607,23 @@ void SurfaceShader::shade_triangles(const FragmentBatch& batch, FragmentOutputs&
   Data::BatchShading whole(*data_, batch);
   const MaterialPlan& plan = whole.plan;
   const TextureSlot& slot = plan.slot(TextureSlotIndex::BaseColor);
-  if (slot.texture == nullptr) return;
+  const bool is_textured = slot.texture != nullptr, is_solid = plan.attributes.object_position;
+  if (!is_textured && !is_solid) return;
   Attributes attributes;
-  attributes.uv[slot.uv_set] = true;
+  attributes.uv[slot.uv_set] = is_textured, attributes.object_position = is_solid;
   whole.interpolate(data_->make_needs(batch.material, attributes, false));
-  whole.sample(slot, whole.texel);
+  auto& color = whole.p.base;
+  float* const channels[4] = {color[0], color[1], color[2], color[3]};
+  if (is_textured)
+    whole.sample(slot, channels);
+  else
+    for (float* const channel : channels) whole.kernels.fill(channel, 1, whole.p.count);
+  if (is_solid) whole.apply_solid_texture();
   const bool is_blended = plan.alpha_mode == AlphaMode::Blend;
   for (int i = 0; i < batch.count; ++i) {
-    const float alpha = is_blended ? whole.texel[3][i] : 1;
-    out.r[i] *= whole.texel[0][i] * alpha, out.g[i] *= whole.texel[1][i] * alpha;
-    out.b[i] *= whole.texel[2][i] * alpha, out.a[i] *= alpha;
+    const float alpha = is_blended ? color[3][i] : 1;
+    out.r[i] *= color[0][i] * alpha, out.g[i] *= color[1][i] * alpha;
+    out.b[i] *= color[2][i] * alpha, out.a[i] *= alpha;
   }
 }
 

@@ -282,8 +282,8 @@ std::vector<float> sorted_alphas(const Code* codes, const TextureView& view, std
   return alphas;
 }
 
-/// Multiplies the alpha of each level but the first by the number with which as many texels reach the cutoff as the
-/// fraction in level 0 asks for, to the nearest.
+/// Scales the alpha of each level but the first so that the fraction of its texels that reach the cutoff is that of
+/// level 0, to the nearest texel. Source: Castaño, Computing Alpha Mipmaps, 2010.
 template <class Code>
 void keep_coverage(Code* codes, const TextureView& view, float cutoff) {
   if (!(cutoff > 0 && cutoff <= 1)) return;
