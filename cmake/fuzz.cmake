@@ -3,9 +3,9 @@
 #
 # They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR
 # pictures that leaves the header.
-set(fuzzed_sources ${all_sources})
-list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
-list(FILTER fuzzed_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|formats/gltf/draco\\.cpp$")
+set(fuzzed_sources ${library_sources})
+list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/|/builtin_makers_table")
+list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
 list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
 
