@@ -20,7 +20,7 @@ TEST_F(SdfVerb, DrawsAScene) {
   EXPECT_EQ(image(2, 2), (Rgba8{0, 0, 0, 255}));
   json(run_sdf_draw, {at("s.sdf"), "-o", at("l.png"), "--size", "90x60"});
   EXPECT_EQ(picture("l.png")(45, 30), (Rgba8{255, 255, 255, 255}));
-  EXPECT_EQ(picture("l.png")(45, 9), (Rgba8{0, 0, 0, 255}));  // 15 units are 30 pixels, the circle's radius is 20
+  EXPECT_EQ(picture("l.png")(45, 8), (Rgba8{0, 0, 0, 255}));  // 15 units are 30 pixels, the circle's radius is 20
 }
 
 TEST_F(SdfVerb, StoresAndShowsAField) {
