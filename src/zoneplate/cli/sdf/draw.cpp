@@ -76,7 +76,7 @@ void run_sdf_draw(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one SCENE");
   check_result_name(args.output);
   with_threads(args.threads, [&] {
-    const sdf::SceneFile scene = load_shape_scene(input, {});
+    const sdf::SceneFile scene = load_shape_scene(input, {.text_outline = text_outlines(args)});
     const sdf::Raster raster = raster_of(scene, args, input);
     const auto start = std::chrono::steady_clock::now();
     const LinearImage image = sdf::draw(scene.drawing, raster, scene.background, args.grid);

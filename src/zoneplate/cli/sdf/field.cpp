@@ -56,7 +56,7 @@ void run_sdf_field(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one SCENE");
   check_result_name(args.output);
   with_threads(args.threads, [&] {
-    const sdf::SceneFile scene = load_shape_scene(input, {.keeps_shapes = true});
+    const sdf::SceneFile scene = load_shape_scene(input, {.keeps_shapes = true, .text_outline = text_outlines(args)});
     const sdf::Raster raster = raster_of(scene, args, input);
     if (scene.shapes.empty()) throw Error(ErrorKind::Input, input + ": no layer, so there is no distance");
     const sdf::DistanceField field = distance_field(sdf::combined(sdf::Shape::Kind::Union, scene.shapes), raster);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/values.h"
+#include "zoneplate/formats/font/font.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 
@@ -23,7 +25,16 @@ std::vector<Option> shape_scene_options(ShapeSceneArgs& args) {
   return {{"--size", "WxH", "Size of the image; the scene is scaled to fit and centred", "Options", true,
            [&](auto& text) { args.size = parse_size(text, most_side); }},
           {"--scale", "S", "Pixels per unit of the scene; default 1", "Options", true,
-           [&](auto& text) { args.scale = parse_number(text, 1e-3, 1e3); }}};
+           [&](auto& text) { args.scale = parse_number(text, 1e-3, 1e3); }},
+          {"--font", "FILE", "TrueType or OpenType font of `text`; default DejaVu Sans", "Options", false,
+           [&](auto& text) { args.font = text; }}};
+}
+
+std::function<sdf::Outline(std::string_view, double)> text_outlines(const ShapeSceneArgs& args) {
+  return [path = args.font, font = std::shared_ptr<const Font>()](std::string_view text, double size) mutable {
+    if (!font) font = std::make_shared<const Font>(path.empty() ? dejavu_path("DejaVuSans.ttf") : path);
+    return text_outline(*font, text, size);
+  };
 }
 
 sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +16,14 @@ namespace zoneplate::cli {
 struct ShapeSceneArgs : SignalArgs {
   std::optional<int2> size;
   double scale = 1;
+  std::string font;  ///< a file; empty: DejaVu Sans
 };
 
-/// --size and --scale.
+/// --size, --scale and --font.
 std::vector<Option> shape_scene_options(ShapeSceneArgs& args);
+
+/// The outlines of `text` in scenes; the font is read when the first text needs it.
+std::function<sdf::Outline(std::string_view, double)> text_outlines(const ShapeSceneArgs& args);
 
 /// Reads the scene: a file, or - for stdin.
 ///

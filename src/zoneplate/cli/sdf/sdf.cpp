@@ -13,7 +13,11 @@ namespace {
 
 constexpr Verb subcommands[] = {
     {"draw", "draw a scene of shapes, antialiased from their distances", run_sdf_draw},
-    {"field", "show or store the distances of a scene: colours, isolines, gradients, numbers", run_sdf_field}};
+    {"field", "show or store the distances of a scene: colours, isolines, gradients, numbers", run_sdf_field},
+    {"from-mask", "make the exact distance field of an image's bright pixels", run_sdf_from_mask},
+    {"to-mask", "draw a stored field, at any size", run_sdf_to_mask},
+    {"text", "draw text from single- or multi-channel fields, with its error", run_sdf_text},
+    {"atlas", "make an atlas of a font's glyphs, with metrics as msdf-atlas-gen writes them", run_sdf_atlas}};
 
 std::string overview() {
   return "Usage: zoneplate sdf SUBCOMMAND ARGUMENTS\n"
@@ -25,6 +29,7 @@ std::string overview() {
          "Examples:\n"
          "  zoneplate sdf draw badge.sdf -o badge.png\n"
          "  zoneplate sdf field badge.sdf --show isolines -o field.png\n"
+         "  zoneplate sdf text \"Zone plate\" --sizes 16,32,64,128,256\n"
          "\n"
          "More: zoneplate sdf SUBCOMMAND -h (short), zoneplate sdf SUBCOMMAND --help (everything)\n";
 }

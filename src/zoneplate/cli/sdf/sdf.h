@@ -10,5 +10,9 @@ namespace zoneplate::cli {
 
 void run_sdf_draw(std::span<const std::string> arguments);
 void run_sdf_field(std::span<const std::string> arguments);
+void run_sdf_from_mask(std::span<const std::string> arguments);
+void run_sdf_to_mask(std::span<const std::string> arguments);
+void run_sdf_text(std::span<const std::string> arguments);
+void run_sdf_atlas(std::span<const std::string> arguments);
 
 }  // namespace zoneplate::cli

@@ -47,6 +47,49 @@ TEST_F(SdfVerb, RefusesWhatItCannotDraw) {
   EXPECT_TRUE(contains(refusal(run_sdf_draw, {at("large.sdf")}), "30000 × 30000 pixels is too large"));
 }
 
+TEST_F(SdfVerb, AMaskIsTheSignOfItsField) {
+  save("s.sdf", "canvas 40 30 background #000000\nfill #ffffff turn(20, rectangle(22, 6, 20, 10))\n");
+  out(run_sdf_draw, {at("s.sdf"), "-o", at("s.png")});
+  const auto report = json(run_sdf_from_mask, {at("s.png"), "-o", at("f.exr")});
+  EXPECT_GT(report["inside"], 150);
+  out(run_sdf_to_mask, {at("f.exr"), "-o", at("m.png")});
+  const Rgba8Image image = picture("s.png"), mask = picture("m.png");
+  for (std::size_t i = 0; i < image.values().size(); ++i)
+    EXPECT_EQ(mask.values()[i].r > 188, image.values()[i].r >= 128) << i;  // 188 is half of the light, 128 of the codes
+  EXPECT_EQ(json(run_sdf_to_mask, {at("f.exr"), "-o", at("l.png"), "--scale", "3"})["width"], 120);
+  EXPECT_TRUE(
+      contains(refusal(run_sdf_from_mask, {at("s.png"), "--threshold", "1"}, ErrorKind::Input), "no pixel is inside"));
+  EXPECT_TRUE(contains(refusal(run_sdf_to_mask, {at("s.png")}), "expected a field of distances"));
+}
+
+TEST_F(SdfVerb, TextFromAnAtlasFileIsThatFromMemory) {
+  const Words atlas = {"--characters", "Zone k", "-o", at("a.png"), "--metrics", at("a.json")};
+  EXPECT_EQ(json(run_sdf_atlas, atlas)["glyphs"], 6);
+  const nlohmann::json metrics = parsed_json(text("a.json"));
+  EXPECT_EQ(metrics["atlas"]["type"], "msdf");
+  EXPECT_EQ(metrics["glyphs"][0]["unicode"], 32);
+  EXPECT_FALSE(metrics["glyphs"][0].contains("planeBounds"));
+  out(run_sdf_text, {"Zone k", "-o", at("memory.png"), "--size", "90"});
+  const auto report = json(run_sdf_text, {"Zone k", "-o", at("file.png"), "--size", "90", "--atlas", at("a.png"),
+                                          "--metrics", at("a.json")});
+  EXPECT_EQ(picture("memory.png"), picture("file.png"));
+  EXPECT_LT(report["rms"], 0.06);
+  const std::string table = out(run_sdf_text, {"Zone", "--sizes", "16,64"});
+  EXPECT_TRUE(contains(table, "msdf rms")) << table;
+  save("b.json", R"({"atlas": {"type": "softmask", "size": 32}})");
+  EXPECT_TRUE(
+      contains(refusal(run_sdf_text, {"Z", "--atlas", at("a.png"), "--metrics", at("b.json")}, ErrorKind::Input),
+               "type is 'softmask', expected sdf, psdf, msdf or mtsdf"));
+  EXPECT_TRUE(contains(refusal(run_sdf_text, {"Z", "--atlas", at("a.png")}), "belong together"));
+}
+
+TEST_F(SdfVerb, ScenesHaveText) {
+  save("t.sdf", "canvas 60 40 background #ffffff\nfill #000000 text(10, 30, 30, \"I\")");
+  out(run_sdf_draw, {at("t.sdf"), "-o", at("t.png")});
+  EXPECT_EQ(picture("t.png")(14, 20), (Rgba8{0, 0, 0, 255}));  // the stem is from 2.9 to 5.9 pixels from the pen
+  EXPECT_EQ(picture("t.png")(20, 20), (Rgba8{255, 255, 255, 255}));
+}
+
 TEST_F(SdfVerb, HelpListsEveryShape) {
   const std::string help = out(run_sdf_draw, {"--help"});
   for (const char* word : {"smooth-difference(width, shapes)", "regular-polygon(x, y, radius, corners)", "path(text)"})
