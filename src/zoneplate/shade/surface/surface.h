@@ -18,6 +18,7 @@ namespace zoneplate {
 class TextureSet;
 class InterleavedVertices;
 class LightVisibility;
+struct SurfaceConstants;
 
 /// The vector from pixel (x, y) to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
 struct PixelRays {
@@ -78,8 +79,7 @@ class SurfaceShader {
   void shade_fragments(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const;
   void shade_triangles(const FragmentBatch& batch, FragmentOutputs& out) const;
 
-  struct Data;
-  std::unique_ptr<Data> data_;
+  std::unique_ptr<const SurfaceConstants> constants_;
   float brightest_;
 };
 
