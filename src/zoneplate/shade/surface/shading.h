@@ -45,6 +45,9 @@ struct ShadingUniforms {
   const EnvironmentView* map = nullptr;
   bool has_pixels = true;                  ///< FragmentBatch::x and y are set; else the positions are
   const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
+  bool has_environment_behind = true;      ///< the background is the environment
+  bool has_background_color = false;       ///< the background is a colour
+  float background[3] = {0, 0, 0};
 };
 
 /// A linear map of texture coordinates: u' = (u m[0] + v m[1]) + m[2], v' = (u m[3] + v m[4]) + m[5].
@@ -119,7 +122,10 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// The same with an environment map.
   void (*light_metallic_in_map)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                                 FragmentOutputs& out);
-  /// The same for a surface with layers.
+  /// The same for a surface with layers. Before a background that is not the environment, transmissive surfaces are
+  /// transparent where nothing of the scene is behind them: their alpha is 1 - the part of light that passes, of the
+  /// colour of which least passes, but at least their brightest channel. The rest of the light that passes is that of
+  /// the background's colour, or, before a transparent background, of the environment.
   void (*light_layered)(const ShadingUniforms& uniforms, const LayeredUniforms& layers, const FragmentBatch& batch,
                         const ShadingState& state, const LayerState& layer_state, FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& state, FragmentOutputs& out);

@@ -48,6 +48,8 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr || plan.widens();
   s.metallic = plan.metallic, s.roughness = plan.roughness;
   s.backdrop = view.backdrop ? &*view.backdrop : nullptr;
+  s.has_environment_behind = view.has_environment_behind, s.has_background_color = view.background.has_value();
+  if (const auto b = view.background) s.background[0] = b->x, s.background[1] = b->y, s.background[2] = b->z;
   s.has_pixels = view.shading_frequency == ShadingFrequency::Fragment;
   const float3 environment = view.environment;
   s.map = view.map ? &*view.map : nullptr;
