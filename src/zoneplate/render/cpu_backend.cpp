@@ -298,9 +298,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
-  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
-                          .is_painter = options.visibility == Visibility::Painter,
-                          .capacity = options.capacity};
+  const RasterRules rules{
+      .edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
   if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
   std::optional<Ground> ground;
