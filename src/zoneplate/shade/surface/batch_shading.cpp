@@ -151,13 +151,20 @@ void BatchShading::find_normals() {
   if (plan.has_bumps) tilt_normals();
 }
 
-/// Adds the variance of the normals that the pixel covers to the roughness.
+/// Adds the variance of the normals that the pixel covers to the roughness, but not that of the curvature where the
+/// lobes of lights account for it.
 void BatchShading::widen_roughness() {
   if (plan.layers == nullptr && plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
     kernels.fill(p.roughness, plan.roughness, p.count);
     kernels.fill(p.metallic, plan.metallic, p.count);
   }
   if (!plan.widens_by_curvature || is_corner) kernels.fill(p.normal_variance, 0, p.count);
+  const bool has_lobes = plan.has_turning_lobes();
+  if (has_lobes && is_corner)
+    for (int c = 0; c < 3; ++c) kernels.fill(p.normal_dx[c], 0, p.count), kernels.fill(p.normal_dy[c], 0, p.count);
+  if (has_lobes && plan.normal_spread == nullptr) return;
+  alignas(64) ShadingState::Array curvature;
+  if (has_lobes) std::copy_n(p.normal_variance, p.count, curvature), kernels.fill(p.normal_variance, 0, p.count);
   if (plan.normal_spread != nullptr) {
     const TextureSlot& slot = plan.slot(TextureSlotIndex::Normal);
     SamplerState sampler = slot.filtering;
@@ -177,6 +184,7 @@ void BatchShading::widen_roughness() {
     }
   }
   kernels.widen_roughness(p);
+  if (has_lobes) std::copy_n(curvature, p.count, p.normal_variance);
 }
 
 void BatchShading::find_emissive() {

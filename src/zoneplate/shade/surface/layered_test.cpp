@@ -418,6 +418,27 @@ TEST(Layered, WithoutAnisotropyTheFrameDoesNotMatter) {
   }
 }
 
+TEST(Layered, LobesOfTurningNormalsAreAnisotropic) {
+  // Turns along the tangent and across it, by two vectors that are not the frame's axes.
+  const V n{0, 0, 1}, t{0.6f, 0.8f, 0}, b{-0.8f, 0.6f, 0};
+  const float roughness = 0.4f, alpha = roughness * roughness, along = 0.3f, across = 0.1f, turn = 0.7f;
+  const V u = t * F(along) * F(std::cos(turn)) + b * F(across) * F(std::sin(turn));
+  const V w = t * F(-along) * F(std::sin(turn)) + b * F(across) * F(std::cos(turn));
+  const MicrofacetFrame<F> frame{t, b, n, F(std::hypot(alpha, along)), F(std::hypot(alpha, across))};
+  for (std::uint32_t k = 0; k < 50; ++k) {
+    const auto random = [&](std::uint32_t j) { return double{unit_float(hash(k, j))}; };
+    const V v = lanes(direction(0.1 + 0.9 * random(1), 6 * random(2)));
+    const V l = lanes(direction(0.1 + 0.9 * random(3), 6 * random(4)));
+    const V h = normalize(l + v);
+    const TurningLobe<F> lobe(n, v, u, w, F(roughness));
+    const float expected = (ggx(frame, h) * smith(frame, l, v, l.z, v.z)).v;
+    EXPECT_NEAR(lobe.peak(l, h, l.z).v, expected, 1e-4f * expected) << k;
+    const TurningLobe<F> still(n, v, V{0, 0, 0}, V{0, 0, 0}, F(roughness));
+    const float round = (ggx(dot(n, h), cross(n, h), F(alpha)) * smith(l.z, v.z, F(alpha))).v;
+    EXPECT_NEAR(still.peak(l, h, l.z).v, round, 1e-4f * round) << k;
+  }
+}
+
 TEST(Layered, AFilmWithoutThicknessChangesNothing) {
   Sample bare, film;
   film.layers.iridescence = 1, film.layers.iridescence_thickness_maximum = 0;

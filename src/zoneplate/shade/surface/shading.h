@@ -40,6 +40,7 @@ struct ShadingUniforms {
 
   // Metallic-roughness.
   bool has_material_texture = false, has_environment = false;
+  bool has_turning_normals = false;  ///< the lobes of lights are widened by ShadingState::normal_dx and normal_dy
   float metallic = 1, roughness = 1;
   float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null
   const EnvironmentView* map = nullptr;
@@ -97,10 +98,10 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// Source: glTF 2.0, 3.9.3.
   void (*bend_normals)(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& state);
   /// The variance of the interpolated normal within a pixel, added up over both axes: min((|∂n/∂x|² + |∂n/∂y|²) / 12,
-  /// 0.18) for unit normals n in world space. Before find_normals or transform_normals.
+  /// 0.18) for unit normals n in world space; normal_dx and normal_dy become the vectors a and b of TurningLobe, which
+  /// hold twice that variance. Before find_normals or transform_normals.
   /// Source    Tokuyoshi and Kaplanyan, Stable Geometric Specular Antialiasing with Projected-Space NDF Filtering, JCGT
-  ///           10(2), 2021, in its isotropic form, but for a box pixel and the mean of both axes: the paper's factor of
-  ///           1 / π bounds each axis and makes lobes of curved metal four times as wide as needed.
+  ///           10(2), 2021, but with the variance 1 / 12 of a box pixel in place of a Gaussian's 1 / 2π.
   void (*find_normal_variance)(const FragmentBatch& batch, const TriangleVertices& vertices,
                                const InstanceTransform* transforms, ShadingState& state);
   /// roughness = (α² + variance)^¼ with α = roughness², at most 1.

@@ -46,6 +46,7 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   copy(plan.ambient_factor, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr || plan.widens();
+  s.has_turning_normals = plan.has_turning_lobes();
   s.metallic = plan.metallic, s.roughness = plan.roughness;
   s.backdrop = view.backdrop ? &*view.backdrop : nullptr;
   s.has_environment_behind = view.has_environment_behind, s.has_background_color = view.background.has_value();
