@@ -114,7 +114,8 @@ Block decode_bc7(std::span<const std::uint8_t> bytes, const Place& place) {
   BitReader bits(bytes, place);
   std::size_t number = 0;
   while (number < 8 && bits.bit() == 0) ++number;
-  Block out{};
+  Block out;
+  out.fill({0, 0, 0, 0});
   if (number == 8) return out;
   const Mode& mode = bc7_modes[number];
   const std::uint32_t partition = bits.take(mode.partition), rotation = bits.take(mode.rotation);
