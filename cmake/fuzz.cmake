@@ -7,7 +7,7 @@ set(fuzzed_sources ${library_sources})
 list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/|/builtin_makers_table")
 list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
-list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
+list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/")
 
 add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp)
 foreach(isa IN LISTS isas)
@@ -22,13 +22,14 @@ target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::
                       ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
-# Beside file formats: `scene`, what a child process answers, and `manifest`, the lines of a batch.
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 scene manifest)
+# Beside file formats: `scene`, what a child process answers, `manifest`, the lines of a batch,
+# and `sdf`, scenes of shapes.
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 scene manifest sdf)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
   if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2")
     set(kind image)
-  elseif(format MATCHES "scene|manifest")
+  elseif(format MATCHES "scene|manifest|sdf")
     set(kind ${format})
   endif()
   add_executable(fuzz_${format} fuzz/${kind}_fuzz.cpp)
