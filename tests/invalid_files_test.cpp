@@ -212,7 +212,7 @@ std::vector<Case> gltf_cases() {
        replaced(replaced(gltf_whole, R"("indices":1)", R"("indices":1,"material":0)"), R"("scene":0,)",
                 R"("scene":0,"images":[{"uri":"gone.png"}],"textures":[{"source":0}],"materials":[)"
                 R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"),
-       3, "gone.png: cannot be read"}};
+       0, "gone.png: cannot be read"}};
 }
 
 std::vector<Case> glb_cases() {

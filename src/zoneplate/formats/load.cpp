@@ -31,7 +31,7 @@ Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_glt
 /// Returns the limits; throws if the options choose a scene, variant or animation, which only glTF files have.
 const LoadLimits& limits_of(const LoadOptions& o) {
   const SceneChoice& c = o.choice;
-  if (c.scene || c.animation || !c.variant.empty())
+  if (c.scene || c.animation || !c.animation_name.empty() || !c.variant.empty())
     throw Error(ErrorKind::Usage, "only glTF files have scenes, variants and animations to choose from");
   return o.limits;
 }

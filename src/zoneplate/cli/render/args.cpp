@@ -132,9 +132,16 @@ std::vector<Option> input_options(RenderArgs& a) {
        [&](auto& text) { a.load.choice.scene = parse_whole(text, 0, 1 << 20); }},
       {"--variant", "NAME", "Material variant of a glTF file, by name (KHR_materials_variants)", group, false,
        [&](auto& text) { a.load.choice.variant = text; }},
-      {"--animation-index", "N", "Index of the animation of a glTF file, from 0, or all; default all", group, false,
+      {"--animation-index", "N",
+       "Animation of a glTF file: its index from 0, its name, or all; default 0 for sequences, none for stills", group,
+       false,
        [&](auto& text) {
-         a.load.choice.animation = text == "all" ? SceneChoice::all_animations : parse_whole(text, 0, 1 << 20);
+         const bool is_index = !text.empty() && text.find_first_not_of("+0123456789") == text.npos;
+         SceneChoice& choice = a.load.choice;
+         choice.animation_name = is_index || text == "all" ? "" : text;
+         choice.animation = is_index        ? std::optional(parse_whole(text, 0, 1 << 20))
+                            : text == "all" ? std::optional(SceneChoice::all_animations)
+                                            : std::nullopt;
        }},
       {"--animation-time", "S", "Time in the animation, in seconds; for a sequence, the time of frame 0", group, false,
        [&](auto& text) {
@@ -402,6 +409,8 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
       {"--max-seconds", "S", "Time limit of an item, including reading; default: no limit", group, false,
        [&](auto& text) { a.max_seconds = parse_number(text, 0.001, 1e9); }},
+      {"--strict", "", "A texture that is missing or invalid is an error; otherwise it is a warning", group, false,
+       [&](auto&) { a.load.limits.is_strict = true; }},
       {"--sandbox", "", "Read and render in a sandboxed process: the default", group, false,
        [&](auto&) { a.is_sandboxed = true; }},
       {"--no-sandbox", "", "Read and render without a sandbox, with all rights of the user: for trusted models", group,
@@ -524,8 +533,8 @@ void check_args(RenderArgs& args) {
       throw Error(ErrorKind::Usage,
                   fmt::format("--aov {} requires an .exr, or an image format such as .png", aov->name));
   }
-  if (args.has_animation_time && !args.load.choice.animation && !args.sequence.is_sequence())
-    args.load.choice.animation = SceneChoice::all_animations;
+  const bool has_animation = args.load.choice.animation || !args.load.choice.animation_name.empty();
+  if (args.has_animation_time && !has_animation && !args.sequence.is_sequence()) args.load.choice.animation = 0;
   if (const auto& crop = args.options.crop)
     if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
       throw Error(ErrorKind::Usage, fmt::format("--crop: the rectangle is not inside the image of {}x{}",

@@ -18,11 +18,12 @@ namespace zoneplate::cli {
 std::string model_key(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {}", args.input, args.load.format,
-                     c.scene.value_or(-1), c.variant, c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds,
-                     fmt::join(l.allowed_paths, "\n"), args.mips.raw_colors, static_cast<int>(args.mips.filter),
-                     args.mips.keeps_coverage, args.shading_model ? static_cast<int>(*args.shading_model) : -1,
-                     args.solid_texture, args.displacement.value_or(-1));
+  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {}", l.is_strict, args.input,
+                     args.load.format, c.animation_name, c.scene.value_or(-1), c.variant, c.animation.value_or(-1),
+                     c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"), args.mips.raw_colors,
+                     static_cast<int>(args.mips.filter), args.mips.keeps_coverage,
+                     args.shading_model ? static_cast<int>(*args.shading_model) : -1, args.solid_texture,
+                     args.displacement.value_or(-1));
 }
 
 std::optional<Scene> RenderJobs::read(const RenderArgs& args) {

@@ -23,19 +23,26 @@ class Plan {
  public:
   Plan(const RenderArgs& args, SceneSource& source) : args_(args), source_(source) {
     // A turntable does not animate the scene unless an animation is chosen.
-    const bool is_chosen = args.load.choice.animation || args.has_animation_time;
+    const bool has_animation = args.load.choice.animation || !args.load.choice.animation_name.empty();
+    const bool is_chosen = has_animation || args.has_animation_time;
     choice_ = args.load.choice;
     Scene scene = load(&SceneSource::load, choice_.time);
-    if (!choice_.animation && !scene.animations.empty() && (is_chosen || !args.sequence.turntable))
-      choice_.animation = SceneChoice::all_animations;
-    for (std::size_t i = 0; choice_.animation && i < scene.animations.size(); ++i)
-      if (*choice_.animation == SceneChoice::all_animations || *choice_.animation == static_cast<int>(i))
-        end_ = std::max(end_, static_cast<double>(scene.animations[i].end));
-    if (!choice_.animation) still_ = std::move(scene);
+    if (!has_animation && !scene.animations.empty() && (is_chosen || !args.sequence.turntable)) {
+      choice_.animation = 0;
+      if (scene.animations.size() > 1)
+        note_ = fmt::format("{}: animation 0 of {}{}; --animation-index chooses another, by index or name, or all",
+                            args.input, scene.animations.size(),
+                            scene.animations[0].name.empty() ? "" : " (" + scene.animations[0].name + ")");
+    }
+    for (std::size_t i = 0; i < scene.animations.size(); ++i)
+      if (plays(scene.animations[i].name, i)) end_ = std::max(end_, static_cast<double>(scene.animations[i].end));
+    if (!choice_.animation && choice_.animation_name.empty()) still_ = std::move(scene);
     list_frames();
   }
 
   const std::vector<int>& frames() const { return frames_; }
+  // Which of several animations is played without having been chosen; empty if there is no choice.
+  const std::string& note() const { return note_; }
 
   Sequence sequence() {
     const SequenceTiming timing{.rate = args_.sequence.rate,
@@ -62,6 +69,11 @@ class Plan {
     Scene scene;
     within_import_time(args_.input, args_.load.limits, [&] { scene = (source_.*loader)(choice); });
     return scene;
+  }
+
+  bool plays(const std::string& name, std::size_t index) const {
+    if (!choice_.animation_name.empty()) return name == choice_.animation_name;
+    return choice_.animation == SceneChoice::all_animations || choice_.animation == static_cast<int>(index);
   }
 
   // The number of the animation's last frame.
@@ -92,6 +104,7 @@ class Plan {
   const RenderArgs& args_;
   SceneSource& source_;
   SceneChoice choice_;
+  std::string note_;
   double end_ = 0;              // end of the animation, in seconds
   std::optional<Scene> still_;  // the scene, if it is not animated
   std::vector<int> frames_;
@@ -151,6 +164,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   Sequence sequence = plan.sequence();
   Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
   summary.warnings = renderer.scene().scene().warnings;
+  if (!plan.note().empty()) summary.warnings.push_back(plan.note());
   args.view.up = args.up.value_or(renderer.scene().scene().up);
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   if (!is_numbered) check_film(args, plan.frames().size());

@@ -90,6 +90,14 @@ TEST(GltfAnimation, ListsNamesAndSpansAndPlaysAllOrOne) {
   const std::string path = folder.write("a.glb", m.glb());
   const Scene all = load_gltf(path, {}, {.animation = SceneChoice::all_animations, .time = 2});
   expect_near(transform_point(all.instances.at(0).world_from_object, {}), {2, 4, -1});
+  const Scene named = load_gltf(path, {}, {.time = 2, .animation_name = "move"});
+  expect_near(transform_point(named.instances.at(0).world_from_object, {}), {2, 4, -1});
+  try {
+    load_gltf(path, {}, {.animation_name = "Run"});
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "--animation-index: the file has no animation 'Run'; it has 'move'");
+  }
   try {
     load_gltf(path, {}, {.animation = 1});
     FAIL();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
@@ -202,6 +204,18 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
   return out;
 }
 
+/// Replaces the image indices of a material's textures by `number`; without an image the factor alone counts.
+void renumber_images(std::span<const int> number, Material& material) {
+  const auto renumber = [&](TextureUse& use) {
+    if (use.image >= 0) use.image = number[static_cast<std::size_t>(use.image)];
+  };
+  for (const MaterialTextureSlot& slot : material_texture_slots) renumber(material.*slot.use);
+  if (material.layers == nullptr) return;
+  auto layers = std::make_shared<MaterialLayers>(*material.layers);
+  for (const LayerTextureSlot& slot : layer_texture_slots) renumber((*layers).*slot.use);
+  material.layers = std::move(layers);
+}
+
 }  // namespace
 
 GltfMaterials read_materials(GltfFile& file) {
@@ -217,10 +231,18 @@ GltfMaterials read_materials(GltfFile& file) {
 
 GltfMaterials load_materials(GltfFile& file) {
   GltfMaterials out = read_materials(file);
-  std::vector<EncodedImage> encoded;
-  for (const std::size_t i : out.used_images) encoded.push_back(read_image(file, i));
-  out.images.resize(encoded.size());
+  std::vector<EncodedImage> encoded(out.used_images.size());
   std::vector<std::string> trouble(encoded.size());
+  for (std::size_t i = 0; i < encoded.size(); ++i) {
+    try {
+      encoded[i] = read_image(file, out.used_images[i]);
+    } catch (const Error& error) {
+      file.budget().take(0);  // exceeding the memory budget or the deadline is an error nevertheless
+      file.budget().check_time();
+      trouble[i] = error.what();
+    }
+  }
+  std::vector<TextureImage> images(encoded.size());
   // Images are decoded in groups of this size, so that the accounting of their memory is independent of the number of
   // threads.
   constexpr std::size_t wave = 16;
@@ -231,8 +253,9 @@ GltfMaterials load_materials(GltfFile& file) {
     file.budget().take(working);
     parallel_for(count, [&](std::size_t i) {
       const EncodedImage& e = encoded[first + i];
+      if (!trouble[first + i].empty()) return;
       try {
-        out.images[first + i] = {e.name, decode_image(e.data.bytes, e.place, file.budget().limits().pixels)};
+        images[first + i] = {e.name, decode_image(e.data.bytes, e.place, file.budget().limits().pixels)};
       } catch (const Error& error) {
         trouble[first + i] = error.what();
       }
@@ -240,9 +263,19 @@ GltfMaterials load_materials(GltfFile& file) {
     file.budget().give_back(working);
     file.budget().check_time();
   }
-  // Of several invalid images the first in the file is reported, independently of the threads.
-  for (const std::string& t : trouble)
-    if (!t.empty()) throw Error(ErrorKind::Input, t);
+  std::vector<int> number(images.size(), -1);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (trouble[i].empty()) {
+      number[i] = static_cast<int>(out.images.size());
+      out.images.push_back(std::move(images[i]));
+    } else if (file.budget().limits().is_strict) {
+      throw Error(ErrorKind::Input, trouble[i]);
+    } else {
+      file.warn(trouble[i] + "; drawn without it");
+    }
+  }
+  if (out.images.size() < images.size())
+    for (Material& material : out.materials) renumber_images(number, material);
   for (const TextureImage& image : out.images)
     if (const auto warning = size_warning(image)) file.warn(file.budget().file() + ": " + *warning);
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/gltf/material.h"
+#include "zoneplate/scene/material_layers.h"
 
 #include <gtest/gtest.h>
 
@@ -166,13 +167,32 @@ TEST(GltfMaterial, ImagesThatNobodyUsesAreNotRead) {
 }
 
 TEST(GltfMaterial, ImageErrorsNameTheFirstImage) {
+  const LoadLimits strict{.is_strict = true};
   GltfMaker m = painted(R"({"emissiveTexture":{"index":0},"occlusionTexture":{"index":1}})");
   m.rest = R"(,"images":[{"bufferView":0,"name":"x"},{"bufferView":0}],"textures":[{"source":0},{"source":1}])";
-  EXPECT_EQ(error_of(m), "image 0 'x': is no known image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
+  EXPECT_EQ(error_of(m, strict), "image 0 'x': is no known image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
   m.rest = R"(,"images":[{"uri":"none.png"},{}],"textures":[{"source":0},{"source":1}])";
-  EXPECT_EQ(error_of(m).rfind("image 0: ", 0), 0u);
+  EXPECT_EQ(error_of(m, strict).rfind("image 0: ", 0), 0u);
   m.rest = R"(,"images":[{"bufferView":1},{}],"textures":[{"source":0},{"source":1}])";
-  EXPECT_EQ(error_of(m), "image 1: has neither uri nor bufferView");
+  EXPECT_EQ(error_of(m, strict), "image 1: has neither uri nor bufferView");
+}
+
+// The material keeps its factors and its other textures.
+TEST(GltfMaterial, IsDrawnWithoutImagesThatCannotBeRead) {
+  GltfMaker m =
+      painted(R"({"emissiveTexture":{"index":0},"normalTexture":{"index":1},"emissiveFactor":[1,0.5,0],)"
+              R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatTexture":{"index":0}}}})");
+  m.rest = R"(,"images":[{"uri":"none.png"},{"bufferView":1}],"textures":[{"source":0},{"source":1}])";
+  const Scene s = load(m);
+  ASSERT_EQ(s.images.size(), 1u);
+  const Material& material = s.materials.at(0);
+  EXPECT_EQ(material.emissive_texture.image, -1);
+  EXPECT_EQ(material.emissive.y, 0.5f);
+  EXPECT_EQ(material.normal_texture.image, 0);
+  EXPECT_EQ(material.layers->clearcoat_texture.image, -1);
+  ASSERT_EQ(s.warnings.size(), 1u);
+  EXPECT_NE(s.warnings[0].find("image 0: "), std::string::npos) << s.warnings[0];
+  EXPECT_TRUE(s.warnings[0].ends_with("; drawn without it")) << s.warnings[0];
 }
 
 TEST(GltfMaterial, EmbeddedImagesKeepTheirBitsAndTheirLight) {
@@ -205,14 +225,14 @@ TEST(GltfMaterial, ImagesThatAreTooWideAreNamed) {
 
 TEST(GltfMaterial, PixelsAreLimited) {
   const GltfMaker m = painted(R"({"emissiveTexture":{"index":0}})");
-  EXPECT_EQ(error_of(m, {.pixels = 5}), "image 0: has 2 x 3 pixels, the limit is 5 (--max-pixels)");
-  EXPECT_EQ(error_of(m, {.pixels = 6}), "no error");
+  EXPECT_EQ(error_of(m, {.pixels = 5, .is_strict = true}), "image 0: has 2 x 3 pixels, the limit is 5 (--max-pixels)");
+  EXPECT_EQ(error_of(m, {.pixels = 6, .is_strict = true}), "no error");
   GltfMaker wide = triangle_maker();
   std::vector<std::uint8_t> bomb = png(1, 1, {});
   bomb[16] = bomb[20] = 0x7f;  // width and height of the header
   wide.rest = R"(,"images":[{"bufferView":)" + wide.view(bomb) + R"(}],"textures":[{"source":0}])";
   wide.materials = R"({"emissiveTexture":{"index":0}})";
-  EXPECT_NE(error_of(wide).find("--max-pixels"), std::string::npos);
+  EXPECT_NE(error_of(wide, {.is_strict = true}).find("--max-pixels"), std::string::npos);
   EXPECT_NE(error_of(wide, {.pixels = ~std::uint64_t{0}}).find("--max-memory"), std::string::npos);
 }
 

@@ -34,6 +34,19 @@ void check_number(const std::optional<int>& number, std::size_t count, const cha
                                                       std::to_string(*number)));
 }
 
+/// The index of the first animation of this name.
+int find_animation(GltfFile& file, const std::string& name) {
+  std::string names;
+  for (std::size_t i = 0; i < file.count("animations"); ++i) {
+    file.budget().check_time();
+    const std::string own = file.root().element("animations", i, "animation").text("name");
+    if (own == name) return static_cast<int>(i);
+    if (!own.empty() && names.size() < 200) names += (names.empty() ? "" : ", ") + quoted(own);
+  }
+  throw Error(ErrorKind::Usage, "--animation-index: the file has no animation " + quoted(name) +
+                                    (names.empty() ? "" : "; it has " + names));
+}
+
 }  // namespace
 
 std::vector<std::size_t> GltfNodes::roots(const std::optional<int>& chosen) const {
@@ -56,10 +69,12 @@ std::vector<std::size_t> GltfNodes::roots(const std::optional<int>& chosen) cons
 GltfNodes::GltfNodes(GltfFile& file, const SceneChoice& choice) : file_(file), place_(file.count("nodes"), none) {
   check_number(choice.scene, file.count("scenes"), "scene", "--scene");
   const std::size_t animations = file.count("animations");
-  const bool are_all = choice.animation == SceneChoice::all_animations && animations > 0;
-  if (!are_all) check_number(choice.animation, animations, "animation", "--animation-index");
-  for (std::size_t i = 0; choice.animation && i < animations; ++i)
-    if (are_all || *choice.animation == static_cast<int>(i)) animate(file, i, choice.time, poses_);
+  const std::optional<int> animation =
+      choice.animation_name.empty() ? choice.animation : find_animation(file, choice.animation_name);
+  const bool are_all = animation == SceneChoice::all_animations && animations > 0;
+  if (!are_all) check_number(animation, animations, "animation", "--animation-index");
+  for (std::size_t i = 0; animation && i < animations; ++i)
+    if (are_all || *animation == static_cast<int>(i)) animate(file, i, choice.time, poses_);
   struct Pending {
     std::size_t number;
     int depth;

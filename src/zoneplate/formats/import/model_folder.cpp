@@ -85,6 +85,7 @@ int ModelFolder::add(Make make) {
     // Exceeding the memory budget or the deadline is an error nevertheless.
     budget_.take(0);
     budget_.check_time();
+    if (budget_.limits().is_strict) throw;
     warn(fmt::format("{}: texture {}", budget_.file(), error.what()));
     return -1;
   }
