@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
+#include "zoneplate/shade/surface/normals_lanes.h"
 #include "zoneplate/shade/surface/shading.h"
 
 /// The stages of shade/surface/shading.h from the lights to the colour, over the lane types of
@@ -292,7 +294,9 @@ struct MappedEnvironment {
   }
 };
 
-template <class F, bool has_texture, class Environment>
+/// With `turns`, the lobes of lights are widened by the turn of the normal along each direction, and the environment's
+/// by the mean over all directions.
+template <class F, bool has_texture, class Environment, bool turns = false>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   const Environment environment(s);
   const SpecularFit<F> one_fit{F(s.roughness)};
@@ -302,14 +306,23 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
     const F metallic = has_texture ? F::load(p.metallic + i) : F(s.metallic);
-    const F roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
+    const F own_roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
+    F roughness = own_roughness;
+    if constexpr (turns) roughness = widened(own_roughness, F::load(p.normal_variance + i));
     const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
     const SpecularWeights<F> weights = fit.at(min(max(dot(n, v), F(0.0f)), F(1.0f)));
     const Metallic<F> m = make_metallic(base, metallic, roughness, weights);
+    std::optional<TurningLobe<F>> lobe;
+    if constexpr (turns)
+      lobe.emplace(n, v, Vector<F>::load(p.normal_dx, i), Vector<F>::load(p.normal_dy, i), own_roughness);
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
-      sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
+      const Vector<F> radiance = visible(light.radiance, p, k, i);
+      if constexpr (turns)
+        sum = sum + radiance * metallic_light(m, *lobe, light.from);
+      else
+        sum = sum + radiance * metallic_light(m, n, light.from, v);
     }
     if (s.has_environment) sum = sum + environment.reflected(kind, p, n, v, base, metallic, roughness, weights, i);
     finish(s, kind, p, sum, base, out, i);
@@ -318,6 +331,7 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
 
 template <class F>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
+  if (s.has_turning_normals) return light_metallic<F, true, ConstantEnvironment<F>, true>(s, batch, p, out);
   if (s.has_material_texture) return light_metallic<F, true, ConstantEnvironment<F>>(s, batch, p, out);
   light_metallic<F, false, ConstantEnvironment<F>>(s, batch, p, out);
 }
@@ -325,6 +339,7 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
 template <class F>
 void light_metallic_in_map(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p,
                            FragmentOutputs& out) {
+  if (s.has_turning_normals) return light_metallic<F, true, MappedEnvironment<F>, true>(s, batch, p, out);
   if (s.has_material_texture) return light_metallic<F, true, MappedEnvironment<F>>(s, batch, p, out);
   light_metallic<F, false, MappedEnvironment<F>>(s, batch, p, out);
 }
