@@ -16,6 +16,7 @@ namespace {
 
 using sdf::Point;
 constexpr int factor = 8;
+constexpr int plot_width = 480;  // for which the letters of the plot are designed
 
 /// Thin white lines in several directions, as exact areas.
 Plane<float> fan(int side) {
@@ -71,15 +72,15 @@ Rgba8Image patches(int side) {
 }
 
 Rgba8Image curve_plot(int side) {
-  Plot plot{.title = "Light of a white pixel on black by its coverage",
+  Plot plot{.title = "White on black",
             .x = {"coverage (%)", 0, 100},
             .y = {"light (% of white)", 0, 100},
-            .curves = {{.name = "blended in codes", .points = {}}, {.name = "blended in linear light", .points = {}}}};
+            .curves = {{.name = "in codes", .points = {}}, {.name = "in linear light", .points = {}}}};
   for (int i = 0; i <= 100; ++i) {
     plot.curves[0].points.emplace_back(i, 100 * static_cast<double>(decode_srgb(static_cast<float>(i) / 100)));
     plot.curves[1].points.emplace_back(i, i);
   }
-  return plot_at(plot, side, side);
+  return plot_at(plot, side, side, plot_width);
 }
 
 Lesson make(const DemoSize& size) {

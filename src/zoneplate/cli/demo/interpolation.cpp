@@ -24,6 +24,7 @@ constexpr std::array<Corner, 4> corners = {
 constexpr std::array<std::array<std::size_t, 3>, 2> triangles = {{{0, 1, 2}, {0, 2, 3}}};
 constexpr double focal = 1.45;  // half of the image's height, at distance 1, is 1 / focal
 constexpr int checks = 8;
+constexpr int plot_width = 480;  // for which the letters of the plot are designed
 
 struct Uv {
   double u = 0, v = 0;
@@ -99,8 +100,8 @@ View view_of(int side, bool is_perspective) {
 
 /// v along the vertical line through the middle of the image.
 Rgba8Image plot_of(int side) {
-  Plot plot{.title = "v along a column of the image",
-            .x = {"position from the lower edge (pixels)"},
+  Plot plot{.title = "",
+            .x = {"height above the near edge (pixels)"},
             .y = {"texture coordinate v", 0, 1},
             .curves = {{.name = "affine", .points = {}}, {.name = "perspective-correct", .points = {}}}};
   const double column = 0.45 * side, bottom = project(corners[0], side).y;
@@ -111,7 +112,7 @@ Rgba8Image plot_of(int side) {
     plot.curves[0].points.emplace_back(bottom - p.y, affine->v);
     plot.curves[1].points.emplace_back(bottom - p.y, perspective->v);
   }
-  return plot_at(plot, side, side);
+  return plot_at(plot, side, side, plot_width);
 }
 
 Lesson make(const DemoSize& size) {

@@ -18,6 +18,8 @@ namespace {
 using sdf::Point;
 using sdf::Shape;
 
+constexpr int plot_width = 480;  // for which the letters of the plot are designed
+
 /// A ring, a star and a soft union, in 360 × 270 units.
 sdf::ShapePtr emblem() {
   std::vector<Point> star;
@@ -58,9 +60,9 @@ Rgba8Image fitted_to(const Rgba8Image& image, int width, int height) {
 /// The errors of text from a field, by the size at which it is drawn.
 Rgba8Image error_plot(const Font& font, const std::string& words, const sdf::Atlas& single, const sdf::Atlas& multi,
                       int width, int height) {
-  Plot plot{.title = "Text from a field of 32 texels per em",
+  Plot plot{.title = "32 texels per em",
             .x = {"pixels per em", 16, 256, true},
-            .y = {"error along edges (% of coverage)", 0, 0},
+            .y = {"error along edges (%)", 0, 0},
             .curves = {{.name = "one channel", .points = {}, .mark = Curve::Mark::LineAndPoints},
                        {.name = "three channels", .points = {}, .mark = Curve::Mark::LineAndPoints}}};
   for (const int px : {16, 24, 32, 48, 64, 96, 128, 192, 256}) {
@@ -69,7 +71,7 @@ Rgba8Image error_plot(const Font& font, const std::string& words, const sdf::Atl
     plot.curves[0].points.emplace_back(px, 100 * error_of(line.from_atlas(single), exact).rms);
     plot.curves[1].points.emplace_back(px, 100 * error_of(line.from_atlas(multi), exact).rms);
   }
-  return plot_at(plot, width, height);
+  return plot_at(plot, width, height, plot_width);
 }
 
 Lesson make(const DemoSize& size) {

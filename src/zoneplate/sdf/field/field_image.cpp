@@ -103,8 +103,8 @@ double signed_area(const Outline& outline) {
 /// Replaces the channels of texels by their median where the interpolated median has the wrong sign: the nearest texel
 /// that still has different channels, until no sign is wrong.
 void correct(FieldImage& field, const ShapePtr& shape) {
-  constexpr int steps = 4;             // positions per texel along each axis
-  constexpr float negligible = 0.15f;  // of a texel: closer to the boundary, the sign is a matter of rounding
+  constexpr int steps = 8;            // positions per texel along each axis
+  constexpr float negligible = 0.3f;  // of a texel: closer to the boundary, the sign is a matter of rounding
   constexpr int rounds = 8;
   const int w = field.distances.width(), h = field.distances.height();
   const double first = 0.5 - 0.5 / steps;  // so that position 0 is the centre of texel 0
