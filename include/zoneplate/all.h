@@ -30,7 +30,7 @@
 #include "zoneplate/metrics/picture.h"
 #include "zoneplate/raster/types/batch.h"
 #include "zoneplate/raster/types/fragment_shader.h"
-#include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/raster_rules.h"
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/render/aov.h"

@@ -69,8 +69,8 @@ PyObject* image_load(PyObject*, PyObject* path) {
   return make_image(image);
 }
 
-PyObject* list(PyObject*, PyObject* catalogue) {
-  const auto chosen = static_cast<zoneplate_catalogue>(PyLong_AsLong(catalogue));
+PyObject* catalogue(PyObject*, PyObject* number) {
+  const auto chosen = static_cast<zoneplate_catalogue>(PyLong_AsLong(number));
   if (PyErr_Occurred() != nullptr) return nullptr;
   Reference entries(PyDict_New());
   const char *name = nullptr, *summary = nullptr;
@@ -90,7 +90,7 @@ PyMethodDef functions[] = {
     {"spectrum", spectrum, METH_O, "spectrum(plane): an Image."},
     {"image_new", image_new, METH_O, "image_new(pixels): an Image with a copy of the pixels."},
     {"image_load", image_load, METH_O, "image_load(path): an Image of a file."},
-    {"list", list, METH_O, "list(catalogue): the summaries by name (zoneplate_catalogue)."},
+    {"catalogue", catalogue, METH_O, "catalogue(number): the summaries by name (zoneplate_catalogue)."},
     {nullptr, nullptr, 0, nullptr}};
 
 bool add_errors(PyObject* module) {

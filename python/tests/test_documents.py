@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The notebook and the programs of docs/python.md run; stubs, docstrings and the wheel are complete."""
+"""The notebook and the programs of docs/python.md and README.md run; stubs, docstrings and the wheel are complete."""
 
 import ast
 import base64
@@ -59,7 +59,8 @@ class Documents(unittest.TestCase):
         self.assertEqual(pictures, 5)
 
     def test_the_programs_of_the_document_run(self):
-        programs = re.findall(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(), re.DOTALL)
+        text = (ROOT / "docs/python.md").read_text() + (ROOT / "README.md").read_text()
+        programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
         self.assertGreater(len(programs), 7)
         before = os.getcwd()
         with tempfile.TemporaryDirectory() as folder:

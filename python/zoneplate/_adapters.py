@@ -57,7 +57,7 @@ def mesh_of(scene: Scene, source: Any) -> dict[str, Any]:
     faces = array_of(source.faces if hasattr(source, "faces") else source.triangles)
     if positions is None or faces is None:
         raise _native.UsageError(f"{type(source).__name__}: has no triangles")
-    visual = getattr(source, "visual", None)
+    visual: Any = getattr(source, "visual", None)
     kind = getattr(visual, "kind", None)
     if kind == "face":  # every triangle gets vertices of its own
         colors = array_of(visual.face_colors)

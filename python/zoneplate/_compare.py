@@ -53,7 +53,8 @@ class Comparison:
         from html import escape
 
         picture = lambda pixels: f'<img src="data:image/png;base64,{b64encode(png_of(pixels)).decode()}">'
-        cells = [("reference", self.reference, {}), *((n, i, self.values[n]) for n, i in self.images.items())]
+        cells: list[tuple[str, Image, dict[str, float]]] = [("reference", self.reference, {})]
+        cells += [(name, image, self.values[name]) for name, image in self.images.items()]
         rows = [
             "".join(f"<th>{escape(name)}</th>" for name, _, _ in cells),
             "".join(f"<td>{picture(image.color)}</td>" for _, image, _ in cells),

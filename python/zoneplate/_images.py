@@ -9,11 +9,11 @@ from . import _native
 
 TYPE_CHECKING = False  # type checkers take it as true; to import typing takes milliseconds
 if TYPE_CHECKING:
-    from typing import Any
+    from typing import Any, Union
 
     import numpy as np
 
-    Pixels = np.ndarray | "Image" | Any
+    Pixels = Union[np.ndarray, "Image", Any]
 
 
 def buffer_of(values: Any) -> Any:
@@ -27,6 +27,11 @@ def buffer_of(values: Any) -> Any:
         import numpy as np
 
         return np.asarray(values)
+
+
+def shape_of(values: Any) -> tuple[int, ...]:
+    """The shape of a buffer."""
+    return memoryview(values).shape or ()
 
 
 def plane_of(values: Any) -> Any:
@@ -162,7 +167,7 @@ def measure(reference: Pixels, test: Pixels, metric: str = "flip") -> Measuremen
     Integer arrays are sRGB codes, float32 arrays linear light.
     """
     value, map_image, figure_image = _native.measure(buffer_of(reference), buffer_of(test), metric)
-    figures = {name: memoryview(figure_image.array(name))[0] for name in figure_image.names}
+    figures = {name: float(Image(figure_image)[name][0]) for name in figure_image.names}
     return Measurement(metric, value, figures, Image(map_image)["map"] if map_image.names else None)
 
 
@@ -173,7 +178,7 @@ def filter(pixels: Pixels, aa: str = "smaa") -> np.ndarray:
     """
     source = buffer_of(pixels)
     result = Image(_native.filter(source, aa)).color
-    shape = memoryview(source).shape
+    shape = shape_of(source)
     return result[..., 0] if len(shape) == 2 else result[..., : shape[2]]
 
 
@@ -181,7 +186,7 @@ def resample(pixels: Pixels, size: tuple[int, int], kernel: str = "lanczos3") ->
     """Resamples an image to a size (width, height). sRGB codes are filtered in linear light, with premultiplied alpha."""
     source = buffer_of(pixels)
     result = Image(_native.resample(source, int(size[0]), int(size[1]), kernel)).color
-    shape = memoryview(source).shape
+    shape = shape_of(source)
     if result.ndim == len(shape):
         return result[..., : shape[2]] if len(shape) == 3 else result
     return result[..., 0]

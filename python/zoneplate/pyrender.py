@@ -3,7 +3,8 @@
 
     import zoneplate.pyrender as pyrender
 
-OffscreenRenderer also takes scenes of pyrender itself, and zoneplate.Scene. Angles are in radians here, as in pyrender.
+OffscreenRenderer also takes scenes of pyrender itself, and zoneplate.Scene. Angles are in radians here, as in pyrender. A
+scene without lights and ambient light gets the default light of the command, where pyrender draws it black.
 """
 
 from __future__ import annotations
@@ -323,7 +324,7 @@ def scene_of(source: Any, is_flat: bool) -> tuple[NativeScene, list[Any]]:
         pose = np.asarray(source.get_pose(node), dtype=float)
         light = node.light
         kind = "spot" if hasattr(light, "outerConeAngle") else "point" if hasattr(light, "range") else "directional"
-        cone = {}
+        cone: dict[str, Any] = {}
         if kind == "spot":
             cone = {"inner_cone": math.degrees(light.innerConeAngle), "outer_cone": math.degrees(light.outerConeAngle)}
         scene.add_light(

@@ -37,6 +37,24 @@ concept Shader = requires(const S& s, const Vertex& v, const typename S::Varying
   { s.fragment(u, u, u) } -> std::same_as<float4>;
 };
 
+/// Converts to float, and implicitly to no other type.
+struct AnyFloat {
+  /// Declared only, for `holds_only_floats`.
+  template <std::same_as<float> T>
+  operator T() const;
+};
+
+/// Whether a struct can be initialized by as many floats as have its size: no member of it, nested ones and arrays
+/// included, is of another type.
+template <class Struct>
+constexpr bool holds_only_floats() {
+  constexpr auto takes = []<std::size_t... i>(std::index_sequence<i...>) {
+    return requires { Struct{(static_cast<void>(i), AnyFloat{})...}; };
+  };
+  if constexpr (!std::is_aggregate_v<Struct> || sizeof(Struct) % sizeof(float) != 0) return false;
+  return takes(std::make_index_sequence<sizeof(Struct) / sizeof(float)>{});
+}
+
 /// How `draw` rasterizes.
 struct DrawOptions {
   SamplePattern samples = standard_pattern(4);  ///< positions in every pixel, whose mean is its colour
@@ -58,9 +76,9 @@ class UserFragmentShader : public FragmentShader {
  public:
   using Varyings = typename S::Varyings;                                   ///< what the shader interpolates
   static constexpr std::size_t floats = sizeof(Varyings) / sizeof(float);  ///< the number of floats in Varyings
-  static_assert(std::is_trivially_copyable_v<Varyings> && sizeof(Varyings) % sizeof(float) == 0 &&
-                    alignof(Varyings) == alignof(float),
-                "varyings are a struct of floats");
+  static_assert(std::is_trivially_copyable_v<Varyings>, "varyings are a struct of floats: it has a copy constructor");
+  static_assert(alignof(Varyings) == alignof(float), "varyings are a struct of floats: a member has another alignment");
+  static_assert(holds_only_floats<Varyings>(), "varyings are a struct of floats: a member is of another type");
 
   /// Keeps a reference to the shader, which outlives this object.
   explicit UserFragmentShader(const S& shader) : shader_(shader) {}

@@ -20,6 +20,24 @@ struct Place {
   float4 fragment(const Varyings& u, const Varyings& ux, const Varyings& uy) const { return {u.x, u.y, ux.x, uy.y}; }
 };
 
+struct Nested {
+  float3 normal;
+  struct {
+    float2 uv;
+    float weight[2];
+  } rest;
+};
+struct WithInt {
+  float x;
+  int id;
+};
+struct WithBytes {
+  float x;
+  std::uint8_t color[4];
+};
+static_assert(holds_only_floats<Place::Varyings>() && holds_only_floats<Nested>());
+static_assert(!holds_only_floats<WithInt>() && !holds_only_floats<WithBytes>() && !holds_only_floats<double>());
+
 TEST(UserShader, GivesUsersShadersPerspectiveCorrectVaryingsAndSlopes) {
   const std::uint32_t indices[] = {0, 1, 2};
   const int size = 64;
