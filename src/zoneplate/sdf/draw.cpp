@@ -16,6 +16,8 @@ namespace {
 constexpr int block_side = 8, tile_blocks = 8, tile_side = block_side * tile_blocks;
 static_assert(block_side * block_side == batch_size && tile_blocks * tile_blocks == batch_size);
 constexpr double diagonal = 1.41421356237;
+/// In pixels, the greatest distance of a pixel with coverage from the bounds, with a margin for rounding.
+constexpr double coverage_reach = diagonal / 2 + 0.01;
 
 /// A range of blocks or tiles, from first to last.
 struct Cells {
@@ -28,7 +30,7 @@ Cells cells_of(const Bounds& bounds, const Raster& raster, int side) {
   const auto cell = [side](double pixels, int size) {
     return static_cast<int>(std::clamp(std::floor(pixels / side), -1.0, static_cast<double>((size - 1) / side + 1)));
   };
-  constexpr double margin = diagonal / 2 + 0.01;
+  constexpr double margin = coverage_reach;
   Cells c{cell((bounds.low.x - raster.origin.x) * raster.scale - margin, raster.width),
           cell((bounds.low.y - raster.origin.y) * raster.scale - margin, raster.height),
           cell((bounds.high.x - raster.origin.x) * raster.scale + margin, raster.width),
@@ -103,6 +105,7 @@ class TilePainter {
     const bool is_large = (blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1) > many;
     DistanceBatch centres;
     if (is_large) {
+      points_.begin = 0, points_.end = batch_size;
       for (int y = 0; y < tile_blocks; ++y)
         for (int x = 0; x < tile_blocks; ++x) {
           const Point p = raster_.centre((x0 + x + 0.5) * block_side - 0.5, (y0 + y + 0.5) * block_side - 0.5);
@@ -118,11 +121,15 @@ class TilePainter {
       for (int x = blocks.x0; x <= blocks.x1; ++x) {
         const int block = (y - y0) * tile_blocks + x - x0;
         if (is_large && centres.d[block] > reach) continue;
+        // Rows of pixels that the bounds do not reach have no coverage.
+        const Rows rows = rows_of(layer.shape.bounds, y * block_side);
+        if (rows.first >= rows.end) continue;
+        points_.begin = rows.first * block_side, points_.end = rows.end * block_side;
         cover(layer, x * block_side, y * block_side, is_large && centres.d[block] < -reach);
         const float color[4] = {layer.color.r, layer.color.g, layer.color.b, layer.color.a};
         float* planes[4];
         for (int c = 0; c < 4; ++c) planes[c] = buffer_->plane[c] + block * batch_size;
-        kernels_.composite(coverage_, color, planes);
+        kernels_.composite(points_, coverage_, color, planes);
       }
   }
 
@@ -138,6 +145,19 @@ class TilePainter {
   }
 
  private:
+  /// The rows of a block that the bounds reach.
+  struct Rows {
+    int first, end;
+  };
+  Rows rows_of(const Bounds& bounds, int top) const {
+    const auto row = [&](double y) {
+      return static_cast<int>(
+          std::clamp(std::floor((y - raster_.origin.y) * raster_.scale) - top, -1.0, block_side * 1.0));
+    };
+    const double reach = coverage_reach / raster_.scale;
+    return {std::max(row(bounds.low.y - reach), 0), std::min(row(bounds.high.y + reach), block_side - 1) + 1};
+  }
+
   void cover(const Drawing::Layer& layer, int left, int top, bool is_inside) {
     std::fill(std::begin(coverage_), std::end(coverage_), is_inside ? 1.0f : 0.0f);
     if (is_inside) return;
@@ -147,7 +167,7 @@ class TilePainter {
       for (int i = 0; i < grid_; ++i) {
         set_points(points_, raster_, left, top, (i + 0.5) / grid_ - 0.5, (j + 0.5) / grid_ - 0.5);
         kernels_.evaluate(drawing_.program, layer.shape, points_, stacks_);
-        kernels_.add_coverage(stacks_.values[0], inverse_footprint, weight, coverage_);
+        kernels_.add_coverage(points_, stacks_.values[0], inverse_footprint, weight, coverage_);
       }
   }
 

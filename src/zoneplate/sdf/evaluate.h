@@ -12,6 +12,7 @@ namespace zoneplate::sdf {
 inline constexpr int batch_size = 64;
 
 struct PointBatch {
+  int begin = 0, end = batch_size;  ///< the points to be evaluated: multiples of 8
   alignas(32) float x[batch_size], y[batch_size];
 };
 
@@ -43,7 +44,7 @@ struct EvaluationStacks {
 
 /// One layer of a drawing over one block: its values in pixels, and where they are accumulated.
 struct CoverageKernels : PerIsa<CoverageKernels> {
-  /// The distances of a shape at 64 points, in values[0] of the stacks.
+  /// The distances of a shape at the points, in values[0] of the stacks.
   ///
   /// Exact     within a few units in the last place of the coordinates relative to the shape's centre.
   void (*evaluate)(const Program& program, const ShapeCode& shape, const PointBatch& points, EvaluationStacks& stacks);
@@ -52,10 +53,11 @@ struct CoverageKernels : PerIsa<CoverageKernels> {
   ///
   /// Exact     within 2e-7 of the area where the boundary is straight.
   /// Source    area sampling: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978.
-  void (*add_coverage)(const DistanceBatch& values, float inverse_footprint, float weight, float* coverage);
-  /// Composites a premultiplied colour over 64 pixels: planes[c] = color[c] k + planes[c] (1 - color[3] k), with the
-  /// coverage k.
-  void (*composite)(const float* coverage, const float color[4], float* const planes[4]);
+  void (*add_coverage)(const PointBatch& points, const DistanceBatch& values, float inverse_footprint, float weight,
+                       float* coverage);
+  /// Composites a premultiplied colour over the pixels of the points: planes[c] = color[c] k + planes[c] (1 - color[3]
+  /// k), with the coverage k.
+  void (*composite)(const PointBatch& points, const float* coverage, const float color[4], float* const planes[4]);
 };
 
 }  // namespace zoneplate::sdf

@@ -222,7 +222,7 @@ template <class F>
 template <class F>
 void select_for(const Program& program, const Instruction& region, const PointBatch& points, PieceSelection& out) {
   F low_x(1e30f), low_y(1e30f), high_x(-1e30f), high_y(-1e30f);
-  for (int i = 0; i < batch_size; i += F::lanes) {
+  for (int i = points.begin; i < points.end; i += F::lanes) {
     const LanePoint<F> p = to_local<F>(region.frame, {F::load(points.x + i), F::load(points.y + i)});
     low_x = min(low_x, p.x), low_y = min(low_y, p.y), high_x = max(high_x, p.x), high_y = max(high_y, p.y);
   }
@@ -238,7 +238,7 @@ void evaluate(const Program& program, const ShapeCode& shape, const PointBatch& 
   for (std::size_t at = shape.first; at < shape.end; ++at) {
     const Instruction& now = program.instructions()[at];
     const auto for_points = [&](const auto& value) {
-      for (int i = 0; i < batch_size; i += F::lanes) {
+      for (int i = points.begin; i < points.end; i += F::lanes) {
         const LanePoint<F> p = to_local<F>(now.frame, {F::load(frame->x + i), F::load(frame->y + i)});
         from_local<F>(now.frame, value(p)).store(*top, i);
       }
@@ -262,23 +262,24 @@ void evaluate(const Program& program, const ShapeCode& shape, const PointBatch& 
         for_points([&](LanePoint<F> p) { return region_value<F>(program, now, stacks.selection, p); });
         break;
       case Code::EnterCell:
-        for (int i = 0; i < batch_size; i += F::lanes) {
+        for (int i = points.begin; i < points.end; i += F::lanes) {
           const LanePoint<F> p = to_local<F>(now.frame, {F::load(frame->x + i), F::load(frame->y + i)});
           in_cell<F>(p.x, now.a, now.count_x, now.cell & 1).store(frame[1].x + i);
           in_cell<F>(p.y, now.b, now.count_y, now.cell & 2).store(frame[1].y + i);
         }
+        frame[1].begin = points.begin, frame[1].end = points.end;
         ++frame;
         break;
       case Code::LeaveCell:
         --frame;
-        for (int i = 0; i < batch_size; i += F::lanes)
+        for (int i = points.begin; i < points.end; i += F::lanes)
           from_local<F>(now.frame, LaneValue<F>::load(*top, i)).store(*top, i);
         break;
       case Code::Offset:
-        for (int i = 0; i < batch_size; i += F::lanes) (F::load(top->d + i) - F(now.a)).store(top->d + i);
+        for (int i = points.begin; i < points.end; i += F::lanes) (F::load(top->d + i) - F(now.a)).store(top->d + i);
         break;
       case Code::Border:
-        for (int i = 0; i < batch_size; i += F::lanes) {
+        for (int i = points.begin; i < points.end; i += F::lanes) {
           const LaneValue<F> v = LaneValue<F>::load(*top, i);
           LaneValue<F> out = select(v.d < F(0.0f), -v, v);
           out.d = out.d - F(now.a * 0.5f);
@@ -286,20 +287,21 @@ void evaluate(const Program& program, const ShapeCode& shape, const PointBatch& 
         }
         break;
       case Code::Complement:
-        for (int i = 0; i < batch_size; i += F::lanes) (-LaneValue<F>::load(*top, i)).store(*top, i);
+        for (int i = points.begin; i < points.end; i += F::lanes) (-LaneValue<F>::load(*top, i)).store(*top, i);
         break;
       default:
         --top;
-        for (int i = 0; i < batch_size; i += F::lanes)
+        for (int i = points.begin; i < points.end; i += F::lanes)
           joined<F>(now, LaneValue<F>::load(top[0], i), LaneValue<F>::load(top[1], i)).store(*top, i);
     }
   }
 }
 
 template <class F>
-void add_coverage(const DistanceBatch& values, float inverse_footprint, float weight, float* coverage) {
+void add_coverage(const PointBatch& points, const DistanceBatch& values, float inverse_footprint, float weight,
+                  float* coverage) {
   const F zero(0.0f), one(1.0f), half(0.5f);
-  for (int i = 0; i < batch_size; i += F::lanes) {
+  for (int i = points.begin; i < points.end; i += F::lanes) {
     const LaneValue<F> v = LaneValue<F>::load(values, i);
     // To first order, the boundary of a distance of slope s is at distance d / s.
     const F inverse_slope = one / max(sqrt(v.x * v.x + v.y * v.y), F(1e-3f));
@@ -318,8 +320,8 @@ void add_coverage(const DistanceBatch& values, float inverse_footprint, float we
 }
 
 template <class F>
-void composite(const float* coverage, const float color[4], float* const planes[4]) {
-  for (int i = 0; i < batch_size; i += F::lanes) {
+void composite(const PointBatch& points, const float* coverage, const float color[4], float* const planes[4]) {
+  for (int i = points.begin; i < points.end; i += F::lanes) {
     const F k = F::load(coverage + i);
     const F rest = F(1.0f) - F(color[3]) * k;
     for (int c = 0; c < 4; ++c) (F(color[c]) * k + F::load(planes[c] + i) * rest).store(planes[c] + i);

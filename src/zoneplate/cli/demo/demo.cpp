@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <optional>
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
@@ -27,6 +28,7 @@ namespace {
 struct DemoArgs {
   std::string output;
   DemoSize size;
+  std::optional<int2> slide;  ///< pixels of the whole image
   int threads = 0;
 };
 
@@ -45,6 +47,7 @@ Syntax demo_syntax(DemoArgs& args) {
       .examples =
           "  zoneplate demo jaggies -o jaggies.png\n"
           "  zoneplate demo wagon-wheel -o wheel.png        also writes wheel.webp: both are animations\n"
+          "  zoneplate demo zbuffer --slide 1920x1080 -o zbuffer.png\n"
           "  zoneplate demo all -o lessons                  creates the folder\n"
           "\n" +
           list_of_lessons(),
@@ -56,6 +59,8 @@ Syntax demo_syntax(DemoArgs& args) {
            [&args](const std::string& text) { args.output = text; }},
           {"--panel", "PX", "Size of each panel of the lesson, 64 to 1024; default 360", "Lesson", true,
            [&args](const std::string& text) { args.size.panel = parse_whole(text, 64, 1024); }},
+          {"--slide", "WxH", "Fit the lesson to an image of this size, such as 1920x1080", "Lesson", true,
+           [&args](const std::string& text) { args.slide = parse_size(text, 8192); }},
           {"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow",
            "Running", false, [&args](const std::string& text) { args.threads = parse_whole(text, 0, 1024); }},
       }};
@@ -73,9 +78,52 @@ std::span<const Demo> chosen(const std::string& name) {
                                              : fmt::format("demo: no lesson {}; did you mean {}?", name, near));
 }
 
-void save_lesson(const Lesson& lesson, const DemoSize& size, const std::vector<std::string>& files) {
-  Animation animation{.frames = {}, .seconds = lesson.seconds, .per = lesson.per};
-  for (const Figure& figure : lesson.frames) animation.frames.push_back(compose(figure, size.style()));
+/// The lesson with its composed frames.
+struct ComposedLesson {
+  Lesson lesson;
+  Animation animation;
+};
+
+ComposedLesson composed(const Demo& demo, const DemoSize& size) {
+  ComposedLesson out{demo.make(size), {}};
+  out.animation.seconds = out.lesson.seconds, out.animation.per = out.lesson.per;
+  for (const Figure& figure : out.lesson.frames) out.animation.frames.push_back(compose(figure, size.style()));
+  return out;
+}
+
+/// The image in the middle of one of this size, on paper.
+Rgba8Image centred(const Rgba8Image& image, int2 size) {
+  Rgba8Image out(size.x, size.y, FigureStyle{}.paper);
+  const int left = (size.x - image.width()) / 2, top = (size.y - image.height()) / 2;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) out(left + x, top + y) = image(x, y);
+  return out;
+}
+
+/// The lesson with the largest panels with which it fits into the slide. The sizes of texts are proportional to the
+/// panels, up to where lines are broken, so that a few attempts suffice.
+ComposedLesson fitted(const Demo& demo, int2 slide) {
+  constexpr int least_panel = 64, most_panel = 1024, attempts = 8;
+  DemoSize size;
+  for (int i = 0; i < attempts; ++i) {
+    ComposedLesson lesson = composed(demo, size);
+    const Rgba8Image& first = lesson.animation.frames.at(0);
+    const double room =
+        std::min(static_cast<double>(slide.x) / first.width(), static_cast<double>(slide.y) / first.height());
+    constexpr double loose = 1.03;  // less room than this is not worth another attempt
+    if (room >= 1 && (room < loose || i > 1 || size.panel == most_panel)) {
+      for (Rgba8Image& frame : lesson.animation.frames) frame = centred(frame, slide);
+      return lesson;
+    }
+    if (size.panel == least_panel) break;
+    const int next = static_cast<int>(size.panel * room * (i > 1 ? 0.98 : 1.0));
+    size.panel = std::clamp(next, least_panel, most_panel);
+  }
+  throw Error(ErrorKind::Usage,
+              fmt::format("--slide: the lesson {} does not fit into {} × {} pixels", demo.name, slide.x, slide.y));
+}
+
+void save_lesson(const Animation& animation, const std::vector<std::string>& files) {
   assert((files.size() == 2) == (animation.frames.size() > 1));
   if (files.size() == 1)
     return save_bytes(
@@ -160,9 +208,9 @@ void run_demo(std::span<const std::string> arguments) {
     for (const std::string& file : files_of(demo, path_of(demo))) check_savable(file);
   with_threads(args.threads, [&] {
     for (const Demo& demo : lessons) {
-      const Lesson lesson = demo.make(args.size);
-      save_lesson(lesson, args.size, files_of(demo, path_of(demo)));
-      print((&demo == &lessons[0] ? "" : "\n\n") + text_of(lesson));
+      const ComposedLesson made = args.slide ? fitted(demo, *args.slide) : composed(demo, args.size);
+      save_lesson(made.animation, files_of(demo, path_of(demo)));
+      print((&demo == &lessons[0] ? "" : "\n\n") + text_of(made.lesson));
     }
   });
 }

@@ -50,12 +50,31 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   const std::string said = testing::internal::GetCapturedStdout();
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  EXPECT_EQ(names,
-            (std::set<std::string>{"antialiasing.png", "black-edge.png", "jaggies.png", "moire.png", "prefilter.png",
-                                   "convolution-theorem.png", "sampling.png", "aliases.png", "exact-coverage.png",
-                                   "wagon-wheel.png", "wagon-wheel.webp", "texture-filters.png", "mip-levels.png",
-                                   "normal-map-aliasing.png", "shading-frequency.png", "blinn-phong.png", "shadows.png",
-                                   "procedural.png", "bump-displacement.png"}));
+  EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png",
+                                          "black-edge.png",
+                                          "jaggies.png",
+                                          "moire.png",
+                                          "prefilter.png",
+                                          "convolution-theorem.png",
+                                          "sampling.png",
+                                          "aliases.png",
+                                          "exact-coverage.png",
+                                          "wagon-wheel.png",
+                                          "wagon-wheel.webp",
+                                          "texture-filters.png",
+                                          "mip-levels.png",
+                                          "normal-map-aliasing.png",
+                                          "shading-frequency.png",
+                                          "blinn-phong.png",
+                                          "shadows.png",
+                                          "procedural.png",
+                                          "bump-displacement.png",
+                                          "rasterization.png",
+                                          "zbuffer.png",
+                                          "interpolation.png",
+                                          "transforms.png",
+                                          "gamma.png",
+                                          "sdf.png"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {
@@ -66,8 +85,22 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   for (const char* words :
        {"Jaggies: with one", "The same region by every", "The black edge: four", "have the correct brightness",
         "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling", "border", "Sampling repeats", "blackman-harris",
-        "+0.90", "Shutter always open: ", "Percentage closer"})
+        "+0.90", "Shutter always open: ", "Percentage closer", "differ at 0 samples",
+        "42 samples are covered once, 7 twice", "36 samples are covered once, 0 twice",
+        "reverse order, 0 pixels differ", "Three channels: "})
     EXPECT_NE(said.find(words), std::string::npos) << words;
+}
+
+TEST_F(DemoFolder, ASlideHasItsSize) {
+  const std::string path = (place / "s.png").string();
+  testing::internal::CaptureStdout();
+  run_demo(std::vector<std::string>{"rasterization", "-o", path, "--slide", "960x540"});
+  testing::internal::GetCapturedStdout();
+  const Rgba8Image image = decode_png(FileBytes(path).bytes(), path).pixels;
+  EXPECT_EQ(image.width(), 960);
+  EXPECT_EQ(image.height(), 540);
+  EXPECT_EQ(message_of({"rasterization", "-o", path, "--slide", "100x50"}),
+            "--slide: the lesson rasterization does not fit into 100 × 50 pixels");
 }
 
 const Demo& demo_of(std::string_view name) {

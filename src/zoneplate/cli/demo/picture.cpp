@@ -23,7 +23,6 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr float background_code = 0.2f;        // the default of `zoneplate render`
-constexpr int least_plot_width = 720;          // the size for which the fixed letter size of plots is designed
 constexpr Rgba8 mark_color{255, 196, 0, 255};  // outline of crops, visible on light and dark backgrounds
 
 }  // namespace
@@ -131,8 +130,8 @@ Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& 
   return picture;
 }
 
-Rgba8Image plot_at(const Plot& plot, int width, int height) {
-  const int drawn_width = std::max(width, least_plot_width);
+Rgba8Image plot_at(const Plot& plot, int width, int height, int designed_width) {
+  const int drawn_width = std::max(width, designed_width);
   const int drawn_height = static_cast<int>(std::int64_t{height} * drawn_width / width);
   const Rgba8Image drawn = plot_picture(plot, {drawn_width, drawn_height});
   if (drawn_width == width) return drawn;

@@ -53,8 +53,9 @@ Rgba8Image marked(Rgba8Image picture, int centre_x, int centre_y, int factor, in
 /// A sign such as = between two images of this height, on the figure's background.
 Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& style);
 
-/// The plot at this size; below the size for which its letters are designed, a plot of that size is reduced.
-Rgba8Image plot_at(const Plot& plot, int width, int height);
+/// The plot at this size; below the width for which its letters are designed, a plot of that width is reduced. Plots
+/// with few ticks and a short key have room for larger letters: a smaller width.
+Rgba8Image plot_at(const Plot& plot, int width, int height, int designed_width = 720);
 
 /// Root mean square difference.
 double rms_difference(const Plane<float>& a, const Plane<float>& b);

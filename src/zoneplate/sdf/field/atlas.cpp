@@ -63,8 +63,8 @@ Atlas make_atlas(std::span<const GlyphOutline> glyphs, const AtlasOptions& optio
     const Cell& cell = cells[i];
     Atlas::Glyph glyph{glyphs[i].code, glyphs[i].advance, {}, {}};
     if (cell.width > 0) {
-      const FieldImage field =
-          outline_field(glyphs[i].outline, options.kind, cell.width, cell.height, options.size, cell.move);
+      const FieldImage field = outline_field(glyphs[i].outline, options.kind, cell.width, cell.height, options.size,
+                                             cell.move, options.range);
       for (int y = 0; y < cell.height; ++y)
         std::ranges::copy(field.distances.row(y), atlas.field.distances.row(cell.y + y).begin() + cell.x);
       const Point low{0.5, 0.5}, high{cell.width - 0.5, cell.height - 0.5};

@@ -100,26 +100,39 @@ double signed_area(const Outline& outline) {
   return area;
 }
 
-/// Replaces the channels of texels by their median where the median half way to a neighbour has the wrong sign.
+/// Replaces the channels of texels by their median where the interpolated median has the wrong sign: the nearest texel
+/// that still has different channels, until no sign is wrong.
 void correct(FieldImage& field, const ShapePtr& shape) {
-  constexpr float negligible = 0.25f;  // of a texel: closer to the boundary, the sign is a matter of rounding
+  constexpr int steps = 8;            // positions per texel along each axis
+  constexpr float negligible = 0.3f;  // of a texel: closer to the boundary, the sign is a matter of rounding
+  constexpr int rounds = 8;
   const int w = field.distances.width(), h = field.distances.height();
-  const DistanceField fine = distance_field(shape, {2 * w, 2 * h, {0.25, 0.25}, 2});
-  Plane<std::uint8_t> is_wrong(w, h);
-  const auto check = [&](int x, int y, int dx, int dy) {
-    if (x + dx < 0 || x + dx >= w || y + dy >= h) return;
-    const float distance = -fine.distance(2 * x + dx, 2 * y + dy);  // half way to the neighbour
-    const float found = field.at(x + 0.5 + dx / 2.0, y + 0.5 + dy / 2.0);
-    if (std::abs(distance) > negligible && (found > 0) != (distance > 0))
-      for (int j = 0; j <= dy; ++j)
-        for (int i = std::min(dx, 0); i <= std::max(dx, 0); ++i) is_wrong(x + i, y + j) = 1;
-  };
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) check(x, y, 1, 0), check(x, y, 0, 1), check(x, y, 1, 1), check(x, y, -1, 1);
-  for (std::size_t i = 0; i < is_wrong.values().size(); ++i) {
-    if (is_wrong.values()[i] == 0) continue;
-    float4& c = field.distances.values()[i];
-    c.x = c.y = c.z = median(c.x, c.y, c.z);
+  const double first = 0.5 - 0.5 / steps;  // so that position 0 is the centre of texel 0
+  const DistanceField fine = distance_field(shape, {steps * (w - 1) + 1, steps * (h - 1) + 1, {first, first}, steps});
+  for (int round = 0; round < rounds; ++round) {
+    Plane<std::uint8_t> is_wrong(w, h);
+    bool is_done = true;
+    for (int y = 0; y < fine.distance.height(); ++y)
+      for (int x = 0; x < fine.distance.width(); ++x) {
+        const float distance = -fine.distance(x, y);
+        const double u = 0.5 + static_cast<double>(x) / steps, v = 0.5 + static_cast<double>(y) / steps;
+        if (std::abs(distance) <= negligible || (field.at(u, v) > 0) == (distance > 0)) continue;
+        // The four texels around the position, the nearest first.
+        const int i = (x + steps / 2) / steps, j = (y + steps / 2) / steps;
+        const int di = i * steps < x ? 1 : i > 0 ? -1 : 0, dj = j * steps < y ? 1 : j > 0 ? -1 : 0;
+        for (const auto& [column, row] : {std::pair{i, j}, {i + di, j}, {i, j + dj}, {i + di, j + dj}}) {
+          const float4& c = field.distances(std::min(column, w - 1), std::min(row, h - 1));
+          if (c.x == c.y && c.y == c.z) continue;
+          is_wrong(std::min(column, w - 1), std::min(row, h - 1)) = 1;
+          is_done = false;
+          break;
+        }
+      }
+    if (is_done) return;
+    for (std::size_t i = 0; i < is_wrong.values().size(); ++i) {
+      float4& c = field.distances.values()[i];
+      if (is_wrong.values()[i] != 0) c.x = c.y = c.z = median(c.x, c.y, c.z);
+    }
   }
 }
 
@@ -210,13 +223,15 @@ void FieldImage::add_part(Plane<float>& image, Point corner, double scale, const
   });
 }
 
-FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int height, double scale, Point move) {
+FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int height, double scale, Point move,
+                         double range) {
   FieldImage field{kind, Plane<float4>(width, height)};
+  const auto reach = static_cast<float>(range / 2);
   Outline texels = outline.mapped({.scale = scale, .move = move});
   const ShapePtr shape = region(texels);
   const DistanceField single = distance_field(shape, {width, height, {}, 1});
   for (std::size_t i = 0; i < field.distances.values().size(); ++i) {
-    const float d = -single.distance.values()[i];
+    const float d = std::clamp(-single.distance.values()[i], -reach, reach);
     field.distances.values()[i] = {d, d, d, d};
   }
   if (kind == FieldKind::Single) return field;
@@ -232,7 +247,7 @@ FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int 
     for (int x = 0; x < width; ++x) {
       const float3 d = multi_distance(edges, {x + 0.5, y + 0.5}, sign);
       float4& out = field.distances(x, y);
-      out = {d.x, d.y, d.z, out.w};
+      out = {std::clamp(d.x, -reach, reach), std::clamp(d.y, -reach, reach), std::clamp(d.z, -reach, reach), out.w};
     }
   });
   correct(field, shape);

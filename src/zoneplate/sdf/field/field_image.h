@@ -33,14 +33,16 @@ struct FieldImage {
 };
 
 /// The field of an outline in an image of width × height texels; p is at scale · p + move in texels.
+/// Distances are clamped to half of the range.
 ///
 /// Multi     the distance to each part of the outline, extended beyond its ends along its tangents, is stored in two or
 ///           three channels, so that the parts at a corner share one channel only. Where the interpolated median would
-///           have the wrong sign, the texels get their median in all channels.
+///           have the wrong sign, the nearest texels get their median in all channels.
 /// Requires  contours do not cross.
 /// Source    Chlumský, Shape Decomposition for Multi-channel Distance Fields, 2015: simple edge colouring, and pseudo-
 ///           distances with ties decided by the angle at the end.
-FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int height, double scale, Point move);
+FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int height, double scale, Point move,
+                         double range);
 
 /// The channels of each segment of a contour, bit 0 for red: neighbours at a corner share exactly one.
 ///

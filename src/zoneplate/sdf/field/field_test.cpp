@@ -108,7 +108,7 @@ TEST(SdfField, ThreeChannelsKeepCorners) {
   double error[2];
   int i = 0;
   for (const FieldKind kind : {FieldKind::Single, FieldKind::Multi}) {
-    const FieldImage field = outline_field(shape, kind, side, side, side, {4, 20});
+    const FieldImage field = outline_field(shape, kind, side, side, side, {4, 20}, 4);
     Plane<float> drawn(side * factor, side * factor);
     field.add_coverage(drawn, {}, factor);
     error[i++] = rms_error(drawn, exact);

@@ -77,6 +77,8 @@ TEST(SdfSceneFile, EveryTextErrorNamesLineAndColumn) {
        "line 1, column 1: a shape extends beyond a coordinate of 1e+06"},
   };
   for (const auto& [text, message] : cases) EXPECT_EQ(message_of(text), std::string("s: ") + message);
+  EXPECT_EQ(message_of("{\"a\\nb" + std::string(999, 'x') + "\": 1}"),
+            "s: line 1, column 2: 'a?b" + std::string(296, 'x') + "...");
   std::string deep = "fill #fff ";
   for (int i = 0; i < 100; ++i) deep += "complement(";
   EXPECT_EQ(message_of(deep), "s: line 1, column 539: shapes are nested more than 48 deep");

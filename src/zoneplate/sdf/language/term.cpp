@@ -10,7 +10,12 @@
 
 namespace zoneplate::sdf {
 
-void fail_at(std::string_view file, Position at, const std::string& cause) {
+void fail_at(std::string_view file, Position at, const std::string& words) {
+  // The words may quote the file: one line, of a limited length.
+  constexpr std::size_t most = 300;
+  std::string cause = words.size() > most ? words.substr(0, most) + "..." : words;
+  for (char& c : cause)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
   throw Error(ErrorKind::Input, fmt::format("{}: line {}, column {}: {}", file, at.line, at.column, cause));
 }
 
