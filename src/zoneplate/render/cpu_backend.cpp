@@ -136,9 +136,11 @@ std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewU
   if (std::none_of(draws.begin(), draws.end(), transmits)) return std::nullopt;
   const Scene& scene = prepared.scene();
   const auto is_ground = [&](const Draw& draw) { return static_cast<std::size_t>(draw.material) == materials.size(); };
+  const bool has_blended =
+      std::ranges::any_of(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
   float far = -std::numeric_limits<float>::infinity();
   for (const Draw& draw : draws)
-    if (transmits(draw)) far = std::max(far, depth_range(scene, draw, view).far);
+    if (has_blended && transmits(draw)) far = std::max(far, depth_range(scene, draw, view).far);
   std::vector<Draw> behind;
   std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind), [&](const Draw& draw) {
     if (is_ground(draw)) return true;
