@@ -62,6 +62,32 @@ TEST_F(BatchRun, SeveralInputsGiveALineEachAndFailuresExitFive) {
   EXPECT_EQ(run("teapot triangles -o one.png"), 2);
 }
 
+TEST_F(BatchRun, PlaceholdersNameTheOutputsAndNoFileIsWrittenTwice) {
+  write("shop.stl",
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n");
+  fs::create_directory(place / "old");
+  fs::copy_file(place / "shop.stl", place / "old/shop.stl");
+  EXPECT_EQ(run("shop.stl old/shop.stl -o '{model}.png' --size 8"), 2);
+  EXPECT_NE(complaint.find("shop.stl and old/shop.stl would both be written to shop.png"), std::string::npos)
+      << complaint;
+  EXPECT_TRUE(pictures().empty());
+  EXPECT_EQ(run("shop.stl old/shop.stl -o '{dir}/{model}_{ext}{index:2}.png' --size 8"), 0) << complaint;
+  EXPECT_EQ(pictures(), (std::vector<std::string>{"shop_stl00.png"}));
+  EXPECT_EQ(pictures("old"), (std::vector<std::string>{"shop_stl01.png"}));
+
+  EXPECT_EQ(run("shop.stl -o thumbs/small/ --size 8"), 0) << complaint;  // one input is a batch too
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0]["output"], "thumbs/small/shop.png");
+  EXPECT_EQ(pictures("thumbs/small"), (std::vector<std::string>{"shop.png"}));
+
+  write("jobs.jsonl", R"({"input":"shop.stl","output":"{model}-a.png"})"
+                      "\n"
+                      R"({"input":"teapot","output":"shop-a.png"})"
+                      "\n");
+  EXPECT_EQ(run("--manifest jobs.jsonl --size 8"), 2);
+  EXPECT_NE(complaint.find("jobs.jsonl: line 1 and jobs.jsonl: line 2 would both"), std::string::npos) << complaint;
+}
+
 TEST_F(BatchRun, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
   std::string manifest;
   for (int i = 0; i < 7; ++i)
@@ -134,6 +160,29 @@ TEST_F(BatchRun, TurntablesAreNumberedOrFilms) {
   EXPECT_NE(text_of(place / "t.webp").find("ANIM"), std::string::npos);
 }
 
+// An untagged video is decoded by BT.601 or BT.709 depending on the player.
+TEST_F(BatchRun, VideosAreTaggedAsBt709) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1 && ffprobe -version >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "ffmpeg is not installed";
+  for (const char* name : {"t.mp4", "t.mov", "t.mkv", "t.webm"}) {
+    EXPECT_EQ(run(std::string("teapot --turntable 2 --size 64x48 --background '#f8d31c' -o ") + name), 0) << complaint;
+    const std::string file = "'" + (place / name).string() + "'";
+    const std::string probe = "ffprobe -v error -show_entries stream=color_space,color_range -of csv=p=0 " + file +
+                              " >'" + (place / "tags.txt").string() + "'";
+    ASSERT_EQ(std::system(probe.c_str()), 0);
+    EXPECT_EQ(text_of(place / "tags.txt"), "tv,bt709\n") << name;
+    const std::string decode = "ffmpeg -v error -i " + file +
+                               " -vf scale=in_color_matrix=bt709,crop=1:1:0:0 -frames:v 1 "
+                               "-f rawvideo -pix_fmt rgb24 -y '" +
+                               (place / "pixel.rgb").string() + "'";
+    ASSERT_EQ(std::system(decode.c_str()), 0);
+    const std::string pixel = text_of(place / "pixel.rgb");
+    ASSERT_EQ(pixel.size(), 3u);
+    const int expected[] = {0xf8, 0xd3, 0x1c};
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(static_cast<unsigned char>(pixel[i]), expected[i], 4) << name;
+  }
+}
+
 // A glTF of one triangle whose animation's last key is at `end` seconds.
 std::string animated_triangle(const std::string& end) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
@@ -191,7 +240,7 @@ TEST_F(BatchRun, ASandboxedItemOpensTheLibraryThatItNeeds) {
 }
 
 TEST_F(BatchRun, AContactSheetShowsEveryInputOrItsTrouble) {
-  EXPECT_EQ(run("contact-sheet teapot nothing.obj triangles -o sheet.png --size 48x32"), 0) << complaint;
+  EXPECT_EQ(run("contact-sheet teapot nothing.obj triangles -o sheet.png --size 48x32"), 5) << complaint;
   EXPECT_EQ(pictures(), (std::vector<std::string>{"sheet.png"}));
   EXPECT_EQ(run("contact-sheet -o sheet.png"), 2);
 }

@@ -236,7 +236,7 @@ TEST_F(Endings, ManyItemsNeedNoMoreMemoryThanAFew) {
   std::ofstream(place / "b.stl") << model;
   std::ofstream jobs(place / "jobs.jsonl");
   for (int i = 0; i < 2000; ++i)
-    jobs << R"({"input":")" << (i % 2 ? "a" : "b") << R"(.stl","output":"o.png"})"
+    jobs << R"({"input":")" << (i % 2 ? "a" : "b") << R"(.stl","output":"o)" << i << R"(.png"})"
          << "\n";
   jobs.close();
   ASSERT_EQ(run({"--manifest", "jobs.jsonl", "--size", "32x32"}), 0) << complaint();

@@ -55,17 +55,85 @@ std::string usage_line(const Syntax& syntax) {
   return fmt::format("Usage: zoneplate {} {} [OPTIONS]\n\n{}.\n", syntax.verb, syntax.operands, syntax.summary);
 }
 
+// Options of other programs, and what they are called here.
+struct Synonym {
+  std::string_view theirs, ours;
+};
+constexpr Synonym synonyms[] = {
+    // F3D
+    {"--hdri", "--hdri-file"},
+    {"--samples", "--anti-aliasing"},
+    {"--anti-aliasing-mode", "--anti-aliasing"},
+    {"--ambient-occlusion-samples", "--ambient-occlusion"},
+    {"--ssao", "--ambient-occlusion"},
+    {"--tone", "--tone-mapping"},
+    {"--bg-color", "--background-color"},
+    {"--bg", "--background-color"},
+    {"--camera-direction", "--camera-azimuth-angle"},
+    {"--camera-zoom-factor", "--camera-view-angle"},
+    {"--ortho", "--camera-orthographic"},
+    {"--fov", "--camera-view-angle"},
+    {"--azimuth", "--camera-azimuth-angle"},
+    {"--elevation", "--camera-elevation-angle"},
+    // Blender
+    {"--render-output", "--output"},
+    {"--render-frame", "--frame-start"},
+    {"--render-format", "--output-format"},
+    {"--fps", "--frame-rate"},
+    // OpenImageIO's idiff, pixelmatch, odiff
+    {"--fail", "--threshold"},
+    {"--failpercent", "--threshold"},
+    {"--tolerance", "--threshold"},
+    {"--diff", "--map"},
+    // ImageMagick, and habits of many programs
+    {"--out", "--output"},
+    {"--width", "--resolution"},
+    {"--height", "--resolution"},
+    {"--geometry", "--resolution"},
+    {"--resize", "--resolution"},
+    {"--depth", "--bit-depth"},
+    {"--transparent", "--no-background"},
+    {"--alpha", "--no-background"},
+    {"--jobs", "--threads"},
+    {"--memory", "--max-memory"},
+    {"--timeout", "--max-seconds"},
+    {"--silent", "--quiet"},
+};
+
+// The options that may have been meant, best first: the same under another program's name, those that begin with the
+// given text, or have it as a word, and the closest one by spelling.
+std::vector<std::string> options_near(const std::string& given, const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  const auto is_option = [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
+  for (const Synonym& synonym : synonyms)
+    if (synonym.theirs == given && is_option(synonym.ours)) return {std::string(synonym.ours)};
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::string near(closest(given, views));
+  std::vector<std::string> found;
+  if (given.size() > 4) {
+    std::ranges::copy_if(names, std::back_inserter(found), [&](const auto& name) { return name.starts_with(given); });
+    const std::string word = given.substr(1);
+    if (found.empty())
+      std::ranges::copy_if(names, std::back_inserter(found), [&](const auto& name) {
+        const std::size_t at = name.find(word, 2);
+        return at != name.npos && (at + word.size() == name.size() || name[at + word.size()] == '-');
+      });
+  }
+  if (found.empty() && !near.empty()) found.push_back(near);
+  if (found.size() > most) found.clear();
+  return found;
+}
+
 [[noreturn]] void refuse_unknown(const Syntax& syntax, const std::string& given) {
   std::vector<std::string> names{"--help"};
   for (const Option& option : syntax.options)
     for (const std::string& name : names_of(option))
       if (name.starts_with("--")) names.push_back(name);
-  const std::vector<std::string_view> views(names.begin(), names.end());
   const std::string name = given.substr(0, given.find('='));
-  const std::string_view near = closest(name, views);
+  const std::vector<std::string> near = options_near(name, names);
   throw Error(ErrorKind::Usage,
               near.empty() ? fmt::format("unknown option {} (zoneplate {} --help lists them)", name, syntax.verb)
-                           : fmt::format("unknown option {}; did you mean {}?", name, near));
+                           : fmt::format("unknown option {}; did you mean {}?", name, fmt::join(near, " or ")));
 }
 
 void set(const Option& option, const std::string& text) {

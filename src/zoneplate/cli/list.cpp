@@ -98,7 +98,7 @@ constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits per channel, s
                                            {".pfm", "floats in linear light, before tone mapping"},
                                            {".apng", "lossless animation"},
                                            {".gif", "animation, by the program ffmpeg"},
-                                           {".mp4", "H.264 video, by ffmpeg"},
+                                           {".mp4", "H.264 video, by ffmpeg; also .mov and .mkv"},
                                            {".webm", "VP9 video with alpha, by ffmpeg"}};
 
 std::string formats_text() {

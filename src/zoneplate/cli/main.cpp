@@ -82,7 +82,7 @@ void refuse_misspelt_verb(const std::string& word) {
 void run(std::vector<std::string> arguments) {
   if (arguments.empty()) return print(overview());
   const std::string first = arguments.front();
-  if (first == "--version") return print(version_text());
+  if (first == "--version" || first == "-V" || first == "version") return print(version_text());
   if (first == "-h" || first == "--help") return print(overview());
   if (first == "help") {
     if (arguments.size() == 1) return print(overview());

@@ -23,11 +23,14 @@ void Progress::begin(std::string_view stage, double done) {
     constexpr int cells = 24;
     const int full = static_cast<int>(done * cells);
     line = fmt::format("{}[{:#<{}}{:.<{}}] {}", wipe, "", full, "", cells - full, stage);
+    const double seconds = watch_.ms() / 1000, left = done > 0 ? seconds / done - seconds : 0;
+    if (seconds > 2 && left >= 1)
+      line += left < 100 ? fmt::format(", {:.0f} s left", left) : fmt::format(", {:.0f} min left", left / 60);
   }
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-Progress::~Progress() {
+void Progress::clear() {
   if (kind_ == ProgressKind::Bar) std::fwrite(wipe.data(), 1, wipe.size(), stderr);
 }
 

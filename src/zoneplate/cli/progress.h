@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "zoneplate/base/clock.h"
+
 namespace zoneplate::cli {
 
 enum class ProgressKind {
@@ -16,15 +18,20 @@ enum class ProgressKind {
 class Progress {
  public:
   explicit Progress(ProgressKind kind) : kind_(kind) {}
-  ~Progress();
+  ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// Reports that `stage` begins, when the fraction `done` of all work, in [0, 1], is complete.
+  /// After two seconds the bar also shows the time that is left if the rest is as fast.
   void begin(std::string_view stage, double done);
+
+  /// Clears the bar, so that other lines can be printed.
+  void clear();
 
  private:
   ProgressKind kind_;
+  Stopwatch watch_;
 };
 
 /// Parses the value of --progress: "auto" (a bar on a terminal, else none), "bar", "json" or "none".

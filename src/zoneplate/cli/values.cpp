@@ -104,8 +104,8 @@ float3 parse_triple(const std::string& text) {
 int2 parse_size(const std::string& text, int max_side) {
   const auto sides = split(text, text.find('x') == std::string::npos ? ',' : 'x');
   const auto width = number_in<int>(sides.front()), height = number_in<int>(sides.back());
-  if (sides.size() != 2 || !width || !height || *width < 1 || *height < 1)
-    refuse(text, "a size WIDTH,HEIGHT or WIDTHxHEIGHT");
+  if (sides.size() > 2 || !width || !height || *width < 1 || *height < 1)
+    refuse(text, "a size WIDTH,HEIGHT, WIDTHxHEIGHT or SIDE");
   if (*width > max_side || *height > max_side)
     throw Error(ErrorKind::Usage, fmt::format("{} is too large: a side has at most {} pixels", text, max_side));
   return {*width, *height};

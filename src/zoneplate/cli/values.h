@@ -22,7 +22,7 @@ int parse_whole(const std::string& text, int low, int high);
 /// "x,y,z": three finite numbers.
 float3 parse_triple(const std::string& text);
 
-/// An image's size, "800,600" or "800x600", each side in [1, max_side].
+/// An image's size, "800,600" or "800x600", or "512" for a square, each side in [1, max_side].
 int2 parse_size(const std::string& text, int max_side);
 
 /// An sRGB-encoded colour with straight alpha: "#rgb", "#rgba", "#rrggbb", "#rrggbbaa", a basic name of CSS, or "r,g,b"

@@ -43,10 +43,11 @@ TEST(ParseTriple, TakesThreeNumbers) {
 TEST(ParseSize, TakesACommaOrAnX) {
   EXPECT_EQ(parse_size("800,600", 1000), (int2{800, 600}));
   EXPECT_EQ(parse_size("800x600", 1000), (int2{800, 600}));
+  EXPECT_EQ(parse_size("512", 1000), (int2{512, 512}));
   EXPECT_EQ(refusal([] { parse_size("1001x1", 1000); }), "1001x1 is too large: a side has at most 1000 pixels");
-  for (const char* text : {"", "800", "800x", "x600", "0x5", "5x0", "-5x5", "1x2x3", "1,2x3", "99999999999x1"})
+  for (const char* text : {"", "800x", "x600", "0x5", "5x0", "-5x5", "1x2x3", "1,2x3", "99999999999x1"})
     EXPECT_EQ(refusal([&] { parse_size(text, 1000); }),
-              std::string("'") + text + "' is not a size WIDTH,HEIGHT or WIDTHxHEIGHT");
+              std::string("'") + text + "' is not a size WIDTH,HEIGHT, WIDTHxHEIGHT or SIDE");
 }
 
 TEST(ParseColor, TakesHexNamesAndNumbers) {

@@ -77,9 +77,11 @@ Syntax compare_syntax(CompareArgs& args) {
        [&](auto& text) { args.metrics = text; }},
       {"--turns", "N", "Frames rendered by each method, of which the fastest counts; default 3", group, false,
        [&](auto& text) { args.turns = parse_whole(text, 1, 1000); }}};
-  constexpr std::string_view left_out[] = {"--output", "--anti-aliasing", "--no-background", "--crop", "--aov"};
+  constexpr std::string_view left_out[] = {"--output", "--anti-aliasing", "--no-background", "--crop",
+                                           "--aov",    "--dither",        "--bit-depth",     "--output-format"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
+    if (option.group == "Sequences" || option.group == "Batches") continue;
     if (std::ranges::find(left_out, first) != std::end(left_out)) continue;
     if (first == "--resolution") option.meaning = "Size in pixels, 640,480 or 640x480; default 640,480";
     if (first == "--json") option.meaning = "Print the JSON report instead of the tables";
@@ -122,7 +124,13 @@ constexpr const char* best_reference = "converged";
 
 std::vector<metrics::Choice> metrics_of(const std::string& text) {
   std::vector<metrics::Choice> out;
-  for (const std::string& item : split_specs(text)) out.push_back(metrics::choose_metric(metrics::metrics(), item));
+  for (const std::string& item : split_specs(text)) {
+    out.push_back(metrics::choose_metric(metrics::metrics(), item));
+    if (out.back().metric->frames > 1)
+      throw Error(ErrorKind::Usage, fmt::format("--metric {}: it measures sequences, and compare renders one image of "
+                                                "each method; render sequences and use zoneplate metrics",
+                                                out.back().metric->name));
+  }
   if (std::ranges::none_of(out, [](const auto& c) { return c.metric->name == "flip"; }))
     out.push_back(metrics::choose_metric(metrics::metrics(), "flip"));
   return out;

@@ -17,19 +17,42 @@ namespace {
 
 /// A column of the tables: a figure by its name, and its format.
 struct Column {
-  const char *name, *head;
-  int decimals;
+  std::string name, head;
+  int decimals = significant;
   double scale = 1;
+  static constexpr int significant = -1;  ///< four significant digits
 };
-constexpr Column columns[] = {{"psnr", "PSNR dB", 2},
-                              {"ssim", "SSIM", 4},
-                              {"flip", "FLIP ×1000", 2, 1000},
-                              {"edge_error", "edges %", 2, 100},
-                              {"edge_error.near_axis", "near axis %", 2, 100},
-                              {"edge_error.diagonal", "diagonal %", 2, 100}};
+
+/// The figures that have columns of their own, and their formats.
+const Column known_columns[] = {{"psnr", "PSNR dB", 2},
+                                {"ssim", "SSIM", 4},
+                                {"flip", "FLIP ×1000", 2, 1000},
+                                {"edge_error", "edges %", 2, 100},
+                                {"edge_error.near_axis", "near axis %", 2, 100},
+                                {"edge_error.diagonal", "diagonal %", 2, 100}};
+
+/// The columns of the measured metrics, in their order.
+std::vector<Column> columns_of(const std::vector<SceneTrials>& scenes) {
+  std::vector<Column> columns;
+  const auto add = [&](const Column& column) {
+    if (std::ranges::find(columns, column.name, &Column::name) == columns.end()) columns.push_back(column);
+  };
+  for (const SceneTrials& scene : scenes)
+    for (const Trial& trial : scene.trials)
+      for (const metrics::Result& result : trial.results) {
+        const std::string name(result.metric->name);
+        bool is_known = false;
+        for (const Column& known : known_columns)
+          if (known.name == name || known.name.starts_with(name + ".")) add(known), is_known = true;
+        if (!is_known)
+          add({name, result.metric->unit.empty() ? name : fmt::format("{} {}", name, result.metric->unit)});
+      }
+  return columns;
+}
 
 std::string shown(std::optional<double> value, int decimals, double scale = 1) {
   if (!value) return "-";
+  if (decimals == Column::significant) return fmt::format("{:.4g}", *value * scale);
   return std::isfinite(*value) ? fmt::format("{:.{}f}", *value * scale, decimals) : "same";
 }
 
@@ -45,7 +68,7 @@ std::vector<const Trial*> ranked(const SceneTrials& scene) {
   return order;
 }
 
-Table table_of(const SceneTrials& scene) {
+Table table_of(const SceneTrials& scene, const std::vector<Column>& columns) {
   Table table{{"method"}, {}};
   for (const Column& c : columns) table.head.emplace_back(c.head);
   for (const char* name : {"ms", "CPU ms", "samples/px", "MB"}) table.head.emplace_back(name);
@@ -216,17 +239,19 @@ std::vector<MethodMeans> means_of(const std::vector<SceneTrials>& scenes) {
 }
 
 std::string report_text(const std::vector<SceneTrials>& scenes) {
+  const std::vector<Column> columns = columns_of(scenes);
   std::string text;
   for (const SceneTrials& s : scenes) {
     text += fmt::format("{}{}, {}x{}, against {}{}\n", s.scene, s.failure.empty() ? "" : " (" + s.failure + ")",
                         s.reference_picture.width(), s.reference_picture.height(), s.reference, reference_cost(s));
-    text += table_text(table_of(s)) + fewer_turns(s) + '\n';
+    text += table_text(table_of(s, columns)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';
   return text + "* on the Pareto front: no other method has less CPU time and less error\n";
 }
 
 std::string report_csv(const std::vector<SceneTrials>& scenes) {
+  const std::vector<Column> columns = columns_of(scenes);
   std::string text = "scene,class,method";
   for (const Column& c : columns) text += fmt::format(",{}", c.name);
   text += ",frame_ms,cpu_ms,shaded_samples,shaded_samples_per_pixel,peak_memory_bytes,is_pareto_optimal\n";

@@ -11,7 +11,9 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/render/output_name.h"
 #include "zoneplate/cli/render/shadow_args.h"
 #include "zoneplate/cli/render/solid_texture.h"
 #include "zoneplate/cli/values.h"
@@ -42,10 +44,14 @@ constexpr const char* notes =
     "--environment replace them. A file with lights of its own has no environment without these options.\n"
     "\n"
     "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
-    "chair.####.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and WebM require the program\n"
-    "ffmpeg.\n"
+    "chair.####.png, chair.@@@@.png, chair.$F4.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and "
+    "WebM require the program\n"
+    "ffmpeg; their colours are BT.709, and tagged so.\n"
     "\n"
-    "Batches: several IN require {model} in OUT; each item prints one line of JSON on stdout.\n"
+    "Batches: several IN require a folder as OUT, as thumbs/, or a name with placeholders: {model} and {ext} (file "
+    "name\n"
+    "and extension of IN), {dir} (its folder), {index} or {index:4} (its number). Each item prints one line, which is\n"
+    "JSON if stdout is not a terminal. Two items never write the same file.\n"
     "\n"
     "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
     "\n"
@@ -177,7 +183,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
   return {
       {"--output,-o", "OUT",
        "Image to write: .png, .jpg, .webp, .exr, .pfm or .rgba, or - for stdout; or a video: .apng, .webp, .gif, "
-       ".mp4, .webm",
+       ".mp4, .mov, .mkv, .webm",
        group, true, [&](auto& text) { a.output = text; }},
       {"--output-format", "FORMAT", "Image format on stdout: png, jpg, webp, exr, pfm or rgba; default png", group,
        false,
@@ -185,7 +191,8 @@ std::vector<Option> picture_options(RenderArgs& a) {
          const std::vector<std::string_view> formats = {"png", "jpg", "webp", "exr", "pfm", "rgba"};
          a.stdout_format = formats[parse_choice(text, formats)];
        }},
-      {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600; default 800,600", group, true,
+      {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600, or 512 for a square; default 800,600", group,
+       true,
        [&](auto& text) {
          const int2 size = parse_size(text, max_side);
          a.options.width = size.x, a.options.height = size.y;
@@ -413,7 +420,7 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 
 void check_output(RenderArgs& args) {
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png, or -o - for stdout");
-  const bool is_film = is_one_of(extension_of(args.output), {".apng", ".gif", ".mp4", ".webm"});
+  const bool is_film = extension_of(args.output) == ".apng" || is_encoded_by_ffmpeg(args.output);
   args.sequence.is_film = is_film || has_frame_number(args.output);
   if (args.output == "-") {
     if (!args.aovs.empty() && args.stdout_format != "exr")
@@ -423,11 +430,22 @@ void check_output(RenderArgs& args) {
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(args.output, ignored))
-    throw Error(ErrorKind::Output, args.output + ": is a directory");
+    throw Error(ErrorKind::Output, args.output + ": is a directory; write into it with a / at its end");
   if (!is_film) check_picture_ending(args.output);
 }
 
 }  // namespace
+
+// Several inputs, and one file for all of them. After `convert in out` an output without -o is a likely mistake.
+[[noreturn]] void refuse_single_output(const RenderArgs& args) {
+  const std::string& last = args.inputs.back();
+  if (args.output.empty() &&
+      (is_encoded_by_ffmpeg(last) || is_one_of(extension_of(last), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr"})))
+    throw Error(ErrorKind::Usage, fmt::format("no output: did you mean -o {}?", last));
+  throw Error(
+      ErrorKind::Usage,
+      "several inputs require a folder as output, as pictures/, or {model} in its name, as pictures/{model}.png");
+}
 
 Syntax render_syntax(RenderArgs& args) {
   args.cache = environment_cache();
@@ -446,7 +464,9 @@ void check_picture_ending(const std::string& output) {
   if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"}))
     throw Error(
         ErrorKind::Usage,
-        fmt::format("--output: {} is not a format that can be written (.png, .jpg, .webp, .exr, .pfm, .rgba)", output));
+        fmt::format("--output: {} is not a format that can be written (images: .png, .jpg, .webp, .exr, .pfm, .rgba; "
+                    "videos: .apng, .webp, .gif, .mp4, .mov, .mkv, .webm)",
+                    output));
 }
 
 void check_environment(RenderArgs& args) {
@@ -485,8 +505,13 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--ground shadow requires --shadows or --ambient-occlusion");
   if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
     throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
+  if (args.display.is_transparent && (ending == ".jpg" || ending == ".jpeg"))
+    throw Error(ErrorKind::Usage, "--no-background: JPEG has no alpha; write a .png or a .webp");
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
+  if (args.sequence.jump != 1 && !args.sequence.is_sequence())
+    throw Error(ErrorKind::Usage,
+                "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && !args.sequence.is_sequence())
     throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
@@ -518,10 +543,13 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
     return args;
   }
   if (args.inputs.empty()) throw Error(ErrorKind::Usage, "no input: give a model or a built-in scene");
-  if (args.inputs.size() > 1 && args.output.find("{model}") == std::string::npos)
-    throw Error(ErrorKind::Usage, "several inputs require {model} in the output's name, as pictures/{model}.png");
+  args.has_placeholders = names_input(args.output);
+  if (args.inputs.size() > 1 && !args.has_placeholders) refuse_single_output(args);
   args.input = args.inputs.front();
+  const std::string pattern = args.output;
+  args.output = output_name(pattern, args.input, 0);
   check_args(args);
+  if (args.is_batch()) args.output = pattern;
   return args;
 }
 

@@ -39,6 +39,7 @@ struct RenderArgs {
   std::string input, output;
   std::vector<std::string> inputs;  ///< all inputs; `input` is the first
   std::string manifest;
+  bool has_placeholders = false;  ///< the output's name depends on its input
   Shard shard;
   bool skip_existing = false;
   SequenceArgs sequence;
@@ -74,7 +75,8 @@ struct RenderArgs {
   Verbosity verbosity = Verbosity::Normal;
   std::optional<ProgressKind> progress;  ///< nothing: a bar on a terminal
 
-  bool is_batch() const { return inputs.size() > 1 || !manifest.empty(); }
+  /// Whether each item is reported by a line of its own: several inputs, a manifest, or an output with placeholders.
+  bool is_batch() const { return inputs.size() > 1 || !manifest.empty() || has_placeholders; }
   /// The output's name with an extension for its format, also for stdout.
   std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };

@@ -2,6 +2,7 @@
 #include "zoneplate/cli/render/batch.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <new>
@@ -12,6 +13,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/render/output_name.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/json/json.h"
@@ -49,12 +51,12 @@ class Jobs {
   Jobs& operator=(const Jobs&) = delete;
 
   // Errors    ErrorKind::Input or Usage, naming the line.
-  RenderArgs read(const Line& line) {
+  RenderArgs read(const Line& line, std::uint64_t index) {
     ImportBudget budget(line.place, common_.load.limits);
     const JsonValue job =
         parse_json({reinterpret_cast<const std::uint8_t*>(line.text.data()), line.text.size()}, budget);
     try {
-      return read(job, JsonView(job, line.place));
+      return read(job, JsonView(job, line.place), index);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Usage) throw;
       throw Error(ErrorKind::Usage, line.place + ": " + error.what());
@@ -62,12 +64,13 @@ class Jobs {
   }
 
  private:
-  RenderArgs read(const JsonValue& job, const JsonView& view) {
+  RenderArgs read(const JsonValue& job, const JsonView& view, std::uint64_t index) {
     args_ = common_;
     args_.input.clear();
     for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
     if (args_.input.empty()) view.fail("has no input");
     args_.inputs = {args_.input};
+    args_.output = output_name(args_.output, args_.input, index);
     check_args(args_);
     return args_;
   }
@@ -95,7 +98,11 @@ class Jobs {
 // Processes items in order. Consecutive items with one model are processed together, in one process.
 class Batch {
  public:
-  explicit Batch(const RenderArgs& common) : common_(common) {}
+  Batch(const RenderArgs& common, std::uint64_t size)
+      : common_(common),
+        size_(size),
+        progress_(common.progress ? *common.progress : parse_progress("auto")),
+        prints_text_(::isatty(STDOUT_FILENO) == 1 && !common.prints_json) {}
 
   // Adds the item that `make` returns; if it throws, the item has failed.
   template <class Make>
@@ -143,8 +150,13 @@ class Batch {
   }
 
   Json::Object render(const Item& item, RenderItems& process) {
+    progress_.begin(fmt::format("{} of {}: {}", count_ + 1, size_, item.name),
+                    static_cast<double>(count_) / static_cast<double>(size_));
     try {
+      const Stopwatch watch;
       const Summary summary = process.next();
+      print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, item.args.output, summary.width, summary.height,
+                             watch.ms()));
       Json::Object line = summary_json(item.args, summary);
       line.emplace(line.begin() + 4, "status", "done");
       return line;
@@ -156,7 +168,8 @@ class Batch {
   static bool is_skipped(const RenderArgs& args) {
     return args.skip_existing && !has_frame_number(args.output) && exists(args.output);
   }
-  static Json::Object skipped(const Item& item) {
+  Json::Object skipped(const Item& item) {
+    print_text(fmt::format("{}: {} exists already", item.name, item.args.output));
     return {{"format", "zoneplate-render"},
             {"version", report_version},
             {"input", item.args.input},
@@ -168,6 +181,7 @@ class Batch {
     ++failed_;
     const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
     const std::string cause = is_memory ? name + ": out of memory" : error.what();
+    progress_.clear();
     say_error(cause);
     return {{"format", "zoneplate-render"},
             {"version", report_version},
@@ -179,43 +193,84 @@ class Batch {
 
   void report(Json::Object line, const Stopwatch& watch) {
     line.emplace_back("seconds", watch.ms() / 1000);
-    if (common_.verbosity != Verbosity::Quiet) print(Json(std::move(line)).text() + '\n');
     ++count_;
+    progress_.clear();
+    if (common_.verbosity != Verbosity::Quiet && !prints_text_) print(Json(std::move(line)).text() + '\n');
+  }
+
+  // One line for a person at a terminal; failures are reported on stderr alone.
+  void print_text(const std::string& text) {
+    progress_.clear();
+    if (common_.verbosity != Verbosity::Quiet && prints_text_) print(text + '\n');
   }
 
   const RenderArgs& common_;
+  const std::uint64_t size_;
+  Progress progress_;
+  const bool prints_text_;
   std::vector<Item> items_;  ///< pending items, all with one model
   std::uint64_t count_ = 0, failed_ = 0;
 };
 
-std::string model_of(const std::string& input) {
-  std::string stem = std::filesystem::path(input).stem().string();
-  for (char& c : stem)
-    if (c == ':' || c == '/') c = '_';
-  return stem;
+// The items of the command line, or of the manifest.
+class BatchItems {
+ public:
+  explicit BatchItems(const RenderArgs& common) : common_(common), jobs_(common) {
+    if (!common.manifest.empty()) lines_ = lines_of(common.manifest);
+  }
+
+  std::uint64_t count() const { return common_.manifest.empty() ? common_.inputs.size() : lines_.size(); }
+  const std::string& name(std::uint64_t i) const {
+    return common_.manifest.empty() ? common_.inputs[i] : lines_[i].place;
+  }
+  // Errors    ErrorKind::Input or Usage, naming the line.
+  RenderArgs args(std::uint64_t i) {
+    if (!common_.manifest.empty()) return jobs_.read(lines_[i], i);
+    RenderArgs args = common_;
+    args.input = common_.inputs[i];
+    args.output = output_name(args.output, args.input, i);
+    return args;
+  }
+
+ private:
+  const RenderArgs& common_;
+  Jobs jobs_;
+  std::vector<Line> lines_;
+};
+
+// Fails before the first item is rendered if two items have the same output.
+void check_output_names(BatchItems& items) {
+  OutputNames names;
+  for (std::uint64_t i = 0; i < items.count(); ++i) {
+    std::optional<RenderArgs> args;
+    try {
+      args = items.args(i);
+    } catch (const Error&) {
+      continue;  // fails alone, when its turn comes
+    }
+    names.add(*args, items.name(i));
+  }
+}
+
+// Makes the folder of an output such as thumbs/.
+void make_folder(const std::string& output) {
+  if (!output.ends_with('/')) return;
+  std::error_code error;
+  std::filesystem::create_directories(output, error);
+  if (error) throw Error(ErrorKind::Output, fmt::format("{}: {}", output, error.message()));
 }
 
 }  // namespace
 
 void render_batch(const RenderArgs& common) {
-  Batch batch(common);
-  std::uint64_t number = 0;
-  for (const std::string& input : common.inputs) {
-    if (!common.shard.has(number++)) continue;
-    batch.add(input, [&] {
-      RenderArgs args = common;
-      args.input = input;
-      if (!args.sequence.is_sequence()) args.output = frame_name(args.output, 0, model_of(input));
-      check_outputs(args);
-      return args;
-    });
-  }
-  if (common.manifest.empty()) return batch.finish();
-  Jobs jobs(common);
-  for (const Line& line : lines_of(common.manifest)) {
-    if (!common.shard.has(number++)) continue;
-    batch.add(line.place, [&] {
-      RenderArgs args = jobs.read(line);
+  BatchItems items(common);
+  check_output_names(items);
+  make_folder(common.output);
+  Batch batch(common, common.shard.size_of(items.count()));
+  for (std::uint64_t i = 0; i < items.count(); ++i) {
+    if (!common.shard.has(i)) continue;
+    batch.add(items.name(i), [&] {
+      RenderArgs args = items.args(i);
       check_outputs(args);
       return args;
     });

@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <map>
+#include <new>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/item_process.h"
@@ -36,17 +39,33 @@ std::vector<std::string> short_names(const std::vector<std::string>& inputs) {
   return out;
 }
 
-Rgba8Image blank(const SheetArgs& args) {
-  return Rgba8Image(args.render.options.width, args.render.options.height, {255, 255, 255, 255});
+// The image in place of a model that failed: a frame with its diagonals.
+Rgba8Image placeholder(const SheetArgs& args) {
+  const int width = args.render.options.width, height = args.render.options.height;
+  Rgba8Image image(width, height, {250, 250, 250, 255});
+  constexpr Rgba8 grey = {190, 190, 190, 255};
+  const auto draw_line = [&](int x0, int y0, int x1, int y1) {
+    const int steps = std::max(std::abs(x1 - x0), std::abs(y1 - y0));
+    for (int i = 0; i <= steps; ++i)
+      image(x0 + (x1 - x0) * i / std::max(steps, 1), y0 + (y1 - y0) * i / std::max(steps, 1)) = grey;
+  };
+  const int right = width - 1, bottom = height - 1;
+  draw_line(0, 0, right, 0), draw_line(0, bottom, right, bottom);
+  draw_line(0, 0, 0, bottom), draw_line(right, 0, right, bottom);
+  draw_line(0, 0, right, bottom), draw_line(0, bottom, right, 0);
+  return image;
 }
 
 // Runs in the item's process: renders the model's image, as RGBA values.
 std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   Scene scene;
+  Environments environments;
+  if (!render.hdri_file.empty()) environments.complete(render, [](std::uint64_t, std::span<const std::uint8_t>) {});
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
   render.view.up = render.up.value_or(scene.up);
-  if (is_builtin_scene(render.input) && !scene.cameras.empty()) render.view.index = 0;
+  const bool has_own_view = is_builtin_scene(render.input) && !scene.cameras.empty();
+  if (has_own_view && !render.view.index && !render.view.position) render.view.index = 0;
   const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
   const Camera camera = choose_camera(scene, render.view, aspect);
   set_look(render, scene);
@@ -66,27 +85,35 @@ void use_studio(RenderArgs& render) {
   render.lighting.studio = [studio = render.lighting.studio()] { return studio; };
 }
 
-// A model's image with its name, or an empty image with the error message.
-Panel panel_of(const SheetArgs& args, const std::string& input, const std::string& name) {
+struct Cell {
+  Panel panel;
+  bool has_failed = false;
+};
+
+// A model's image with its name, or the error message in its place.
+Cell cell_of(const SheetArgs& args, const std::string& input, const std::string& name) {
   try {
     RenderArgs render = args.render;
     render.input = input;
+    std::vector<std::string> readable = readable_paths(input, render.load);
+    for (std::string& path : environment_files(render)) readable.push_back(std::move(path));
     ItemProcess process({.name = input,
                          .load = render.load.limits,
                          .seconds = render.max_seconds,
                          .is_sandboxed = uses_sandbox(render.is_sandboxed),
-                         .readable = readable_paths(input, render.load)},
+                         .readable = std::move(readable)},
                         1, [&](std::size_t, ItemSender& sender) { return render_cell(render, sender); });
     const std::vector<std::uint8_t> codes = process.next({});
-    Rgba8Image image = blank(args);
+    Rgba8Image image(render.options.width, render.options.height);
     if (codes.size() != image.values().size_bytes())
       throw Error(ErrorKind::Failed, input + ": an image of a wrong size");
     std::memcpy(image.values().data(), codes.data(), codes.size());
-    return {std::move(image), name};
+    return {{std::move(image), name}};
   } catch (const std::exception& error) {
+    say_error(dynamic_cast<const std::bad_alloc*>(&error) ? input + ": out of memory" : error.what());
     std::string cause = error.what();
     if (cause.starts_with(input + ": ")) cause = cause.substr(input.size() + 2);
-    return {blank(args), name + "\n" + cause};
+    return {{placeholder(args), name + "\n" + cause}, true};
   }
 }
 
@@ -109,41 +136,32 @@ Figure lay_out(const SheetArgs& args, std::vector<Panel> panels) {
 }
 
 Syntax make_syntax(SheetArgs& args) {
-  Syntax syntax{
-      .verb = "contact-sheet",
-      .summary = "Render many models into one image, with their names",
-      .operands = "FILES... -o OUT",
-      .examples =
-          "  zoneplate contact-sheet models/*.glb -o sheet.png\n"
-          "  zoneplate contact-sheet a.stl b.ply teapot -o sheet.png --size 320x240 --columns 3\n",
-      .notes = "A model that cannot be rendered shows its error message instead; the sheet is written anyway.\n"};
-  syntax.options = {
-      {"--output,-o", "OUT", "Image to write: .png, .jpg or .webp, or - for stdout", "Options", true,
-       [&](auto& text) { args.output = text; }},
-      {"--resolution,--size", "W,H", "Size of each model's image; default 200,150", "Options", true,
-       [&](auto& text) {
-         const int2 size = parse_size(text, 4096);
-         args.render.options.width = size.x, args.render.options.height = size.y;
-       }},
-      {"--columns", "N", "Images per row; default: the number that makes the sheet closest to 4:3", "Options", true,
-       [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
-      {"--title", "TEXT", "Title of the sheet", "Options", false, [&](auto& text) { args.title = text; }},
-      {"--anti-aliasing,--aa", "METHOD", "Antialiasing method, as for render; default msaa:n=8", "Options", false,
-       [&](auto& text) { args.render.method = text; }},
-      {"--background-color,--background", "COLOR", "Background colour; default #444444", "Options", false,
-       [&](auto& text) { args.render.background = parse_color(text); }},
-      {"--max-memory", "BYTES", "Memory limit of one model and its image, for example 512M; default 4G", "Options",
-       false, [&](auto& text) { args.render.load.limits.memory = parse_bytes(text); }},
-      {"--max-import-seconds", "S", "Time limit of reading a model; default 60", "Options", false,
-       [&](auto& text) { args.render.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
-      {"--max-seconds", "S", "Time limit of a model; default: no limit", "Options", false,
-       [&](auto& text) { args.render.max_seconds = parse_number(text, 0.001, 1e9); }},
-      {"--sandbox", "", "Read and render in sandboxed processes: the default", "Options", false,
-       [&](auto&) { args.render.is_sandboxed = true; }},
-      {"--no-sandbox", "", "Read and render without a sandbox, with all rights of the user: for trusted models",
-       "Options", false, [&](auto&) { args.render.is_sandboxed = false; }},
-      {"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow", "Options",
-       false, [&](auto& text) { args.render.threads = parse_whole(text, 0, 1024); }}};
+  Syntax syntax{.verb = "contact-sheet",
+                .summary = "Render many models into one image, with their names",
+                .operands = "FILES... -o OUT",
+                .examples =
+                    "  zoneplate contact-sheet models/*.glb -o sheet.png\n"
+                    "  zoneplate contact-sheet a.stl b.ply teapot -o sheet.png --size 320x240 --columns 3\n",
+                .notes =
+                    "A model that cannot be rendered has its error message instead of an image; the sheet is written "
+                    "anyway, and the\n"
+                    "exit code is 5.\n"};
+  syntax.options = {{"--output,-o", "OUT", "Image to write: .png, .jpg or .webp, or - for stdout", "Sheet", true,
+                     [&](auto& text) { args.output = text; }},
+                    {"--columns", "N", "Images per row; default: the number that makes the sheet closest to 4:3",
+                     "Sheet", true, [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
+                    {"--title", "TEXT", "Title of the sheet", "Sheet", false, [&](auto& text) { args.title = text; }}};
+  constexpr std::string_view left_out[] = {"--output", "--output-format", "--bit-depth",
+                                           "--crop",   "--aov",           "--no-background",
+                                           "--json",   "--verbose",       "--displacement"};
+  for (Option& option : render_syntax(args.render).options) {
+    const std::string first = option.names.substr(0, option.names.find(','));
+    if (option.group == "Sequences" || option.group == "Batches") continue;
+    if (std::ranges::find(left_out, first) != std::end(left_out)) continue;
+    if (first == "--resolution") option.meaning = "Size of each model's image, 200x150 or 200; default 200,150";
+    if (first == "--background-color") option.meaning = "Background colour of each image; default #444444";
+    syntax.options.push_back(std::move(option));
+  }
   return syntax;
 }
 
@@ -159,21 +177,34 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   if (syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "no input: give models or built-in scenes");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png");
   static_cast<void>(make_resolver(antialias::methods(), args.render.method));
-  check_picture_ending(args.output);
+  args.render.output = args.output;
+  check_args(args.render);
   if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
     throw Error(ErrorKind::Usage, "--output: a contact sheet is display-referred: .png, .jpg, .webp or .rgba");
-  args.render.output = args.output;
   check_outputs(args.render);
 
   const std::vector<std::string> names = short_names(syntax.found_operands);
   std::vector<Panel> panels;
   Rendered sheet;
-  with_threads(args.render.threads, [&] {
-    use_studio(args.render);
-    for (std::size_t i = 0; i < names.size(); ++i) panels.push_back(panel_of(args, syntax.found_operands[i], names[i]));
+  std::size_t failed = 0;
+  const auto render_all = [&] {
+    if (args.render.hdri_file.empty()) use_studio(args.render);
+    Progress progress(args.render.verbosity == Verbosity::Quiet ? ProgressKind::None
+                      : args.render.progress                    ? *args.render.progress
+                                                                : parse_progress("auto"));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      progress.begin(fmt::format("{} of {}: {}", i + 1, names.size(), names[i]),
+                     static_cast<double>(i) / static_cast<double>(names.size()));
+      Cell cell = cell_of(args, syntax.found_operands[i], names[i]);
+      failed += cell.has_failed;
+      panels.push_back(std::move(cell.panel));
+    }
+    progress.clear();
     sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
-  });
+  };
+  with_isa(args.render.isa, [&] { with_threads(args.render.threads, render_all); });
   save_bytes(args.output, encode_picture(sheet, args.output));
+  if (failed > 0) throw PartialFailure(fmt::format("{} of {} models failed", failed, names.size()));
 }
 
 }  // namespace zoneplate::cli

@@ -15,17 +15,48 @@
 namespace zoneplate::cli {
 namespace {
 
-// Options of ffmpeg: one thread and no time stamps, so that the same version of ffmpeg writes the same bytes. MP4 is
-// written to a pipe in fragments.
-const std::vector<std::string>& codec_of(const std::string& extension) {
-  static const std::vector<std::string> mp4 = {
-      "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16", "-pix_fmt", "yuv420p",
-      "-movflags", "+frag_keyframe+empty_moov",     "-f",   "mp4"};
-  static const std::vector<std::string> webm = {"-c:v", "libvpx-vp9", "-b:v",     "0",  "-crf",
-                                                "20",   "-pix_fmt",   "yuva420p", "-f", "webm"};
-  static const std::vector<std::string> gif = {
-      "-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0", "-f", "gif"};
-  return extension == ".mp4" ? mp4 : extension == ".webm" ? webm : gif;
+using Words = std::vector<std::string>;
+
+// The colours of video are BT.709, and tagged as such with the transfer curve of sRGB: untagged files are decoded by
+// BT.601 or BT.709 depending on the player and on the size.
+constexpr const char* to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";
+const Words bt709_tags = {"-colorspace", "bt709",        "-color_primaries", "bt709",
+                          "-color_trc",  "iec61966-2-1", "-color_range",     "tv"};
+
+struct Codec {
+  std::string_view extension;
+  Words words;
+};
+
+// Options of ffmpeg: one thread and no time stamps, so that the same version of ffmpeg writes the same bytes. MP4 and
+// QuickTime are written to a pipe in fragments.
+const std::vector<Codec>& codecs() {
+  static const std::vector<Codec> all = [] {
+    const Words h264 = {
+        "-vf",    std::string(to_bt709) + ",pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16", "-pix_fmt",
+        "yuv420p"};
+    const Words vp9 = {"-vf", to_bt709, "-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "20", "-pix_fmt", "yuva420p"};
+    const auto together = [](std::initializer_list<Words> parts) {
+      Words out;
+      for (const Words& part : parts) out.insert(out.end(), part.begin(), part.end());
+      return out;
+    };
+    const Words fragments = {"-movflags", "+frag_keyframe+empty_moov+write_colr"};
+    return std::vector<Codec>{
+        {".mp4", together({h264, bt709_tags, fragments, {"-f", "mp4"}})},
+        {".mov", together({h264, bt709_tags, fragments, {"-f", "mov"}})},
+        {".mkv", together({h264, bt709_tags, {"-f", "matroska"}})},
+        {".webm", together({vp9, bt709_tags, {"-f", "webm"}})},
+        {".gif",
+         {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0", "-f", "gif"}}};
+  }();
+  return all;
+}
+
+const Codec* find_codec(const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  const auto found = std::ranges::find(codecs(), extension, &Codec::extension);
+  return found == codecs().end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -41,10 +72,7 @@ Animation film_of(double rate) {
   return film;
 }
 
-bool is_encoded_by_ffmpeg(const std::string& output) {
-  const std::string extension = std::filesystem::path(output).extension().string();
-  return extension == ".gif" || extension == ".mp4" || extension == ".webm";
-}
+bool is_encoded_by_ffmpeg(const std::string& output) { return find_codec(output) != nullptr; }
 
 std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output) {
   return std::filesystem::path(output).extension() == ".webp" ? encode_webp(film) : encode_apng(film);
@@ -79,8 +107,7 @@ std::vector<std::uint8_t> FfmpegFilm::encode() const {
                                         "+bitexact",
                                         "-threads",
                                         "1"};
-  for (const std::string& word : codec_of(std::filesystem::path(output_).extension().string()))
-    arguments.push_back(word);
+  for (const std::string& word : find_codec(output_)->words) arguments.push_back(word);
   arguments.push_back("-");
   const int milliseconds = 60'000 + static_cast<int>(std::min<std::uint64_t>(frames_.size() / 1000, 1'000'000'000));
   ProgramResult answer = run_child("ffmpeg", arguments, frames_, {.milliseconds = milliseconds});

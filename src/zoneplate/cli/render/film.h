@@ -16,7 +16,7 @@ namespace zoneplate::cli {
 /// Errors    ErrorKind::Usage for a rate that is not a fraction of small integers.
 Animation film_of(double rate);
 
-/// True for the name of a GIF, MP4 or WebM film, which the program ffmpeg encodes.
+/// True for the name of a video that the program ffmpeg encodes: .mp4, .mov, .mkv, .webm or .gif.
 bool is_encoded_by_ffmpeg(const std::string& output);
 
 /// The bytes of an APNG or WebP film.

@@ -21,9 +21,14 @@ std::optional<int> digits_of(const std::string& text) {
 }
 
 std::optional<Place> find_place(const std::string& name) {
-  if (const std::size_t hash = name.find('#'); hash != name.npos) {
-    const std::size_t end = std::min(name.find_first_not_of('#', hash), name.size());
-    return Place{hash, end - hash, static_cast<int>(end - hash)};
+  for (const char mark : {'#', '@'})
+    if (const std::size_t first = name.find(mark); first != name.npos) {
+      const std::size_t end = std::min(name.find_first_not_of(mark, first), name.size());
+      return Place{first, end - first, static_cast<int>(end - first)};
+    }
+  if (const std::size_t dollar = name.find("$F"); dollar != name.npos) {
+    const bool has_width = dollar + 2 < name.size() && name[dollar + 2] >= '1' && name[dollar + 2] <= '9';
+    return Place{dollar, has_width ? 3u : 2u, has_width ? name[dollar + 2] - '0' : 1};
   }
   if (const std::size_t percent = name.find('%'); percent != name.npos) {
     const std::size_t end = name.find('d', percent);
@@ -46,14 +51,12 @@ std::optional<Place> find_place(const std::string& name) {
 
 bool has_frame_number(const std::string& name) { return find_place(name).has_value(); }
 
-std::string frame_name(const std::string& name, int frame, const std::string& model) {
+std::string frame_name(const std::string& name, int frame) {
   std::string out = name;
   if (const auto place = find_place(out)) {
     const std::string sign = frame < 0 ? "-" : "";
     out.replace(place->begin, place->size, sign + fmt::format("{:0{}}", std::abs(frame), std::min(place->digits, 20)));
   }
-  for (std::size_t at = out.find("{model}"); at != out.npos; at = out.find("{model}", at + model.size()))
-    out.replace(at, 7, model);
   return out;
 }
 

@@ -96,8 +96,7 @@ std::string aov_path(const std::string& output, std::string_view name) {
 }
 
 std::string output_path(const RenderArgs& args, int frame, int layer) {
-  const std::string model = std::filesystem::path(args.input).stem().string();
-  const std::string picture = frame < 0 ? args.output : frame_name(args.output, frame, model);
+  const std::string picture = frame < 0 ? args.output : frame_name(args.output, frame);
   return layer < 0 ? picture : aov_path(picture, args.aovs.at(static_cast<std::size_t>(layer))->name);
 }
 

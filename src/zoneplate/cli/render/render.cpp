@@ -12,6 +12,12 @@
 namespace zoneplate::cli {
 namespace {
 
+double seconds_of(const Summary& summary) {
+  for (const auto& [name, ms] : summary.times)
+    if (name == "total") return ms / 1000;
+  return 0;
+}
+
 void print_summary(const RenderArgs& args, const Summary& summary) {
   if (args.verbosity == Verbosity::Verbose) {
     std::string times;
@@ -20,6 +26,9 @@ void print_summary(const RenderArgs& args, const Summary& summary) {
                          args.method, summary.counts.triangles, summary.threads, name_of(args.isa)));
     say_note(fmt::format("{}peak memory {} MB", times, summary.peak_memory >> 20));
   }
+  const bool is_silent = args.verbosity != Verbosity::Normal || args.prints_json || args.output == "-";
+  if (!is_silent && stderr_is_terminal())
+    say_note(fmt::format("{}: {} × {}, {:.2f} s", args.output, summary.width, summary.height, seconds_of(summary)));
   if (!args.prints_json) return;
   const std::string line = Json(summary_json(args, summary)).text() + '\n';
   if (args.output == "-")

@@ -133,8 +133,7 @@ bool is_one_frame(const SequenceArgs& s) { return s.count == 1 || (s.first && s.
 
 bool is_film(const std::string& output) {
   const std::string extension = extension_of(output);
-  return extension == ".apng" || extension == ".gif" || extension == ".mp4" || extension == ".webm" ||
-         extension == ".webp";
+  return extension == ".apng" || extension == ".webp" || is_encoded_by_ffmpeg(output);
 }
 
 void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSender& out, Summary& summary) {
@@ -143,7 +142,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     throw Error(ErrorKind::Usage,
                 args.output +
                     ": several frames require a frame number in OUT, as chair.####.png, or a video: .apng, "
-                    ".webp, .gif, .mp4, .webm");
+                    ".webp, .gif, .mp4, .mov, .mkv, .webm");
   SceneSource source(args.input, args.load);
   Plan plan(args, source);
   out.has_read();
@@ -161,7 +160,10 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   Background background;
   std::size_t done = 0;
   for (const int frame : plan.frames()) {
-    out.progress("render", static_cast<double>(done++) / static_cast<double>(plan.frames().size()));
+    const std::size_t count = plan.frames().size();
+    out.progress(fmt::format("frame {} of {}", done + 1, count),
+                 static_cast<double>(done) / static_cast<double>(count));
+    ++done;
     const std::string output = is_numbered ? output_path(args, frame, -1) : args.output;
     if (is_numbered && args.skip_existing && exists(output)) {
       renderer.begin_sequence();

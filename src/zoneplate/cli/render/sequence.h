@@ -17,7 +17,7 @@ namespace zoneplate::cli {
 ///           animation with too many frames.
 void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSender& out, Summary& summary);
 
-/// True for the name of a film: .apng, .gif, .mp4, .webm, and .webp.
+/// True for the name of a film: .apng and .webp, or is_encoded_by_ffmpeg.
 bool is_film(const std::string& output);
 
 }  // namespace zoneplate::cli

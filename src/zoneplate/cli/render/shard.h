@@ -10,6 +10,8 @@ namespace zoneplate::cli {
 struct Shard {
   std::uint64_t index = 0, count = 1;
   bool has(std::uint64_t item) const { return item % count == index; }
+  /// How many of `items` items it has.
+  std::uint64_t size_of(std::uint64_t items) const { return items > index ? (items - index + count - 1) / count : 0; }
 };
 
 /// Parses "i/n" with i from 0 to n - 1, or "auto", which uses the environment variables of Slurm (an array's task) or

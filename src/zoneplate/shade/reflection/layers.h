@@ -161,6 +161,23 @@ template <class F>
   return mix(above, below, down);
 }
 
+/// The mean direction from which Sheen reflects light to the viewer: fibres lean towards grazing light on the viewer's
+/// side. The irradiance about it stands for the light of an environment.
+///
+/// Requires  nv = n·v in [0, 1], roughness >= least_sheen_roughness.
+/// Exact     within 3.5 degrees of the lobe's mean direction for roughness of 0.2 and more. The sheen of four captured
+///           environments differs from its integral, in the root mean square over directions, by 18 to 73 % of their
+///           mean radiance at roughness 0.5 and by 12 to 42 % at 1; with the irradiance about the normal by 37 to 100 %
+///           and 19 to 48 %, with an environment filtered by the fibres' density about the mirror direction by 53 to
+///           114 % and 49 to 91 %.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> sheen_direction(Vector<F> n, Vector<F> v, F nv, F roughness) {
+  const F one(1.0f), inverse = one / roughness;
+  const F tangent = (F(0.285f) * inverse - F(0.13f)) * (one + (F(0.6f) + F(0.38f) * inverse) * nv);
+  const F sine = max(sqrt(max(one - nv * nv, F(0.0f))), F(0.3f));  // near the normal all sides have equal parts
+  return normalize(n + (v - n * nv) * (tangent / sine));
+}
+
 /// The reflectance at normal incidence of the interface between two media.
 template <class F>
 [[gnu::always_inline]] inline F interface_f0(F from, F to) {

@@ -37,7 +37,8 @@ namespace {
 
 /// The positive and negative exponents, as large as the squares of the warped depths fit into a float, and the part of
 /// the upper bound that counts as light bleeding.
-/// Source    Lauritzen and McCool 2008; bleeding: Lauritzen, Summed-Area Variance Shadow Maps, GPU Gems 3, 2007.
+/// Source    Lauritzen and McCool 2008; the exponents: Pettineo, A Sampling of Shadow Techniques, 2013; bleeding:
+///           Lauritzen, Summed-Area Variance Shadow Maps, GPU Gems 3, 2007.
 constexpr float positive_exponent = 40, negative_exponent = 5, bleeding = 0.2f;
 /// Texels in which PCSS looks for blockers.
 constexpr int search_points = 32;

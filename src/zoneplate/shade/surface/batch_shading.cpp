@@ -151,20 +151,18 @@ void BatchShading::find_normals() {
   if (plan.has_bumps) tilt_normals();
 }
 
-/// Adds the variance of the normals that the pixel covers to the roughness, but not that of the curvature where the
-/// lobes of lights account for it.
+/// Adds the variance of the normals that the pixel covers: to the roughness, or to the lobes of lights.
 void BatchShading::widen_roughness() {
   if (plan.layers == nullptr && plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
     kernels.fill(p.roughness, plan.roughness, p.count);
     kernels.fill(p.metallic, plan.metallic, p.count);
   }
-  if (!plan.widens_by_curvature || is_corner) kernels.fill(p.normal_variance, 0, p.count);
   const bool has_lobes = plan.has_turning_lobes();
-  if (has_lobes && is_corner)
-    for (int c = 0; c < 3; ++c) kernels.fill(p.normal_dx[c], 0, p.count), kernels.fill(p.normal_dy[c], 0, p.count);
-  if (has_lobes && plan.normal_spread == nullptr) return;
-  alignas(64) ShadingState::Array curvature;
-  if (has_lobes) std::copy_n(p.normal_variance, p.count, curvature), kernels.fill(p.normal_variance, 0, p.count);
+  if (!plan.widens_by_curvature || is_corner) {
+    kernels.fill(p.normal_variance, 0, p.count);
+    for (int c = 0; c < 3 && has_lobes; ++c)
+      kernels.fill(p.normal_dx[c], 0, p.count), kernels.fill(p.normal_dy[c], 0, p.count);
+  }
   if (plan.normal_spread != nullptr) {
     const TextureSlot& slot = plan.slot(TextureSlotIndex::Normal);
     SamplerState sampler = slot.filtering;
@@ -180,11 +178,33 @@ void BatchShading::widen_roughness() {
     const float scale2 = plan.normal_scale * plan.normal_scale;
     for (int i = 0; i < p.count; ++i) {
       const float toksvig = 2 * (1 - texel_values[0][i]) / std::max(texel_values[0][i], 0x1p-10f);
-      p.normal_variance[i] += scale2 * (plan.has_slope_variance ? texel_values[1][i] : toksvig);
+      p.normal_variance[i] += scale2 * (plan.has_slope_variance ? texel_values[1][i] + texel_values[2][i] : toksvig);
     }
+    if (has_lobes) turn_lobes(2 * scale2);
   }
-  kernels.widen_roughness(p);
-  if (has_lobes) std::copy_n(curvature, p.count, p.normal_variance);
+  if (!has_lobes) kernels.widen_roughness(p);
+}
+
+/// Adds the covariance of the normal map's slopes, times `scale`, to the matrix a aᵀ + b bᵀ of the lobes. The vectors a
+/// and b become its Cholesky factor in the tangent space.
+void BatchShading::turn_lobes(float scale) {
+  const auto at = [](const ShadingState::Array* of, int i) { return float3{of[0][i], of[1][i], of[2][i]}; };
+  const auto store = [](float3 v, ShadingState::Array* to, int i) { to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z; };
+  for (int i = 0; i < p.count; ++i) {
+    const float3 n = at(p.normal, i), along = at(p.tangent, i);
+    const float3 t = normalize(along - n * dot(n, along), {0, 0, 0});
+    const float side =
+        (p.tangent[3][i] < 0) == (batch.is_front[batch.leader(static_cast<std::size_t>(i))] > 0) ? -1.0f : 1.0f;
+    const float3 b = cross(n, t) * side;
+    float tt = scale * texel_values[1][i], bb = scale * texel_values[2][i], tb = scale * texel_values[3][i];
+    for (const float3 turn : {at(p.normal_dx, i), at(p.normal_dy, i)}) {
+      const float x = dot(turn, t), y = dot(turn, b);
+      tt += x * x, bb += y * y, tb += x * y;
+    }
+    const float first = std::sqrt(tt), mixed = first > 0 ? tb / first : 0;
+    store(t * first + b * mixed, p.normal_dx, i);
+    store(b * std::sqrt(std::max(bb - mixed * mixed, 0.0f)), p.normal_dy, i);
+  }
 }
 
 void BatchShading::find_emissive() {

@@ -61,6 +61,7 @@ struct BatchShading {
   void find_normals(const TextureSlot& normal_map, float scale);
   void find_coat_normals();
   void flatten_normals();
+  void turn_lobes(float scale);
 };
 
 }  // namespace zoneplate

@@ -241,7 +241,10 @@ template <class F, class Radiance>
   Vector<F> sum = mirrored * mix(dielectric.mirrored, metal.mirrored, s.metallic) +
                   front * mix(dielectric.scattered, metal.scattered, s.metallic) +
                   below * (s.below_interface * (one - s.metallic));
-  if (u.has_sheen) sum = sum * s.below_sheen + front * s.sheen_color * s.sheen_albedo;
+  if (u.has_sheen) {
+    const Vector<F> leaning = around.diffuse(sheen_direction(s.n, s.v, s.nv, s.sheen_roughness)) * seen;
+    sum = sum * s.below_sheen + leaning * s.sheen_color * s.sheen_albedo;
+  }
   return sum;
 }
 

@@ -446,6 +446,25 @@ TEST(Layered, AFilmWithoutThicknessChangesNothing) {
   EXPECT_EQ(film.light(direction(0.7, 3)), bare.light(direction(0.7, 3)));
 }
 
+TEST(Layered, SheenLeansAsItsLobeDoes) {
+  for (const double roughness : {0.2, 0.35, 0.5, 0.8, 1.0})
+    for (const double nv : {0.1, 0.4, 0.7, 0.9}) {
+      const Direction view = direction(nv, 0);
+      Direction mean{0, 0, 0};
+      constexpr int steps = 200;
+      for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+          const Direction l = direction((i + 0.5) / steps, 2 * pi * (j + 0.5) / steps);
+          const double weight = sheen_brdf(l, view, roughness) * l.z;
+          mean = mean + Direction{l.x * weight, l.y * weight, l.z * weight};
+        }
+      const V found =
+          sheen_direction(V{0, 0, 1}, lanes(view), F(static_cast<float>(nv)), F(static_cast<float>(roughness)));
+      const double expected = std::atan2(mean.x, mean.z), actual = std::atan2(double{found.x.v}, double{found.z.v});
+      EXPECT_NEAR(actual, expected, 3.5 * pi / 180) << roughness << " " << nv;
+    }
+}
+
 TEST(Layered, TheSheenTableHoldsTheIntegrals) {
   for (int row = 1; row < sheen_table_side; row += 4)
     for (int column = 0; column < sheen_table_side; column += 3) {

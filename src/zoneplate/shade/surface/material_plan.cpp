@@ -104,6 +104,7 @@ void plan_specular_aa(SpecularAntialiasing kind, MaterialPlan& plan) {
   plan.widens_by_curvature = kind == Kind::Geometric || kind == Kind::Full;
   plan.has_slope_variance = kind == Kind::Lean || kind == Kind::Full;
   const Texture* const normals = plan.slot(TextureSlotIndex::Normal).texture;
+  if (normals == nullptr) plan.has_slope_variance = false;
   if (normals != nullptr && (kind == Kind::Toksvig || plan.has_slope_variance))
     plan.normal_spread = &normals->normal_spread();
 }

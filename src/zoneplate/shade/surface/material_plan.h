@@ -99,7 +99,7 @@ struct MaterialPlan {
   const TextureView* normal_spread = nullptr;  ///< Texture::normal_spread, where the material is widened by it
   bool has_slope_variance = false;             ///< by the variances of slopes, else by the length of the mean normal
   /// The lobes of lights are widened along each direction by itself; those of layers by the mean over all directions.
-  bool has_turning_lobes() const { return widens_by_curvature && layers == nullptr; }
+  bool has_turning_lobes() const { return layers == nullptr && (widens_by_curvature || has_slope_variance); }
   bool widens() const { return widens_by_curvature || normal_spread != nullptr; }
 
   bool is_lit = false;        ///< lights or an environment change its colour

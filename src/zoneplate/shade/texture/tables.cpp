@@ -120,8 +120,8 @@ NormalSpread make_normal_spread(const TextureView& view) {
   NormalSpread made;
   TextureView& normal_spread = made.view;
   struct Moments {
-    double x = 0, y = 0, z = 0;           ///< of unit normals
-    double p = 0, q = 0, pp = 0, qq = 0;  ///< of slopes x / z and y / z, and of their squares
+    double x = 0, y = 0, z = 0;                   ///< of unit normals
+    double p = 0, q = 0, pp = 0, qq = 0, pq = 0;  ///< of slopes x / z and y / z, and of their products
   };
   constexpr double least_z = 1.0 / 64;  // steeper slopes count as 64
   const auto value = [&](std::int32_t x, std::int32_t y, int c) {
@@ -146,7 +146,7 @@ NormalSpread make_normal_spread(const TextureView& view) {
       for (double& v : n) v *= unit;
       const double z = std::max(n[2], least_z), p = n[0] / z, q = n[1] / z;
       moments[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)] = {
-          n[0], n[1], unit > 0 ? n[2] : 1, p, q, p * p, q * q};
+          n[0], n[1], unit > 0 ? n[2] : 1, p, q, p * p, q * q, p * q};
     }
   for (std::int32_t l = 0;; ++l) {
     for (std::int32_t y = 0; y < size.height; ++y) {
@@ -155,8 +155,9 @@ NormalSpread make_normal_spread(const TextureView& view) {
         const Moments& m =
             moments[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)];
         const double length = l == 0 ? 1 : std::min(std::sqrt(m.x * m.x + m.y * m.y + m.z * m.z), 1.0);
-        const double variance = l == 0 ? 0 : std::max(m.pp - m.p * m.p, 0.0) + std::max(m.qq - m.q * m.q, 0.0);
-        row[4 * x] = static_cast<float>(length), row[4 * x + 1] = static_cast<float>(variance);
+        const auto moment = [&](double central) { return static_cast<float>(l == 0 ? 0 : central); };
+        row[4 * x] = static_cast<float>(length), row[4 * x + 1] = moment(std::max(m.pp - m.p * m.p, 0.0));
+        row[4 * x + 2] = moment(std::max(m.qq - m.q * m.q, 0.0)), row[4 * x + 3] = moment(m.pq - m.p * m.q);
       }
       close_row(row, size.width);
     }
@@ -178,6 +179,7 @@ NormalSpread make_normal_spread(const TextureView& view) {
                                        static_cast<std::size_t>(columns.first + i)];
             sum.x += weight * m.x, sum.y += weight * m.y, sum.z += weight * m.z;
             sum.p += weight * m.p, sum.q += weight * m.q, sum.pp += weight * m.pp, sum.qq += weight * m.qq;
+            sum.pq += weight * m.pq;
           }
         next.push_back(sum);
       }
