@@ -13,6 +13,7 @@ install(FILES ${generated}/zoneplate/version.h DESTINATION ${CMAKE_INSTALL_INCLU
 set(CMAKE_INSTALL_DOCDIR ${CMAKE_INSTALL_DATADIR}/doc/zoneplate)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program) # Debian's name
 install(FILES THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Zoneplate)
 install(EXPORT ZoneplateTargets NAMESPACE Zoneplate:: DESTINATION ${package_directory})
