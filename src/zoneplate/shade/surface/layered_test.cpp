@@ -57,7 +57,7 @@ struct Sample {
     const stages::LayeredSurface<F> surface = stages::make_surface<F>(u, *p, *q, lanes(view), 0);
     std::vector<std::array<double, 3>> out;
     for (const Direction& l : from) {
-      const V color = stages::layered_light(u, surface, lanes(l));
+      const V color = stages::layered_light(u, surface, {}, {lanes(l), {}, {}});
       out.push_back({color.x.v, color.y.v, color.z.v});
     }
     return out;

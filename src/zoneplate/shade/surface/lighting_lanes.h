@@ -55,18 +55,28 @@ template <class F>
 struct Arriving {
   Vector<F> from;  ///< unit direction to the light
   Vector<F> radiance;
+  F spread;  ///< what the size of the light adds to α² of highlights
 };
+
+/// α of a highlight: the lobe of the surface, widened by the disc of the light.
+///
+/// Source    Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013, "Area Lights", with the variances added.
+template <class F>
+[[gnu::always_inline]] inline F widened(F alpha, const PreparedLight& light, F spread) {
+  return light.spread > 0 ? min(sqrt(alpha * alpha + spread), F(1.0f)) : alpha;
+}
 
 template <class F>
 [[gnu::always_inline]] inline Arriving<F> arriving(const PreparedLight& light, bool is_sun, const ShadingState& p,
                                                    int i) {
   const auto radiance = Vector<F>::all(light.radiance);
-  if (is_sun || light.is_directional) return {Vector<F>::all(light.towards), radiance};
+  if (is_sun || light.is_directional) return {Vector<F>::all(light.towards), radiance, F(light.spread)};
   const Vector<F> path = Vector<F>::all(light.position) - Vector<F>::load(p.position, i);
   const Vector<F> l = normalize(path);
-  F strength = fading(light, dot(path, path));
+  const F square = dot(path, path);
+  F strength = fading(light, square);
   if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
-  return {l, radiance * strength};
+  return {l, radiance * strength, F(light.spread) / max(square, F(least_distance_squared))};
 }
 
 /// The radiance of light k times its visibility at the fragments.
@@ -309,7 +319,8 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
-      sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v);
+      const F alpha = widened(m.alpha, s.light[k], light.spread);
+      sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v, alpha);
     }
     if (s.has_environment) sum = sum + environment.reflected(kind, p, n, v, base, metallic, roughness, weights, i);
     finish(s, kind, p, sum, base, out, i);
