@@ -3,11 +3,11 @@
 #
 # They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR
 # pictures that leaves the header.
-set(fuzzed_sources ${all_sources})
-list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
-list(FILTER fuzzed_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|formats/gltf/draco\\.cpp$")
+set(fuzzed_sources ${library_sources})
+list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/|/builtin_makers_table")
+list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
-list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/")
+list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/")
 
 add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp)
 foreach(isa IN LISTS isas)
@@ -22,13 +22,14 @@ target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::
                       ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
-# Beside file formats: `scene`, what a child process answers, and `manifest`, the lines of a batch.
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 scene manifest)
+# Beside file formats: `scene`, what a child process answers, `manifest`, the lines of a batch,
+# and `sdf`, scenes of shapes.
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 scene manifest sdf)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
   if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2")
     set(kind image)
-  elseif(format MATCHES "scene|manifest")
+  elseif(format MATCHES "scene|manifest|sdf")
     set(kind ${format})
   endif()
   add_executable(fuzz_${format} fuzz/${kind}_fuzz.cpp)
@@ -42,7 +43,8 @@ target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)
 target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed)
 
-# Here nothing else is wanted.
+# The default target builds the fuzz targets alone. The shared library would not even link: clang's sanitizers are part of
+# a program, never of a library.
 list(TRANSFORM isas PREPEND zoneplate_ OUTPUT_VARIABLE kernels)
-set_target_properties(zoneplate ${kernels} zoneplate_cli zoneplate_program
+set_target_properties(zoneplate zoneplate_objects zoneplate_shared ${kernels} zoneplate_cli zoneplate_program
                       PROPERTIES EXCLUDE_FROM_ALL ON)

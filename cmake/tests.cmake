@@ -16,7 +16,7 @@ target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate
 target_compile_options(zoneplate_tests PRIVATE -O0)
 set(laborious shade/environment/prepared_environment shade/surface/shading shade/reflection/brdf shade/surface/layered raster/coverage/coverage
     raster/tile/rasterize
-    raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa)
+    raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa sdf/shape)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)
 set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${built_quickly}")

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The five shaders of a rasterization course's third homework (GAMES101, "Pipeline and Shading"), on its model with its
-// constants. course_shaders MODEL [COLORS.png [HEIGHTS.png]] writes normal.png, phong.png, texture.png, bump.png and
-// displacement.png; the arguments of the course are spot_triangulated_good.obj, spot_texture.png and hmap.jpg as a PNG.
+// constants: light is computed in camera space, but the lights and the eye of the highlights keep their world
+// coordinates, as in the course's program. course_shaders MODEL [COLORS.png [HEIGHTS.png]] writes normal.png,
+// phong.png, texture.png, bump.png and displacement.png; the arguments of the course are spot_triangulated_good.obj,
+// spot_texture.png and hmap.jpg as a PNG.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -53,15 +55,15 @@ struct CourseShader {
   const Rgba8Image& heights;
   const Texture& color_texture;
   const Texture& height_texture;
-  float4x4 world_from_object, clip_from_world;
+  float4x4 camera_from_object, clip_from_camera;
 
   std::pair<float4, Varyings> vertex(const Vertex& vertex) const {
     const auto i = static_cast<std::size_t>(vertex.index);
     const float3 p = mesh.position[i], n = mesh.normal[i];
-    const float4 world = world_from_object * float4{p.x, p.y, p.z, 1};
-    const float4 normal = normal_matrix(world_from_object) * float4{n.x, n.y, n.z, 0};
+    const float4 at = camera_from_object * float4{p.x, p.y, p.z, 1};
+    const float4 normal = normal_matrix(camera_from_object) * float4{n.x, n.y, n.z, 0};
     const float2 uv = mesh.uv0.empty() ? float2{} : mesh.uv0[i];
-    return {clip_from_world * world, {world.x, world.y, world.z, normal.x, normal.y, normal.z, uv.x, uv.y}};
+    return {clip_from_camera * at, {at.x, at.y, at.z, normal.x, normal.y, normal.z, uv.x, uv.y}};
   }
 
   // Stored values in [0, 1], bilinear.
@@ -124,15 +126,16 @@ int main(int argc, char** argv) try {
   constexpr float degree = 3.14159265f / 180;
   Camera camera;
   camera.vertical_fov = 45 * degree;
-  const float4x4 clip_from_world = camera.clip_from_camera(1) * translation(-eye);
-  const float4x4 world_from_object = rotation({0, 1, 0}, 140 * degree) * scaling({2.5f, 2.5f, 2.5f});
+  const float4x4 camera_from_object =
+      translation(-eye) * rotation({0, 1, 0}, 140 * degree) * scaling({2.5f, 2.5f, 2.5f});
   constexpr std::pair<Kind, const char*> pictures[] = {{Kind::Normal, "normal.png"},
                                                        {Kind::Phong, "phong.png"},
                                                        {Kind::Texture, "texture.png"},
                                                        {Kind::Bump, "bump.png"},
                                                        {Kind::Displacement, "displacement.png"}};
   for (const auto& [kind, name] : pictures) {
-    const CourseShader shader{kind, mesh, heights, color_texture, height_texture, world_from_object, clip_from_world};
+    const CourseShader shader{
+        kind, mesh, heights, color_texture, height_texture, camera_from_object, camera.clip_from_camera(1)};
     const LinearImage image = draw(shader, mesh.index, static_cast<std::uint32_t>(mesh.position.size()), 700, 700);
     save_image(name, quantize8(make_display(image, {.raw = true})));  // clamped and without gamma, as in the course
   }

@@ -47,7 +47,7 @@ void Collection::add_builtin(std::string_view kind, const std::string& scene, co
 }
 
 void Collection::add_picture(std::string_view kind, const std::string& name, const std::string& extension,
-                             const Bytes& picture, const char* codes) {
+                             const Bytes& picture, const char* codes, const Options& options) {
   const std::string material = "newmtl a\nKd 1 1 1\nmap_Kd " + name + extension + "\n";
   const std::string square = "mtllib " + name +
                              ".mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -56,7 +56,17 @@ void Collection::add_picture(std::string_view kind, const std::string& name, con
   write(name + extension, picture);
   write(name + ".mtl", Bytes(material.begin(), material.end()));
   write(name + ".obj", Bytes(square.begin(), square.end()));
-  list(kind, name + ".obj", square.size() + material.size() + picture.size(), codes, {});
+  list(kind, name + ".obj", square.size() + material.size() + picture.size(), codes, options);
+}
+
+void Collection::add_environment(std::string_view kind, const std::string& name, const std::string& extension,
+                                 const Bytes& picture, const char* codes) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", image = name + ".obj" + extension;
+  if (!is_needed(kind)) return;
+  write(image, picture);
+  write(name + ".obj", Bytes(triangle.begin(), triangle.end()));
+  list(kind, name + ".obj", triangle.size() + picture.size(), codes,
+       {{"hdri-file", (folder_.filename() / image).string()}});
 }
 
 std::string repeated(std::string_view text, std::size_t count, std::string_view between) {

@@ -42,7 +42,11 @@ class Collection {
   void add_builtin(std::string_view kind, const std::string& scene, const char* codes, const Options& options);
   /// Adds a square with an image on it: an OBJ file, its MTL file and the image, `name` and then `extension`.
   void add_picture(std::string_view kind, const std::string& name, const std::string& extension, const Bytes& picture,
-                   const char* codes);
+                   const char* codes, const Options& options = {});
+  /// Adds a triangle in the light of an image: an OBJ file and the image, the OBJ file's name and then `extension`.
+  /// Its path is relative to the folder's parent.
+  void add_environment(std::string_view kind, const std::string& name, const std::string& extension,
+                       const Bytes& picture, const char* codes);
   /// Writes a file that belongs to another.
   void write(const std::string& name, const Bytes& bytes) const;
 
@@ -64,7 +68,7 @@ void add_gltf_claims(Collection& out);  ///< names, instances, nodes, accessors 
 void add_gltf_packed(Collection& out);  ///< Draco, meshopt, GLB chunks, images used often
 void add_crowds(Collection& out);       ///< masked, blended, clipped, lit and large images: what rendering takes
 void add_png(Collection& out);
-void add_pictures(Collection& out);  ///< JPEG, WebP, HDR
+void add_pictures(Collection& out);  ///< JPEG, WebP, HDR, KTX2; environments; texture filters
 void add_exr(Collection& out);
 void add_obj(Collection& out);  ///< with MTL
 void add_ply_and_stl(Collection& out);

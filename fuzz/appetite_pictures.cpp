@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG, WebP and Radiance images of many pixels in few bytes.
+// JPEG, WebP, Radiance and KTX2 images of many pixels in few bytes.
 #include "appetite.h"
 
 namespace zoneplate::appetite {
@@ -130,7 +130,68 @@ void add_hdr(Collection& out) {
   for (int y = 0; y < 4096; ++y) append(small, {90, 80, 70, 129, 1, 1, 1, 255, 1, 1, 1, 15});
   out.add_picture("hdr", "hdr-4k", ".hdr", small, within_limits);
   out.add_picture("hdr", "hdr-claim", ".hdr", radiance("", "-Y 2147483647 +X 2147483647"), within_limits);
+  Bytes sky = radiance("", "-Y 1024 +X 2048");  // 1 + 255 + 7 * 256
+  for (int y = 0; y < 1024; ++y) append(sky, {90, 80, 70, 129, 1, 1, 1, 255, 1, 1, 1, 7});
+  out.add_environment("environment", "environment-2k", ".hdr", sky, within_limits);
+  out.add_environment("environment", "environment-16k", ".hdr", runs, within_limits);
+  out.add_environment("environment", "environment-claim", ".hdr", radiance("", "-Y 2147483647 +X 2147483647"), refused);
+  out.add_environment("environment", "environment-cut", ".hdr", radiance("", "-Y 512 +X 1024"), refused);
   out.add_picture("hdr", "hdr-header", ".hdr", radiance(repeated("# a remark\n", 500000), "-Y 1 +X 1"), within_limits);
+}
+
+/// The header of a KTX2 image of one level, and a level of these bytes, which unpack to `unpacked` bytes.
+Bytes ktx2(std::uint32_t side, std::uint8_t model, std::uint32_t supercompression, const Bytes& level,
+           std::uint64_t unpacked) {
+  Bytes out{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
+  const auto put = [&](std::uint64_t value, int size) {
+    for (int i = 0; i < size; ++i) out.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+  };
+  constexpr std::uint32_t descriptor_at = 104, descriptor_size = 44, level_at = descriptor_at + descriptor_size;
+  put(0, 4), put(1, 4), put(side, 4), put(side, 4), put(0, 4), put(0, 4), put(1, 4), put(1, 4);
+  put(supercompression, 4), put(descriptor_at, 4), put(descriptor_size, 4), put(0, 4), put(0, 4);
+  // Global data, of BasisLZ: 65535 endpoints and selectors in sections that are empty.
+  const bool has_globals = supercompression == 1;
+  put(has_globals ? level_at + level.size() : 0, 8), put(has_globals ? 40 : 0, 8);
+  put(level_at, 8), put(level.size(), 8), put(unpacked, 8);
+  put(descriptor_size, 4), put(0, 4), put(0x280002, 4), put(model, 4);
+  out.resize(level_at);
+  append(out, level);
+  if (has_globals) put(0xffffffff, 4), out.resize(out.size() + 36);
+  return out;
+}
+
+/// Zstandard data of `count` runs of 131072 zeros.
+Bytes zstandard_zeros(std::uint32_t count) {
+  const std::uint64_t size = std::uint64_t{count} << 17;
+  Bytes out{0x28, 0xb5, 0x2f, 0xfd, 0xe0};
+  for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(size >> (8 * i)));
+  for (std::uint32_t i = 1; i <= count; ++i) {
+    const std::uint32_t block = (i == count ? 1u : 0u) | 1u << 1 | 1u << 20;  // the last, a run, its size
+    for (int k = 0; k < 3; ++k) out.push_back(static_cast<std::uint8_t>(block >> (8 * k)));
+    out.push_back(0);
+  }
+  return out;
+}
+
+void add_ktx2(Collection& out) {
+  constexpr std::uint8_t etc1s = 163, uastc = 166;
+  const auto add = [&](const char* name, const Bytes& bytes) {
+    out.add_picture("ktx2", name, ".ktx2", bytes, within_limits);
+  };
+  // A byte a texel: 2^20 and 2^28 of them.
+  add("ktx2-1k", ktx2(1024, uastc, 2, zstandard_zeros(8), 1 << 20));
+  add("ktx2-16k", ktx2(16384, uastc, 2, zstandard_zeros(2048), 1 << 28));
+  add("ktx2-more-than-stated", ktx2(1024, uastc, 2, zstandard_zeros(32768), 1 << 20));
+  add("ktx2-claim", ktx2(0xffffffff, uastc, 0, {}, 0));
+  add("ktx2-basis-claim", ktx2(16384, etc1s, 1, {}, 0));
+}
+
+/// A texture that fits, and tables of it that do not.
+void add_filters(Collection& out) {
+  for (const char* filter : {"sat", "ripmap", "ewa", "stochastic"})
+    for (const unsigned side : {1500u, 3000u})
+      out.add_picture("filters", std::string("filter-") + filter + "-" + std::to_string(side), ".webp",
+                      flat_webp(side, side), within_limits, {{"texture-filter", filter}});
 }
 
 }  // namespace
@@ -140,6 +201,8 @@ void add_pictures(Collection& out) {
   out.add_picture("webp", "webp-16383", ".webp", flat_webp(16383, 16383), within_limits);
   out.add_picture("webp", "webp-5000", ".webp", flat_webp(5000, 5000), within_limits);
   add_hdr(out);
+  add_ktx2(out);
+  add_filters(out);
 }
 
 }  // namespace zoneplate::appetite

@@ -177,6 +177,21 @@ void write_manifests(const std::string& root) {
   write(root + "/manifest", "many", bytes_of(many + "}"));
 }
 
+void write_shapes(const std::string& root) {
+  write(root + "/sdf", "shapes",
+        bytes_of(
+            "canvas 64 48 background #204060 // dark\nlet eye = circle(20, 24, 12)\n"
+            "fill #ff8000cc smooth-union(6, eye, turn(30, rectangle(30, 0, 20, 10)), polygon(40, 4, 60, 4, 50, 20))\n"
+            "stroke #fff 2.5 grid(2, 3, 9, 9, ellipse(0, 0, 4, 2))\n"));
+  write(root + "/sdf", "path",
+        bytes_of("fill #000 path(\"M1 2L3 4h5v6C1 2 3 4 5 6s7 8 9 1Q2 3 4 5t6 7A8 9 10 0 1 2 3z\")\n"
+                 "fill #123456 difference(repeat(8, 0, rhombus(0, 0, 4, 3)), complement(line(0, 0, 9, 9, 2)))\n"));
+  write(root + "/sdf", "json",
+        bytes_of(R"({"canvas":[64,48],"background":"#204060","let":{"eye":{"circle":[20,24,12]}},"layers":[
+          {"fill":"#ff8000cc","shape":{"smooth-difference":[6,{"eye":[]},{"scale":[2,{"flip":[{"triangle":[1,2,3,4]}]}]}]}},
+          {"stroke":"\u0023fff","width":2.5,"shape":{"shrink":[1,{"regular-polygon":[9,9,8,5]}]}}]})"));
+}
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -197,4 +212,5 @@ int main(int, char** argv) {
   write_light(root);
   write_answers(root);
   write_manifests(root);
+  write_shapes(root);
 }

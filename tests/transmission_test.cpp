@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/render.h"
@@ -102,6 +103,62 @@ TEST(Transmission, AVolumeAbsorbsAsItsThicknessSays) {
   const LinearImage seen = picture(pane(glass(volume)));
   EXPECT_NEAR(seen(width / 2 - 5, height / 2).r, 0.25f, 1e-6f);
   EXPECT_NEAR(seen(width / 2 + 5, height / 2).g, 0.0625f, 1e-6f);
+}
+
+TEST(Transmission, GlassBeforeTheBackgroundIsTransparent) {
+  MaterialLayers clear{.ior = 1, .transmission = 0.75f};
+  clear.specular = 0;
+  const auto alone = [&](const float4& color, bool has_environment_behind) {
+    Scene scene;
+    Material m = glass(clear);
+    m.base_color = color;
+    add_square(scene, 1, 0, m);
+    scene.environment.color = {1, 1, 1};
+    RenderOptions options{.width = width, .height = height};
+    if (has_environment_behind) options.background.emplace();
+    options.display.is_transparent = true;
+    return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(4)}, options)
+        .color(width / 2, height / 2);
+  };
+  const auto expect = [](const Linear& c, const Linear& wanted) {
+    EXPECT_NEAR(c.r, wanted.r, 1e-3f);
+    EXPECT_NEAR(c.g, wanted.g, 1e-3f);
+    EXPECT_NEAR(c.b, wanted.b, 1e-3f);
+    EXPECT_NEAR(c.a, wanted.a, 1e-3f);
+  };
+  expect(alone({1, 1, 1, 1}, true), {1, 1, 1, 1});
+  expect(alone({1, 1, 1, 1}, false), {0.25f, 0.25f, 0.25f, 0.25f});  // the diffuse part
+  // Red passes wholly, of it as much as of the others through alpha, and the rest is the environment's.
+  expect(alone({1, 0.2f, 0.2f, 1}, false), {1 - 0.15f, 0.2f - 0.15f, 0.2f - 0.15f, 0.85f});
+}
+
+TEST(Transmission, GlassColoursTheBackground) {
+  MaterialLayers clear{.ior = 1, .transmission = 1};
+  clear.specular = 0;
+  Scene scene;
+  Material red = glass(clear);
+  red.base_color = {1, 0.25f, 0.5f, 1};
+  add_square(scene, 1, 0, red);
+  scene.environment.color = {1, 1, 1};
+  RenderOptions options{.width = width, .height = height};
+  options.display.background = {1, 1, 0, 1};
+  const LinearImage image = render(PreparedScene(scene), from_front(), {.samples = standard_pattern(4)}, options).color;
+  const Linear c = over_background(image, options.display)(width / 2, height / 2);
+  EXPECT_NEAR(c.r, 1, 1e-3f);
+  EXPECT_NEAR(c.g, 0.25f, 1e-3f);
+  EXPECT_NEAR(c.b, 0, 1e-3f);
+}
+
+TEST(Transmission, GlassShowsBlendedSurfacesBehindIt) {
+  MaterialLayers clear{.ior = 1, .transmission = 1};
+  clear.specular = 0;
+  Material veil = glowing({0, 0, 0.5f});
+  veil.alpha_mode = AlphaMode::Blend, veil.base_color.w = 0.5f;
+  for (const float z : {-1.0f, 1.0f}) {  // refracted behind the pane, composited in front of it
+    Scene scene = pane(glass(clear));
+    add_square(scene, 4, z, veil);
+    EXPECT_EQ(picture(scene)(width / 2 - 5, height / 2), (Linear{0.5f, 0, 0.25f, 1})) << z;
+  }
 }
 
 TEST(Transmission, AVolumeRefracts) {

@@ -48,6 +48,8 @@ build_project(${source}/tests/consumer/headers ${place}/headers_build -DHEADERS=
 build_project(${source}/examples ${place}/examples -DBUILD_SHARED_LIBS=ON)
 run(${place}/examples/load_and_save ${source}/examples/triangle.gltf model.png)
 expect_picture(model.png)
+run(${place}/examples/render_in_c ${source}/examples/triangle.gltf from_c.png)
+expect_picture(from_c.png)
 run(${place}/examples/arrays_to_pixels)
 run(${place}/examples/textured_shader)
 expect_picture(floor.png)

@@ -69,16 +69,24 @@ inline float length(float2 a) { return std::sqrt(dot(a, a)); }
 inline float length(float3 a) { return std::sqrt(dot(a, a)); }
 ///@}
 
-/// The direction of `a`, or `otherwise` where a has no direction (zero length).
+/// True if no component is infinite or NaN.
+inline bool is_finite(float3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+/// The direction of `a`, or `otherwise` where a has no direction (zero length, or a component that is not finite).
 inline float3 normalize(float3 a, float3 otherwise = {0, 0, 0}) {
+  const float square = dot(a, a);
+  if (!(square > 1e-30f && square < 1e30f)) {  // the squares of the components may underflow or overflow
+    const float x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
+    const float largest = x > y ? (x > z ? x : z) : (y > z ? y : z);
+    if (!(largest > 0) || !is_finite(a)) return otherwise;
+    a = {a.x / largest, a.y / largest, a.z / largest};
+  }
   const float n = length(a);
-  return n > 0 ? float3{a.x / n, a.y / n, a.z / n} : otherwise;
+  return {a.x / n, a.y / n, a.z / n};
 }
 
 /// The first three components, without a division by w.
 constexpr float3 xyz(float4 a) { return {a.x, a.y, a.z}; }
-/// True if no component is infinite or NaN.
-inline bool is_finite(float3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 }  // namespace zoneplate
 #pragma GCC visibility pop

@@ -16,6 +16,7 @@ struct Comparands {
   std::size_t count = 0;                                ///< the number of pairs
   std::function<Picture(std::size_t)> reference, test;  ///< load image i of [0, count)
   bool are_frames = false;  ///< the images are frames of one sequence, so that metrics over several frames apply
+  std::function<std::string(std::size_t)> name = {};  ///< of image i, for messages; none: "image 1" and so on
 };
 
 /// What to do with a metric that does not apply to the images (too small, too few, without the measured feature).

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "zoneplate/image/tonemap.h"
-#include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/raster_rules.h"
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/render/frame.h"
@@ -22,18 +22,6 @@ class PreparedScene;
 /// A rectangle of the image.
 struct Crop {
   int x = 0, y = 0, width = 0, height = 0;  ///< pixels; (x, y) is the top-left one of the crop
-};
-
-/// Which triangle owns a sample that lies exactly on an edge.
-enum class EdgeRule {
-  TopLeft,  ///< a sample on a shared edge belongs to exactly one triangle
-  Inside,   ///< for teaching: every triangle owns its edges
-};
-
-/// How hidden surfaces are removed.
-enum class Visibility {
-  ZBuffer,  ///< the nearest surface at each sample
-  Painter,  ///< for teaching: triangles sorted by their mean depth, far first, no depth test
 };
 
 /// The environment behind a scene's surfaces.

@@ -34,7 +34,8 @@ constexpr Verb verbs[] = {
     {"bench", "measure frame times, stage by stage", run_bench},
     {"demo", "make captioned images that explain aliasing and antialiasing", run_demo},
     {"signal", "analyse and filter images: spectra, convolution, resampling", run_signal},
-    {"texture", "make mip levels and normal maps of images", run_texture}};
+    {"texture", "make mip levels and normal maps of images", run_texture},
+    {"sdf", "draw shapes and text from signed distance fields", run_sdf}};
 
 const Verb* find_verb(std::string_view name) {
   for (const Verb& verb : verbs)

@@ -50,5 +50,6 @@ void run_bench(std::span<const std::string> arguments);
 void run_demo(std::span<const std::string> arguments);
 void run_signal(std::span<const std::string> arguments);
 void run_texture(std::span<const std::string> arguments);
+void run_sdf(std::span<const std::string> arguments);
 
 }  // namespace zoneplate::cli

@@ -28,6 +28,19 @@ TEST(Vec, NormalizeGivesADirectionOrTheOther) {
   EXPECT_EQ(normalize({nan, 0, 0}, {0, 1, 0}), (float3{0, 1, 0}));
 }
 
+TEST(Vec, NormalizeNeitherUnderflowsNorOverflows) {
+  for (const float scale : {1e-45f, 1e-40f, 3e-23f, 1e-15f, 1e15f, 1e20f, 1e38f}) {
+    EXPECT_EQ(normalize({scale, 0, 0}), (float3{1, 0, 0})) << scale;
+    if (scale > 1e-38f) {
+      const float3 n = normalize({2 * scale, -3 * scale, scale}), expected = normalize({2, -3, 1});
+      for (const float error : {n.x - expected.x, n.y - expected.y, n.z - expected.z})
+        EXPECT_NEAR(error, 0, 1e-6f) << scale;
+    }
+  }
+  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(normalize({infinity, 0, 0}, {0, 1, 0}), (float3{0, 1, 0}));
+}
+
 TEST(Vec, FiniteMeansEveryComponent) {
   const float infinity = std::numeric_limits<float>::infinity();
   EXPECT_TRUE(is_finite({1, 2, 3}));

@@ -36,34 +36,39 @@ std::string objection(const Metric& metric, const Picture& reference, const Pict
 }
 
 /// Throws for images of different sizes unless one of the metrics accepts them.
-void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test, std::size_t index) {
+void check_pair(std::span<const Choice> choices, const Picture& reference, const Picture& test,
+                const std::string& name) {
   const auto takes_any = [](const Choice& choice) { return choice.metric->sizes == Sizes::ReferenceMultiple; };
   const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
   if (is_equal || std::ranges::any_of(choices, takes_any)) return;
-  throw Error(ErrorKind::Input, fmt::format("image {} has {} pixels, expected {} as the reference", index + 1,
-                                            size_of(test), size_of(reference)));
+  throw Error(ErrorKind::Input,
+              fmt::format("{} has {} pixels, expected {} as the reference", name, size_of(test), size_of(reference)));
+}
+
+std::string name_of(const Comparands& pictures, std::size_t index) {
+  return pictures.name ? pictures.name(index) : fmt::format("image {}", index + 1);
 }
 
 bool has_same_codes(const Picture& a, const Picture& b) { return a.display == b.display; }
 
-void leave_out(Measurement& m, Unfit unfit, std::size_t index, const std::string& why) {
+void leave_out(Measurement& m, Unfit unfit, const std::string& name, const std::string& why) {
   if (unfit == Unfit::Refuse) {
-    throw Error(ErrorKind::Input, fmt::format("metric {}: image {} {}", m.choice->metric->name, index + 1, why));
+    throw Error(ErrorKind::Input, fmt::format("metric {}: {} {}", m.choice->metric->name, name, why));
   }
   m.is_left_out = true;
 }
 
-/// Measures the last frames of the window, the newest of which is image `index`.
-void measure(Measurement& m, Frames reference, Frames test, std::size_t index, Unfit unfit) {
+/// Measures the last frames of the window, the newest of which is called `name`.
+void measure(Measurement& m, Frames reference, Frames test, const std::string& name, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
   const auto required = static_cast<std::size_t>(metric.frames);
   const std::size_t frames = metric.starts_short ? std::min(required, reference.size()) : required;
   if (m.is_left_out || reference.size() < frames) return;
   const std::string why = objection(metric, reference.back(), test.back());
-  if (!why.empty()) return leave_out(m, unfit, index, why);
+  if (!why.empty()) return leave_out(m, unfit, name, why);
 
   auto score = metric.measure(reference.last(frames), test.last(frames), m.choice->settings);
-  if (!score) return leave_out(m, unfit, index, "has nothing that it could measure");
+  if (!score) return leave_out(m, unfit, name, "has nothing that it could measure");
   Result& result = m.result;
   if (result.values.empty() || is_worse(metric, score->value, result.values[result.worst])) {
     result.worst = result.values.size();
@@ -93,7 +98,7 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
     const auto frames = static_cast<std::size_t>(choice.metric->frames);
     const std::size_t least = choice.metric->starts_short ? 2 : frames;
     if (frames > 1 && (!pictures.are_frames || pictures.count < least)) {
-      leave_out(m, unfit, 0, fmt::format("is not one of {} or more frames of a sequence", least));
+      leave_out(m, unfit, name_of(pictures, 0), fmt::format("is not one of {} or more frames of a sequence", least));
     } else {
       window = std::max(window, frames);
     }
@@ -109,10 +114,10 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
       check_sizes(reference[reference.size() - 2], reference.back(), i, "reference");
       check_sizes(test[test.size() - 2], test.back(), i, "test");
     }
-    check_pair(choices, reference.back(), test.back(), i);
+    check_pair(choices, reference.back(), test.back(), name_of(pictures, i));
     out.are_same = out.are_same && has_same_codes(reference.back(), test.back());
     out.width = test.back().width(), out.height = test.back().height();
-    for (Measurement& m : measurements) measure(m, reference, test, i, unfit);
+    for (Measurement& m : measurements) measure(m, reference, test, name_of(pictures, i), unfit);
   }
 
   for (Measurement& m : measurements) {

@@ -30,6 +30,16 @@ double mean_squared_error(const DisplayImage& reference, const DisplayImage& tes
   return sum / (3.0 * static_cast<double>(reference.values().size()));
 }
 
+Plane<float> squared_error_map(const DisplayImage& reference, const DisplayImage& test) {
+  Plane<float> map(reference.width(), reference.height());
+  for_rows(map.height(), [&](int y) {
+    for (int x = 0; x < map.width(); ++x)
+      map(x, y) = static_cast<float>(
+          std::sqrt(squared_difference(codes_on_black(reference(x, y)), codes_on_black(test(x, y))) / 3));
+  });
+  return map;
+}
+
 Metric mse() {
   return {.name = "mse",
           .summary = "mean squared error of sRGB codes in [0, 1]",
@@ -37,7 +47,9 @@ Metric mse() {
           .unit = "code²",
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             const double mse = mean_squared_error(reference[0].display, test[0].display);
-            return Score{.value = mse, .more = {{"rmse", std::sqrt(mse), "code"}}};
+            return Score{.value = mse,
+                         .more = {{"rmse", std::sqrt(mse), "code"}},
+                         .map = squared_error_map(reference[0].display, test[0].display)};
           }};
 }
 

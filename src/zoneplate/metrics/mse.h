@@ -12,4 +12,7 @@ namespace zoneplate::metrics {
 /// Units     code², codes in [0, 1].
 double mean_squared_error(const DisplayImage& reference, const DisplayImage& test);
 
+/// The root of each pixel's mean squared difference, in codes.
+Plane<float> squared_error_map(const DisplayImage& reference, const DisplayImage& test);
+
 }  // namespace zoneplate::metrics

@@ -84,12 +84,12 @@ bool is_picture_name(const fs::path& path) {
   return std::ranges::find(known, extension) != known.end();
 }
 
-/// The paths of a directory's files whose names `accepts(name)` accepts.
-template <class Accepts>
+/// The paths of a directory's files whose names `accepts(name)` accepts; `Iterator` decides about subfolders.
+template <class Iterator = fs::directory_iterator, class Accepts>
 std::vector<std::string> files_of(const fs::path& directory, const Accepts& accepts) {
   std::vector<std::string> paths;
   std::error_code error;
-  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+  for (Iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code ignored;
     if (entry->is_regular_file(ignored) && accepts(entry->path().filename())) paths.push_back(entry->path().string());
   }
@@ -124,44 +124,43 @@ std::optional<FramePattern> frame_pattern(const std::string& name) {
   return FramePattern{name.substr(0, percent), name.substr(d + 1), std::max<std::size_t>(1, digits)};
 }
 
-std::string stem_of(const std::string& path) { return fs::path(path).stem().string(); }
-
 bool is_directory(const std::string& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
 }
 
-/// The first of `paths` whose stem differs from those of all `others`.
-const std::string* find_alone(const std::vector<std::string>& paths, const std::vector<std::string>& others) {
-  for (const std::string& path : paths) {
-    const auto is_partner = [&](const std::string& other) { return stem_of(other) == stem_of(path); };
-    if (std::ranges::none_of(others, is_partner)) return &path;
-  }
-  return nullptr;
+/// Requires at least one image in a directory.
+std::vector<std::string> if_any(std::vector<std::string> paths, const std::string& directory) {
+  if (paths.empty())
+    throw Error(ErrorKind::Input,
+                directory + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr or .pfm file");
+  return paths;
 }
 
 }  // namespace
 
+Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name) {
+  return is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name))
+         : is_exr(bytes) ? make_picture(decode_exr(bytes, name))
+         : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name))
+                         : make_picture(decode_display(bytes, name));
+}
+
 Picture load_picture(const std::string& path) {
   const MappedFileWatch watch;
   const FileBytes file(path);
-  Picture picture = is_hdr(file.bytes())   ? make_picture(decode_hdr(file.bytes(), path))
-                    : is_exr(file.bytes()) ? make_picture(decode_exr(file.bytes(), path))
-                    : is_pfm(file.bytes()) ? make_picture(decode_pfm(file.bytes(), path))
-                                           : make_picture(decode_display(file.bytes(), path));
+  Picture picture = decode_picture(file.bytes(), path);
   watch.check(path);
   return picture;
 }
 
+std::vector<std::string> list_pictures_below(const std::string& directory) {
+  return if_any(files_of<fs::recursive_directory_iterator>(directory, is_picture_name), directory);
+}
+
 std::vector<std::string> list_pictures(const std::string& operand) {
   const fs::path path(operand);
-  if (is_directory(operand)) {
-    std::vector<std::string> paths = files_of(path, is_picture_name);
-    if (paths.empty())
-      throw Error(ErrorKind::Input,
-                  operand + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr or .pfm file");
-    return paths;
-  }
+  if (is_directory(operand)) return if_any(files_of(path, is_picture_name), operand);
   const auto pattern = frame_pattern(path.filename().string());
   std::error_code ignored;
   if (!pattern || fs::exists(path, ignored)) return {operand};
@@ -181,23 +180,6 @@ bool are_frames(const std::vector<std::string>& paths) {
   return paths.size() > 1 && std::ranges::all_of(paths, [&](const std::string& path) {
            return without_digits(path) == without_digits(paths.front());
          });
-}
-
-PicturePairs pair_pictures(const std::string& reference, const std::string& test) {
-  PicturePairs pairs{list_pictures(reference), list_pictures(test)};
-  if (is_directory(reference) && is_directory(test)) {
-    if (const std::string* alone = find_alone(pairs.reference, pairs.test)) {
-      throw Error(ErrorKind::Input, fmt::format("{}: no image of that name in {}", *alone, test));
-    }
-    if (const std::string* alone = find_alone(pairs.test, pairs.reference)) {
-      throw Error(ErrorKind::Input, fmt::format("{}: no image of that name in {}", *alone, reference));
-    }
-  }
-  if (pairs.reference.size() != pairs.test.size()) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{} has {} images, {} has {}", reference, pairs.reference.size(), test, pairs.test.size()));
-  }
-  return pairs;
 }
 
 }  // namespace zoneplate::metrics

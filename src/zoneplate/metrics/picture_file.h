@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace zoneplate::metrics {
 /// Errors    ErrorKind::Input naming the file and the cause.
 Picture load_picture(const std::string& path);
 
+/// The same from the bytes of a file; `name` is for messages.
+Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name);
+
 /// Lists the files of one operand, in order.
 ///
 /// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr and .pfm files in natural order (9 before 10), without
@@ -24,18 +29,12 @@ Picture load_picture(const std::string& path);
 /// Errors    ErrorKind::Input if a directory or a pattern matches no image.
 std::vector<std::string> list_pictures(const std::string& operand);
 
+/// Lists the images of a directory and of its subfolders, in natural order of their paths.
+///
+/// Errors    ErrorKind::Input if there is none, or a folder cannot be read.
+std::vector<std::string> list_pictures_below(const std::string& directory);
+
 /// True if the names differ only by numbers, as those of the frames of a sequence do.
 bool are_frames(const std::vector<std::string>& paths);
-
-/// Two lists of images to compare; images with the same index are a pair.
-struct PicturePairs {
-  std::vector<std::string> reference, test;
-};
-
-/// Pairs the images of two operands. The images of two directories are paired by name, without the extension; all
-/// others by their order.
-///
-/// Errors    ErrorKind::Input if an image has no partner, naming the first such image.
-PicturePairs pair_pictures(const std::string& reference, const std::string& test);
 
 }  // namespace zoneplate::metrics

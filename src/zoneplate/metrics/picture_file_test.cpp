@@ -118,19 +118,6 @@ TEST_F(PictureFile, PatternsFindFrames) {
   EXPECT_THROW(load_picture(at("missing.png")), Error);
 }
 
-TEST_F(PictureFile, DirectoriesPairByName) {
-  for (const char* name : {"a/x.png", "a/y.png", "b/x.png", "b/y.png"}) save(name);
-  EXPECT_EQ(pair_pictures(at("a"), at("b")).test.size(), 2u);
-  save("b/z.png");
-  try {
-    pair_pictures(at("a"), at("b"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.what(), at("b/z.png") + ": no image of that name in " + at("a"));
-  }
-  EXPECT_THROW(pair_pictures(at("a"), at("b/x.png")), Error);
-}
-
 // Images of other renderers, if they are present in the shared data: the lowest and the highest decibels between two
 // rasterisers' images of a scene, as published.
 struct PublishedDistance {

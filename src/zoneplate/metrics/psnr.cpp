@@ -35,7 +35,8 @@ Metric psnr() {
           .better = Better::Higher,
           .perfect = std::numeric_limits<double>::infinity(),
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return Score{.value = peak_signal_to_noise(reference[0].display, test[0].display)};
+            return Score{.value = peak_signal_to_noise(reference[0].display, test[0].display),
+                         .map = squared_error_map(reference[0].display, test[0].display)};
           },
           .pool = pool_psnr};
 }

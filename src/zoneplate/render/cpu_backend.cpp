@@ -11,6 +11,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
@@ -89,34 +90,68 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
     s.map = map->view(lighting.environment, up, world_from_camera);
     s.environment = s.environment * map->greatest();
   }
+  s.has_environment_behind = options.background.has_value();
+  if (const DisplayOptions& display = options.display;
+      !options.background && !display.is_transparent && display.exposure > 0) {
+    const float4 b = display.background;
+    const auto light = [&](float code) { return b.w * (display.raw ? code : decode_srgb(code)) / display.exposure; };
+    s.background = float3{light(b.x), light(b.y), light(b.z)};
+  }
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   s.texture_filter = options.texture_filter, s.specular_aa = options.specular_aa;
   return s;
 }
 
-/// The image of the opaque and alpha-tested scene that transmissive surfaces refract; none where no draw transmits.
+/// How far a draw extends along the view direction.
+struct DepthRange {
+  float near = std::numeric_limits<float>::infinity(), far = -near;
+};
+DepthRange depth_range(const Scene& scene, const Draw& draw, const ViewUniforms& view) {
+  DepthRange range;
+  const Instance& instance = scene.instances[draw.instance];
+  for (const float3& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].position) {
+    const float3 at = xyz(instance.world_from_object * float4{p.x, p.y, p.z, 1});
+    const float depth = dot(at - view.eye, view.view_direction);
+    range.near = std::min(range.near, depth), range.far = std::max(range.far, depth);
+  }
+  return range;
+}
+
+/// The image of what is behind transmissive surfaces, which they refract; none where no draw transmits. It holds the
+/// opaque and alpha-tested scene, the ground, and the blended draws that lie wholly behind all transmissive ones;
+/// transmissive surfaces do not see each other.
 ///
 /// The whole image is drawn, with four samples a pixel, so that a crop shows the same and silhouettes behind glass are
 /// smooth under every method.
 std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewUniforms& view,
-                                      std::span<const Draw> draws, const float4x4& clip_from_world,
-                                      const RasterRules& rules, const RenderOptions& options, RasterMemory& memory) {
+                                      std::span<const Draw> draws, const Ground* ground,
+                                      const float4x4& clip_from_world, const RasterRules& rules,
+                                      const RenderOptions& options, RasterMemory& memory) {
   const std::vector<Material>& materials = prepared.scene().materials;
   const auto transmits = [&](const Draw& draw) {
-    return is_transmissive(materials[static_cast<std::size_t>(draw.material)]);
+    const auto material = static_cast<std::size_t>(draw.material);
+    return material < materials.size() && is_transmissive(materials[material]);
   };
   if (std::none_of(draws.begin(), draws.end(), transmits)) return std::nullopt;
+  const Scene& scene = prepared.scene();
+  const auto is_ground = [&](const Draw& draw) { return static_cast<std::size_t>(draw.material) == materials.size(); };
+  float far = -std::numeric_limits<float>::infinity();
+  for (const Draw& draw : draws)
+    if (transmits(draw)) far = std::max(far, depth_range(scene, draw, view).far);
   std::vector<Draw> behind;
-  std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind),
-               [&](const Draw& draw) { return draw.alpha_mode != AlphaMode::Blend && !transmits(draw); });
+  std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind), [&](const Draw& draw) {
+    if (is_ground(draw)) return true;
+    if (transmits(draw)) return false;
+    return draw.alpha_mode != AlphaMode::Blend || depth_range(scene, draw, view).near >= far;
+  });
   LinearImage image(options.width, options.height, Linear{0, 0, 0, 0});
   Target target;
   target.viewport = {options.width, options.height};
   target.width = options.width, target.height = options.height;
   target.samples = standard_pattern(4);
   target.color = &image;
-  rasterize(behind, SceneFragmentShader(prepared, view, nullptr), rules, target, &memory);
+  rasterize(behind, SceneFragmentShader(prepared, view, ground), rules, target, &memory);
   return Backdrop(image, clip_from_world);
 }
 
@@ -263,22 +298,22 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
-  const RasterRules rules{.is_top_left = options.edge_rule == EdgeRule::TopLeft,
-                          .is_painter = options.visibility == Visibility::Painter,
-                          .capacity = options.capacity};
+  const RasterRules rules{
+      .edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
   if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
-  std::optional<Backdrop> backdrop;
-  if (request.content == Content::Colour)
-    backdrop = make_backdrop(prepared, view, draws.draws, clip_from_world, rules, options, memory_);
-  if (backdrop) view.backdrop = backdrop->view();
   std::optional<Ground> ground;
   if (options.ground == GroundKind::Shadow && view.visibility != nullptr) {
     ground.emplace(scene, view);
     draws.draws.push_back(ground->draw(clip_from_world, static_cast<std::uint32_t>(scene.instances.size()),
                                        static_cast<int>(scene.materials.size())));
   }
-  const SceneFragmentShader points(prepared, view, ground ? &*ground : nullptr);
+  const Ground* const shadow_catcher = ground ? &*ground : nullptr;
+  std::optional<Backdrop> backdrop;
+  if (request.content == Content::Colour)
+    backdrop = make_backdrop(prepared, view, draws.draws, shadow_catcher, clip_from_world, rules, options, memory_);
+  if (backdrop) view.backdrop = backdrop->view();
+  const SceneFragmentShader points(prepared, view, shadow_catcher);
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;

@@ -9,37 +9,14 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/formats/font/font.h"
 #include "zoneplate/image/transfer.h"
 
 namespace zoneplate {
 namespace {
 
-constexpr const char* package = "fonts-dejavu-core";
 constexpr const char* files[] = {"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"};
-/// Font folders of Debian, Arch, Fedora, Gentoo and Alpine, and of local installations.
-constexpr const char* folders[] = {"/usr/share/fonts/truetype/dejavu/",       "/usr/share/fonts/TTF/",
-                                   "/usr/share/fonts/dejavu-sans-fonts/",     "/usr/share/fonts/dejavu/",
-                                   "/usr/local/share/fonts/truetype/dejavu/", "/usr/local/share/fonts/"};
 constexpr double leading_em = 1.4;  // DejaVu's letters are tall: the usual 1.2 would be too narrow
-constexpr char32_t replacement = 0xfffd;
-
-/// Takes the first code point from the front of `text`.
-char32_t take(std::string_view& text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  const std::size_t size = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
-  constexpr unsigned masks[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  char32_t code = lead & masks[size];
-  bool is_well = size > 0 && size <= text.size();
-  for (std::size_t i = 1; is_well && i < size; ++i) {
-    is_well = byte(i) >> 6 == 2;
-    code = code << 6 | (byte(i) & 0x3fu);
-  }
-  is_well = is_well && code >= least[size] && code < 0x110000 && code >> 11 != 0x1b;
-  text.remove_prefix(is_well ? size : 1);
-  return is_well ? code : replacement;
-}
 
 /// Calls use(glyph, pen) for every letter of a line, with the pen in 1/64 pixel; returns the final position of the pen.
 template <class Use>
@@ -47,7 +24,7 @@ FT_Pos set_line(FT_Face face, std::string_view line, Use use) {
   FT_Pos pen = 0;
   FT_UInt before = 0;
   while (!line.empty()) {
-    const FT_UInt glyph = FT_Get_Char_Index(face, take(line));
+    const FT_UInt glyph = FT_Get_Char_Index(face, take_code_point(line));
     FT_Vector kerning{};
     if (before != 0) FT_Get_Kerning(face, before, glyph, FT_KERNING_UNFITTED, &kerning);
     pen += kerning.x;
@@ -62,10 +39,10 @@ FT_Pos set_line(FT_Face face, std::string_view line, Use use) {
 /// The number of bytes of a word that fit into the width, at least its first letter.
 std::size_t fitting(const Typeface& face, std::string_view word, int width) {
   std::string_view rest = word;
-  take(rest);
+  take_code_point(rest);
   std::size_t size = word.size() - rest.size();
   while (!rest.empty()) {
-    take(rest);
+    take_code_point(rest);
     const std::size_t longer = word.size() - rest.size();
     if (face.width(word.substr(0, longer)) > width) break;
     size = longer;
@@ -101,12 +78,8 @@ Typeface::Typeface(Weight weight, int px) : px_(px) {
   FT_Face face = nullptr;
   if (FT_Init_FreeType(&library) != 0) throw Error(ErrorKind::Failed, "FreeType cannot be started");
   library_.reset(library);
-  for (const char* folder : folders)
-    if (FT_New_Face(library, (std::string(folder) + file).c_str(), 0, &face) == 0) break;
-  if (face == nullptr)
-    throw Error(ErrorKind::Failed,
-                fmt::format("{}: the font of captions is in none of {}; it is in Debian's package {}", file,
-                            fmt::join(folders, ", "), package));
+  const std::string path = dejavu_path(file);
+  if (FT_New_Face(library, path.c_str(), 0, &face) != 0) throw Error(ErrorKind::Failed, path + ": not a font");
   face_.reset(face);
   if (FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(px)) != 0)
     throw Error(ErrorKind::Failed, fmt::format("{}: there are no letters of {} pixels", file, px));

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "zoneplate/codec/ktx2/bc.h"
 #include "zoneplate/codec/ktx2/etc1s.h"
 #include "zoneplate/codec/ktx2/uastc.h"
 #include "zoneplate/os/library.h"
@@ -43,6 +44,7 @@ struct Fields {
 /// What the header and the data format descriptor state.
 struct Header {
   std::uint32_t width, height, levels, supercompression, model;
+  std::optional<ktx2::BlockFormat> format;  ///< none: Basis Universal
   std::uint64_t globals_at, globals_size;
   std::uint64_t level_at, level_size, level_unpacked;  ///< of level 0
   std::uint64_t blocks() const { return (std::uint64_t{width} + 3) / 4 * ((std::uint64_t{height} + 3) / 4); }
@@ -60,12 +62,14 @@ Header read_header(const Fields& f) {
   if (descriptor_size < 44) f.place.fail("its data format descriptor is too short");
   f.part(descriptor_at, descriptor_size);
   h.model = static_cast<std::uint32_t>(f.number(std::uint64_t{descriptor_at} + 12, 1));
-  const bool is_basis = (h.model == etc1s && h.supercompression == basis_lz) ||
-                        (h.model == uastc && (h.supercompression == none || h.supercompression == zstandard));
-  if (format != 0 || !is_basis)
+  h.format = ktx2::block_format_of(format);
+  const bool has_blocks = h.supercompression == none || h.supercompression == zstandard;
+  const bool is_basis =
+      format == 0 && ((h.model == etc1s && h.supercompression == basis_lz) || (h.model == uastc && has_blocks));
+  if (!is_basis && !(h.format && has_blocks))
     throw Error(ErrorKind::Input,
                 fmt::format("{}: is a KTX2 image of format {}, model {} and supercompression {}, expected Basis "
-                            "Universal (ETC1S or UASTC)",
+                            "Universal (ETC1S or UASTC), or BC1 to BC5 or BC7 of unsigned values",
                             f.place.name, format, h.model, h.supercompression));
   h.level_at = f.wide(header_bytes), h.level_size = f.wide(header_bytes + 8);
   h.level_unpacked = f.wide(header_bytes + 16);
@@ -100,15 +104,19 @@ std::vector<std::uint8_t> unpacked(std::span<const std::uint8_t> packed, std::ui
   return bytes;
 }
 
-void decode_uastc_level(const Fields& f, const Header& h, Rgba8Image& image) {
-  const std::uint64_t size = h.blocks() * ktx2::uastc_block_bytes;
+void decode_block_level(const Fields& f, const Header& h, Rgba8Image& image) {
+  const std::uint64_t size = h.blocks() * (h.format ? ktx2::block_bytes(*h.format) : ktx2::uastc_block_bytes);
+  const auto decode = [&](std::span<const std::uint8_t> blocks) {
+    if (h.format) return ktx2::decode_blocks(*h.format, blocks, f.place, image);
+    ktx2::decode_uastc(blocks, f.place, image);
+  };
   const std::span<const std::uint8_t> level = f.part(h.level_at, h.level_size);
   if (h.supercompression == zstandard) {
     if (h.level_unpacked != size) f.place.fail("level 0 has not the size of its blocks");
-    return ktx2::decode_uastc(unpacked(level, size, f.place), f.place, image);
+    return decode(unpacked(level, size, f.place));
   }
   if (level.size() != size) f.place.fail("level 0 has not the size of its blocks");
-  ktx2::decode_uastc(level, f.place, image);
+  decode(level);
 }
 
 }  // namespace
@@ -144,10 +152,10 @@ Rgba8Image decode_ktx2(std::span<const std::uint8_t> bytes, const std::string& n
     throw Error(ErrorKind::Input, fmt::format("{}: has {} x {} pixels, more than the limit of {} (--max-pixels)", name,
                                               h.width, h.height, max_pixels));
   Rgba8Image image(static_cast<int>(h.width), static_cast<int>(h.height));
-  if (h.model == etc1s)
+  if (h.supercompression == basis_lz)
     decode_basis_lz(f, h, image);
   else
-    decode_uastc_level(f, h, image);
+    decode_block_level(f, h, image);
   return image;
 }
 

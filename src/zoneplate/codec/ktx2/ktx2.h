@@ -20,8 +20,9 @@ std::optional<int2> find_ktx2_size(std::span<const std::uint8_t> bytes);
 /// The maximum of bytes that decoding takes in addition to the image.
 std::uint64_t ktx2_working_memory(std::span<const std::uint8_t> bytes);
 
-/// Decodes level 0 of a KTX 2 texture of Basis Universal: ETC1S with BasisLZ, or UASTC LDR 4 × 4, as it is or packed by
-/// Zstandard. These are the textures of glTF's KHR_texture_basisu.
+/// Decodes level 0 of a KTX 2 texture: of Basis Universal, which glTF's KHR_texture_basisu uses, ETC1S with BasisLZ or
+/// UASTC LDR 4 × 4; or of blocks of graphics cards, BC1 to BC5 and BC7 of unsigned values. Blocks are as they are or
+/// packed by Zstandard.
 ///
 /// Exact     the texels of the formats' definition; the same bits everywhere.
 /// Errors    ErrorKind::Input with `name` in front: corrupt, another format, more than `max_pixels`, arrays, cubes or

@@ -154,21 +154,23 @@ class MtlReader {
 
   void read_map(const std::string& key, LineWords words) {
     MtlMaterial& m = *open_;
-    MtlTexture* target = key == "map_kd"   ? &m.diffuse_map
-                         : key == "map_ke" ? &m.emissive_map
-                         : key == "map_d"  ? &m.opacity_map
-                         : key == "norm"   ? &m.normal_map
-                         : key == "map_ks" ? &m.specular_map
-                         : key == "map_ns" ? &m.exponent_map
-                         : key == "map_pr" ? &m.roughness_map
-                         : key == "map_pm" ? &m.metallic_map
-                                           : nullptr;
+    MtlTexture* target = key == "map_kd"                      ? &m.diffuse_map
+                         : key == "map_ke"                    ? &m.emissive_map
+                         : key == "map_d"                     ? &m.opacity_map
+                         : key == "norm"                      ? &m.normal_map
+                         : key == "map_ks"                    ? &m.specular_map
+                         : key == "map_ns"                    ? &m.exponent_map
+                         : key == "map_pr"                    ? &m.roughness_map
+                         : key == "map_pm"                    ? &m.metallic_map
+                         : key == "bump" || key == "map_bump" ? &m.bump_map
+                         : key == "disp" || key == "map_disp" ? &m.displacement_map
+                                                              : nullptr;
     if (target != nullptr) {
       *target = read_texture(words);
       if (target->file.empty()) warn(key + " names no file");
       return;
     }
-    const bool is_map = key.substr(0, 4) == "map_" || key == "bump" || key == "disp" || key == "decal" || key == "refl";
+    const bool is_map = key.substr(0, 4) == "map_" || key == "decal" || key == "refl";
     // A map of Ka is nearly always the same as that of Kd, and it would affect ambient light only.
     if (is_map && key != "map_ka" && key != "map_aat") {
       constexpr std::size_t most_keys = 16;  // more than the format has

@@ -32,6 +32,7 @@ struct MtlMaterial {
   MtlTexture diffuse_map, emissive_map, opacity_map, normal_map;  ///< map_Kd map_Ke map_d norm
   MtlTexture specular_map, exponent_map;                          ///< map_Ks map_Ns
   MtlTexture roughness_map, metallic_map;                         ///< map_Pr map_Pm
+  MtlTexture bump_map, displacement_map;                          ///< map_bump or bump; disp
   std::vector<std::string> unsupported;                           ///< keys of maps that are not drawn, each once
 };
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -85,6 +87,37 @@ void add_metallic_roughness(const MtlMaterial& mtl, const std::string& within, M
   images.push_back(std::move(both));
 }
 
+float3 color_of(Rgba8 p) { return float3{float(p.r), float(p.g), float(p.b)} * (1.0f / 255); }
+float3 color_of(Rgba16 p) { return float3{float(p.r), float(p.g), float(p.b)} * (1.0f / 65535); }
+float3 color_of(float4 p) { return xyz(p); }
+
+/// Whether an image holds unit vectors, as normal maps do: three quarters of its texels, and these are not grey.
+bool holds_normals(const TexelImage& image) {
+  constexpr float tolerance = 0.15f;  // of the length: filtered and compressed normals are not exactly of unit length
+  return image.visit([](const auto& plane) {
+    std::size_t units = 0;
+    for (const auto& texel : plane.values()) {
+      const float3 color = color_of(texel), n = color * 2 - float3{1, 1, 1};
+      const bool is_grey = color.x == color.z && color.y == color.z;
+      if (!is_grey && n.z > 0 && std::abs(length(n) - 1) < tolerance) ++units;
+    }
+    return units * 4 > plane.values().size() * 3;
+  });
+}
+
+/// A bump map is a texture of heights, or, as several programs write it, one of normals. A displacement map counts
+/// where there is no bump map.
+void add_bumps(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder, Material& m) {
+  const MtlTexture& map = mtl.bump_map.file.empty() ? mtl.displacement_map : mtl.bump_map;
+  const TextureUse use = load_texture(map, within, folder);
+  if (use.image < 0) return;
+  const bool has_normals = holds_normals(folder.scene().images[static_cast<std::size_t>(use.image)].pixels);
+  if (has_normals && m.normal_texture.image < 0)
+    m.normal_texture = use, m.normal_scale = map.strength;
+  else if (!has_normals)
+    m.height_texture = use, m.height_scale = map.strength;
+}
+
 void warn_of_maps(const MtlMaterial& mtl, ModelFolder& folder) {
   if (mtl.unsupported.empty()) return;
   std::string keys;
@@ -117,6 +150,7 @@ Material make_material(const MtlMaterial& mtl, const std::string& within, ModelF
   m.emissive_texture = load_texture(mtl.emissive_map, within, folder);
   m.normal_texture = load_texture(mtl.normal_map, within, folder);
   m.normal_scale = mtl.normal_map.strength;
+  add_bumps(mtl, within, folder, m);
 
   const float3 base = factor(mtl.diffuse, m.base_color_texture.image >= 0, {0.8f, 0.8f, 0.8f}, mtl, "Kd", folder);
   const float opacity = mtl.opacity.value_or(1 - mtl.transparency.value_or(0));

@@ -15,6 +15,9 @@ namespace zoneplate {
 /// Blinn-Phong, with the ambient reflectance Ka, or Kd without a Ka; illum 0 is unlit, illum 1 without highlights; with
 /// Pr, Pm or a map of them, metallic-roughness with the layers of Ps, Pc, Pcr, aniso and anisor and the index of
 /// refraction Ni. map_Ks multiplies Ks, map_Ns Ns. A black Kd, Ks or Ke with an image counts as white, with a warning.
+/// map_bump, or else disp, is a normal map where its texels are unit vectors, as several programs write it; otherwise
+/// Material::height_texture, whose red channel counts, with the multiplier -bm as height_scale: load_obj converts it to
+/// units of the model, such that the value 1 lies -bm × 1 % of the texture's width above the value 0.
 /// d below 1, or a map_d that is not opaque, makes the material blended; map_d becomes the alpha of the base colour
 /// image. All surfaces are double-sided, as OBJ has no other kind.
 Material make_material(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder);

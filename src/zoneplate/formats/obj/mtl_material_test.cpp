@@ -134,16 +134,44 @@ TEST_F(MtlScene, MetallicRoughnessMaterialsHaveMapsAndLayers) {
   EXPECT_EQ(load("newmtl m\nPr 0.5\n").materials.at(0).layers, nullptr);
 }
 
+TEST_F(MtlScene, BumpMapsAreHeightsOrNormals) {
+  write_png("model/h.png", {10, 10, 10, 255}, {200, 200, 200, 255});
+  write_png("model/n.png", {128, 128, 255, 255}, {188, 128, 240, 255});
+  const std::string square =
+      "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nvt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\nf 1/1 2/2 3/3 4/4\n";
+  const auto material = [&](const std::string& keys) {
+    write("model/m.mtl", "newmtl m\n" + keys), write("model/m.obj", square);
+    const Scene scene = load_obj((folder_ / "model/m.obj").string());
+    EXPECT_EQ(warnings_of(scene), "");
+    return scene.materials.at(0);
+  };
+  // Two repetitions along 3 metres: a texture is 1.5 m wide, and 1 % of it is the unit of heights.
+  const Material bumps = material("map_bump -bm 2 h.png\n");
+  EXPECT_EQ(bumps.height_texture.image, 0);
+  EXPECT_NEAR(bumps.height_scale, 2 * 0.015f, 1e-7f);
+  EXPECT_EQ(bumps.normal_texture.image, -1);
+  EXPECT_NEAR(material("bump -s 5 5 h.png\n").height_scale, 0.003f, 1e-8f);
+  EXPECT_NEAR(material("disp h.png\n").height_scale, 0.015f, 1e-7f);
+  const Material normals = material("map_bump -bm 0.5 n.png\n");
+  EXPECT_EQ(normals.normal_texture.image, 0);
+  EXPECT_EQ(normals.normal_scale, 0.5f);
+  EXPECT_EQ(normals.height_texture.image, -1);
+  const Material both = material("norm -bm 0.25 n.png\nmap_bump h.png\n");
+  EXPECT_EQ(both.normal_scale, 0.25f);
+  EXPECT_EQ(both.height_texture.image, 1);
+  EXPECT_EQ(load("newmtl m\nbump h.png\n").materials.at(0).height_scale, 0);  // without texture coordinates
+}
+
 TEST_F(MtlScene, WarnsOfWhatIsMissing) {
   write("model/bad.png", "no image");
   const Scene scene =
-      load("newmtl m\nmap_Kd gone.png\nmap_Ke bad.png\nmap_bump b.png\nnewmtl unused\nmap_Kd never-looked-for.png\n");
+      load("newmtl m\nmap_Kd gone.png\nmap_Ke bad.png\nrefl b.png\nnewmtl unused\nmap_Kd never-looked-for.png\n");
   EXPECT_EQ(scene.materials.at(0).base_color_texture.image, -1);
   EXPECT_EQ(scene.materials[0].base_color.x, 0.8f);
   EXPECT_EQ(warnings_of(scene),
             "m.obj: texture gone.png: not found in the model's folder\n"
             "m.obj: texture bad.png: is no known image, expected PNG, JPEG, WebP, HDR, EXR or KTX2\n"
-            "m.obj: material m: not drawn: map_bump\n");
+            "m.obj: material m: not drawn: refl\n");
   write("model/m.obj", "mtllib a.mtl b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("model/b c.mtl", "");
   EXPECT_EQ(warnings_of(load_obj((folder_ / "model/m.obj").string())),

@@ -42,7 +42,8 @@ TEST(ParseMtl, ReadsColoursAndValues) {
 TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   const Parsed p = parse(
       "newmtl a\nmap_Kd -s 2 3 1 -o 0.5 -clamp on -blendu off -mm 0 1 textures\\my brick 2.png\n"
-      "map_d -imfchan m -bm 2 mask.png\nnorm -bm 0.5 n.png\nmap_Ke 7\nmap_Bump -bm 1 b.png\nmap_Pr r.png\nmap_Ka "
+      "map_d -imfchan m -bm 2 mask.png\nnorm -bm 0.5 n.png\nmap_Ke 7\nmap_Bump -bm 3 b.png\ndisp d.png\nrefl "
+      "r.png\nmap_Pr r.png\nmap_Ka "
       "a.png\n");
   const MtlMaterial& m = p.materials.at(0);
   EXPECT_EQ(m.diffuse_map.file, "textures\\my brick 2.png");
@@ -52,7 +53,10 @@ TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   EXPECT_EQ(m.opacity_map.file, "mask.png");
   EXPECT_EQ(m.normal_map.strength, 0.5f);
   EXPECT_EQ(m.emissive_map.file, "7");
-  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"map_bump"}));
+  EXPECT_EQ(m.bump_map.file, "b.png");
+  EXPECT_EQ(m.bump_map.strength, 3);
+  EXPECT_EQ(m.displacement_map.file, "d.png");
+  EXPECT_EQ(m.unsupported, (std::vector<std::string>{"refl"}));
   EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
 }
 
@@ -108,11 +112,11 @@ TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {
 
 TEST(ParseMtl, NamesEachMapThatIsNotDrawnOnce) {
   std::string text = "newmtl a\n";
-  for (int i = 0; i < 1000; ++i) text += "bump x\nmap_" + std::to_string(i) + " x\n";
+  for (int i = 0; i < 1000; ++i) text += "decal x\nmap_" + std::to_string(i) + " x\n";
   std::vector<std::string> warnings;
   const auto found = parse_mtl(text, "f.mtl", warnings);
   EXPECT_LE(found.at(0).unsupported.size(), 16u);
-  EXPECT_EQ(std::count(found[0].unsupported.begin(), found[0].unsupported.end(), "bump"), 1);
+  EXPECT_EQ(std::count(found[0].unsupported.begin(), found[0].unsupported.end(), "decal"), 1);
 }
 
 }  // namespace

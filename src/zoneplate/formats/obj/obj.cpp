@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -173,6 +174,39 @@ void report_losses(const ObjMeshes& found, const std::string& name, std::vector<
     warnings.push_back(fmt::format("{}: {} polygons have too many corners to be cut rightly", name, found.too_concave));
 }
 
+/// MTL has no unit of heights: here, the value 1 lies this part of the texture's width above the value 0, times -bm.
+constexpr double height_of_texture = 0.01;
+
+/// The length in space of one unit of texture coordinates, over all triangles of a material; 0 where it has none.
+double texture_extent(const Scene& scene, int material, ImportBudget& budget) {
+  double area = 0, mapped = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.material != material || mesh.topology != Topology::Triangles || mesh.uv0.empty()) continue;
+    budget.check_time();
+    for (std::size_t i = 0; i + 2 < mesh.index.size(); i += 3) {
+      const std::uint32_t a = mesh.index[i], b = mesh.index[i + 1], c = mesh.index[i + 2];
+      const float3 across = cross(mesh.position[b] - mesh.position[a], mesh.position[c] - mesh.position[a]);
+      const float2 e = mesh.uv0[b] - mesh.uv0[a], f = mesh.uv0[c] - mesh.uv0[a];
+      area += double{length(across)}, mapped += std::abs(double{e.x} * double{f.y} - double{e.y} * double{f.x});
+    }
+  }
+  const double square = area / mapped;
+  return std::isfinite(square) ? std::sqrt(square) : 0;
+}
+
+/// Converts the heights of bump maps from parts of a texture's size to units of the model.
+void scale_heights(Scene& scene, ImportBudget& budget) {
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    Material& material = scene.materials[m];
+    if (material.height_texture.image < 0) continue;
+    const float2 repeats = material.height_texture.scale;
+    const double root = std::sqrt(std::abs(double{repeats.x} * double{repeats.y}));
+    const double size = root > 0 ? texture_extent(scene, static_cast<int>(m), budget) / root : 0;
+    const auto scale = static_cast<float>(double{material.height_scale} * height_of_texture * size);
+    material.height_scale = std::isfinite(scale) ? scale : 0;
+  }
+}
+
 }  // namespace
 
 Scene load_obj(const std::string& path, const LoadLimits& limits) {
@@ -207,6 +241,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
     scene.materials.push_back(libraries.material(material));
   }
   libraries.report_rest();
+  scale_heights(scene, budget);
   return scene;
 }
 

@@ -20,7 +20,7 @@ ScreenVertex vertex(std::int32_t x, std::int32_t y, float z = 0.5f) { return {x,
 
 /// The definition, in 64-bit integers (differences are below 2^24, so products stay below 2^48): the sample lies
 /// inside, or on a top or left edge.
-bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, bool is_top_left) {
+bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, EdgeRule rule) {
   const auto side = [&](const ScreenVertex& p, const ScreenVertex& q) -> std::int64_t {
     return static_cast<std::int64_t>(q.x - p.x) * (y - p.y) - static_cast<std::int64_t>(q.y - p.y) * (x - p.x);
   };
@@ -31,7 +31,7 @@ bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, bool is_
     const ScreenVertex& q = area > 0 ? v[(k + 1) % 3] : v[k];
     const std::int64_t e = side(p, q);
     const bool is_owned = q.y < p.y || (q.y == p.y && q.x > p.x);  // left: upwards; top: to the right
-    if (e < 0 || (e == 0 && is_top_left && !is_owned)) return false;
+    if (e < 0 || (e == 0 && rule == EdgeRule::TopLeft && !is_owned)) return false;
   }
   return true;
 }
@@ -80,13 +80,13 @@ void random_corners(std::uint32_t seed, ScreenVertex (&v)[3], SizeMix mix = Size
 /// The definition of `covers` at all samples of one tile: edge functions are linear, so they are stepped along rows.
 class TileDefinition {
  public:
-  TileDefinition(const ScreenVertex (&v)[3], bool is_top_left) {
+  TileDefinition(const ScreenVertex (&v)[3], EdgeRule rule) {
     const std::int64_t area = static_cast<std::int64_t>(v[1].x - v[0].x) * (v[2].y - v[0].y) -
                               static_cast<std::int64_t>(v[1].y - v[0].y) * (v[2].x - v[0].x);
     for (std::size_t k = 0; k < 3; ++k) {
       const ScreenVertex& p = area > 0 ? v[k] : v[(k + 1) % 3];
       const ScreenVertex& q = area > 0 ? v[(k + 1) % 3] : v[k];
-      const bool is_owned = !is_top_left || q.y < p.y || (q.y == p.y && q.x > p.x);
+      const bool is_owned = rule == EdgeRule::Inside || q.y < p.y || (q.y == p.y && q.x > p.x);
       by_x[k] = p.y - q.y, by_y[k] = q.x - p.x;
       at_origin[k] = -(by_x[k] * p.x + by_y[k] * p.y) - (is_owned ? 0 : 1);  // covered where all three are >= 0
     }
@@ -139,8 +139,8 @@ struct TileRange {
 /// Draws random triangles into every tile that their boxes touch and counts the samples that differ from the
 /// definition.
 std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int triangles, std::uint32_t seed,
-                                bool is_top_left) {
-  const SetupRules rules{.viewport = viewport, .is_top_left = is_top_left};
+                                EdgeRule rule) {
+  const RasterRules rules{.edge_rule = rule};
   const int samples = static_cast<int>(pattern.size());
   Buffers buffers(samples);
   TileTriangle tile;
@@ -149,8 +149,8 @@ std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int trian
     ScreenVertex v[3];
     random_corners(seed + static_cast<std::uint32_t>(i), v, SizeMix::FewLarge);
     if (doubled_area(v[0], v[1], v[2]) == 0) continue;
-    const Triangle t = make_triangle(v[0], v[1], v[2], 7, rules);
-    const TileDefinition definition(v, is_top_left);
+    const Triangle t = make_triangle(v[0], v[1], v[2], 7, viewport, rules);
+    const TileDefinition definition(v, rule);
     const TileRange columns(std::min({v[0].x, v[1].x, v[2].x}), std::max({v[0].x, v[1].x, v[2].x}), viewport.width);
     const TileRange rows(std::min({v[0].y, v[1].y, v[2].y}), std::max({v[0].y, v[1].y, v[2].y}), viewport.height);
     for (int row = rows.first; row < rows.end; ++row)
@@ -180,7 +180,7 @@ std::vector<Case> cases() {
 TEST(Coverage, EqualsTheDefinitionInWideIntegers) {
   for (const Isa isa : supported_isas())
     for (const Case& c : cases())
-      EXPECT_EQ(differing_samples(c.pattern, isa, c.triangles, 12345, true), 0u)
+      EXPECT_EQ(differing_samples(c.pattern, isa, c.triangles, 12345, EdgeRule::TopLeft), 0u)
           << c.name << " samples, " << name_of(isa);
 }
 
@@ -191,16 +191,17 @@ TEST(Coverage, TheDefinitionOfATileIsThatOfItsSamples) {
     ScreenVertex v[3];
     random_corners(hash(i, 31), v);
     if (doubled_area(v[0], v[1], v[2]) == 0) continue;
+    const EdgeRule rule = i % 2 ? EdgeRule::TopLeft : EdgeRule::Inside;
     const int tile_x = static_cast<int>(hash(i, 32) % 16) * 64, tile_y = static_cast<int>(hash(i, 33) % 12) * 64;
     Buffers expected(2);
     expected.visibility.materialize_all();
     for (int s = 0; s < 2; ++s)
       for (int p = 0; p < tile_pixels; ++p) {
         const SamplePosition at = pattern[static_cast<std::size_t>(s)];
-        const bool is_in = covers(v, (tile_x + p % 64 - 512) * 256 + at.x, (tile_y + p / 64 - 384) * 256 + at.y, i % 2);
+        const bool is_in = covers(v, (tile_x + p % 64 - 512) * 256 + at.x, (tile_y + p / 64 - 384) * 256 + at.y, rule);
         expected.visibility.id[s * tile_pixels + p] = is_in ? 7 : -1;
       }
-    const TileDefinition definition(v, i % 2);
+    const TileDefinition definition(v, rule);
     ASSERT_EQ(definition.differing(pattern, tile_x, tile_y, expected.visibility), 0u) << i;
     for (const int p : {0, 4095, 4096 + 777})  // one wrong sample is one
       expected.visibility.id[p] = expected.visibility.id[p] == 7 ? -1 : 7;
@@ -210,20 +211,19 @@ TEST(Coverage, TheDefinitionOfATileIsThatOfItsSamples) {
 
 TEST(Coverage, TeachingRuleOwnsEveryEdge) {
   for (const Isa isa : supported_isas())
-    EXPECT_EQ(differing_samples(standard_pattern(4), isa, 2000, 777, false), 0u) << name_of(isa);
+    EXPECT_EQ(differing_samples(standard_pattern(4), isa, 2000, 777, EdgeRule::Inside), 0u) << name_of(isa);
 }
 
 /// A million triangles a pattern: minutes, which `ctest -C Long` adds to the other tests.
 class Million : public testing::TestWithParam<int> {};
 TEST_P(Million, DISABLED_TrianglesEqualTheDefinition) {
   const Case c = cases()[static_cast<std::size_t>(GetParam())];
-  EXPECT_EQ(differing_samples(c.pattern, best_isa(), 1000000, 99, true), 0u) << c.name;
+  EXPECT_EQ(differing_samples(c.pattern, best_isa(), 1000000, 99, EdgeRule::TopLeft), 0u) << c.name;
 }
 INSTANTIATE_TEST_SUITE_P(Coverage, Million, testing::Range(0, 6));
 
 TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
   const SamplePattern pattern = grid_pattern(4);
-  const SetupRules rules{.viewport = viewport};
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     // Corners on the lattice of the samples, so that edges pass through many of them; convex by construction.
     ScreenVertex v[4];
@@ -233,9 +233,9 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
                     sign[k][1] * (2000 + static_cast<std::int32_t>(hash(seed, k + 9) % 40) * 32));
     Buffers first(16), second(16);
     TileTriangle tile;
-    make_tile_triangle(make_triangle(v[0], v[1], v[2], 1, rules), pattern.data(), 16, 448, 320, tile);
+    make_tile_triangle(make_triangle(v[0], v[1], v[2], 1, viewport), pattern.data(), 16, 448, 320, tile);
     CoverageKernels::scalar.draw(tile, first.visibility);
-    make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, rules), pattern.data(), 16, 448, 320, tile);
+    make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, viewport), pattern.data(), 16, 448, 320, tile);
     CoverageKernels::scalar.draw(tile, second.visibility);
     first.visibility.materialize_all();
     second.visibility.materialize_all();
@@ -244,7 +244,7 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
       const std::int64_t x = (448 + i % 64) * 256 + at.x - 512 * 256,
                          y = (320 + i % tile_pixels / 64) * 256 + at.y - 384 * 256;
       const ScreenVertex whole[2][3] = {{v[0], v[1], v[2]}, {v[0], v[2], v[3]}};
-      const bool is_inside = covers(whole[0], x, y, false) || covers(whole[1], x, y, false);
+      const bool is_inside = covers(whole[0], x, y, EdgeRule::Inside) || covers(whole[1], x, y, EdgeRule::Inside);
       const bool is_strictly_inside = is_inside && [&] {
         for (int k = 0; k < 4; ++k) {
           const ScreenVertex &p = v[k], &q = v[(k + 1) % 4];
@@ -261,7 +261,6 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
 }
 
 TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
-  const SetupRules rules{.viewport = viewport};
   for (const int samples : {1, 2, 4, 8, 16}) {
     const SamplePattern pattern = standard_pattern(samples);
     for (const Isa isa : supported_isas()) {
@@ -273,7 +272,7 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         random_corners(hash(i, 5), v);
         for (ScreenVertex& c : v) c.x /= 8, c.y /= 8, c.z = std::floor(c.z * 8) / 8;  // near, with ties in depth
         if (doubled_area(v[0], v[1], v[2]) == 0) continue;
-        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), rules),
+        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), viewport),
                            pattern.data(), samples, 512, 384, tile);
         if (i % 3 == 0) {
           a.visibility.materialize_all();
@@ -312,7 +311,6 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
 
 // A first scene, with half of the tile empty; then triangles that reach over it, in front, behind and through.
 TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
-  const SetupRules rules{.viewport = viewport};
   int whole = 0, left_out = 0;
   for (const int samples : {1, 4, 8}) {
     const SamplePattern pattern = standard_pattern(samples);
@@ -326,7 +324,7 @@ TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
         const int shrink = i < 6 ? 8 : 1;
         for (ScreenVertex& c : v) c.x /= shrink, c.y /= shrink;
         if (doubled_area(v[0], v[1], v[2]) == 0) continue;
-        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(i), rules), pattern.data(),
+        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(i), viewport), pattern.data(),
                            samples, 512, 384, tile);
         if (i < 6) {
           kernels.draw(tile, held.visibility);

@@ -27,7 +27,7 @@ struct Extent {
 /// The work of one thread on a run of triangles of one draw.
 class Binner {
  public:
-  Binner(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Bins& bins)
+  Binner(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, Bins& bins)
       : projected_(projected),
         target_(target),
         rules_(rules),
@@ -49,8 +49,7 @@ class Binner {
       run.index = draw.index.data() + 3 * static_cast<std::size_t>(first - projected_.first_triangle[d]);
       run.first_id = first;
       run.count = std::min(SmallTriangleRun::capacity, end - first);
-      run.records =
-          rules_.is_flat_depth ? nullptr : worker_.triangles.reserve(SmallTriangleRun::capacity, worker_.arena);
+      run.records = is_painter() ? nullptr : worker_.triangles.reserve(SmallTriangleRun::capacity, worker_.arena);
       kernels.run(run, sink, result);
       worker_.drawn += result.drawn;
       for (std::int32_t i = 0; i < result.visible_count; ++i)
@@ -63,25 +62,27 @@ class Binner {
   }
 
  private:
+  bool is_painter() const { return rules_.visibility == Visibility::Painter; }
+
   /// The parameters that all runs of a draw share.
   SmallTriangleRun run_of(std::size_t d, const SampleArrays& samples) const {
     const Draw& draw = projected_.draws[d];
-    const bool draws_fragments = draw.alpha_mode == AlphaMode::Opaque && !rules_.is_flat_depth;
+    const bool draws_fragments = draw.alpha_mode == AlphaMode::Opaque && !is_painter();
     SmallTriangleRun run{};
     run.screen = projected_.screen[d].data();
-    run.viewport = rules_.viewport;
+    run.viewport = target_.viewport;
     run.left = target_.x, run.right = target_.x + target_.width - 1;
     run.top = target_.y, run.bottom = target_.y + target_.height - 1;
     run.sample_x = samples.x.data(), run.sample_y = samples.y.data();
     run.sample_count = static_cast<std::int32_t>(samples.x.size());
     run.facing = !draw.culls_back_faces ? 0 : draw.is_mirrored ? 1 : -1;
-    run.is_top_left = rules_.is_top_left;
+    run.edge_rule = rules_.edge_rule;
     run.small_extent = draws_fragments ? small_extent(run.sample_count) : -1;
     return run;
   }
 
   Extent extent_of(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) const {
-    const std::int32_t cx = rules_.viewport.width * 128, cy = rules_.viewport.height * 128;
+    const std::int32_t cx = target_.viewport.width * 128, cy = target_.viewport.height * 128;
     return {std::min({p.x, q.x, r.x}) + cx, std::max({p.x, q.x, r.x}) + cx, std::min({p.y, q.y, r.y}) + cy,
             std::max({p.y, q.y, r.y}) + cy};
   }
@@ -122,7 +123,7 @@ class Binner {
 
   void add_clipped(std::size_t d, std::int32_t triangle, const std::uint32_t* v) {
     const Draw& draw = projected_.draws[d];
-    for_clipped_triangles(projected_, d, triangle, v, rules_.viewport,
+    for_clipped_triangles(projected_, d, triangle, v, target_.viewport,
                           [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
                             if (may_cover_a_sample(p, q, r)) emit(draw, p, q, r, triangle);
                           });
@@ -130,8 +131,8 @@ class Binner {
 
   void emit(const Draw& draw, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id) {
     // Constructed in place: copying a record that was just written in parts stalls the processor.
-    const Triangle& t =
-        *::new (worker_.triangles.reserve(1, worker_.arena)) Triangle(make_triangle(p, q, r, id, rules_));
+    const Triangle& t = *::new (worker_.triangles.reserve(1, worker_.arena))
+                            Triangle(make_triangle(p, q, r, id, target_.viewport, rules_));
     if (t.min_x > target_.x + target_.width - 1 || t.max_x < target_.x || t.min_y > target_.y + target_.height - 1 ||
         t.max_y < target_.y)
       return;
@@ -171,7 +172,7 @@ class Binner {
 
   const ProjectedDraws& projected_;
   const Target& target_;
-  const SetupRules& rules_;
+  const RasterRules& rules_;
   const Bins& bins_;
   Bins::Worker& worker_;
 };
@@ -201,7 +202,7 @@ Bins make_bins(const Target& target, Bins reused) {
 }
 
 void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
-                 const SetupRules& rules, Bins& bins) {
+                 const RasterRules& rules, Bins& bins) {
   struct Part {
     std::size_t draw;
     std::int32_t begin, end;
@@ -223,7 +224,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
   for (const Bins::Worker& w : bins.workers) bins.set_up += w.triangles.size() + w.drawn;
 }
 
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Bins reused) {
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, Bins reused) {
   Bins bins = make_bins(target, std::move(reused));
   add_to_bins(projected, 0, projected.draws.size(), target, rules, bins);
   return bins;

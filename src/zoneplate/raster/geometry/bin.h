@@ -62,9 +62,9 @@ Bins make_bins(const Target& target, Bins reused = {});
 ///
 /// Requires  stored screen vertices of these draws; fewer than 2^32 triangles survive.
 void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t last, const Target& target,
-                 const SetupRules& rules, Bins& bins);
+                 const RasterRules& rules, Bins& bins);
 
 /// make_bins and add_to_bins for all draws.
-Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, Bins reused = {});
+Bins bin_triangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, Bins reused = {});
 
 }  // namespace zoneplate

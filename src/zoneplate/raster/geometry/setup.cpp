@@ -10,19 +10,19 @@ std::int64_t doubled_area(const ScreenVertex& p, const ScreenVertex& q, const Sc
 }
 
 Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id,
-                       const SetupRules& rules) {
+                       Viewport viewport, const RasterRules& rules) {
   // The vertices are ordered clockwise on the screen, so that inside is positive.
   const std::int64_t area = doubled_area(p, q, r);
   const ScreenVertex& second = area < 0 ? r : q;
   const ScreenVertex& third = area < 0 ? q : r;
-  const std::int32_t centre_x = rules.viewport.width * 128, centre_y = rules.viewport.height * 128;
+  const std::int32_t centre_x = viewport.width * 128, centre_y = viewport.height * 128;
   const std::int32_t x[3] = {p.x + centre_x, second.x + centre_x, third.x + centre_x};
   const std::int32_t y[3] = {p.y + centre_y, second.y + centre_y, third.y + centre_y};
 
   Triangle t;
   const auto set_edge = [&](int k, int from, int to) {
     const std::int32_t dx = x[to] - x[from], dy = y[to] - y[from];
-    const bool owns_edge = (dy < 0) | ((dy == 0) & (dx > 0)) | !rules.is_top_left;
+    const bool owns_edge = (dy < 0) | ((dy == 0) & (dx > 0)) | (rules.edge_rule == EdgeRule::Inside);
     t.a[k] = -dy;
     t.b[k] = dx;
     t.c[k] = static_cast<std::int64_t>(dy) * x[from] - static_cast<std::int64_t>(dx) * y[from] - !owns_edge;
@@ -48,7 +48,7 @@ Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const Scree
   t.z_low = std::min({p.z, second.z, third.z});
   t.z_high = std::max({p.z, second.z, third.z});
   t.id = id;
-  if (rules.is_flat_depth) {
+  if (rules.visibility == Visibility::Painter) {
     const double mean = (z0 + static_cast<double>(second.z) + static_cast<double>(third.z)) / 3;
     t.z0 = mean;
     t.dzdx = t.dzdy = 0;

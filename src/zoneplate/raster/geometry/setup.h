@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "zoneplate/raster/geometry/project.h"
+#include "zoneplate/raster/types/raster_rules.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
@@ -27,20 +28,15 @@ struct Triangle {
   std::int32_t id;
 };
 
-struct SetupRules {
-  Viewport viewport;
-  bool is_top_left = true;     ///< false: every triangle owns its edges
-  bool is_flat_depth = false;  ///< painter's algorithm: the whole triangle has its mean depth
-};
-
 /// Twice the signed area in (1/256 pixel)²; positive where the vertices run clockwise on the screen (y down).
 std::int64_t doubled_area(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r);
 
-/// Sets up the triangle of three screen vertices that need no clipping, in any winding. Requires: area not 0.
+/// Sets up the triangle of three screen vertices that need no clipping, in any winding. By the painter's algorithm
+/// the whole triangle has its mean depth. Requires: area not 0.
 ///
 /// Exact     edges are exact integers: |a|, |b| <= 2^23, |c| < 2^47.
 Triangle make_triangle(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t id,
-                       const SetupRules& rules);
+                       Viewport viewport, const RasterRules& rules = {});
 
 /// A triangle as seen from one tile: edges stepped per pixel in 32 bits, depth in floats.
 ///

@@ -121,19 +121,19 @@ HWY_INLINE void set_up_depth(const Corners& c, SetUp& t) {
 
 /// The edge opposite to vertex k.
 template <int k>
-HWY_INLINE void set_up_edge(const Corners& c, bool is_top_left, SetUp& t) {
+HWY_INLINE void set_up_edge(const Corners& c, EdgeRule rule, SetUp& t) {
   constexpr int from = (k + 1) % 3, to = (k + 2) % 3;
   t.dx[k] = hn::Sub(c.x[to], c.x[from]);
   t.dy[k] = hn::Sub(c.y[to], c.y[from]);
   // An edge owns its points if dy < 0, or dy = 0 and dx > 0: the sign of one number, since |dx| < 2^15.
   const VI order = hn::Sub(hn::ShiftLeft<15>(t.dy[k]), t.dx[k]);
-  t.bias[k] = is_top_left ? hn::Not(hn::BroadcastSignBit(order)) : hn::Zero(i32);
+  t.bias[k] = rule == EdgeRule::TopLeft ? hn::Not(hn::BroadcastSignBit(order)) : hn::Zero(i32);
 }
 
-HWY_INLINE void set_up_edges(const Corners& c, bool is_top_left, SetUp& t) {
-  set_up_edge<0>(c, is_top_left, t);
-  set_up_edge<1>(c, is_top_left, t);
-  set_up_edge<2>(c, is_top_left, t);
+HWY_INLINE void set_up_edges(const Corners& c, EdgeRule rule, SetUp& t) {
+  set_up_edge<0>(c, rule, t);
+  set_up_edge<1>(c, rule, t);
+  set_up_edge<2>(c, rule, t);
 }
 
 /// The other values, which need only the edge from vertex 0 to 1.
@@ -150,8 +150,8 @@ HWY_INLINE void set_up_plane(const Corners& c, VI low_x, VI low_y, SetUp& t) {
   t.z_high = hn::Max(hn::Max(c.z[0], c.z[1]), c.z[2]);
 }
 
-HWY_INLINE void set_up(const Corners& c, const Extent& e, bool is_top_left, SetUp& t) {
-  set_up_edges(c, is_top_left, t);
+HWY_INLINE void set_up(const Corners& c, const Extent& e, EdgeRule rule, SetUp& t) {
+  set_up_edges(c, rule, t);
   set_up_plane(c, e.low_x, e.low_y, t);
 }
 

@@ -67,7 +67,7 @@ void draw(const Triangle& t, const SmallTriangleRun& run, SampleBinWriter& sink)
 
 void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangleResult& result) {
   result.deferred_count = result.visible_count = 0, result.drawn = 0;
-  const SetupRules rules{.viewport = run.viewport, .is_top_left = run.is_top_left};
+  const RasterRules rules{.edge_rule = run.edge_rule};
   for (std::int32_t t = 0; t < run.count; ++t) {
     const ScreenVertex &p = run.screen[run.index[3 * t]], &q = run.screen[run.index[3 * t + 1]],
                        &r = run.screen[run.index[3 * t + 2]];
@@ -82,13 +82,13 @@ void run_front(const SmallTriangleRun& run, SampleBinWriter& sink, SmallTriangle
     if (!may_cover_a_sample(b, run) || !is_in_rectangle(b, run)) continue;
     if (std::max(width, height) > run.small_extent) {
       if (run.records)
-        run.records[result.visible_count++] = make_triangle(p, q, r, run.first_id + t, rules);
+        run.records[result.visible_count++] = make_triangle(p, q, r, run.first_id + t, run.viewport, rules);
       else
         result.visible[result.visible_count++] = t;
       continue;
     }
     ++result.drawn;
-    draw(make_triangle(p, q, r, run.first_id + t, rules), run, sink);
+    draw(make_triangle(p, q, r, run.first_id + t, run.viewport, rules), run, sink);
   }
 }
 

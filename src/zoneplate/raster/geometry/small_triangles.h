@@ -47,7 +47,7 @@ struct SmallTriangleRun {
   const std::int32_t *sample_x, *sample_y;
   std::int32_t sample_count;
   std::int32_t facing;  ///< 1 keeps triangles that are clockwise on the screen, -1 the others, 0 both
-  bool is_top_left;     ///< as SetupRules
+  EdgeRule edge_rule;
   /// 1/256 pixel: triangles that are no wider and no higher become samples; at most 2047. -1: none; required if there
   /// are more samples than SampleBin::max_samples.
   std::int32_t small_extent;

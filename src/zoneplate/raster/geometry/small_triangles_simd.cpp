@@ -110,7 +110,7 @@ class Front {
     const VI more = hn::IfThenElseZero(small, hn::Max(hn::Sub(width, to_x), hn::Sub(height, to_y)));
     if (!hn::AllFalse(i32, hn::Gt(more, set(767)))) return false;
     SetUp t;
-    set_up_edges(c, run_.is_top_left, t);
+    set_up_edges(c, run_.edge_rule, t);
     const VI px = hn::Add(e.low_x, to_x), py = hn::Add(e.low_y, to_y);
     t.area = area;
     const Edges first = edges_at(c, t, px, py);
@@ -186,7 +186,7 @@ class Front {
   // The same as make_triangle.
   HWY_NOINLINE void record(Corners c, Extent e, MI mask) {
     SetUp t;
-    set_up(c, e, run_.is_top_left, t);
+    set_up(c, e, run_.edge_rule, t);
     RecordLanes r;
     r.store_edge<0>(c, t);
     r.store_edge<1>(c, t);
@@ -198,7 +198,7 @@ class Front {
 
   HWY_NOINLINE void draw(const Corners& c, const Extent& e, MI alive) {
     SetUp t;
-    set_up(c, e, run_.is_top_left, t);
+    set_up(c, e, run_.edge_rule, t);
     const VI dead = hn::VecFromMask(i32, hn::Not(alive));
     const VI width = hn::AndNot(dead, hn::Sub(e.high_x, e.low_x));
     const VI height = hn::AndNot(dead, hn::Sub(e.high_y, e.low_y));

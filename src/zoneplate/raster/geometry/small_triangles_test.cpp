@@ -104,7 +104,7 @@ struct Case {
   SamplePattern pattern;
   std::int32_t left = 0, top = 0, right = viewport.width - 1, bottom = viewport.height - 1;
   std::int32_t facing = 0;
-  bool is_top_left = true;
+  EdgeRule edge_rule = EdgeRule::TopLeft;
   std::int32_t small_extent = 2047;
   bool lists_visible = false;
 };
@@ -116,7 +116,7 @@ std::vector<Case> cases() {
   out.push_back({.pattern = grid_pattern(3), .facing = 1});
   out.push_back({.pattern = standard_pattern(4), .left = 61, .top = 33, .right = 200, .bottom = 127});
   out.push_back({.pattern = standard_pattern(1), .left = 64, .top = 64, .right = 64, .bottom = 64});
-  out.push_back({.pattern = standard_pattern(2), .is_top_left = false});
+  out.push_back({.pattern = standard_pattern(2), .edge_rule = EdgeRule::Inside});
   out.push_back({.pattern = standard_pattern(1), .facing = -1, .small_extent = -1});
   out.push_back({.pattern = standard_pattern(4), .small_extent = -1, .lists_visible = true});
   return out;
@@ -145,7 +145,7 @@ Outcome outcome_of(const Soup& soup, const Case& c, Isa isa) {
                                .sample_y = sample_y.data(),
                                .sample_count = static_cast<std::int32_t>(sample_x.size()),
                                .facing = c.facing,
-                               .is_top_left = c.is_top_left,
+                               .edge_rule = c.edge_rule,
                                .small_extent = c.small_extent,
                                .records = c.lists_visible ? nullptr : records.data()};
     SmallTriangleKernels::of(isa).run(run, lists.sink, result);
@@ -181,7 +181,7 @@ TEST(Front, EveryInstructionSetFindsTheSame) {
 }
 
 /// True if the point is inside by the definition: exact edge functions, top-left rule.
-bool covers(std::array<std::array<std::int64_t, 2>, 3> v, std::int64_t px, std::int64_t py, bool is_top_left) {
+bool covers(std::array<std::array<std::int64_t, 2>, 3> v, std::int64_t px, std::int64_t py, EdgeRule rule) {
   const auto cross = [](std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by) {
     return ax * by - ay * bx;
   };
@@ -192,7 +192,7 @@ bool covers(std::array<std::array<std::int64_t, 2>, 3> v, std::int64_t px, std::
     const std::int64_t dx = q[0] - p[0], dy = q[1] - p[1];
     const std::int64_t side = cross(dx, dy, px - p[0], py - p[1]);
     const bool is_left = dy < 0, is_top = dy == 0 && dx > 0;
-    if (side < 0 || (side == 0 && is_top_left && !is_left && !is_top)) return false;
+    if (side < 0 || (side == 0 && rule == EdgeRule::TopLeft && !is_left && !is_top)) return false;
   }
   return true;
 }
@@ -216,15 +216,15 @@ TEST(Front, FragmentsAreTheSamplesInsideSmallTriangles) {
       }
       const std::int64_t area = doubled_area(*v[0], *v[1], *v[2]);
       if (listed[t] || area == 0 || (c.facing && (area > 0) != (c.facing > 0))) continue;
-      const Triangle triangle = make_triangle(*v[0], *v[1], *v[2], static_cast<std::int32_t>(t),
-                                              {.viewport = viewport, .is_top_left = c.is_top_left});
+      const Triangle triangle =
+          make_triangle(*v[0], *v[1], *v[2], static_cast<std::int32_t>(t), viewport, {.edge_rule = c.edge_rule});
       if (triangle.min_x > c.right || triangle.max_x < c.left || triangle.min_y > c.bottom || triangle.max_y < c.top)
         continue;
       constexpr int last = tile_size - 1;
       for (int y = std::max(triangle.min_y, c.top & ~last); y <= std::min(triangle.max_y, c.bottom | last); ++y)
         for (int x = std::max(triangle.min_x, c.left & ~last); x <= std::min(triangle.max_x, c.right | last); ++x)
           for (std::size_t s = 0; s < c.pattern.size(); ++s) {
-            if (!covers(corner, x * 256 + c.pattern[s].x, y * 256 + c.pattern[s].y, c.is_top_left)) continue;
+            if (!covers(corner, x * 256 + c.pattern[s].x, y * 256 + c.pattern[s].y, c.edge_rule)) continue;
             const int tile_x = x / tile_size * tile_size, tile_y = y / tile_size * tile_size;
             TileTriangle seen;
             make_tile_triangle(triangle, c.pattern.data(), static_cast<int>(c.pattern.size()), tile_x, tile_y, seen);
@@ -329,7 +329,7 @@ TEST(Front, PicturesOfSoupsAreThoseOfTheDefinition) {
     // By the definition: every triangle at every sample, the nearest wins, of equals the first.
     const ProjectedDraws projected = project_draws(std::span(&draw, 1), square);
     const auto draw_piece = [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, std::int32_t t) {
-      const Triangle triangle = make_triangle(p, q, r, t, {.viewport = square});
+      const Triangle triangle = make_triangle(p, q, r, t, square);
       for (int tile_y = 0; tile_y < size; tile_y += tile_size)
         for (int tile_x = 0; tile_x < size; tile_x += tile_size) {
           TileTriangle seen;

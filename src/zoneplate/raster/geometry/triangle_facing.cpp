@@ -66,23 +66,23 @@ float depth_of(const float4 (&corner)[3], ScreenPoint at, Viewport viewport) {
 }  // namespace
 
 float depth_at_point(const ProjectedDraws& projected, std::size_t d, std::int32_t triangle, std::int32_t x,
-                     std::int32_t y, const SetupRules& rules) {
+                     std::int32_t y, Viewport viewport, const RasterRules& rules) {
   const Draw& draw = projected.draws[d];
   const std::uint32_t* v = &draw.index[3 * static_cast<std::size_t>(triangle - projected.first_triangle[d])];
   const ScreenVertex p = projected.vertex(d, v[0]), q = projected.vertex(d, v[1]), r = projected.vertex(d, v[2]);
   const ScreenPoint at{x, y};
   if (!p.needs_clipping() && !q.needs_clipping() && !r.needs_clipping())
-    return depth_of(make_triangle(p, q, r, triangle, rules), at);
+    return depth_of(make_triangle(p, q, r, triangle, viewport, rules), at);
   const float4 corner[3] = {draw.clip_position(v[0]), draw.clip_position(v[1]), draw.clip_position(v[2])};
-  const ClippedPolygon polygon = clip_triangle(corner[0], corner[1], corner[2], rules.viewport);
+  const ClippedPolygon polygon = clip_triangle(corner[0], corner[1], corner[2], viewport);
   for (int i = 2; i < polygon.count; ++i) {
     const ScreenVertex &a = polygon.vertex[0], &b = polygon.vertex[static_cast<std::size_t>(i - 1)],
                        &c = polygon.vertex[static_cast<std::size_t>(i)];
     if (doubled_area(a, b, c) == 0) continue;
-    const Triangle piece = make_triangle(a, b, c, triangle, rules);
+    const Triangle piece = make_triangle(a, b, c, triangle, viewport, rules);
     if (contains(piece, at)) return depth_of(piece, at);
   }
-  return depth_of(corner, at, rules.viewport);
+  return depth_of(corner, at, viewport);
 }
 
 TriangleFacing face_of(const ProjectedDraws& projected, std::size_t d, std::int32_t triangle, Viewport viewport) {

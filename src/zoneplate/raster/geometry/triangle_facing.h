@@ -36,6 +36,6 @@ TriangleFacing face_of(const ProjectedDraws& projected, std::size_t draw, std::i
 ///
 /// Units     x, y in 1/256 pixel from the image's top-left corner, not negative.
 float depth_at_point(const ProjectedDraws& projected, std::size_t draw, std::int32_t triangle, std::int32_t x,
-                     std::int32_t y, const SetupRules& rules);
+                     std::int32_t y, Viewport viewport, const RasterRules& rules);
 
 }  // namespace zoneplate

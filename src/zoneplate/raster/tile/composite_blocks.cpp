@@ -72,7 +72,7 @@ void BlockCompositor::collect(const TileJob& job, const TileVisibility& visibili
     const int n = coverage.collect_blocks(triangle, visibility, nearest, found, other_blocks_);
     for (int i = 0; i < n; ++i) ++begin[found[i].block + 1];
     unsorted_.insert(unsorted_.end(), found, found + n);
-    if (unsorted_.size() > job.setup.capacity.layer_samples) {
+    if (unsorted_.size() > job.setup.rules.capacity.layer_samples) {
       other_blocks_ = ~std::uint64_t{0};
       return;
     }

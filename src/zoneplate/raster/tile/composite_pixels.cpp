@@ -73,7 +73,7 @@ void PixelCompositor::peel(const TileJob& job, const TileVisibility& visibility,
 void PixelCompositor::find_next_layers(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel,
                                        int sample, const Peel& last) {
   const std::vector<const Triangle*>& triangles = job.triangles_of(AlphaMode::Blend);
-  const std::size_t most = std::max<std::size_t>(job.setup.capacity.layer_samples, 1);
+  const std::size_t most = std::max<std::size_t>(job.setup.rules.capacity.layer_samples, 1);
   const auto keep_nearest = [&] {
     if (peeled_.size() <= most) return;
     std::nth_element(peeled_.begin(), peeled_.begin() + static_cast<std::ptrdiff_t>(most), peeled_.end());

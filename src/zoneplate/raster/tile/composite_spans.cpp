@@ -88,7 +88,7 @@ bool SpanCompositor::collect(const Strip& strip, int top, int bottom) {
     const int n = job.setup.coverage.collect_rows(triangle, strip.visibility, strip.blocks, found, is_slow_);
     for (int i = 0; i < n; ++i) ++begin[found[i].row + 1];
     layers_.insert(layers_.end(), found, found + n);
-    if (layers_.size() > job.setup.capacity.layer_samples) return false;
+    if (layers_.size() > job.setup.rules.capacity.layer_samples) return false;
   }
   for (int span = top * 8; span < bottom * 8; ++span)
     if (begin[span + 1] > 0 && (strip.opaque.span_primitive[span] == mixed_primitives || !job.is_whole_column(span)))

@@ -24,9 +24,10 @@ void keep_data(const Target& target, std::uint32_t pixel, std::size_t f, TileDat
 /// tested. Painter's depth is the same everywhere. A plane that reaches the far plane at the fragment keeps the
 /// sample's depth, so that it stays in front of it.
 float depth_of(const TileJob& job, const Fragment& fragment, std::size_t draw, const NearestSurface& nearest) {
-  const SetupRules& rules = job.setup.triangle_rules;
-  if (nearest.position == nearest.sample || rules.is_flat_depth) return nearest.depth;
-  const float depth = depth_at_point(job.setup.projected, draw, fragment.id, fragment.x, fragment.y, rules);
+  const RasterRules& rules = job.setup.rules;
+  if (nearest.position == nearest.sample || rules.visibility == Visibility::Painter) return nearest.depth;
+  const float depth =
+      depth_at_point(job.setup.projected, draw, fragment.id, fragment.x, fragment.y, job.setup.target.viewport, rules);
   return depth > 0 ? depth : nearest.depth;
 }
 

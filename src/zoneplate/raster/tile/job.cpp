@@ -28,7 +28,7 @@ void sort_nearest_first(std::vector<const Triangle*>& list, std::vector<const Tr
 }  // namespace
 
 TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const FragmentShader& fragment_shader,
-                     const RasterRules& rules, const Target& planes)
+                     const RasterRules& raster_rules, const Target& planes)
     : projected(draws),
       bins(binned),
       shader(fragment_shader),
@@ -36,8 +36,7 @@ TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const Frag
       coverage(CoverageKernels::of()),
       resolve(ResolveKernels::of()),
       fragment_lists(FragmentListKernels::of()),
-      triangle_rules(rules.setup(planes.viewport)),
-      capacity(rules.capacity),
+      rules(raster_rules),
       min_transmittance(least_transmittance(fragment_shader.brightest())),
       centroids(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
       weights(planes.weights) {

@@ -25,7 +25,7 @@ struct TileSetup {
   static constexpr int max_tabulated_samples = 8;
 
   TileSetup(const ProjectedDraws& draws, const Bins& binned, const FragmentShader& fragment_shader,
-            const RasterRules& rules, const Target& planes);
+            const RasterRules& raster_rules, const Target& planes);
 
   const ProjectedDraws& projected;
   const Bins& bins;
@@ -34,8 +34,7 @@ struct TileSetup {
   const CoverageKernels& coverage;
   const ResolveKernels& resolve;
   const FragmentListKernels& fragment_lists;
-  const SetupRules triangle_rules;
-  const RasterCapacity capacity;
+  const RasterRules rules;
   const float min_transmittance;  ///< transparent fragments behind this transmittance or less are left out
   const CentroidTable centroids;  ///< the shading position of a surface that owns a subset of a pixel's samples
 

@@ -19,7 +19,7 @@ std::size_t collect_layers(const TileJob& job, AlphaMode mode, std::size_t first
   for (; number < triangles.size(); ++number) {
     const Triangle& t = *triangles[number];
     // The pieces of a clipped triangle follow each other, and are shaded together.
-    const bool is_full = list.depths.size() >= job.setup.capacity.layer_samples;
+    const bool is_full = list.depths.size() >= job.setup.rules.capacity.layer_samples;
     if (is_full && number > first && t.id != triangles[number - 1]->id) break;
     if (number % deadline_stride == 0) check_deadline();
     if (!job.make_triangle_in(t, rect, triangle)) continue;

@@ -20,12 +20,11 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
   Stopwatch stage;
   RasterMemory own;
   RasterMemory& kept = memory ? *memory : own;
-  const SetupRules setup = rules.setup(target.viewport);
   kept.projected = number_draws(draws, target.viewport, rules.capacity.screen_vertices, std::move(kept.projected));
   kept.bins = make_bins(target, std::move(kept.bins));
   project_batches(kept.projected, [&](std::size_t first, std::size_t last) {
     counts.stages.vertices += stage.lap_ms();
-    add_to_bins(kept.projected, first, last, target, setup, kept.bins);
+    add_to_bins(kept.projected, first, last, target, rules, kept.bins);
     counts.stages.triangles += stage.lap_ms();
   });
   const ProjectedDraws& projected = kept.projected;

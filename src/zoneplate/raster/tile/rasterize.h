@@ -6,23 +6,12 @@
 
 #include "zoneplate/raster/geometry/bin.h"
 #include "zoneplate/raster/geometry/draw.h"
-#include "zoneplate/raster/geometry/setup.h"
 #include "zoneplate/raster/types/fragment_shader.h"
-#include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/raster_rules.h"
 #include "zoneplate/raster/types/stage_times.h"
 #include "zoneplate/raster/types/target.h"
 
 namespace zoneplate {
-
-struct RasterRules {
-  bool is_top_left = true;
-  bool is_painter = false;
-  RasterCapacity capacity;
-
-  SetupRules setup(Viewport viewport) const {
-    return {.viewport = viewport, .is_top_left = is_top_left, .is_flat_depth = is_painter};
-  }
-};
 
 /// Memory that consecutive frames may share.
 struct RasterMemory {

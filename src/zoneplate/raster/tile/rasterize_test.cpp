@@ -322,7 +322,7 @@ TEST(Rasterize, PainterFailsOnACircleOfTrianglesThatTheZBufferGetsRight) {
   const Flat shader({{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}});
   const auto draws = draws_of(triangles, order, AlphaMode::Opaque);
   const LinearImage right = picture(draws, shader, standard_pattern(1), {}, 240);
-  const LinearImage painted = picture(draws, shader, standard_pattern(1), {.is_painter = true}, 240);
+  const LinearImage painted = picture(draws, shader, standard_pattern(1), {.visibility = Visibility::Painter}, 240);
   EXPECT_NE(right, painted);
   // Turning the image by 120 degrees changes the colours' names only, so all three show the same area by Z-buffer.
   std::array<int, 3> by_z{}, by_painter{};

@@ -77,7 +77,7 @@ class TileScene {
       draws_.push_back(draw);
     }
     projected = project_draws(draws_, target.viewport);
-    bins = bin_triangles(projected, target, rules.setup(target.viewport));
+    bins = bin_triangles(projected, target, rules);
     setup.emplace(projected, bins, shader, rules, target);
   }
   TileScene(const TileScene&) = delete;

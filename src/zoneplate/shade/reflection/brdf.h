@@ -217,6 +217,49 @@ template <class F>
   return metallic_light(m, n, l, v, m.alpha);
 }
 
+/// A GGX lobe whose normals turn within a pixel: the matrix of its squared slopes, in the plane across n, is
+/// α² I + a aᵀ + b bᵀ. With a and b zero it is the isotropic lobe.
+///
+/// Source    non-axis-aligned NDF filtering: Tokuyoshi and Kaplanyan, Stable Geometric Specular Antialiasing with
+///           Projected-Space NDF Filtering, JCGT 10(2), 2021; the shape: Heitz 2014.
+template <class F>
+struct TurningLobe {
+  Vector<F> n, v, a, b;
+  F alpha2, determinant, nv, towards_viewer;
+
+  /// Requires  n and v of unit length, a and b perpendicular to the interpolated normal.
+  [[gnu::always_inline]] TurningLobe(Vector<F> n_in, Vector<F> v_in, Vector<F> a_in, Vector<F> b_in, F roughness)
+      : n(n_in), v(v_in), a(a_in), b(b_in) {
+    const F r = max(roughness, F(least_roughness)), across = dot(n, cross(a, b));
+    alpha2 = r * r * (r * r);
+    determinant = alpha2 * (alpha2 + (dot(a, a) + dot(b, b))) + across * across;
+    nv = max(dot(n, v), F(1e-4f));
+    towards_viewer = stretched(v, nv);
+  }
+  /// The square root of dᵀ A d + (n·d)², by which microfacets mask each other.
+  [[gnu::always_inline]] F stretched(Vector<F> d, F nd) const {
+    const F along_a = dot(a, d), along_b = dot(b, d), square = nd * nd;
+    return sqrt(alpha2 * max(F(1.0f) - square, F(0.0f)) + (along_a * along_a + along_b * along_b) + square);
+  }
+  /// Density of normals × masking and shadowing over 4 (n·l)(n·v).
+  [[gnu::always_inline]] F peak(Vector<F> l, Vector<F> h, F nl) const {
+    const Vector<F> across = cross(n, h);
+    const F along_a = dot(n, cross(a, h)), along_b = dot(n, cross(b, h)), nh = dot(n, h);
+    const F flat = alpha2 * dot(across, across) + (along_a * along_a + along_b * along_b);
+    const F q = flat / max(determinant, F(1e-30f)) + nh * nh;
+    const F density = F(inverse_pi) / max(sqrt(determinant) * (q * q), F(1e-30f));
+    return density * F(0.5f) / max(nl * towards_viewer + nv * stretched(l, nl), F(1e-30f));
+  }
+};
+
+/// metallic_light with a lobe whose normals turn.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> metallic_light(const Metallic<F>& m, const TurningLobe<F>& lobe, Vector<F> l) {
+  const Vector<F> h = normalize(l + lobe.v);
+  const F nl = max(dot(lobe.n, l), F(0.0f));
+  return (m.diffuse + (m.mirrored + m.grazing * schlick_weight(dot(lobe.v, h))) * lobe.peak(l, h, nl)) * nl;
+}
+
 /// The light of an environment that a metallic-roughness surface reflects: a part of the light from about the mirror
 /// direction, filtered by the lobe, and a part of the irradiance over π.
 template <class F>

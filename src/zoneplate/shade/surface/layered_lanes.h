@@ -55,6 +55,7 @@ struct LayeredSurface {
 
   Vector<F> coat_n;
   F coat_nv, coat_alpha, coat_roughness, coat_weight;  ///< the latter: clearcoat × its reflectance
+  F coat_gain;  ///< multiplies the coat's lobe under lights, so that it reflects the light of several reflections too
 };
 
 /// Light that passes a distance of the volume.
@@ -140,6 +141,8 @@ template <class F>
     s.coat_nv = min(max(abs(dot(s.coat_n, v)), F(1e-4f)), one);
     s.coat_roughness = max(F::load(q.clearcoat_roughness + i), F(least_roughness));
     s.coat_alpha = s.coat_roughness * s.coat_roughness;
+    const SpecularWeights<F> all = SpecularFit<F>(s.coat_roughness).at(s.coat_nv);
+    s.coat_gain = one / (all.scale + all.bias);
     s.coat_weight = F::load(q.clearcoat + i) * (F(0.04f) + F(0.96f) * schlick_weight(s.coat_nv));
   }
   return s;
@@ -170,7 +173,7 @@ template <class F>
   const Vector<F> front_l = has_back ? select(along < zero, l - s.n * (along + along), l) : l;
   const Vector<F> h = normalize(front_l + s.v);
   const F weight = schlick_weight(dot(s.v, h));
-  const auto wide = [&](F alpha) { return widened(alpha, light, arriving.spread); };
+  const auto wide = [&](F alpha) { return highlight_alpha(alpha, light, arriving); };
   const F alpha = wide(s.alpha);
   MicrofacetFrame<F> frame = s.frame;
   if (u.has_anisotropy) frame.alpha_t = wide(frame.alpha_t), frame.alpha_b = wide(frame.alpha_b);
@@ -198,6 +201,16 @@ template <class F>
     sum = sum * s.below_sheen + s.sheen_color * fibres;
   }
   return sum;
+}
+
+/// Reflected radiance of a clear coat of reflectance 1 for one unit of irradiance perpendicular to l, with the lobe
+/// of `alpha`. Its microfacets lose no light, as those that reflect an environment.
+template <class F>
+[[gnu::always_inline]] inline F coat_light(const LayeredSurface<F>& s, Vector<F> l, F alpha) {
+  const Vector<F> h = normalize(l + s.v);
+  const F nl = max(dot(s.coat_n, l), F(0.0f));
+  const F peak = ggx(dot(s.coat_n, h), cross(s.coat_n, h), alpha) * smith(nl, s.coat_nv, alpha);
+  return peak * nl * s.coat_gain;
 }
 
 /// The mirror image of v; stretched highlights reflect along a normal bent towards the viewer.
@@ -237,18 +250,30 @@ template <class F, class Radiance>
   return sum;
 }
 
-/// What passes through the surface from behind: along the line of sight through a thin wall, bent into a volume. Where
-/// the image behind is empty, the environment is seen.
+/// What passes through the surface from behind.
+template <class F>
+struct LightThrough {
+  Vector<F> color;   ///< attenuated by the volume
+  Vector<F> beyond;  ///< the light of the background in it, where nothing of the scene is behind, not attenuated
+  F open;            ///< the part of the image behind that is empty
+};
+
+/// Along the line of sight through a thin wall, bent into a volume. Where the image behind is empty, the background's
+/// colour is seen, or the environment.
 template <class F, class Radiance>
-[[gnu::always_inline]] inline Vector<F> light_through(const ShadingUniforms& s, const LayeredUniforms& u,
-                                                      const LayeredSurface<F>& surface, const Radiance& around,
-                                                      const FragmentBatch& batch, const ShadingState& p, int i) {
+[[gnu::always_inline]] inline LightThrough<F> light_through(const ShadingUniforms& s, const LayeredUniforms& u,
+                                                            const LayeredSurface<F>& surface, const Radiance& around,
+                                                            const FragmentBatch& batch, const ShadingState& p, int i) {
   using Int = typename F::Int;
   const F one(1.0f), roughness = surface.through_roughness;
   const auto behind = [&](Vector<F> direction, ImagePlace<F> at) {
-    if (s.backdrop == nullptr) return around.specular(direction, roughness);
+    const Vector<F> light =
+        s.has_background_color ? Vector<F>::all(s.background) : around.specular(direction, roughness);
+    if (s.backdrop == nullptr) return LightThrough<F>{light, light, one};
     const BackdropColor<F> seen = backdrop_color(*s.backdrop, at, roughness);
-    return seen.color + around.specular(direction, roughness) * (one - seen.alpha);
+    const F open = one - seen.alpha;
+    const Vector<F> beyond = light * open;
+    return LightThrough<F>{seen.color + beyond, beyond, open};
   };
   if (!u.has_volume) {
     const Vector<F> direction{-surface.v.x, -surface.v.y, -surface.v.z};
@@ -262,9 +287,21 @@ template <class F, class Radiance>
     if (s.backdrop == nullptr) return behind(direction, {one, one});
     return behind(direction, image_place(*s.backdrop, Vector<F>::load(p.position, i) + direction * surface.thickness));
   };
-  const Vector<F> green = along(u.ior);
-  if (!(u.half_spread > 0)) return green * surface.absorbed;
-  return Vector<F>{along(u.ior - u.half_spread).x, green.y, along(u.ior + u.half_spread).z} * surface.absorbed;
+  const LightThrough<F> green = along(u.ior);
+  if (!(u.half_spread > 0)) return {green.color * surface.absorbed, green.beyond, green.open};
+  const LightThrough<F> red = along(u.ior - u.half_spread), blue = along(u.ior + u.half_spread);
+  return {Vector<F>{red.color.x, green.color.y, blue.color.z} * surface.absorbed,
+          {red.beyond.x, green.beyond.y, blue.beyond.z},
+          green.open};
+}
+
+/// The part of light from behind that passes through all layers.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> passing(const LayeredUniforms& u, const LayeredSurface<F>& s) {
+  const F one(1.0f);
+  F part = s.transmission * s.below_interface * (one - s.metallic) * s.below_sheen;
+  if (u.has_clearcoat) part = part * (one - s.coat_weight);
+  return s.base * s.absorbed * part;
 }
 
 template <class F, class Radiance>
@@ -278,22 +315,19 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
   for (int i = 0; i < p.count; i += F::lanes) {
     const LayeredSurface<F> surface = make_surface<F>(u, p, q, viewer.direction(batch, p, i), i);
     Vector<F> sum = zeros<F>(), coat = zeros<F>();
+    LightThrough<F> through{zeros<F>(), zeros<F>(), zero};
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       const Vector<F> radiance = visible(light.radiance, p, k, i);
       sum = sum + radiance * layered_light(u, surface, s.light[k], light);
-      if (u.has_clearcoat) {
-        const Vector<F> h = normalize(light.from + surface.v);
-        const F nl = max(dot(surface.coat_n, light.from), zero);
-        const F alpha = widened(surface.coat_alpha, s.light[k], light.spread);
-        const F peak = ggx(dot(surface.coat_n, h), cross(surface.coat_n, h), alpha) * smith(nl, surface.coat_nv, alpha);
-        coat = coat + radiance * (peak * nl);
-      }
+      if (u.has_clearcoat)
+        coat =
+            coat + radiance * coat_light(surface, light.from, highlight_alpha(surface.coat_alpha, s.light[k], light));
     }
     if (s.has_environment || (u.has_transmission && s.backdrop != nullptr)) {
-      const Vector<F> through = u.has_transmission ? light_through(s, u, surface, around, batch, p, i) : zeros<F>();
+      if (u.has_transmission) through = light_through(s, u, surface, around, batch, p, i);
       const F seen = kind.has_occlusion ? F::load(p.occlusion + i) : one;
-      sum = sum + layered_environment(u, surface, around, through, seen, q, i);
+      sum = sum + layered_environment(u, surface, around, through.color, seen, q, i);
       if (u.has_clearcoat) {
         const F along = dot(surface.coat_n, surface.v);
         const Vector<F> mirror = surface.coat_n * (along + along) - surface.v;
@@ -306,7 +340,16 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
       sum = sum + Vector<F>::all(s.emissive);
     }
     if (u.has_clearcoat) sum = sum * (one - surface.coat_weight) + coat * surface.coat_weight;
+    F clear = zero;
+    if (u.has_transmission && !s.has_environment_behind) {
+      // The background is seen through the surface as far as all colours pass; the other light is added here.
+      const Vector<F> part = passing(u, surface);
+      clear = min(max(min(min(part.x, part.y), part.z), zero), one) * through.open;
+      sum = sum - through.beyond * clear;
+      clear = min(clear, max(one - greatest_channel(sum), zero));
+    }
     finish(s, kind, p, sum, surface.base, out, i);
+    if (u.has_transmission) (F::load(out.a + i) * (one - clear)).store(out.a + i);
   }
 }
 

@@ -64,27 +64,46 @@ struct Sample {
   }
   std::array<double, 3> light(Direction from) const { return light(std::vector{from})[0]; }
 
+  /// The light of a uniform environment of radiance 1 that the clear coat reflects, over its reflectance.
+  double coat_albedo(int steps) const {
+    const auto p = std::make_unique<ShadingState>();
+    const auto q = std::make_unique<LayerState>();
+    const LayeredUniforms u = make_layered_uniforms(layers);
+    fill(u, *p, *q);
+    const stages::LayeredSurface<F> surface = stages::make_surface<F>(u, *p, *q, lanes(view), 0);
+    const std::vector<Direction> from = directions(steps);
+    double sum = 0;
+    for (std::size_t k = 0; k < from.size(); ++k)
+      sum += double{stages::coat_light(surface, lanes(from[k]), surface.coat_alpha).v} * solid_angle(k, steps);
+    return sum;
+  }
+
   /// The reflected light of a uniform environment of radiance 1, by quadrature over all directions.
   std::array<double, 3> albedo(int steps) const {
-    std::vector<Direction> from;
-    for (int i = 0; i < steps; ++i)
-      for (int j = 0; j < steps; ++j) {
-        // Cosines that are denser near the horizon and directions that are denser near the mirror direction.
-        const double t = (i + 0.5) / steps, cosine = t * t * (3 - 2 * t);
-        from.push_back(direction(cosine, 2 * pi * (j + 0.5) / steps));
-        from.push_back({from.back().x, from.back().y, -from.back().z});
-      }
-    const std::vector<std::array<double, 3>> colors = light(from);
+    const std::vector<std::array<double, 3>> colors = light(directions(steps));
     std::array<double, 3> sum{};
-    for (std::size_t k = 0; k < colors.size(); ++k) {
-      const double t = (static_cast<double>(k / 2 / static_cast<std::size_t>(steps)) + 0.5) / steps;
-      const double solid_angle = 6 * t * (1 - t) / steps * (2 * pi / steps);
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += colors[k][c] * solid_angle;
-    }
+    for (std::size_t k = 0; k < colors.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += colors[k][c] * solid_angle(k, steps);
     return sum;
   }
 
  private:
+  /// Directions above and below the horizon, whose cosines are denser near the horizon and near the normal.
+  static std::vector<Direction> directions(int steps) {
+    std::vector<Direction> from;
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; j < steps; ++j) {
+        const double t = (i + 0.5) / steps, cosine = t * t * (3 - 2 * t);
+        from.push_back(direction(cosine, 2 * pi * (j + 0.5) / steps));
+        from.push_back({from.back().x, from.back().y, -from.back().z});
+      }
+    return from;
+  }
+  static double solid_angle(std::size_t k, int steps) {
+    const double t = (static_cast<double>(k / 2 / static_cast<std::size_t>(steps)) + 0.5) / steps;
+    return 6 * t * (1 - t) / steps * (2 * pi / steps);
+  }
+
   void fill(const LayeredUniforms& u, ShadingState& p, LayerState& q) const {
     p.normal[0][0] = p.normal[1][0] = 0, p.normal[2][0] = 1;
     p.tangent[0][0] = p.tangent[3][0] = 1, p.tangent[1][0] = p.tangent[2][0] = 0;
@@ -377,6 +396,16 @@ TEST(Layered, AWhiteSurfaceReflectsTheLightOfLights) {
       }
 }
 
+TEST(Layered, ACoatThatReflectsAllReflectsTheLightOfLights) {
+  for (const float roughness : {0.3f, 0.6f, 1.0f})
+    for (const double nv : {0.3, 1.0}) {
+      Sample s;
+      s.layers.clearcoat = 1, s.layers.clearcoat_roughness = roughness;
+      s.view = direction(nv, 0.4);
+      EXPECT_NEAR(s.coat_albedo(120), 1, 0.015) << roughness << " " << nv;
+    }
+}
+
 TEST(Layered, WithoutAnisotropyTheFrameDoesNotMatter) {
   Sample round;
   round.material.metallic = 1;
@@ -386,6 +415,27 @@ TEST(Layered, WithoutAnisotropyTheFrameDoesNotMatter) {
     stretched.layers.anisotropy = 1e-4f;  // selects the anisotropic kernel, its square is below a float's precision
     for (const double cosine : {0.1, 0.5, 0.9})
       EXPECT_NEAR(stretched.light(direction(cosine, 2.5))[0], round.light(direction(cosine, 2.5))[0], 2e-5);
+  }
+}
+
+TEST(Layered, LobesOfTurningNormalsAreAnisotropic) {
+  // Turns along the tangent and across it, by two vectors that are not the frame's axes.
+  const V n{0, 0, 1}, t{0.6f, 0.8f, 0}, b{-0.8f, 0.6f, 0};
+  const float roughness = 0.4f, alpha = roughness * roughness, along = 0.3f, across = 0.1f, turn = 0.7f;
+  const V u = t * F(along) * F(std::cos(turn)) + b * F(across) * F(std::sin(turn));
+  const V w = t * F(-along) * F(std::sin(turn)) + b * F(across) * F(std::cos(turn));
+  const MicrofacetFrame<F> frame{t, b, n, F(std::hypot(alpha, along)), F(std::hypot(alpha, across))};
+  for (std::uint32_t k = 0; k < 50; ++k) {
+    const auto random = [&](std::uint32_t j) { return double{unit_float(hash(k, j))}; };
+    const V v = lanes(direction(0.1 + 0.9 * random(1), 6 * random(2)));
+    const V l = lanes(direction(0.1 + 0.9 * random(3), 6 * random(4)));
+    const V h = normalize(l + v);
+    const TurningLobe<F> lobe(n, v, u, w, F(roughness));
+    const float expected = (ggx(frame, h) * smith(frame, l, v, l.z, v.z)).v;
+    EXPECT_NEAR(lobe.peak(l, h, l.z).v, expected, 1e-4f * expected) << k;
+    const TurningLobe<F> still(n, v, V{0, 0, 0}, V{0, 0, 0}, F(roughness));
+    const float round = (ggx(dot(n, h), cross(n, h), F(alpha)) * smith(l.z, v.z, F(alpha))).v;
+    EXPECT_NEAR(still.peak(l, h, l.z).v, round, 1e-4f * round) << k;
   }
 }
 

@@ -7,6 +7,7 @@
 #include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/brightness.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
+#include "zoneplate/shade/surface/normals_lanes.h"
 #include "zoneplate/shade/surface/shading.h"
 
 /// The stages of shade/surface/shading.h from the lights to the colour, over the lane types of
@@ -62,8 +63,8 @@ struct Arriving {
 ///
 /// Source    Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013, "Area Lights", with the variances added.
 template <class F>
-[[gnu::always_inline]] inline F widened(F alpha, const PreparedLight& light, F spread) {
-  return light.spread > 0 ? min(sqrt(alpha * alpha + spread), F(1.0f)) : alpha;
+[[gnu::always_inline]] inline F highlight_alpha(F alpha, const PreparedLight& light, const Arriving<F>& arriving) {
+  return light.spread > 0 ? min(sqrt(alpha * alpha + arriving.spread), F(1.0f)) : alpha;
 }
 
 template <class F>
@@ -76,7 +77,8 @@ template <class F>
   const F square = dot(path, path);
   F strength = fading(light, square);
   if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
-  return {l, radiance * strength, F(light.spread) / max(square, F(least_distance_squared))};
+  const F spread = light.spread > 0 ? F(light.spread) / max(square, F(least_distance_squared)) : F(0.0f);
+  return {l, radiance * strength, spread};
 }
 
 /// The radiance of light k times its visibility at the fragments.
@@ -302,7 +304,9 @@ struct MappedEnvironment {
   }
 };
 
-template <class F, bool has_texture, class Environment>
+/// With `turns`, the lobes of lights are widened by the turn of the normal along each direction, and the environment's
+/// by the mean over all directions.
+template <class F, bool has_texture, class Environment, bool turns = false>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
   const Environment environment(s);
   const SpecularFit<F> one_fit{F(s.roughness)};
@@ -312,15 +316,25 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const auto n = Vector<F>::load(p.normal, i), base = Vector<F>::load(p.base, i);
     const auto v = s.needs_viewer ? viewer.direction(batch, p, i) : zeros<F>();
     const F metallic = has_texture ? F::load(p.metallic + i) : F(s.metallic);
-    const F roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
+    const F own_roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
+    F roughness = own_roughness;
+    if constexpr (turns) roughness = widened(own_roughness, F::load(p.normal_variance + i));
     const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
     const SpecularWeights<F> weights = fit.at(min(max(dot(n, v), F(0.0f)), F(1.0f)));
     const Metallic<F> m = make_metallic(base, metallic, roughness, weights);
+    const auto turning_lobe = [&](const PreparedLight& light, const Arriving<F>& arriving) {
+      const F r = max(own_roughness, F(least_roughness));
+      return TurningLobe<F>(n, v, Vector<F>::load(p.normal_dx, i), Vector<F>::load(p.normal_dy, i),
+                            light.spread > 0 ? sqrt(highlight_alpha(r * r, light, arriving)) : own_roughness);
+    };
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
-      const F alpha = widened(m.alpha, s.light[k], light.spread);
-      sum = sum + visible(light.radiance, p, k, i) * metallic_light(m, n, light.from, v, alpha);
+      const Vector<F> radiance = visible(light.radiance, p, k, i);
+      if constexpr (turns)
+        sum = sum + radiance * metallic_light(m, turning_lobe(s.light[k], light), light.from);
+      else
+        sum = sum + radiance * metallic_light(m, n, light.from, v, highlight_alpha(m.alpha, s.light[k], light));
     }
     if (s.has_environment) sum = sum + environment.reflected(kind, p, n, v, base, metallic, roughness, weights, i);
     finish(s, kind, p, sum, base, out, i);
@@ -329,6 +343,7 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
 
 template <class F>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
+  if (s.has_turning_normals) return light_metallic<F, true, ConstantEnvironment<F>, true>(s, batch, p, out);
   if (s.has_material_texture) return light_metallic<F, true, ConstantEnvironment<F>>(s, batch, p, out);
   light_metallic<F, false, ConstantEnvironment<F>>(s, batch, p, out);
 }
@@ -336,6 +351,7 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
 template <class F>
 void light_metallic_in_map(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p,
                            FragmentOutputs& out) {
+  if (s.has_turning_normals) return light_metallic<F, true, MappedEnvironment<F>, true>(s, batch, p, out);
   if (s.has_material_texture) return light_metallic<F, true, MappedEnvironment<F>>(s, batch, p, out);
   light_metallic<F, false, MappedEnvironment<F>>(s, batch, p, out);
 }

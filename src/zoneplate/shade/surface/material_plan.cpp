@@ -19,7 +19,7 @@ bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 bool uses_slot(const Material& m, TextureSlotIndex slot) {
   if (slot == TextureSlotIndex::BaseColor) return true;
   if (m.model == ShadingModel::Unlit) return false;
-  if (slot == TextureSlotIndex::Emissive) return !is_black(m.emissive);
+  if (slot == TextureSlotIndex::Emissive) return true;  // an animation may change a black factor
   if (slot == TextureSlotIndex::Specular || slot == TextureSlotIndex::Exponent)
     return m.model != ShadingModel::MetallicRoughness && !is_black(m.specular);
   return slot != TextureSlotIndex::MetallicRoughness || m.model == ShadingModel::MetallicRoughness;
@@ -122,6 +122,7 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
   TextureSlot &normal = plan.slot(TextureSlotIndex::Normal), &height = plan.slot(TextureSlotIndex::Height);
   if (!uses_normal) normal.texture = nullptr;
+  if (!plan.has_emissive) plan.slot(TextureSlotIndex::Emissive).texture = nullptr;
   if (height.texture != nullptr) plan.parallax_layers = m.parallax_layers;
   plan.has_bumps = uses_normal && height.texture != nullptr && normal.texture == nullptr;
   if (!plan.has_bumps && plan.parallax_layers == 0) height.texture = nullptr;
@@ -186,7 +187,10 @@ void TextureSet::find_uses(const Scene& scene) {
       textures_.try_emplace(key_of(use.image, meaning), Entry{options, nullptr});
     };
     for_used_slots(material, add);
-    if (has_layers(material)) for_used_layer_slots(material, add);
+    if (material.layers == nullptr || material.model != ShadingModel::MetallicRoughness) continue;
+    // Also those of layers whose factor is 0, which an animation may change.
+    for (const LayerTextureSlot& slot : layer_texture_slots)
+      add(0, (*material.layers).*slot.use, meaning_of(slot.is_color));
   }
 }
 

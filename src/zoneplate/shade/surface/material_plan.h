@@ -98,6 +98,8 @@ struct MaterialPlan {
   bool widens_by_curvature = false;
   const TextureView* normal_spread = nullptr;  ///< Texture::normal_spread, where the material is widened by it
   bool has_slope_variance = false;             ///< by the variances of slopes, else by the length of the mean normal
+  /// The lobes of lights are widened along each direction by itself; those of layers by the mean over all directions.
+  bool has_turning_lobes() const { return widens_by_curvature && layers == nullptr; }
   bool widens() const { return widens_by_curvature || normal_spread != nullptr; }
 
   bool is_lit = false;        ///< lights or an environment change its colour

@@ -23,20 +23,30 @@ void find_normal_variance(const FragmentBatch& batch, const TriangleVertices& ve
     const Vector<F> n = transformed(batch, vertices, transforms->normal, Vector<F>::load(p.normal, i), i);
     const F square = dot(n, n), inverse = select(square > F(1e-36f), F(1.0f) / square, F(0.0f));
     // The derivative of n / |n| is that of n, without its part along n, over |n|.
+    const F length = sqrt(inverse);
     const auto change = [&](const ShadingState::Array(&of)[3]) {
       const Vector<F> d = transformed(batch, vertices, transforms->normal, Vector<F>::load(of, i), i);
-      const F along = dot(n, d);
-      return max((dot(d, d) - along * along * inverse) * inverse, F(0.0f));
+      return (d - n * (dot(n, d) * inverse)) * length;
     };
-    min(F(variance) * (change(p.normal_dx) + change(p.normal_dy)), F(most)).store(p.normal_variance + i);
+    const Vector<F> dx = change(p.normal_dx), dy = change(p.normal_dy);
+    const F sum = F(variance) * (dot(dx, dx) + dot(dy, dy)), bounded = min(sum, F(most));
+    bounded.store(p.normal_variance + i);
+    const F scale = sqrt(F(2 * variance) * select(sum > F(most), bounded / sum, F(1.0f)));
+    (dx * scale).store(p.normal_dx, i), (dy * scale).store(p.normal_dy, i);
   }
+}
+
+/// The roughness of a lobe whose α² is greater by a variance.
+template <class F>
+[[gnu::always_inline]] inline F widened(F roughness, F variance) {
+  const F r = max(roughness, F(least_roughness)), alpha = r * r;
+  return sqrt(sqrt(min(alpha * alpha + variance, F(1.0f))));
 }
 
 template <class F>
 void widen_roughness(ShadingState& p) {
   for (int i = 0; i < p.count; i += F::lanes) {
-    const F r = max(F::load(p.roughness + i), F(least_roughness)), alpha = r * r;
-    sqrt(sqrt(min(alpha * alpha + F::load(p.normal_variance + i), F(1.0f)))).store(p.roughness + i);
+    widened(F::load(p.roughness + i), F::load(p.normal_variance + i)).store(p.roughness + i);
   }
 }
 

@@ -40,11 +40,15 @@ struct ShadingUniforms {
 
   // Metallic-roughness.
   bool has_material_texture = false, has_environment = false;
+  bool has_turning_normals = false;  ///< the lobes of lights are widened by ShadingState::normal_dx and normal_dy
   float metallic = 1, roughness = 1;
   float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null
   const EnvironmentView* map = nullptr;
   bool has_pixels = true;                  ///< FragmentBatch::x and y are set; else the positions are
   const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
+  bool has_environment_behind = true;      ///< the background is the environment
+  bool has_background_color = false;       ///< the background is a colour
+  float background[3] = {0, 0, 0};
 };
 
 /// A linear map of texture coordinates: u' = (u m[0] + v m[1]) + m[2], v' = (u m[3] + v m[4]) + m[5].
@@ -94,10 +98,10 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// Source: glTF 2.0, 3.9.3.
   void (*bend_normals)(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& state);
   /// The variance of the interpolated normal within a pixel, added up over both axes: min((|∂n/∂x|² + |∂n/∂y|²) / 12,
-  /// 0.18) for unit normals n in world space. Before find_normals or transform_normals.
+  /// 0.18) for unit normals n in world space; normal_dx and normal_dy become the vectors a and b of TurningLobe, which
+  /// hold twice that variance. Before find_normals or transform_normals.
   /// Source    Tokuyoshi and Kaplanyan, Stable Geometric Specular Antialiasing with Projected-Space NDF Filtering, JCGT
-  ///           10(2), 2021, in its isotropic form, but for a box pixel and the mean of both axes: the paper's factor of
-  ///           1 / π bounds each axis and makes lobes of curved metal four times as wide as needed.
+  ///           10(2), 2021, but with the variance 1 / 12 of a box pixel in place of a Gaussian's 1 / 2π.
   void (*find_normal_variance)(const FragmentBatch& batch, const TriangleVertices& vertices,
                                const InstanceTransform* transforms, ShadingState& state);
   /// roughness = (α² + variance)^¼ with α = roughness², at most 1.
@@ -119,7 +123,10 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// The same with an environment map.
   void (*light_metallic_in_map)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                                 FragmentOutputs& out);
-  /// The same for a surface with layers.
+  /// The same for a surface with layers. Before a background that is not the environment, transmissive surfaces are
+  /// transparent where nothing of the scene is behind them: their alpha is 1 - the part of light that passes, of the
+  /// colour of which least passes, but at least their brightest channel. The rest of the light that passes is that of
+  /// the background's colour, or, before a transparent background, of the environment.
   void (*light_layered)(const ShadingUniforms& uniforms, const LayeredUniforms& layers, const FragmentBatch& batch,
                         const ShadingState& state, const LayerState& layer_state, FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& state, FragmentOutputs& out);

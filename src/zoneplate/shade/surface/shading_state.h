@@ -25,9 +25,10 @@ struct ShadingState {
   // Interpolated from the vertices; in world space after the transform stages.
   alignas(64) Array position[3], normal[3], tangent[4], color[4];
   alignas(64) Array uv[2][2], uv_dx[2][2],
-      uv_dy[2][2];                               ///< by set; derivatives are unset where the batch repeats them
-  alignas(64) Array normal_dx[3], normal_dy[3];  ///< of the interpolated normal; unset likewise
-  alignas(64) Array is_lit;                      ///< 1, or 0 for fragments of meshes without normals
+      uv_dy[2][2];  ///< by set; derivatives are unset where the batch repeats them
+  /// Of the interpolated normal, unset likewise; after find_normal_variance the vectors of a TurningLobe.
+  alignas(64) Array normal_dx[3], normal_dy[3];
+  alignas(64) Array is_lit;  ///< 1, or 0 for fragments of meshes without normals
 
   // The material at the fragments.
   alignas(64) Array base[4];

@@ -175,6 +175,7 @@ std::vector<Stage> stages() {
       s.has_specular = bit(0), s.is_phong = s.has_occlusion = bit(1), s.has_emissive_texture = s.is_blended = bit(2);
       s.viewpoint.has_rays = bit(3), s.viewpoint.is_orthographic = bit(4), s.has_material_texture = bit(5);
       s.has_bare_meshes = bit(3) != bit(5), s.has_specular_texture = bit(2) != bit(4);
+      s.has_turning_normals = bit(0) != bit(2);
       s.has_exponent_texture = bit(4), s.exponent = bit(5) ? Exponent{40, 40} : Exponent{17.5f, 0};
       b.points.light_visibility = bit(1) != bit(4) ? visibility().data() : nullptr;
     };

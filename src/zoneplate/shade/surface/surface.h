@@ -18,6 +18,7 @@ namespace zoneplate {
 class TextureSet;
 class InterleavedVertices;
 class LightVisibility;
+struct SurfaceConstants;
 
 /// The vector from pixel (x, y) to the viewer: first + x dx + y dy, of any length; x, y as in FragmentBatch.
 struct PixelRays {
@@ -35,6 +36,8 @@ struct ViewUniforms {
   float3 environment{0, 0, 0};           ///< radiance of a constant environment; of a map, the greatest in each channel
   std::optional<EnvironmentView> map;    ///< none: the environment is constant
   std::optional<BackdropView> backdrop;  ///< what transmissive surfaces refract; none: the environment alone
+  bool has_environment_behind = true;    ///< the background is the environment
+  std::optional<float3> background;      ///< the radiance of a background of one colour
   float3 ambient_light{0, 0, 0};         ///< (Blinn-)Phong's ambient term
   /// Of lit surfaces; at Triangle and Vertex, fragments still look up the texture of the base colour.
   /// Requires  at Triangle and Vertex: no rays.
@@ -59,7 +62,8 @@ class SurfaceShader {
   SurfaceShader(const SurfaceShader&) = delete;
   SurfaceShader& operator=(const SurfaceShader&) = delete;
 
-  /// Shades a batch. Opaque and alpha-tested surfaces have a = 1.
+  /// Shades a batch. Opaque and alpha-tested surfaces have a = 1, but transmissive ones may be transparent before a
+  /// background that is not the environment.
   void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const;
 
   /// Alpha of a batch (base colour factor, texture and vertex colour), with the bits that `shade` uses.
@@ -78,8 +82,7 @@ class SurfaceShader {
   void shade_fragments(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const;
   void shade_triangles(const FragmentBatch& batch, FragmentOutputs& out) const;
 
-  struct Data;
-  std::unique_ptr<Data> data_;
+  std::unique_ptr<const SurfaceConstants> constants_;
   float brightest_;
 };
 

@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/scene/material_layers.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/surface/surface_for_test.h"
 #include "zoneplate/shade/texture/texture_view.h"
@@ -149,9 +151,25 @@ TEST(TextureSet, AnImageIsThereOnceForEachMeaning) {
   };
   EXPECT_NE(find(set, 0, TexelMeaning::Color), find(set, 0, TexelMeaning::Values));
   EXPECT_EQ(find(raw, 0, TexelMeaning::Color), find(raw, 0, TexelMeaning::Values));
-  EXPECT_EQ(find(set, 1, TexelMeaning::Color), nullptr);  // black emission shows no texture
+  EXPECT_EQ(find(set, 1, TexelMeaning::Values), nullptr);
   EXPECT_NE(find(set, 2, TexelMeaning::Color), nullptr);
   EXPECT_EQ(find(set, -1, TexelMeaning::Color), nullptr);
+}
+
+TEST(TextureSet, HasTheTexturesOfBlackFactorsForLaterFrames) {
+  Scene scene = flat_triangle();
+  scene.images = {{"glow", one_texel({0, 255, 0, 255})}, {"coat", one_texel({128, 0, 0, 255})}};
+  Material& m = scene.materials[0];
+  m.emissive_texture.image = 0;
+  auto layers = std::make_shared<MaterialLayers>();
+  layers->clearcoat_texture.image = 1;
+  m.layers = layers;
+  const TextureSet first = TextureSet(scene, {});
+  EXPECT_EQ(make_plans(scene, {}, first)[0].slot(TextureSlotIndex::Emissive).texture, nullptr);
+  layers->clearcoat = 1, m.emissive = {1, 1, 1};
+  const MaterialPlan plan = make_plans(scene, {}, first)[0];
+  EXPECT_NE(plan.slot(TextureSlotIndex::Emissive).texture, nullptr);
+  EXPECT_NE(plan.layers->slot(LayerSlotIndex::Clearcoat).texture, nullptr);
 }
 
 TEST(TextureSet, TakesTheImagesWithIt) {

@@ -265,7 +265,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   // Vertices of draws that are not kept are transformed when their triangles are set up.
   ProjectedDraws projected = number_draws(drawing.draws, target.viewport, drawing.rules.capacity.screen_vertices);
   project_kept(projected);
-  const SetupRules rules{.viewport = target.viewport, .is_top_left = false, .is_flat_depth = drawing.rules.is_painter};
+  const RasterRules rules{.edge_rule = EdgeRule::Inside, .visibility = drawing.rules.visibility};
   TileTriangles triangles(projected, target, rules, filter.reach());
   drawing.counts.geometry_ms = geometry.ms();
   drawing.counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());

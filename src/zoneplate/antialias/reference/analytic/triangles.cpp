@@ -15,7 +15,7 @@ constexpr std::int32_t part_size = 4096;
 
 }  // namespace
 
-TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, int reach)
+TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, int reach)
     : projected_(projected), target_(target), rules_(rules), reach_(reach) {
   first_column_ = target.x / tile_size;
   first_row_ = target.y / tile_size;
@@ -54,7 +54,7 @@ void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) con
     if (area != 0 && !is_culled(draw, area > 0)) use(p, q, r, false);
     return;
   }
-  for_clipped_triangles(projected_, number, id, v, rules_.viewport,
+  for_clipped_triangles(projected_, number, id, v, target_.viewport,
                         [&](const ScreenVertex& first, const ScreenVertex& second, const ScreenVertex& third) {
                           use(first, second, third, true);
                         });
@@ -63,7 +63,7 @@ void TileTriangles::for_pieces(std::size_t number, std::int32_t id, Use use) con
 /// Calls use(id, box) for the triangles of a part that overlap the target; the box includes all pieces.
 template <class Use>
 void TileTriangles::for_triangles(const Part& part, Use use) const {
-  const int centre_x = rules_.viewport.width * 128, centre_y = rules_.viewport.height * 128;
+  const int centre_x = target_.viewport.width * 128, centre_y = target_.viewport.height * 128;
   for (std::int32_t id = part.begin; id < part.end; ++id) {
     bool is_seen = false;
     Box box{0, 0, 0, 0};
@@ -119,10 +119,11 @@ void TileTriangles::make(std::size_t tile, int top, int bottom, std::vector<Scre
     if (id < projected_.first_triangle[draw] || id >= projected_.first_triangle[draw + 1])
       draw = projected_.draw_of(id);
     for_pieces(draw, id, [&](const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, bool is_piece) {
-      const int centre = rules_.viewport.height * 128;
+      const int centre = target_.viewport.height * 128;
       if ((std::max({p.y, q.y, r.y}) + centre) >> 8 < top || (std::min({p.y, q.y, r.y}) + centre) >> 8 >= bottom)
         return;
-      out.push_back({make_triangle(p, q, r, id, rules_), projected_.draws[draw].alpha_mode, is_piece});
+      out.push_back(
+          {make_triangle(p, q, r, id, target_.viewport, rules_), projected_.draws[draw].alpha_mode, is_piece});
     });
   }
 }

@@ -31,7 +31,7 @@ class TileTriangles {
   static constexpr std::size_t most_listed = std::size_t{1} << 24;
 
   /// A tile's list contains the triangles within `reach` pixels of the tile.
-  TileTriangles(const ProjectedDraws& projected, const Target& target, const SetupRules& rules, int reach);
+  TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, int reach);
 
   int first_column() const { return first_column_; }  ///< in tiles of 64 × 64 on the image's own grid
   int first_row() const { return first_row_; }
@@ -68,7 +68,7 @@ class TileTriangles {
 
   const ProjectedDraws& projected_;
   const Target& target_;
-  const SetupRules rules_;
+  const RasterRules rules_;
   const int reach_;
   int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;
   std::uint64_t count_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images do not depend on how much of a tile's layers, or of the screen vertices, is held at once.
-#include "zoneplate/raster/types/raster_capacity.h"
+#include "zoneplate/raster/types/raster_rules.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "zoneplate/capi/guard.h"
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/scene/scene.h"
+#include "zoneplate/zoneplate.h"
+
+/// A scene that is being built, or the prepared scene that frames are rendered from.
+struct zoneplate_scene {
+  /// Calls body(scene) with the scene under construction, alone.
+  /// Errors    ErrorKind::Usage for a scene that has been rendered.
+  template <class Body>
+  void change(const Body& body) {
+    const std::scoped_lock lock(mutex_);
+    if (!scene_) throw zoneplate::Error(zoneplate::ErrorKind::Usage, "the scene has been rendered: it cannot change");
+    body(*scene_);
+  }
+
+  /// Calls body(scene) with the scene in either state, while nothing changes it.
+  template <class Body>
+  decltype(auto) read(const Body& body) const {
+    const std::scoped_lock lock(mutex_);
+    if (!scene_ && !prepared_) throw zoneplate::Error(zoneplate::ErrorKind::Failed, "the scene could not be prepared");
+    return body(scene_ ? *scene_ : prepared_->scene());
+  }
+
+  /// The prepared scene, which the first call makes.
+  /// Errors    ErrorKind::Usage naming what is invalid in the scene; OutOfMemory.
+  zoneplate::PreparedScene prepared();
+
+  bool uses_own_camera = false;                 ///< a built-in scene with a camera, which is its default view
+  std::optional<zoneplate::float4> background;  ///< of built-in scenes that are defined on one
+
+  zoneplate_scene() : scene_(std::in_place) {}
+  explicit zoneplate_scene(zoneplate::Scene scene) : scene_(std::move(scene)) {}
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<zoneplate::Scene> scene_;
+  std::optional<zoneplate::PreparedScene> prepared_;
+};
+
+/// Arrays by name, and the memory that they are views of.
+struct zoneplate_image {
+  using Color = std::variant<std::monostate, zoneplate::Rgba8Image, zoneplate::Rgba16Image, zoneplate::LinearImage>;
+
+  /// An image without "color".
+  zoneplate_image() = default;
+  /// An image with "color".
+  zoneplate_image(Color color, bool has_alpha);
+
+  /// Adds a view of memory that `owner` keeps.
+  void add(std::string name, const zoneplate_array& array, std::shared_ptr<const void> owner);
+  /// Adds a plane of numbers.
+  void add(std::string name, zoneplate::Plane<float> plane);
+  /// Adds numbers.
+  void add(std::string name, std::vector<double> values);
+
+  const std::vector<std::pair<std::string, zoneplate_array>>& arrays() const { return arrays_; }
+  const Color& color() const { return color_; }
+  bool has_alpha() const { return has_alpha_; }
+
+ private:
+  Color color_;
+  bool has_alpha_ = false;
+  std::vector<std::pair<std::string, zoneplate_array>> arrays_;
+  std::vector<std::shared_ptr<const void>> memory_;
+};

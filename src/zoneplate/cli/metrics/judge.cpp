@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/metrics/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/flip/magma.h"
+
+namespace zoneplate::cli {
+namespace {
+
+using metrics::Choice;
+using metrics::Comparison;
+using metrics::Metric;
+using metrics::Picture;
+using metrics::Result;
+
+bool is_single(const Choice& choice) { return choice.metric->frames == 1; }
+
+/// The value that a bound refers to; nothing if the metric does not have it.
+std::optional<double> value_of(const Bound& bound, double value, const metrics::Score& score) {
+  if (bound.figure.empty()) return value;
+  for (const metrics::Figure& figure : score.more)
+    if (figure.name == bound.figure) return figure.value;
+  return std::nullopt;
+}
+
+/// Which bounds the values of one metric miss, as the text of a message; empty if none.
+std::string shortfall(const std::vector<Bound>& bounds, const Metric* metric, double value,
+                      const metrics::Score& score) {
+  std::string text;
+  for (const Bound& bound : bounds) {
+    if (bound.metric != metric) continue;
+    const std::optional<double> found = value_of(bound, value, score);
+    if (found && metrics::is_as_good(*metric, *found, bound.value)) continue;
+    const std::string name = std::string(metric->name) + (bound.figure.empty() ? "" : "." + bound.figure);
+    text += text.empty() ? "" : "; ";
+    text += found ? fmt::format("{} is {}, the threshold is {} or {}", name, number_text(*found),
+                                number_text(bound.value), metric->better == metrics::Better::Lower ? "less" : "more")
+                  : fmt::format("{} has no value", name);
+  }
+  return text;
+}
+
+/// Reduces an image by the smallest integer factor that makes its sides at most 1024 pixels.
+Rgba8Image reduced(const Rgba8Image& image) {
+  constexpr int side = 1024;
+  const int n = (std::max(image.width(), image.height()) + side - 1) / side;
+  if (n <= 1) return image;
+  Rgba8Image out(std::max(1, image.width() / n), std::max(1, image.height() / n));
+  const auto channel_mean = [&](int x, int y, std::uint8_t Rgba8::*channel) {
+    int sum = 0, count = 0;
+    for (int j = y * n; j < std::min((y + 1) * n, image.height()); ++j)
+      for (int i = x * n; i < std::min((x + 1) * n, image.width()); ++i) sum += image(i, j).*channel, ++count;
+    return static_cast<std::uint8_t>((sum + count / 2) / count);
+  };
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x)
+      out(x, y) = {channel_mean(x, y, &Rgba8::r), channel_mean(x, y, &Rgba8::g), channel_mean(x, y, &Rgba8::b),
+                   channel_mean(x, y, &Rgba8::a)};
+  return out;
+}
+
+/// Judges one pair after another; everything else of the Judgement follows from the items.
+class Judge {
+ public:
+  Judge(const metrics::PictureSet& reference, const metrics::PictureSet& test, const std::vector<Choice>& choices,
+        const Verdicts& verdicts, bool keeps_evidence)
+      : reference_(reference), test_(test), verdicts_(verdicts), keeps_evidence_(keeps_evidence) {
+    for (const Choice& choice : choices) (is_single(choice) ? singles_ : sequences_).push_back(choice);
+    for (const Choice& choice : choices) out_.pooled.push_back({.metric = choice.metric});
+  }
+
+  void add(const metrics::PicturePair& pair) {
+    const Stopwatch watch;
+    JudgedItem item{.name = pair.name};
+    try {
+      if (!pair.test) {
+        unpaired(item, Outcome::Missing, "there is no test image of this name");
+      } else if (!pair.reference) {
+        unpaired(item, Outcome::New, "there is no reference of this name");
+      } else {
+        measure(*pair.reference, *pair.test, item);
+      }
+    } catch (const Error& error) {
+      item.outcome = error.kind() == ErrorKind::Input ? Outcome::Unreadable : Outcome::Failed;
+      item.message = error.what();
+    }
+    item.seconds = watch.ms() / 1000;
+    out_.items.push_back(std::move(item));
+  }
+
+  Judgement finish(const std::vector<metrics::PicturePair>& pairs) {
+    measure_sequences(pairs);
+    std::erase_if(out_.pooled, [](const PooledResult& pooled) { return pooled.values.empty(); });
+    for (PooledResult& pooled : out_.pooled) {
+      if (!pooled.items.empty())
+        pooled.value = pooled.values.size() == 1 ? pooled.values[0] : pooled.metric->pool(pooled.values);
+      // Values of several frames belong to no single image: their bounds always hold for the sequence.
+      if (!verdicts_.judges_mean && !pooled.items.empty()) continue;
+      const std::string text = shortfall(verdicts_.bounds, pooled.metric, pooled.value, pooled.score);
+      out_.pooled_message += (text.empty() || out_.pooled_message.empty() ? "" : "; ") + text;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void unpaired(JudgedItem& item, Outcome outcome, const char* message) const {
+    item.outcome = verdicts_.allows_unpaired ? Outcome::Passed : outcome;
+    item.message = message;
+  }
+
+  void measure(std::size_t reference_index, std::size_t test_index, JudgedItem& item) {
+    const Picture reference = reference_.load(reference_index), test = test_.load(test_index);
+    item.width = test.width(), item.height = test.height();
+    const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
+    const auto takes_any = [](const Choice& c) { return c.metric->sizes == metrics::Sizes::ReferenceMultiple; };
+    if (!is_equal && std::ranges::none_of(singles_, takes_any)) {
+      item.outcome = Outcome::Failed;
+      item.message = fmt::format("{} × {} pixels, expected {} × {} as the reference", test.width(), test.height(),
+                                 reference.width(), reference.height());
+      return;
+    }
+    item.is_identical = is_equal && reference.display == test.display;
+    Comparison comparison;
+    const metrics::Comparands one{.count = 1,
+                                  .reference = [&](std::size_t) { return reference; },
+                                  .test = [&](std::size_t) { return test; },
+                                  .name = [&](std::size_t) { return item.name; }};
+    try {
+      comparison =
+          metrics::compare(one, singles_, verdicts_.refuses_unfit ? metrics::Unfit::Refuse : metrics::Unfit::Leave);
+    } catch (const Error& error) {  // the images were read: they are not what the metric measures
+      item.outcome = Outcome::Failed;
+      item.message = error.what();
+      return;
+    }
+    decide(comparison.results, item);
+    keep_maps(reference, test, comparison.results, item);
+    for (Result& result : comparison.results) result.score.map = {};
+    item.results = std::move(comparison.results);
+    pool(item.results);
+  }
+
+  void decide(const std::vector<Result>& results, JudgedItem& item) const {
+    if (verdicts_.bounds.empty()) {
+      if (item.is_identical) return;
+      item.outcome = Outcome::Failed;
+      item.message = "the images differ";
+    }
+    if (verdicts_.judges_mean) return;
+    for (const Result& result : results) {
+      const std::string text = shortfall(verdicts_.bounds, result.metric, result.value, result.score);
+      if (text.empty()) continue;
+      item.outcome = Outcome::Failed;
+      item.message += (item.message.empty() ? "" : "; ") + text;
+    }
+  }
+
+  /// Keeps the map if this image is the worst so far, and the evidence of a failure.
+  void keep_maps(const Picture& reference, const Picture& test, const std::vector<Result>& results, JudgedItem& item) {
+    const auto has_map = [](const Result& result) { return !result.score.map.empty(); };
+    const auto with_map = std::ranges::find_if(results, has_map);
+    if (with_map != results.end()) {
+      const double value = with_map->value;
+      const bool is_worse =
+          !out_.worst_map ||
+          (with_map->metric->better == metrics::Better::Lower ? value > worst_value_ : value < worst_value_);
+      if (is_worse)
+        worst_value_ = value, out_.worst_map = with_map->score.map, out_.worst_reference = reference.display;
+    }
+    if (!keeps_evidence_ || item.passed()) return;
+    item.evidence.reference = reduced(quantize8(reference.display));
+    item.evidence.test = reduced(quantize8(test.display));
+    if (with_map != results.end())
+      item.evidence.map = reduced(paint_over(with_map->score.map, reference.display, evidence_gain));
+  }
+
+  void pool(const std::vector<Result>& results) {
+    for (const Result& result : results) {
+      PooledResult& pooled = *std::ranges::find(out_.pooled, result.metric, &PooledResult::metric);
+      const bool is_worse = pooled.values.empty() || (result.metric->better == metrics::Better::Lower
+                                                          ? result.value > pooled.values[pooled.worst]
+                                                          : result.value < pooled.values[pooled.worst]);
+      if (is_worse) pooled.worst = pooled.values.size(), pooled.score = result.score;
+      pooled.values.push_back(result.value);
+      pooled.items.push_back(out_.items.size());
+    }
+  }
+
+  /// Metrics of several frames: over all pairs, if every frame could be compared.
+  void measure_sequences(const std::vector<metrics::PicturePair>& pairs) {
+    const bool is_sequence = reference_.are_frames && test_.are_frames;
+    const bool is_complete =
+        std::ranges::all_of(out_.items, [](const JudgedItem& item) { return item.width > 0; }) &&
+        std::ranges::all_of(pairs, [](const metrics::PicturePair& pair) { return pair.reference && pair.test; });
+    if (sequences_.empty() || (!verdicts_.refuses_unfit && !(is_sequence && is_complete))) return;
+    if (!is_complete) {
+      out_.pooled_message = "metrics of several frames require every frame";
+      return;
+    }
+    const metrics::Comparands frames{.count = pairs.size(),
+                                     .reference = [&](std::size_t i) { return reference_.load(*pairs[i].reference); },
+                                     .test = [&](std::size_t i) { return test_.load(*pairs[i].test); },
+                                     .are_frames = is_sequence,
+                                     .name = [&](std::size_t i) { return pairs[i].name; }};
+    Comparison comparison =
+        metrics::compare(frames, sequences_, verdicts_.refuses_unfit ? metrics::Unfit::Refuse : metrics::Unfit::Leave);
+    for (Result& result : comparison.results) {
+      PooledResult& pooled = *std::ranges::find(out_.pooled, result.metric, &PooledResult::metric);
+      pooled.value = result.value, pooled.values = std::move(result.values), pooled.worst = result.worst;
+      if (!result.score.map.empty() && !out_.worst_map) {
+        const std::size_t last = std::min(result.worst + static_cast<std::size_t>(result.metric->frames), pairs.size());
+        out_.worst_map = std::move(result.score.map);
+        out_.worst_reference = reference_.load(*pairs[last - 1].reference).display;
+      }
+      pooled.score = std::move(result.score);
+    }
+  }
+
+  static constexpr float evidence_gain = 4;
+
+  const metrics::PictureSet &reference_, &test_;
+  std::vector<Choice> singles_, sequences_;
+  const Verdicts& verdicts_;
+  const bool keeps_evidence_;
+  Judgement out_;
+  double worst_value_ = 0;
+};
+
+}  // namespace
+
+std::size_t Judgement::failures() const {
+  return static_cast<std::size_t>(std::ranges::count_if(items, [](const JudgedItem& item) { return !item.passed(); }));
+}
+
+bool Judgement::is_identical() const {
+  return std::ranges::all_of(items, [](const JudgedItem& item) { return item.is_identical; });
+}
+
+Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet& test,
+                const std::vector<Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
+                const std::function<void(double)>& progress) {
+  const std::vector<metrics::PicturePair> pairs = metrics::pair_pictures(reference, test);
+  Judge all(reference, test, choices, verdicts, keeps_evidence);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    progress(static_cast<double>(i) / static_cast<double>(pairs.size()));
+    all.add(pairs[i]);
+  }
+  return all.finish(pairs);
+}
+
+std::string number_text(double value) { return fmt::format("{:.6g}", value); }
+
+Rgba8Image paint_over(const Plane<float>& map, const DisplayImage& reference, float gain) {
+  Rgba8Image out(map.width(), map.height());
+  const bool is_same_size = reference.width() == map.width() && reference.height() == map.height();
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x) {
+      const float error = std::clamp(map(x, y) * gain, 0.0f, 1.0f);
+      const double grey = is_same_size ? metrics::luma(metrics::codes_on_black(reference(x, y))) : 0;
+      const Rgba8 colour = metrics::magma(error);
+      // The reference fades as the error grows; black of the colour map is then black, not the reference.
+      const double weight = std::min(1.0, 4.0 * static_cast<double>(error));
+      const auto mix = [&](std::uint8_t code) {
+        return static_cast<std::uint8_t>(std::lround(weight * code + (1 - weight) * (64 + 127 * grey)));
+      };
+      out(x, y) = {mix(colour.r), mix(colour.g), mix(colour.b), 255};
+    }
+  return out;
+}
+
+}  // namespace zoneplate::cli

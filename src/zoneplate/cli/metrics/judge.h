@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/metrics/compare.h"
+#include "zoneplate/metrics/picture_set.h"
+
+namespace zoneplate::cli {
+
+/// A value that a metric must reach.
+struct Bound {
+  const metrics::Metric* metric = nullptr;
+  std::string figure;  ///< one of the metric's additional figures ("max" of mae); empty: its value
+  double value = 0;
+};
+
+/// The limits of the values that decide whether images pass.
+struct Verdicts {
+  std::vector<Bound> bounds;     ///< none: images pass if they are identical
+  bool judges_mean = false;      ///< the bounds hold for the pooled values of all images, not for each image
+  bool allows_unpaired = false;  ///< an image that only one side has does not fail
+  bool refuses_unfit = false;    ///< an image that a metric cannot measure fails
+};
+
+enum class Outcome {
+  Passed,
+  Failed,   ///< it differs, misses a bound, or has another size than its reference
+  Missing,  ///< there is a reference, but no test image
+  New,      ///< there is a test image, but no reference
+  Unreadable,
+};
+
+/// The images of a failed pair, 8-bit and reduced to at most 1024 pixels a side by a box filter.
+struct Evidence {
+  Rgba8Image reference, test, map;  ///< empty if there is none
+};
+
+/// What was found out about one pair of images.
+struct JudgedItem {
+  std::string name;
+  Outcome outcome = Outcome::Passed;
+  std::string message;  ///< why it failed
+  bool is_identical = false;
+  double seconds = 0;
+  int width = 0, height = 0;             ///< of the test image; 0 if it was not measured
+  std::vector<metrics::Result> results;  ///< without maps
+  Evidence evidence;                     ///< only if it was requested
+
+  bool passed() const { return outcome == Outcome::Passed; }
+};
+
+/// The value of one metric over all images that it measured.
+struct PooledResult {
+  const metrics::Metric* metric = nullptr;
+  double value = 0;
+  std::vector<double> values;      ///< of each measured image, or of each run of frames
+  std::vector<std::size_t> items;  ///< the items of `values`; empty for metrics of several frames
+  std::size_t worst = 0;           ///< index of the worst of `values`
+  metrics::Score score;            ///< of the worst image, without its map
+};
+
+struct Judgement {
+  std::vector<JudgedItem> items;
+  std::vector<PooledResult> pooled;
+  std::string pooled_message;  ///< which pooled value misses its bound; empty if none does
+  /// The error map of the worst image by the first metric that has one, and its reference.
+  std::optional<Plane<float>> worst_map;
+  std::optional<DisplayImage> worst_reference;
+
+  std::size_t failures() const;
+  bool passed() const { return failures() == 0 && pooled_message.empty(); }
+  bool is_identical() const;
+};
+
+/// Compares every pair of images, one after the other. A pair that cannot be compared fails alone.
+///
+/// `progress(done)` is called with the fraction of completed pairs.
+Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet& test,
+                const std::vector<metrics::Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
+                const std::function<void(double)>& progress);
+
+/// A number with six digits; infinities are "inf" and "-inf".
+std::string number_text(double value);
+
+/// The error map over its reference in grey: `map` is multiplied by `gain`, painted in magma, and covers the reference
+/// where the error is great.
+Rgba8Image paint_over(const Plane<float>& map, const DisplayImage& reference, float gain);
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "zoneplate/cli/metrics/judge.h"
+#include "zoneplate/report/json.h"
+
+namespace zoneplate::cli {
+
+/// The operands as they were given, for reports.
+struct ComparedPaths {
+  std::string reference, test;
+};
+
+/// The result for people: the pooled values, then a line for each image that failed.
+std::string text_of(const Judgement& judgement);
+
+/// The result for programs.
+Json json_of(const Judgement& judgement, const ComparedPaths& paths);
+
+/// The result as JUnit XML, with one test case for each image; `time` is the UTC time in ISO 8601.
+std::string junit_of(const Judgement& judgement, const ComparedPaths& paths, const std::string& time);
+
+/// The result as one HTML page without external resources, with the images and the error maps of failed pairs.
+std::string html_of(const Judgement& judgement, const ComparedPaths& paths);
+
+/// What standard error reports if something failed: one line; empty if everything passed.
+std::string failure_of(const Judgement& judgement);
+
+/// "passed", "failed", "missing", "new" or "unreadable".
+std::string_view name_of(Outcome outcome);
+
+}  // namespace zoneplate::cli

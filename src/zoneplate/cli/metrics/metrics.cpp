@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// zoneplate metrics: the difference between images and a reference, by any of the catalogue's metrics.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <optional>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/metrics/judge.h"
+#include "zoneplate/cli/metrics/judgement_text.h"
+#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/metrics/flip/magma.h"
+#include "zoneplate/metrics/metrics.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+using metrics::Choice;
+using metrics::Metric;
+
+struct MetricsArgs {
+  std::string metric_names, map_path, threshold, junit_path, report_path;
+  std::optional<double> map_gain;  ///< none: the map alone, in magma
+  bool judges_mean = false, allows_missing = false, is_quiet = false, prints_json = false;
+  int threads = 0;
+  std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
+};
+
+std::vector<Choice> choose(const std::string& names) {
+  if (names.empty()) return metrics::default_choices(metrics::metrics());
+  std::vector<Choice> choices;
+  if (names == "all") {
+    for (const Metric& metric : metrics::metrics()) choices.push_back({&metric, Settings(metric.params)});
+    return choices;
+  }
+  for (const std::string& name : split_specs(names)) {
+    choices.push_back(metrics::choose_metric(metrics::metrics(), name));
+  }
+  return choices;
+}
+
+double parse_limit(const std::string& text) {
+  if (text == "inf") return HUGE_VAL;
+  if (text == "-inf") return -HUGE_VAL;
+  return parse_number(text, -1e300, 1e300);
+}
+
+/// Parses a bound such as "psnr=40" or "mae.max=0.1"; "40" alone is of the only metric.
+Bound parse_bound(const std::string& item, const std::vector<Choice>& choices) {
+  const std::size_t equals = item.find('=');
+  if (equals == std::string::npos) {
+    if (choices.size() != 1) throw Error(ErrorKind::Usage, item + ": expected METRIC=VALUE, as psnr=40");
+    return {choices[0].metric, "", parse_limit(item)};
+  }
+  const std::size_t dot = std::min(equals, item.find('.'));
+  const std::string name = item.substr(0, dot);
+  for (const Choice& choice : choices)
+    if (choice.metric->name == name)
+      return {choice.metric, dot < equals ? item.substr(dot + 1, equals - dot - 1) : "",
+              parse_limit(item.substr(equals + 1))};
+  throw Error(ErrorKind::Usage, item + ": this metric is not measured");
+}
+
+std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choice>& choices) {
+  std::vector<Bound> bounds;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.size(), text.find(',', start));
+    bounds.push_back(parse_bound(text.substr(start, end - start), choices));
+    start = end + 1;
+  }
+  return bounds;
+}
+
+void save_map(const MetricsArgs& args, const Judgement& judgement) {
+  if (!judgement.worst_map) throw Error(ErrorKind::Usage, "--map: none of these metrics has an error map");
+  const Rgba8Image image =
+      args.map_gain ? paint_over(*judgement.worst_map, *judgement.worst_reference, static_cast<float>(*args.map_gain))
+                    : metrics::paint_magma(*judgement.worst_map);
+  save_bytes(args.map_path, encode_png(image, {.has_alpha = false}));
+}
+
+void save_text(const std::string& path, const std::string& text) {
+  save_bytes(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+// The catalogue of metrics at the end of the help.
+std::string catalogue_text() {
+  std::string text =
+      "Metrics (--metric NAME:PARAMETER=VALUE,...; the default is those marked *, and --metric all measures every "
+      "one):\n";
+  for (const Metric& metric : metrics::metrics()) {
+    text +=
+        fmt::format("  {}{:<14}{} [{}]\n", metric.is_default ? '*' : ' ', metric.name, metric.summary, metric.source);
+    for (const Param& param : metric.params) {
+      text += fmt::format("   {:<14}  {}={} (default {:.6g})  {}\n", "", param.name, values_of(param), param.value,
+                          param.meaning);
+    }
+  }
+  return text;
+}
+
+Syntax make_syntax(MetricsArgs& args) {
+  Syntax syntax{
+      .verb = "metrics",
+      .summary = "Measure the difference between images and a reference",
+      .operands = "REFERENCE TEST",
+      .examples =
+          "  zoneplate metrics reference.png test.png\n"
+          "  zoneplate metrics reference.png test.png --metric flip:ppd=30 --map error.png\n"
+          "  zoneplate metrics frames/a.####.png frames/b.####.png --metric psnr,flicker --json\n"
+          "  zoneplate metrics golden/ made/ --metric ssim --threshold 0.98 --report report.html\n"
+          "  zoneplate metrics golden/ made/ --metric pixels:tolerance=2 --threshold 0.1 --junit junit.xml\n",
+      .notes =
+          "Operands are PNG, JPEG, WebP, HDR, EXR or PFM files, directories, sequences (name.####.png,\n"
+          "name.%04d.png) or videos (.mp4, .mov, .mkv, .webm, .avi, .gif, .apng; ffmpeg decodes them).\n"
+          "The images of two directories and their subfolders are paired by path. Every pair passes or fails\n"
+          "by itself: an image that is missing, new, unreadable or of another size fails, and the others are\n"
+          "still compared. Figures that a metric reports besides its value have bounds too: mae.max=0.1.\n"
+          "\n"
+          "Exit codes, as of diff and cmp:\n"
+          "  0  without --threshold: the images are identical; with it: every image reaches it\n"
+          "  1  an image failed: it differs, misses the threshold, has another size, is missing or unreadable\n"
+          "  2  wrong usage\n"
+          "  3  an operand does not exist or contains no image\n"
+          "  4  a report cannot be written\n\n" +
+          catalogue_text()};
+  syntax.options = {
+      {"--metric", "NAME,...", "Metrics to measure, each NAME or NAME:PARAMETER=VALUE, or all", "Options", true,
+       [&](auto& text) { args.metric_names = text; }},
+      {"--threshold", "VALUE", "Value that every image must reach; for several metrics psnr=40,ssim=0.98", "Options",
+       true, [&](auto& text) { args.threshold = text; }},
+      {"--aggregate", "HOW", "What --threshold judges: each image (default), or the mean of all", "Options", false,
+       [&](auto& text) {
+         args.judges_mean = parse_choice(text, {"each", "mean"}) == 1;
+       }},
+      {"--allow-missing", "", "Images that only one of two directories has do not fail", "Options", false,
+       [&](auto&) { args.allows_missing = true; }},
+      {"--map", "FILE",
+       "Write the error map of the first metric that has one, as PNG; of several images, the worst one's", "Reports",
+       true, [&](auto& text) { args.map_path = text; }},
+      {"--map-gain", "GAIN", "Multiply the errors of the map, and draw it over the reference in grey", "Reports", false,
+       [&](auto& text) { args.map_gain = parse_number(text, 0.001, 1e6); }},
+      {"--report", "FILE.html", "Write a page with all values, and the images and error maps of failed pairs",
+       "Reports", true, [&](auto& text) { args.report_path = text; }},
+      {"--junit", "FILE.xml", "Write JUnit XML, one test case for each image", "Reports", true,
+       [&](auto& text) { args.junit_path = text; }},
+      {"--json", "", "Print one line of JSON, with the values of each image and measured curves", "Reports", true,
+       [&](auto&) { args.prints_json = true; }},
+      {"--quiet,-q", "", "Print nothing but errors; the exit code is the result", "Reports", false,
+       [&](auto&) { args.is_quiet = true; }},
+      {"--progress", "KIND", "bar, json or none; default: a bar on a terminal", "Reports", false,
+       [&](auto& text) { args.progress = parse_progress(text); }},
+      {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
+       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+  return syntax;
+}
+
+}  // namespace
+
+void run_metrics(std::span<const std::string> arguments) {
+  MetricsArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  if (syntax.found_operands.size() != 2) {
+    throw Error(ErrorKind::Usage, "metrics takes two inputs: the reference and the images to compare");
+  }
+  const ComparedPaths paths{syntax.found_operands[0], syntax.found_operands[1]};
+  const std::vector<Choice> choices = choose(args.metric_names);
+  const bool are_named = !args.metric_names.empty() && args.metric_names != "all";
+  const Verdicts verdicts{.bounds = parse_bounds(args.threshold, choices),
+                          .judges_mean = args.judges_mean,
+                          .allows_unpaired = args.allows_missing,
+                          .refuses_unfit = are_named};
+  if (args.judges_mean && verdicts.bounds.empty()) throw Error(ErrorKind::Usage, "--aggregate: requires --threshold");
+  if (args.map_gain && args.map_path.empty()) throw Error(ErrorKind::Usage, "--map-gain: requires --map");
+  for (const std::string& path : {args.map_path, args.report_path, args.junit_path})
+    if (!path.empty()) check_savable(path);
+
+  Judgement judgement;
+  with_threads(args.threads, [&] {
+    Progress progress(args.is_quiet ? ProgressKind::None : args.progress ? *args.progress : parse_progress("auto"));
+    progress.begin("read", 0);
+    const metrics::PictureSet reference = metrics::open_pictures(paths.reference);
+    const metrics::PictureSet test = metrics::open_pictures(paths.test);
+    if (reference.is_directory != test.is_directory)
+      throw Error(ErrorKind::Usage, fmt::format("{}: expected {} as the reference", paths.test,
+                                                reference.is_directory ? "a directory" : "a file"));
+    judgement = judge(reference, test, choices, verdicts, !args.report_path.empty(),
+                      [&](double done) { progress.begin("compare", done); });
+  });
+  if (judgement.items.size() == 1 && judgement.items[0].outcome == Outcome::Unreadable)
+    throw Error(ErrorKind::Input, judgement.items[0].message);
+  if (!args.map_path.empty()) save_map(args, judgement);
+  if (!args.report_path.empty()) save_text(args.report_path, html_of(judgement, paths));
+  if (!args.junit_path.empty())
+    save_text(args.junit_path,
+              junit_of(judgement, paths, fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)))));
+  if (!args.is_quiet) print(args.prints_json ? json_of(judgement, paths).text() + '\n' : text_of(judgement));
+  if (!judgement.passed()) throw Difference(failure_of(judgement));
+}
+
+}  // namespace zoneplate::cli

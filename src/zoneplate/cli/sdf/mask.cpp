@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// zoneplate sdf from-mask and to-mask: the field of an image's bright pixels, and the image of a stored field.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/sdf/sdf.h"
+#include "zoneplate/cli/sdf/show_field.h"
+#include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/load.h"
+#include "zoneplate/cli/signal/show.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/sdf/field/distance_transform.h"
+
+namespace zoneplate::cli {
+namespace {
+
+struct MaskArgs : SignalArgs {
+  double threshold = 0.5, spacing = 10, scale = 1;
+  bool uses_alpha = false, is_inverted = false;
+  FieldView view = FieldView::Field;
+};
+
+Syntax from_mask_syntax(MaskArgs& args) {
+  Syntax syntax{.verb = "sdf from-mask",
+                .summary = "Make the distance field of an image's bright pixels",
+                .operands = "IMAGE -o FILE",
+                .examples =
+                    "  zoneplate sdf from-mask logo.png --alpha -o field.exr\n"
+                    "  zoneplate sdf from-mask scan.png --invert --show isolines -o isolines.png\n",
+                .notes =
+                    "A pixel is inside if its stored value, the luma or alpha, is greater than the threshold. The\n"
+                    "distance is exact: that of the nearest centre of a pixel of the other kind, minus half a pixel;\n"
+                    "negative inside. `zoneplate sdf to-mask` draws it again, at any size.\n\n" +
+                    image_notes()};
+  const std::string group = "Options";
+  syntax.options = {{"--threshold", "T", "Values above are inside, 0 to 1; default 0.5", group, true,
+                     [&](auto& text) { args.threshold = parse_number(text, 0, 1); }},
+                    {"--alpha", "", "Take alpha instead of luma", group, true, [&](auto&) { args.uses_alpha = true; }},
+                    {"--invert", "", "Dark pixels are inside", group, true, [&](auto&) { args.is_inverted = true; }},
+                    {"--show", "VIEW", "field, isolines or gradient, for .png; default field", group, true,
+                     [&](auto& text) {
+                       constexpr FieldView views[] = {FieldView::Field, FieldView::Isolines, FieldView::Gradient};
+                       args.view = views[parse_choice(text, {"field", "isolines", "gradient"})];
+                     }},
+                    {"--spacing", "PX", "Distance between isolines in pixels; default 10", group, true,
+                     [&](auto& text) { args.spacing = parse_number(text, 1e-3, 1e6); }}};
+  for (Option& option : signal_options(args, "The field to write: .exr or .pfm in pixels, .png or - to look at"))
+    syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+Syntax to_mask_syntax(MaskArgs& args) {
+  Syntax syntax{.verb = "sdf to-mask",
+                .summary = "Draw a stored distance field, antialiased",
+                .operands = "FIELD -o FILE",
+                .examples =
+                    "  zoneplate sdf to-mask field.exr -o mask.png\n"
+                    "  zoneplate sdf to-mask field.exr --scale 4 -o large.png\n",
+                .notes =
+                    "FIELD is an .exr or .pfm file whose red channel has distances in pixels, negative inside, as\n"
+                    "`zoneplate sdf field` and `from-mask` write it. Distances between the pixels' centres are\n"
+                    "interpolated bilinearly. White is inside.\n"};
+  syntax.options = {{"--scale", "S", "Pixels of the image per pixel of the field; default 1", "Options", true,
+                     [&](auto& text) { args.scale = parse_number(text, 1e-2, 1e3); }}};
+  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+/// Central differences; one-sided ones at the border.
+sdf::DistanceField with_gradient(Plane<float> distance) {
+  const int w = distance.width(), h = distance.height();
+  sdf::DistanceField field{std::move(distance), Plane<float>(w, h), Plane<float>(w, h)};
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, w - 1), y0 = std::max(y - 1, 0),
+                y1 = std::min(y + 1, h - 1);
+      const auto slope = [](float a, float b, int step) {
+        return step > 0 ? (b - a) / static_cast<float>(step) : 0.0f;
+      };
+      field.gradient_x(x, y) = slope(field.distance(x0, y), field.distance(x1, y), x1 - x0);
+      field.gradient_y(x, y) = slope(field.distance(x, y0), field.distance(x, y1), y1 - y0);
+    }
+  return field;
+}
+
+LinearImage grey(const Plane<float>& plane) {
+  LinearImage out(plane.width(), plane.height());
+  std::ranges::transform(plane.values(), out.values().begin(), [](float v) { return Linear{v, v, v, 1}; });
+  return out;
+}
+
+}  // namespace
+
+void run_sdf_from_mask(std::span<const std::string> arguments) {
+  MaskArgs args;
+  args.report = "zoneplate-sdf";
+  Syntax syntax = from_mask_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  const std::string& input = only_operand(syntax, "one IMAGE");
+  check_result_name(args.output);
+  with_threads(args.threads, [&] {
+    constexpr int most_side = 32767;
+    const LinearImage image = load_signal(input, true);
+    if (image.width() > most_side || image.height() > most_side)
+      throw Error(ErrorKind::Input, fmt::format("{}: a side of more than {} pixels", input, most_side));
+    const Plane<float> luma = luminance(image);
+    Plane<std::uint8_t> mask(image.width(), image.height());
+    std::int64_t inside = 0;
+    for (std::size_t i = 0; i < mask.values().size(); ++i) {
+      const float v = args.uses_alpha ? image.values()[i].a : luma.values()[i];
+      const bool is_inside = (static_cast<double>(v) > args.threshold) != args.is_inverted;
+      mask.values()[i] = is_inside;
+      inside += is_inside;
+    }
+    if (inside == 0 || inside == std::ssize(mask.values()))
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: {} pixel is inside at a threshold of {:g}, so that there is no boundary", input,
+                              inside == 0 ? "no" : "every", args.threshold));
+    Plane<float> distances = sdf::signed_distances(mask);
+    const auto [low, high] = std::ranges::minmax(distances.values());
+    if (!args.output.empty())
+      save_result(args.output, grey(distances),
+                  [&] { return show_field(with_gradient(distances), args.view, args.spacing, 1); });
+    print_result(args,
+                 fmt::format("{}, {} × {} pixels, {} inside, distances from {:.3f} to {:.3f} pixels\n", title_of(input),
+                             image.width(), image.height(), inside, low, high),
+                 {{"input", input},
+                  {"output", args.output},
+                  {"width", image.width()},
+                  {"height", image.height()},
+                  {"inside", inside},
+                  {"least", low},
+                  {"greatest", high}});
+  });
+}
+
+void run_sdf_to_mask(std::span<const std::string> arguments) {
+  MaskArgs args;
+  args.report = "zoneplate-sdf";
+  Syntax syntax = to_mask_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  const std::string& input = only_operand(syntax, "one FIELD");
+  check_result_name(args.output);
+  if (!input.ends_with(".pfm") && !input.ends_with(".exr"))
+    throw Error(ErrorKind::Usage, input + ": expected a field of distances, a .pfm or .exr file");
+  with_threads(args.threads, [&] {
+    constexpr double most_pixels = 1 << 28;
+    const LinearImage image = load_signal(input, false);
+    Plane<float> distances(image.width(), image.height());
+    std::ranges::transform(image.values(), distances.values().begin(), &Linear::r);
+    const double width = std::max(1.0, std::floor(image.width() * args.scale + 0.5)),
+                 height = std::max(1.0, std::floor(image.height() * args.scale + 0.5));
+    if (width * height > most_pixels)
+      throw Error(ErrorKind::Usage, fmt::format("--scale: {:.0f} × {:.0f} pixels are too many", width, height));
+    const Plane<float> mask =
+        sdf::drawn_field(distances, static_cast<int>(width), static_cast<int>(height), args.scale);
+    if (!args.output.empty()) save_result(args.output, grey(mask), [&] { return shown(grey(mask), false); });
+    print_result(args, fmt::format("{}, {} × {} pixels\n", title_of(input), mask.width(), mask.height()),
+                 {{"input", input}, {"output", args.output}, {"width", mask.width()}, {"height", mask.height()}});
+  });
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/formats/font/font.h"
+
+#include <fmt/format.h>
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_OUTLINE_H
+
+#include <filesystem>
+
+#include "zoneplate/base/error.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr const char* package = "fonts-dejavu-core";
+/// Font folders of Debian, Arch, Fedora, Gentoo and Alpine, and of local installations.
+constexpr const char* folders[] = {"/usr/share/fonts/truetype/dejavu/",       "/usr/share/fonts/TTF/",
+                                   "/usr/share/fonts/dejavu-sans-fonts/",     "/usr/share/fonts/dejavu/",
+                                   "/usr/local/share/fonts/truetype/dejavu/", "/usr/local/share/fonts/"};
+constexpr char32_t replacement = 0xfffd;
+
+/// The pen of a glyph's outline, and the size of the font's unit.
+struct GlyphPen {
+  sdf::Pen pen;
+  double unit;
+
+  sdf::Point point(const FT_Vector* v) const {
+    return {static_cast<double>(v->x) * unit, -static_cast<double>(v->y) * unit};
+  }
+  static GlyphPen& of(void* user) { return *static_cast<GlyphPen*>(user); }
+};
+
+/// Calls use(code, position) for every character of a line of text, positions in em.
+template <class Use>
+double set_line(const Font& font, std::string_view text, const Use& use) {
+  double pen = 0;
+  char32_t before = 0;
+  while (!text.empty()) {
+    const char32_t code = take_code_point(text);
+    if (before != 0) pen += font.kerning(before, code);
+    use(code, pen);
+    pen += font.advance(code);
+    before = code;
+  }
+  return pen;
+}
+
+}  // namespace
+
+char32_t take_code_point(std::string_view& text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  const std::size_t size = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
+  constexpr unsigned masks[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  char32_t code = lead & masks[size];
+  bool is_well = size > 0 && size <= text.size();
+  for (std::size_t i = 1; is_well && i < size; ++i) {
+    is_well = byte(i) >> 6 == 2;
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  is_well = is_well && code >= least[size] && code < 0x110000 && code >> 11 != 0x1b;
+  text.remove_prefix(is_well ? size : 1);
+  return is_well ? code : replacement;
+}
+
+std::string dejavu_path(const std::string& file) {
+  std::error_code ignored;
+  for (const char* folder : folders)
+    if (std::filesystem::exists(folder + file, ignored)) return folder + file;
+  throw Error(ErrorKind::Failed, fmt::format("{}: the font of captions is in none of {}; it is in Debian's package {}",
+                                             file, fmt::join(folders, ", "), package));
+}
+
+void Font::Close::operator()(FT_LibraryRec_* library) const { FT_Done_FreeType(library); }
+void Font::Close::operator()(FT_FaceRec_* face) const { FT_Done_Face(face); }
+
+Font::Font(const std::string& path) {
+  FT_Library library = nullptr;
+  if (FT_Init_FreeType(&library) != 0) throw Error(ErrorKind::Failed, "FreeType cannot be started");
+  library_.reset(library);
+  FT_Face face = nullptr;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw Error(ErrorKind::Input, path + ": no such file");
+  if (FT_New_Face(library, path.c_str(), 0, &face) != 0) throw Error(ErrorKind::Input, path + ": not a font");
+  face_.reset(face);
+  if (FT_IS_SCALABLE(face) == 0 || face->units_per_EM == 0)
+    throw Error(ErrorKind::Input, path + ": a font without outlines");
+}
+
+double Font::em() const { return face_->units_per_EM; }
+
+Font::Metrics Font::metrics() const {
+  return {face_->height / em(), face_->ascender / em(), face_->descender / em(), face_->underline_position / em(),
+          face_->underline_thickness / em()};
+}
+
+bool Font::has(char32_t code) const { return FT_Get_Char_Index(face_.get(), code) != 0; }
+
+bool Font::load(char32_t code) const {
+  FT_UInt glyph = FT_Get_Char_Index(face_.get(), code);
+  if (glyph == 0) glyph = FT_Get_Char_Index(face_.get(), replacement);
+  return FT_Load_Glyph(face_.get(), glyph, FT_LOAD_NO_SCALE) == 0;
+}
+
+sdf::Outline Font::outline(char32_t code) const {
+  sdf::Outline out;
+  if (!load(code) || face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return out;
+  GlyphPen pen{sdf::Pen(out), 1 / em()};
+  FT_Outline_Funcs functions{};
+  functions.move_to = [](const FT_Vector* to, void* user) {
+    GlyphPen& p = GlyphPen::of(user);
+    p.pen.move_to(p.point(to));
+    return 0;
+  };
+  functions.line_to = [](const FT_Vector* to, void* user) {
+    GlyphPen& p = GlyphPen::of(user);
+    p.pen.line_to(p.point(to));
+    return 0;
+  };
+  functions.conic_to = [](const FT_Vector* control, const FT_Vector* to, void* user) {
+    GlyphPen& p = GlyphPen::of(user);
+    p.pen.quadratic_to(p.point(control), p.point(to));
+    return 0;
+  };
+  functions.cubic_to = [](const FT_Vector* a, const FT_Vector* b, const FT_Vector* to, void* user) {
+    GlyphPen& p = GlyphPen::of(user);
+    p.pen.cubic_to(p.point(a), p.point(b), p.point(to));
+    return 0;
+  };
+  FT_Outline_Decompose(&face_->glyph->outline, &functions, &pen);
+  pen.pen.close();
+  return out;
+}
+
+double Font::advance(char32_t code) const {
+  return load(code) ? static_cast<double>(face_->glyph->metrics.horiAdvance) / em() : 0;
+}
+
+double Font::kerning(char32_t left, char32_t right) const {
+  FT_Vector kerning{};
+  if (FT_HAS_KERNING(face_.get()) == 0) return 0;
+  FT_Get_Kerning(face_.get(), FT_Get_Char_Index(face_.get(), left), FT_Get_Char_Index(face_.get(), right),
+                 FT_KERNING_UNSCALED, &kerning);
+  return static_cast<double>(kerning.x) / em();
+}
+
+sdf::Outline text_outline(const Font& font, std::string_view text, double size) {
+  sdf::Outline out;
+  set_line(font, text, [&](char32_t code, double pen) {
+    for (sdf::Contour& contour : font.outline(code).mapped({.scale = size, .move = {pen * size, 0}}).contours)
+      out.contours.push_back(std::move(contour));
+  });
+  return out;
+}
+
+double text_width(const Font& font, std::string_view text, double size) {
+  return size * set_line(font, text, [](char32_t, double) {});
+}
+
+}  // namespace zoneplate
