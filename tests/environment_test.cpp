@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Environments as the command reads, keeps and draws them.
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/file.h"
@@ -56,6 +61,24 @@ class Cache {
   const char* before_;
   std::string kept_;
 };
+
+TEST_F(EnvironmentImages, AreRemovedByTheTimeOfTheirLastReading) {
+  const auto write = [&](const char* name, int seconds) {
+    std::ofstream(place / name, std::ios::binary) << std::string(1000, 'x');
+    const timespec times[2] = {{seconds, 0}, {1000, 0}};  // of reading and of writing
+    ASSERT_EQ(::utimensat(AT_FDCWD, (place / name).c_str(), times, 0), 0);
+  };
+  write("a.env", 5000), write("b.env", 3000), write("c.env", 4000), write("d.png", 2000);
+  cli::trim_cache(place.string(), 3000);
+  EXPECT_TRUE(fs::exists(place / "b.env"));
+  cli::trim_cache(place.string(), 2999);
+  EXPECT_FALSE(fs::exists(place / "b.env"));
+  cli::trim_cache(place.string(), 1999);
+  EXPECT_FALSE(fs::exists(place / "c.env"));
+  EXPECT_TRUE(fs::exists(place / "a.env"));
+  EXPECT_TRUE(fs::exists(place / "d.png"));
+  cli::trim_cache((place / "missing").string(), 0);
+}
 
 TEST_F(EnvironmentImages, AreFilteredOnceAndKept) {
   const Cache cache(place / "cache");

@@ -74,6 +74,18 @@ TEST(Tonemap, NeutralKeepsBaseColorAndCompressesTheRest) {
   expect_near(tone_map({1e6f, 1e6f, 1e6f}, ToneMapping::Neutral), {1, 1, 1}, 1e-6f);
 }
 
+TEST(Tonemap, NeutralSubtractsTheReflectionOfADielectricFromEveryColourInItsRange) {
+  // Wherever all channels are in [0.08, 0.8], "c_out = c_in - F90" (the specification's first note), with its inverse.
+  constexpr int steps = 24;
+  for (int i = 0; i < (steps + 1) * (steps + 1) * (steps + 1); ++i) {
+    const auto channel = [](int k) { return 0.08f + 0.72f * static_cast<float>(k) / steps; };
+    const float3 in{channel(i % 25), channel(i / 25 % 25), channel(i / 625)};
+    const float3 out = tone_map(in, ToneMapping::Neutral);
+    expect_near(out, {in.x - 0.04f, in.y - 0.04f, in.z - 0.04f}, 1e-6f);
+    expect_near(invert_neutral(out), in, 1e-5f);
+  }
+}
+
 TEST(Tonemap, NeutralHasAnInverse) {
   for (std::uint32_t i = 0; i < 4000; ++i) {
     const auto channel = [&](std::uint32_t c) { return unit_float(hash(i, c)) * (i % 2 == 0 ? 1.0f : 3.0f); };

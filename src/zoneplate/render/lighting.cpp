@@ -53,6 +53,7 @@ Lighting studio_lighting(const LightingOptions& options) {
   key.is_in_camera_space = true;
   key.direction = -studio_key();
   key.intensity = studio_key_lux;
+  key.radius = studio_key_radius;
   return {{key},
           {.color = {1, 1, 1},
            .is_in_camera_space = true,

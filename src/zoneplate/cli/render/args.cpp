@@ -59,6 +59,15 @@ constexpr const char* notes =
     "4 output cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial files\n"
     "remain.\n";
 
+/// The options of a level of --quality: 0 fast, 1 default, 2 best.
+void set_quality(RenderArgs& a, int level) {
+  const RenderArgs usual;
+  a.method = level == 0 ? "msaa:n=4" : level == 1 ? usual.method : "msaa:n=16";
+  a.options.shadows = level == 2 ? parse_shadows("soft:samples=64") : usual.options.shadows;
+  a.options.occlusion = level == 2 ? parse_occlusion("rays") : usual.options.occlusion;
+  a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
+}
+
 float radians(const std::string& text, double low, double high) {
   return static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180);
 }
@@ -203,6 +212,13 @@ std::vector<Option> picture_options(RenderArgs& a) {
        [&](auto& text) {
          const int2 size = parse_size(text, max_side);
          a.options.width = size.x, a.options.height = size.y;
+       }},
+      {"--quality", "LEVEL",
+       "Sets several options, which options after it change: fast is --aa msaa:n=4; default; best is --aa msaa:n=16 "
+       "--shadows soft:samples=64 --ambient-occlusion rays --ground shadow",
+       group, true,
+       [&](auto& text) {
+         set_quality(a, static_cast<int>(parse_choice(text, {"fast", "default", "best"})));
        }},
       {"--anti-aliasing,--aa", "METHOD",
        "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,

@@ -2,11 +2,14 @@
 #include "zoneplate/cli/render/environment_file.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -66,12 +69,44 @@ std::string environment_path(const std::string& cache, std::uint64_t key) {
   return fmt::format("{}/{:016x}.env", cache, key);
 }
 
+void trim_cache(const std::string& folder, std::uint64_t most) {
+  struct File {
+    timespec read;
+    std::uint64_t size;
+    std::string path;
+  };
+  std::vector<File> files;
+  std::uint64_t total = 0;
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
+    struct stat found;
+    if (entry->path().extension() != ".env" || ::stat(entry->path().c_str(), &found) != 0) continue;
+    const auto is_earlier = [](const timespec& a, const timespec& b) {
+      return std::pair(a.tv_sec, a.tv_nsec) < std::pair(b.tv_sec, b.tv_nsec);
+    };
+    // Where the file system records no reading, the time of writing counts.
+    const timespec read = is_earlier(found.st_atim, found.st_mtim) ? found.st_mtim : found.st_atim;
+    files.push_back({read, static_cast<std::uint64_t>(found.st_size), entry->path().string()});
+    total += files.back().size;
+  }
+  std::sort(files.begin(), files.end(), [](const File& a, const File& b) {
+    return std::tuple(a.read.tv_sec, a.read.tv_nsec, a.path) < std::tuple(b.read.tv_sec, b.read.tv_nsec, b.path);
+  });
+  for (const File& file : files) {
+    if (total <= most) break;
+    // Another process may have removed it; one that reads it keeps its bytes.
+    fs::remove(file.path, failure);
+    total -= file.size;
+  }
+}
+
 void store_environment(const std::string& path, std::span<const std::uint8_t> bytes) {
   std::error_code failure;
   fs::create_directories(fs::path(path).parent_path(), failure);
   if (failure) return;
   try {
     save_bytes(path, bytes);
+    trim_cache(fs::path(path).parent_path().string(), most_cache_bytes);
   } catch (const Error&) {  // of a cache that cannot be written
   }
 }

@@ -26,6 +26,11 @@ std::vector<std::string> environment_files(const RenderArgs& args);
 /// the same one at once. The cache is an optimisation: nothing happens where it cannot be written.
 void store_environment(const std::string& path, std::span<const std::uint8_t> bytes);
 
+/// Removes prepared environments from a folder, those that were not read for the longest time first, until at most
+/// `most` bytes of them are left. Several processes may do so at once.
+void trim_cache(const std::string& folder, std::uint64_t most);
+inline constexpr std::uint64_t most_cache_bytes = std::uint64_t{256} << 20;
+
 /// The greatest number of bytes of a prepared environment.
 inline constexpr std::uint64_t most_environment_bytes = std::uint64_t{1} << 26;
 

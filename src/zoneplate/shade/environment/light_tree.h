@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "zoneplate/shade/environment/cube.h"
+#include "zoneplate/shade/environment/bordered_cube.h"
 
 namespace zoneplate {
 
@@ -14,11 +14,12 @@ struct LightTree {
   struct Node {
     float direction[3];  ///< unit; the mean of the directions, weighted by the light from them
     float solid_angle;
-    float light[3];  ///< radiance × solid angle
-    float unused;
+    float light[3];    ///< radiance × solid angle
+    float prominence;  ///< the square root of its radiance relative to the mean over all directions, at least 1
   };
   int side = 0;             ///< nodes along an edge of the finest level, a power of two
   std::vector<Node> nodes;  ///< by level, from one node a face to `side` × `side`; then by face and row
+  BorderedCube texels;
 
   /// The first node of the level with `level_side` nodes along an edge.
   static std::size_t offset(int level_side) {
@@ -27,6 +28,9 @@ struct LightTree {
   const Node& node(int level_side, int face, int x, int y) const {
     return nodes[offset(level_side) + static_cast<std::size_t>((face * level_side + y) * level_side + x)];
   }
+  /// The light of `parts` × `parts` equal squares of a texel, by rows, where the radiance is the quadratic B-spline
+  /// whose control points are the texels.
+  void divide(int face, int x, int y, int parts, Node* out) const;
   /// The mean radiance over all directions.
   float3 mean() const;
 };

@@ -31,32 +31,44 @@ template <class F>
           bounded(select(is_x, d.z, select(is_y, d.x, d.y)) * inverse)};
 }
 
-/// The bilinear mean of the four texels about places of a level each. Requires: levels in range.
+/// The uniform quadratic B-spline: the weights of three control points for a point at `u` in [-1/2, 1/2] from the
+/// second; beyond that, those of the same polynomials.
 template <class F>
-[[gnu::always_inline]] inline Vector<F> cube_texels(const EnvironmentView& e, const CubePlace<F>& place,
-                                                    typename F::Int level) {
-  using Int = typename F::Int;
-  const Int side = Int::look_up(e.side, level), pitch = side + Int(2);
-  const F half = F::from(side) * F(0.5f);
-  // The centre of the first texel inside the border is at 1.
-  const F x = (place.s + F(1.0f)) * half + F(0.5f), y = (place.t + F(1.0f)) * half + F(0.5f);
-  const Int column = truncate(x), row = truncate(y);
-  const F right = x - F::from(column), down = y - F::from(row);
-  const Int first = Int::look_up(e.offset, level) + (place.face * pitch + row) * pitch + column;
+struct SplineWeights {
+  F of[3];
+};
+template <class F>
+[[gnu::always_inline]] inline SplineWeights<F> spline_weights(F u) {
+  const F before = F(0.5f) - u, after = F(0.5f) + u;
+  return {{before * before * F(0.5f), F(0.75f) - u * u, after * after * F(0.5f)}};
+}
 
-  alignas(64) std::int32_t index[F::lanes], below[F::lanes];
-  (first * Int(4)).store(index), ((first + pitch) * Int(4)).store(below);
-  F texel[4][4];
-  F::load_quads([&](int lane) { return e.texels + index[lane]; }, texel[0]);
-  F::load_quads([&](int lane) { return e.texels + index[lane] + 4; }, texel[1]);
-  F::load_quads([&](int lane) { return e.texels + below[lane]; }, texel[2]);
-  F::load_quads([&](int lane) { return e.texels + below[lane] + 4; }, texel[3]);
-  const auto mean = [&](int c) {
-    const F above = texel[0][c] + (texel[1][c] - texel[0][c]) * right;
-    const F under = texel[2][c] + (texel[3][c] - texel[2][c]) * right;
-    return above + (under - above) * down;
-  };
-  return {mean(0), mean(1), mean(2)};
+/// The spline of a level each at places.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> cube_light(const EnvironmentView& e, const CubePlace<F>& place,
+                                                   typename F::Int level) {
+  using Int = typename F::Int;
+  const Int side = Int::gather(e.side, level), pitch = side + Int(2);
+  const F half = F::from(side) * F(0.5f);
+  const F x = (place.s + F(1.0f)) * half, y = (place.t + F(1.0f)) * half;
+  const Int column = min(truncate(x), side - Int(1)), row = min(truncate(y), side - Int(1));
+  const auto across = spline_weights(x - F::from(column) - F(0.5f)), down = spline_weights(y - F::from(row) - F(0.5f));
+  const Int first = Int::gather(e.offset, level) + (place.face * pitch + row) * pitch + column;
+
+  const F zero(0.0f);
+  Vector<F> sum{zero, zero, zero};
+  for (int r = 0; r < 3; ++r) {
+    alignas(64) std::int32_t index[F::lanes];
+    ((first + pitch * Int(r)) * Int(3)).store(index);
+    Vector<F> in_row{zero, zero, zero};
+    for (int c = 0; c < 3; ++c) {
+      F texel[4];
+      F::load_quads([&](int lane) { return e.texels + index[lane] + 3 * c; }, texel);
+      in_row = in_row + Vector<F>{texel[0], texel[1], texel[2]} * across.of[c];
+    }
+    sum = sum + in_row * down.of[r];
+  }
+  return sum;
 }
 
 /// The direction in the environment's image of a direction in the world.
@@ -74,17 +86,20 @@ template <class F>
   using Int = typename F::Int;
   const CubePlace<F> place = cube_place(in_image(e, direction));
   const F level = e.level(min(max(roughness, F(0.0f)), F(1.0f)));
-  const Int lower = min(truncate(level), Int(e.levels - 2));
-  const F part = level - F::from(lower);
-  const Vector<F> sharp = cube_texels(e, place, lower), blurred = cube_texels(e, place, lower + Int(1));
-  return (sharp + (blurred - sharp) * part) * Vector<F>::all(e.tint);
+  const Int middle = min(max(truncate(level + F(0.5f)), Int(1)), Int(e.levels - 2));
+  const auto weights = spline_weights(level - F::from(middle));
+  Vector<F> sum = cube_light(e, place, middle) * weights.of[1];
+  sum = sum + cube_light(e, place, middle - Int(1)) * weights.of[0];
+  sum = sum + cube_light(e, place, middle + Int(1)) * weights.of[2];
+  const auto bounded = [](F x) { return max(x, F(0.0f)); };
+  return Vector<F>{bounded(sum.x), bounded(sum.y), bounded(sum.z)} * Vector<F>::all(e.tint);
 }
 
 /// The irradiance of surfaces with these normals, over π: what a white diffuse surface reflects.
 template <class F>
 [[gnu::always_inline]] inline Vector<F> diffuse_light(const EnvironmentView& e, Vector<F> normal) {
   const CubePlace<F> place = cube_place(in_image(e, normal));
-  return cube_texels(e, place, typename F::Int(e.levels - 1)) * Vector<F>::all(e.tint);
+  return cube_light(e, place, typename F::Int(e.levels)) * Vector<F>::all(e.tint);
 }
 
 namespace stages {

@@ -31,20 +31,27 @@ inline Cone cone_of(const DirectionBlock& b) {
 /// Which nodes are divided.
 struct Division {
   Cone cone;
-  float detail, core, greatest_width;
+  float detail, core, width_at_horizon;
   static constexpr float horizon = 1.41421356f;  ///< the chord of a right angle
 
-  /// The wider the lobe, the more light arrives from near the horizon, whose edge small nodes resolve.
+  /// The wider the lobe, the more light arrives from near the horizon, where the lobe ends abruptly.
   Division(const Lobe& lobe, const DirectionBlock& block)
-      : cone(cone_of(block)), detail(lobe.detail), core(2 * lobe.alpha), greatest_width(0.0626f / lobe.alpha) {}
+      : cone(cone_of(block)),
+        detail(lobe.detail),
+        core(std::min(2 * lobe.alpha, 0.7f)),
+        width_at_horizon(0.08f / lobe.alpha) {}
 
-  enum class Fate { Skipped, Divided, Taken };
-  Fate of(const LightTree::Node& node, float width) const {
+  /// The least number of equal parts along each axis into which a node of this width is divided: 1 where it is taken
+  /// whole, 0 where it is skipped.
+  int parts(const LightTree::Node& node, float width, float prominence) const {
     const float3 away = float3{node.direction[0], node.direction[1], node.direction[2]} - cone.centre;
     const float distance = std::sqrt(dot(away, away)) - cone.radius;
     // A node is at most √2 widths long.
-    if (distance - 1.5f * width > horizon) return Fate::Skipped;
-    return width > std::min(detail * std::max(distance, core), greatest_width) ? Fate::Divided : Fate::Taken;
+    const float above = horizon - (distance - 1.5f * width);
+    if (above < 0) return 0;
+    const bool straddles = above < 3 * width + 2 * cone.radius;
+    const float limit = std::min(detail * std::max(distance, core), straddles ? width_at_horizon : 1.0f) / prominence;
+    return width > limit ? (width > 2 * limit ? 4 : 2) : 1;
   }
 };
 
@@ -104,12 +111,16 @@ void filter(const LightTree& tree, const Lobe& lobe, const DirectionBlock& direc
   while (depth > 0) {
     const Place p = stack[--depth];
     const LightTree::Node& node = tree.node(p.side, p.face, p.x, p.y);
-    const Division::Fate fate = division.of(node, 2 / static_cast<float>(p.side));
-    if (fate == Division::Fate::Skipped) continue;
-    if (fate == Division::Fate::Divided && p.side < tree.side) {
-      for (int k = 3; k >= 0; --k) stack[depth++] = {2 * p.side, p.face, 2 * p.x + k % 2, 2 * p.y + k / 2};
-    } else {
+    const bool is_leaf = p.side == tree.side;
+    const int parts = division.parts(node, 2 / static_cast<float>(p.side), node.prominence);
+    if (parts == 1) {
       sums.add(node, alpha2);
+    } else if (parts > 1 && !is_leaf) {
+      for (int k = 3; k >= 0; --k) stack[depth++] = {2 * p.side, p.face, 2 * p.x + k % 2, 2 * p.y + k / 2};
+    } else if (parts > 1) {
+      LightTree::Node in_leaf[16];
+      tree.divide(p.face, p.x, p.y, parts, in_leaf);
+      for (int k = 0; k < parts * parts; ++k) sums.add(in_leaf[k], alpha2);
     }
   }
   sums.store(out);

@@ -9,94 +9,68 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/environment.h"
 #include "zoneplate/shade/environment/equirectangular.h"
 #include "zoneplate/shade/environment/light_tree.h"
+#include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/environment/prefilter.h"
 
 namespace zoneplate {
 namespace {
 
-constexpr int levels = EnvironmentView::max_levels;
-
-/// The inverse of EnvironmentView::level.
-float roughness_of(int level) {
-  if (level == 0) return 0;
-  const float share = static_cast<float>(level - 1) / static_cast<float>(levels - 2);
-  return level == levels - 1 ? 1.0f : exp2((share - 1) * EnvironmentView::octaves);
-}
-
-/// Texels as wide as alpha, which is somewhat less than the width of the lobe.
-int side_of(float alpha, int greatest) {
-  int side = 32;
-  while (side < greatest && static_cast<float>(side) * alpha < 2) side *= 2;
-  return side;
-}
-
-void store(float* texel, float3 light) { texel[0] = light.x, texel[1] = light.y, texel[2] = light.z; }
-
-std::size_t face_texels(int side) { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
-
-/// A level of a prepared environment: faces with a border of one texel, four floats each.
-struct Level {
-  int side;
-  float* first;
-
-  /// Texel (x, y) of a face; from -1 to `side`.
-  float* texel(int face, int x, int y) const {
-    return first +
-           4 * (static_cast<std::size_t>(face) * face_texels(side) +
-                static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(side + 2) + static_cast<std::size_t>(x + 1));
+/// α at the levels of an environment: α² rises evenly from 0 until α is about a quarter of the width of a texel, from
+/// there by equal factors to 1.
+class Levels {
+ public:
+  /// Of an environment with faces of `side` texels.
+  explicit Levels(int side)
+      : side_(side), finest_(std::min(side, 256)), sharpness_(4.0f * static_cast<float>(finest_ * finest_)) {
+    const float octaves = log2(1 + sharpness_);
+    count_ = static_cast<int>(octaves * density) + 2;
+    per_octave_ = static_cast<float>(count_ - 1) / octaves;
   }
-  float3 light(int face, int x, int y) const {
-    const float* const t = texel(face, x, y);
-    return {t[0], t[1], t[2]};
+  int count() const { return count_; }
+  float alpha(int level) const {
+    return level == count_ - 1 ? 1.0f : std::sqrt((exp2(static_cast<float>(level) / per_octave_) - 1) / sharpness_);
   }
+  /// Texels somewhat narrower than α, of the width of the lobe.
+  int side(int level) const {
+    if (level == 0) return side_;
+    constexpr int least = 48;
+    return std::min(finest_, std::max(least, static_cast<int>(2.86f / alpha(level)) / 4 * 4 + 4));
+  }
+  /// Of the levels, and of irradiance after them; returns the number of texels.
+  std::size_t lay_out(EnvironmentView& view) const {
+    view.levels = count_, view.sharpness = sharpness_, view.levels_per_octave = per_octave_;
+    int texels = 0;
+    for (int level = 0; level <= count_; ++level) {
+      view.side[level] = side(std::min(level, count_ - 1));
+      view.offset[level] = texels;
+      texels += cube::faces * (view.side[level] + 2) * (view.side[level] + 2);
+    }
+    return static_cast<std::size_t>(texels);
+  }
+
+ private:
+  static constexpr float density = 0.9f;  ///< least number of levels per octave of α²
+  int side_, finest_;                     ///< of level 0, and the greatest of the others
+  int count_;
+  float sharpness_, per_octave_;
 };
 
-/// A texel of the border is the texel of the neighbouring face that touches it; the corners are the means of the three
-/// texels about a corner of the cube. So both faces at an edge interpolate the same texels there.
-void fill_borders(const Level& level) {
-  const int side = level.side;
-  const auto outside = [&](int face, int x, int y) {
-    const cube::Place p = cube::place(cube::point(face, cube::centre(x, side), cube::centre(y, side)));
-    const auto cell = [&](float c) {
-      return std::min(static_cast<int>((c + 1) * 0.5f * static_cast<float>(side)), side - 1);
-    };
-    return level.light(p.face, cell(p.s), cell(p.t));
-  };
-  for (int face = 0; face < cube::faces; ++face) {
-    for (int i = 0; i < side; ++i)
-      for (const int edge : {-1, side}) {
-        store(level.texel(face, edge, i), outside(face, edge, i));
-        store(level.texel(face, i, edge), outside(face, i, edge));
-      }
-    for (const int x : {-1, side})
-      for (const int y : {-1, side}) {
-        const int inner_x = x < 0 ? 0 : side - 1, inner_y = y < 0 ? 0 : side - 1;
-        store(level.texel(face, x, y),
-              (level.light(face, inner_x, inner_y) + level.light(face, x, inner_y) + level.light(face, inner_x, y)) *
-                  (1.0f / 3));
-      }
-  }
-}
+/// Of samples, in texels.
+constexpr int border = 4;
 
-void copy_level(const CubeImage& cube, const Level& level) {
-  parallel_for(static_cast<std::size_t>(cube::faces * cube.side), [&](std::size_t row) {
-    const int face = static_cast<int>(row) / cube.side, y = static_cast<int>(row) % cube.side;
-    for (int x = 0; x < cube.side; ++x) store(level.texel(face, x, y), cube.texels[cube.index(face, x, y)]);
-  });
-  fill_borders(level);
-}
-
-/// By blocks of 4 × 4 texels.
-void filter_level(const LightTree& tree, float alpha, const Level& level) {
+/// The light of the tree filtered by the lobe, in the directions of the texels of a cube map with the border that
+/// fit_spline needs, by blocks of 4 × 4 texels.
+BorderedCube filtered(const LightTree& tree, float alpha, int side) {
   const PrefilterKernels& kernels = PrefilterKernels::of();
-  const int side = level.side, blocks = side / 4;
-  const Lobe lobe{.alpha = alpha, .detail = alpha < 0.02f ? 0.4f : alpha < 0.2f ? 0.25f : 0.2f};
+  BorderedCube out(side, border);
+  const int blocks = out.pitch() / 4;
   parallel_for(static_cast<std::size_t>(cube::faces * blocks), [&](std::size_t row) {
-    const int face = static_cast<int>(row) / blocks, first_y = static_cast<int>(row) % blocks * 4;
-    for (int first_x = 0; first_x < side; first_x += 4) {
+    const int face = static_cast<int>(row) / blocks, first_y = static_cast<int>(row) % blocks * 4 - border;
+    for (int first_x = -border; first_x < side + border; first_x += 4) {
       DirectionBlock directions;
       for (int i = 0; i < DirectionBlock::size; ++i) {
         const float3 d =
@@ -104,29 +78,65 @@ void filter_level(const LightTree& tree, float alpha, const Level& level) {
         directions.x[i] = d.x, directions.y[i] = d.y, directions.z[i] = d.z;
       }
       RadianceBlock light;
-      kernels.filter(tree, lobe, directions, light);
+      kernels.filter(tree, {.alpha = alpha}, directions, light);
       for (int i = 0; i < DirectionBlock::size; ++i)
-        store(level.texel(face, first_x + i % 4, first_y + i / 4), {light.r[i], light.g[i], light.b[i]});
+        out.at(face, first_x + i % 4, first_y + i / 4) = {light.r[i], light.g[i], light.b[i]};
     }
   });
-  fill_borders(level);
+  return out;
+}
+
+/// A function of directions at the texels of a cube map.
+template <class Function>
+BorderedCube sampled(int side, const Function& function) {
+  BorderedCube out(side, border);
+  parallel_for(static_cast<std::size_t>(cube::faces * out.pitch()), [&](std::size_t row) {
+    const int face = static_cast<int>(row) / out.pitch(), y = static_cast<int>(row) % out.pitch() - border;
+    for (int x = -border; x < side + border; ++x) {
+      const float3 d = cube::point(face, cube::centre(x, side), cube::centre(y, side));
+      out.at(face, x, y) = function(face, x, y, cube_place(Vector<scalar::Float>{d.x, d.y, d.z}));
+    }
+  });
+  return out;
+}
+
+/// The control points, with a border of one texel, of the spline that interpolates samples with a border of four. The
+/// inverse of the filter (1, 6, 1) / 8 falls by the factor √8 - 3 from one sample to the next, and ends after three.
+/// Source: Unser, Aldroubi and Eden, B-Spline Signal Processing, IEEE Transactions on Signal Processing 41, 1993.
+void fit_spline(const BorderedCube& samples, float* out) {
+  constexpr float inverse[4] = {1 + 2 * (0.242641f - 0.041631f + 0.007143f), -0.242641f, 0.041631f, -0.007143f};
+  const int side = samples.side;
+  const auto filter = [&](const auto& at) {
+    float3 sum = at(0) * inverse[0];
+    for (int k = 1; k < 4; ++k) sum = sum + (at(-k) + at(k)) * inverse[k];
+    return sum;
+  };
+  parallel_for(static_cast<std::size_t>(cube::faces), [&](std::size_t f) {
+    const int face = static_cast<int>(f);
+    BorderedCube in_rows = samples;
+    float* to = out + 3 * f * static_cast<std::size_t>((side + 2) * (side + 2));
+    for (int y = -border; y < side + border; ++y)
+      for (int x = -1; x <= side; ++x)
+        in_rows.at(face, x, y) = filter([&](int k) { return samples.at(face, x + k, y); });
+    for (int y = -1; y <= side; ++y)
+      for (int x = -1; x <= side; ++x, to += 3) {
+        const float3 point = filter([&](int k) { return in_rows.at(face, x, y + k); });
+        to[0] = point.x, to[1] = point.y, to[2] = point.z;
+      }
+  });
+}
+
+/// The control point of a level of a spline along the levels that meets the values `at` of them.
+template <class At>
+float3 control_point(int level, int levels, const At& at) {
+  const auto inner = [&](int k) { return at(k) * 1.25f - (at(k - 1) + at(k + 1)) * 0.125f; };
+  if (level < levels - 1) return inner(level);
+  // Of the last three control points, the outermost has the weight 9/8 at the last level.
+  return (at(level) + inner(level - 1) * 0.25f - inner(level - 2) * 0.125f) * (1 / 1.125f);
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '4'};
-
-/// The levels of an environment whose unfiltered level has this side; returns the number of texels.
-std::size_t lay_out(int side, EnvironmentView& view) {
-  view.levels = levels;
-  std::size_t texels = 0;
-  for (int level = 0; level < levels; ++level) {
-    const float roughness = roughness_of(level);
-    view.side[level] = level == 0 ? side : side_of(roughness * roughness, std::max(32, side / 2));
-    view.offset[level] = static_cast<std::int32_t>(texels);
-    texels += cube::faces * face_texels(view.side[level]);
-  }
-  return texels;
-}
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '5'};
 
 }  // namespace
 
@@ -138,16 +148,50 @@ struct PreparedEnvironment::Header {
 };
 
 PreparedEnvironment::PreparedEnvironment(const CubeImage& cube) {
-  texels_.resize(4 * lay_out(cube.side, view_));
-  const auto level_of = [&](int i) {
-    return Level{view_.side[i], texels_.data() + 4 * static_cast<std::size_t>(view_.offset[i])};
-  };
-  copy_level(cube, level_of(0));
+  const Levels levels(cube.side);
+  texels_.resize(3 * levels.lay_out(view_) + 1);
+  const auto first = [&](int level) { return texels_.data() + 3 * static_cast<std::size_t>(view_.offset[level]); };
+
+  // Every level as a spline of its own.
   const LightTree tree = make_light_tree(cube);
-  for (int level = 1; level < levels; ++level) {
-    const float roughness = roughness_of(level);
-    filter_level(tree, roughness * roughness, level_of(level));
+  for (std::size_t i = 0; i < tree.texels.texels.size(); ++i) {
+    const float3 texel = tree.texels.texels[i];
+    first(0)[3 * i] = texel.x, first(0)[3 * i + 1] = texel.y, first(0)[3 * i + 2] = texel.z;
   }
+  std::vector<BorderedCube> samples(1);
+  for (int level = 1; level < levels.count(); ++level) {
+    samples.push_back(filtered(tree, levels.alpha(level), view_.side[level]));
+    fit_spline(samples.back(), first(level));
+  }
+  std::copy(first(levels.count() - 1), first(levels.count()), first(levels.count()));
+
+  // One spline along the levels.
+  const std::vector<float> separate = texels_;
+  EnvironmentView view = view_;
+  view.texels = separate.data();
+  const auto light_at = [&](const CubePlace<scalar::Float>& place, int level) {
+    const auto light = cube_light(view, place, scalar::Int(level));
+    return float3{light.x.v, light.y.v, light.z.v};
+  };
+  for (int level = 1; level < levels.count(); ++level)
+    fit_spline(sampled(view.side[level],
+                       [&](int face, int x, int y, const CubePlace<scalar::Float>& place) {
+                         return control_point(level, view.levels, [&](int k) {
+                           return k == level ? samples[static_cast<std::size_t>(k)].at(face, x, y) : light_at(place, k);
+                         });
+                       }),
+               first(level));
+  // At roughness 0 the spline is the radiance itself: its control points there are found from those of levels 1 and 2.
+  const std::vector<float> inner = texels_;
+  view.texels = inner.data();
+  fit_spline(sampled(cube.side,
+                     [&](int, int, int, const CubePlace<scalar::Float>& place) {
+                       return light_at(place, 1) * 0.25f - light_at(place, 2) * 0.125f;
+                     }),
+             first(0));
+  for (std::size_t i = 0; i < 3 * tree.texels.texels.size(); ++i)
+    first(0)[i] = (first(0)[i] + separate[i]) * (1 / 1.125f);
+
   mean_ = tree.mean();
   for (const float3& c : cube.texels)
     greatest_ = {std::max(greatest_.x, c.x), std::max(greatest_.y, c.y), std::max(greatest_.z, c.z)};
@@ -172,7 +216,7 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   if (!std::equal(std::begin(magic), std::end(magic), header.magic)) return std::nullopt;
   if (header.side < 32 || header.side > 512 || (header.side & (header.side - 1)) != 0) return std::nullopt;
   PreparedEnvironment out;
-  const std::size_t floats = 4 * lay_out(header.side, out.view_);
+  const std::size_t floats = 3 * Levels(header.side).lay_out(out.view_) + 1;
   if (texels.size() != floats * sizeof(float) || content_hash(texels) != header.hash) return std::nullopt;
   out.texels_.resize(floats);
   std::memcpy(out.texels_.data(), texels.data(), texels.size());

@@ -15,6 +15,9 @@ float3 studio_key();
 /// The illuminance of the light from there that goes with the studio's environment, in lux.
 inline constexpr float studio_key_lux = 1.2f;
 
+/// The angle from the middle of that light to its edge, in radians: somewhat less than that of the soft box.
+inline constexpr float studio_key_radius = 0.25f;
+
 /// The radiance of a photographer's studio, neutral grey: a large soft box above on the left in front, a panel
 /// overhead, a white card on the right, two strips behind that draw outlines, a dim reflector behind the viewer, and a
 /// floor that glows.

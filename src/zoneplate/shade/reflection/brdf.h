@@ -200,14 +200,21 @@ template <class F>
   return m;
 }
 
-/// Reflected radiance for one unit of irradiance perpendicular to l: BRDF × n·l; zero for lights below the horizon.
+/// Reflected radiance for one unit of irradiance perpendicular to l: BRDF × n·l, with the lobe of `alpha`; zero for
+/// lights below the horizon.
 template <class F>
-[[gnu::always_inline]] inline Vector<F> metallic_light(const Metallic<F>& m, Vector<F> n, Vector<F> l, Vector<F> v) {
+[[gnu::always_inline]] inline Vector<F> metallic_light(const Metallic<F>& m, Vector<F> n, Vector<F> l, Vector<F> v,
+                                                       F alpha) {
   const Vector<F> h = normalize(l + v);
   const F nl = max(dot(n, l), F(0.0f));
   const F nv = max(dot(n, v), F(1e-4f));
-  const F peak = ggx(dot(n, h), cross(n, h), m.alpha) * smith(nl, nv, m.alpha);
+  const F peak = ggx(dot(n, h), cross(n, h), alpha) * smith(nl, nv, alpha);
   return (m.diffuse + (m.mirrored + m.grazing * schlick_weight(dot(v, h))) * peak) * nl;
+}
+
+template <class F>
+[[gnu::always_inline]] inline Vector<F> metallic_light(const Metallic<F>& m, Vector<F> n, Vector<F> l, Vector<F> v) {
+  return metallic_light(m, n, l, v, m.alpha);
 }
 
 /// A GGX lobe whose normals turn within a pixel: the matrix of its squared slopes, in the plane across n, is

@@ -165,15 +165,20 @@ template <class F>
 /// term at v·h leaves, with which grazing views of bright surfaces would reflect more light than arrives.
 template <class F>
 [[gnu::always_inline]] inline Vector<F> layered_light(const LayeredUniforms& u, const LayeredSurface<F>& s,
-                                                      Vector<F> l) {
+                                                      const PreparedLight& light, const Arriving<F>& arriving) {
+  const Vector<F> l = arriving.from;
   const F one(1.0f), zero(0.0f), along = dot(s.n, l), nl = max(along, zero);
   const bool has_back = u.has_transmission || u.has_diffuse_transmission;
   // Light from behind meets the interface as its mirror image does.
   const Vector<F> front_l = has_back ? select(along < zero, l - s.n * (along + along), l) : l;
   const Vector<F> h = normalize(front_l + s.v);
   const F weight = schlick_weight(dot(s.v, h));
-  const F peak = u.has_anisotropy ? ggx(s.frame, h) * smith(s.frame, front_l, s.v, nl, s.nv)
-                                  : ggx(dot(s.n, h), cross(s.n, h), s.alpha) * smith(nl, s.nv, s.alpha);
+  const auto wide = [&](F alpha) { return highlight_alpha(alpha, light, arriving); };
+  const F alpha = wide(s.alpha);
+  MicrofacetFrame<F> frame = s.frame;
+  if (u.has_anisotropy) frame.alpha_t = wide(frame.alpha_t), frame.alpha_b = wide(frame.alpha_b);
+  const F peak = u.has_anisotropy ? ggx(frame, h) * smith(frame, front_l, s.v, nl, s.nv)
+                                  : ggx(dot(s.n, h), cross(s.n, h), alpha) * smith(nl, s.nv, alpha);
   const Vector<F> dielectric = s.dielectric.fresnel(weight) * s.dielectric_shares.gain;
   const Vector<F> metal = s.metal.fresnel(weight) * s.metal_shares.gain;
 
@@ -183,7 +188,7 @@ template <class F>
   Vector<F> through = grey(zero);
   if (u.has_transmission) {
     const F rough = max(s.through_roughness, F(least_roughness));
-    through = s.absorbed * wall_lobe(behind, s.nv, rough * rough, s.n, h);
+    through = s.absorbed * wall_lobe(behind, s.nv, wide(rough * rough), s.n, h);
   }
   const Vector<F> below = below_interface(u, s, front, back, through);
   const Vector<F> mirrored = mix(dielectric, metal, s.metallic) * (peak * nl);
@@ -198,13 +203,13 @@ template <class F>
   return sum;
 }
 
-/// Reflected radiance of a clear coat of reflectance 1 for one unit of irradiance perpendicular to l. Its microfacets
-/// lose no light, as those that reflect an environment.
+/// Reflected radiance of a clear coat of reflectance 1 for one unit of irradiance perpendicular to l, with the lobe
+/// of `alpha`. Its microfacets lose no light, as those that reflect an environment.
 template <class F>
-[[gnu::always_inline]] inline F coat_light(const LayeredSurface<F>& s, Vector<F> l) {
+[[gnu::always_inline]] inline F coat_light(const LayeredSurface<F>& s, Vector<F> l, F alpha) {
   const Vector<F> h = normalize(l + s.v);
   const F nl = max(dot(s.coat_n, l), F(0.0f));
-  const F peak = ggx(dot(s.coat_n, h), cross(s.coat_n, h), s.coat_alpha) * smith(nl, s.coat_nv, s.coat_alpha);
+  const F peak = ggx(dot(s.coat_n, h), cross(s.coat_n, h), alpha) * smith(nl, s.coat_nv, alpha);
   return peak * nl * s.coat_gain;
 }
 
@@ -317,8 +322,10 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       const Vector<F> radiance = visible(light.radiance, p, k, i);
-      sum = sum + radiance * layered_light(u, surface, light.from);
-      if (u.has_clearcoat) coat = coat + radiance * coat_light(surface, light.from);
+      sum = sum + radiance * layered_light(u, surface, s.light[k], light);
+      if (u.has_clearcoat)
+        coat =
+            coat + radiance * coat_light(surface, light.from, highlight_alpha(surface.coat_alpha, s.light[k], light));
     }
     if (s.has_environment || (u.has_transmission && s.backdrop != nullptr)) {
       if (u.has_transmission) through = light_through(s, u, surface, around, batch, p, i);

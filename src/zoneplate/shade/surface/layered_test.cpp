@@ -57,7 +57,7 @@ struct Sample {
     const stages::LayeredSurface<F> surface = stages::make_surface<F>(u, *p, *q, lanes(view), 0);
     std::vector<std::array<double, 3>> out;
     for (const Direction& l : from) {
-      const V color = stages::layered_light(u, surface, lanes(l));
+      const V color = stages::layered_light(u, surface, {}, {lanes(l), {}, {}});
       out.push_back({color.x.v, color.y.v, color.z.v});
     }
     return out;
@@ -74,7 +74,7 @@ struct Sample {
     const std::vector<Direction> from = directions(steps);
     double sum = 0;
     for (std::size_t k = 0; k < from.size(); ++k)
-      sum += double{stages::coat_light(surface, lanes(from[k])).v} * solid_angle(k, steps);
+      sum += double{stages::coat_light(surface, lanes(from[k]), surface.coat_alpha).v} * solid_angle(k, steps);
     return sum;
   }
 

@@ -25,6 +25,9 @@ PreparedLight prepare(const Light& light) {
   copy(-axis, p.towards);
   copy(light.position, p.position);
   copy(light.attenuation, p.attenuation);
+  // Halfway vectors turn by half the angle of the light.
+  const float half = (p.is_directional ? sin(light.radius) : light.radius) * 0.5f;
+  p.spread = std::min(half * half, 1.0f);
 
   // Beyond 1e9 m the window's fourth power would underflow, and no image could show it.
   if (std::isfinite(light.range) && light.range < 1e9f) {

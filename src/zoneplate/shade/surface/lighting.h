@@ -14,6 +14,7 @@ struct PreparedLight {
   float axis[3] = {0, 0, -1};  ///< spot: unit direction in which it shines
   float inverse_range4 = 0;    ///< 1 / range⁴; 0: unlimited range
   float attenuation[3] = {1, 0, 0};
+  float spread = 0;  ///< what its disc adds to α² of highlights; of a point or spot light, at a distance of 1
   float cone_scale = 0, cone_offset = 1;  ///< glTF's lightAngleScale and lightAngleOffset
 };
 

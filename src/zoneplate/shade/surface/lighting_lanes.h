@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/reflection/brdf.h"
@@ -57,18 +56,29 @@ template <class F>
 struct Arriving {
   Vector<F> from;  ///< unit direction to the light
   Vector<F> radiance;
+  F spread;  ///< what the size of the light adds to α² of highlights
 };
+
+/// α of a highlight: the lobe of the surface, widened by the disc of the light.
+///
+/// Source    Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013, "Area Lights", with the variances added.
+template <class F>
+[[gnu::always_inline]] inline F highlight_alpha(F alpha, const PreparedLight& light, const Arriving<F>& arriving) {
+  return light.spread > 0 ? min(sqrt(alpha * alpha + arriving.spread), F(1.0f)) : alpha;
+}
 
 template <class F>
 [[gnu::always_inline]] inline Arriving<F> arriving(const PreparedLight& light, bool is_sun, const ShadingState& p,
                                                    int i) {
   const auto radiance = Vector<F>::all(light.radiance);
-  if (is_sun || light.is_directional) return {Vector<F>::all(light.towards), radiance};
+  if (is_sun || light.is_directional) return {Vector<F>::all(light.towards), radiance, F(light.spread)};
   const Vector<F> path = Vector<F>::all(light.position) - Vector<F>::load(p.position, i);
   const Vector<F> l = normalize(path);
-  F strength = fading(light, dot(path, path));
+  const F square = dot(path, path);
+  F strength = fading(light, square);
   if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
-  return {l, radiance * strength};
+  const F spread = light.spread > 0 ? F(light.spread) / max(square, F(least_distance_squared)) : F(0.0f);
+  return {l, radiance * strength, spread};
 }
 
 /// The radiance of light k times its visibility at the fragments.
@@ -312,17 +322,19 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
     const SpecularWeights<F> weights = fit.at(min(max(dot(n, v), F(0.0f)), F(1.0f)));
     const Metallic<F> m = make_metallic(base, metallic, roughness, weights);
-    std::optional<TurningLobe<F>> lobe;
-    if constexpr (turns)
-      lobe.emplace(n, v, Vector<F>::load(p.normal_dx, i), Vector<F>::load(p.normal_dy, i), own_roughness);
+    const auto turning_lobe = [&](const PreparedLight& light, const Arriving<F>& arriving) {
+      const F r = max(own_roughness, F(least_roughness));
+      return TurningLobe<F>(n, v, Vector<F>::load(p.normal_dx, i), Vector<F>::load(p.normal_dy, i),
+                            light.spread > 0 ? sqrt(highlight_alpha(r * r, light, arriving)) : own_roughness);
+    };
     Vector<F> sum = zeros<F>();
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       const Vector<F> radiance = visible(light.radiance, p, k, i);
       if constexpr (turns)
-        sum = sum + radiance * metallic_light(m, *lobe, light.from);
+        sum = sum + radiance * metallic_light(m, turning_lobe(s.light[k], light), light.from);
       else
-        sum = sum + radiance * metallic_light(m, n, light.from, v);
+        sum = sum + radiance * metallic_light(m, n, light.from, v, highlight_alpha(m.alpha, s.light[k], light));
     }
     if (s.has_environment) sum = sum + environment.reflected(kind, p, n, v, base, metallic, roughness, weights, i);
     finish(s, kind, p, sum, base, out, i);
