@@ -40,7 +40,8 @@ struct Light {
   float3 attenuation{1, 0, 0};                           ///< a0, a1, a2 of Falloff::Quadratic
   float inner_cone = 0;                                  ///< of spot lights: full intensity up to this angle
   float outer_cone = 0.7853982f;                         ///< of spot lights: no light beyond this angle
-  float radius = 0;  ///< for soft shadows: of the sphere (point, spot) or, in radians, of the disc in the sky
+  float radius = 0;  ///< of the sphere (point, spot) or, in radians, of the disc in the sky: for soft shadows, and for
+                     ///< highlights of metallic-roughness surfaces
 };
 
 /// The light in world space: a light in camera space is transformed by `world_from_camera`, others are unchanged.
