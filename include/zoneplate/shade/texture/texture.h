@@ -76,8 +76,8 @@ class Texture {
   /// The summed-area table: 32 bytes a texel.
   const SumsView& sums() const;
   /// Of a normal map: the spread of the normals within each texel of each level, as a texture of the same shape in
-  /// floats. Red: the length of the mean of the unit normals; green, blue and alpha: the variances of the slopes x / z and
-  /// y / z, and their covariance. At level 0 they are 1, 0, 0 and 0.
+  /// floats. Red: the length of the mean of the unit normals; green, blue and alpha: the variances of the slopes x / z
+  /// and y / z, and their covariance. At level 0 they are 1, 0, 0 and 0.
   const TextureView& normal_spread() const;
 
  private:

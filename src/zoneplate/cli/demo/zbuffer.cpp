@@ -78,11 +78,11 @@ Lesson make(const DemoSize& size) {
     ++row;
   }
   figure.text =
-      "The painter's algorithm sorts n triangles in O(n log n) and draws them from the farthest to the nearest, here "
-      "by "
-      "their mean depth. The z-buffer keeps the least depth so far at each sample and takes a fragment only if it is "
-      "nearer: O(n), in any order. It cannot blend transparent surfaces, which do need an order (--visibility "
-      "painter).";
+      "The painter's algorithm (--visibility painter) sorts n triangles in O(n log n) and draws them from the farthest "
+      "to "
+      "the nearest, here by their mean depth. The z-buffer keeps the least depth so far at each sample and takes a "
+      "fragment only if it is nearer: O(n), in any order. It cannot blend transparent surfaces, which do need an "
+      "order.";
   return {.frames = {figure}};
 }
 
