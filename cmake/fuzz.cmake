@@ -4,7 +4,7 @@
 # They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR
 # pictures that leaves the header.
 set(fuzzed_sources ${library_sources})
-list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|codec|scene|formats)/|/builtin_makers_table")
+list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/|/builtin_makers_table")
 list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
 list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/")

@@ -24,6 +24,7 @@ struct alignas(64) BvhLeaf {
   float vertex[3][3][width];  ///< by vertex; x, y and z; by triangle
   std::uint32_t instance[width], primitive[width];
   std::uint32_t translucent = 0;  ///< bit i: triangle i belongs to a translucent caster
+  std::uint32_t padding[3] = {};  ///< all bytes are defined, so that trees can be compared by their bytes
 };
 
 /// Triangles of one instance that block light.
