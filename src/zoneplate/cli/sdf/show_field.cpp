@@ -13,10 +13,10 @@ namespace {
 
 struct Light {
   double r, g, b;
-  friend Light mix(const Light& a, const Light& b, double t) {
-    return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
-  }
 };
+Light mix(const Light& from, const Light& to, double t) {
+  return {from.r + (to.r - from.r) * t, from.g + (to.g - from.g) * t, from.b + (to.b - from.b) * t};
+}
 
 // Blue and vermilion of Okabe's and Ito's palette in linear light, and light tints of them.
 constexpr Light white{1, 1, 1}, black{0.005, 0.005, 0.005};
