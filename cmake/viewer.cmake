@@ -3,7 +3,7 @@
 # left out, and so is the word export.
 set(viewer ${CMAKE_CURRENT_SOURCE_DIR}/web/report)
 set(viewer_script "")
-foreach(module bytes png light picture dom view inspector sequence stage table plot main)
+foreach(module bytes png light picture dom view inspector pane pointer sequence stage table plot main)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${viewer}/${module}.js)
   file(READ ${viewer}/${module}.js text)
   string(REGEX REPLACE "\nimport [^\n]*" "" text "${text}")

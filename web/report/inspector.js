@@ -6,6 +6,15 @@ import { loadPicture, pictureNow } from './picture.js';
 const linearText = (v) => (v === 0 ? '0' : Math.abs(v) >= 1e-4 && Math.abs(v) < 1e5 ? String(+v.toPrecision(6)) : v.toExponential(4));
 const codeText = (picture, code) => (picture.values === 'codes' && picture.depth === 16 ? (255 * code).toFixed(2) : String(Math.floor(255 * code + 0.5)));
 
+/// Three short texts for a pixel that is enlarged, and its luminance.
+export function shortValues(picture, x, y) {
+  const { codes, linear } = pixelOf(picture, x, y);
+  return {
+    values: picture.values === 'halves' ? linear.map((v) => String(+v.toPrecision(3))) : codes.map((code) => codeText(picture, code)),
+    light: 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2],
+  };
+}
+
 export class Inspector {
   constructor() {
     this.place = element('caption', {});
@@ -13,15 +22,6 @@ export class Inspector {
     const heads = ['image', 'sRGB red', 'green', 'blue', 'linear red', 'green', 'blue', 'alpha', 'Δ sRGB', 'error'];
     this.node = element('div', { class: 'inspector' }, element('table', {}, this.place,
       element('thead', {}, element('tr', {}, heads.map((head) => element('th', { scope: 'col' }, head)))), this.body));
-  }
-
-  /// Three short texts for a pixel that is enlarged, and its luminance.
-  shortValues(picture, x, y) {
-    const { codes, linear } = pixelOf(picture, x, y);
-    return {
-      values: picture.values === 'halves' ? linear.map((v) => String(+v.toPrecision(3))) : codes.map((code) => codeText(picture, code)),
-      light: 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2],
-    };
   }
 
   /// A row for each displayed image and the reference.

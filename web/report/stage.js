@@ -1,10 +1,11 @@
 // The images of a scene: panes with one transform, their layouts and layers, and the pixel that is inspected.
 import { choice, element, list } from './dom.js';
 import { Inspector } from './inspector.js';
-import { screenCode } from './light.js';
-import { layerNow, pictureNow, sizeOf } from './picture.js';
+import { Pane } from './pane.js';
+import { loadPicture, pictureNow, sizeOf } from './picture.js';
+import { Pointer } from './pointer.js';
 import { Sequence } from './sequence.js';
-import { View, visiblePart, zooms } from './view.js';
+import { View, zooms } from './view.js';
 
 const gains = [1, 2, 4, 8, 16, 32, 64];
 const percent = (zoom) => (zoom >= 1 ? `${+zoom.toFixed(2)}×` : `${Math.round(100 * zoom)} %`);
@@ -16,12 +17,12 @@ export class Stage {
     this.layout = 'grid', this.what = 'picture', this.stops = 0, this.split = 0.5;
     this.gains = { difference: 4, errors: 1 };
     this.panes = [];
-    this.pointers = new Map();
     this.inspector = new Inspector();
     this.sequence = new Sequence((frame) => this.set({ frame }), () => this.framesAreReady());
     this.node = element('section', { class: 'stage', 'aria-label': 'Images' }, this.makeTools(), this.sequence.node, this.makeRoom(),
       this.strip = element('div', { class: 'strip', role: 'group', 'aria-label': 'Choose images' }), this.inspector.node,
       this.status = element('p', { class: 'unseen', role: 'status' }));
+    this.pointer = new Pointer(this);
     new ResizeObserver(() => this.arrange()).observe(this.room);
     addEventListener('resize', () => this.arrange());
   }
@@ -59,9 +60,6 @@ export class Stage {
 
   makeRoom() {
     this.room = element('div', { class: 'room', tabindex: 0, 'aria-label': 'Panes. Arrow keys move the images, with shift the inspected pixel.' });
-    const handlers = { pointerdown: this.press, pointermove: this.drag, pointerup: this.release, pointercancel: this.release, dblclick: this.doubleClick };
-    for (const [name, handler] of Object.entries(handlers)) this.room.addEventListener(name, handler.bind(this));
-    this.room.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     this.handle = element('div', { class: 'handle', role: 'slider', tabindex: 0, 'aria-label': 'Slider between reference and image',
       'aria-valuemin': 0, 'aria-valuemax': 100, onkeydown: (event) => this.keyOfHandle(event) });
     return this.room;
@@ -72,8 +70,8 @@ export class Stage {
   show(scene) {
     this.scene = scene;
     const { images } = scene;
-    const reference = Math.max(0, images.findIndex((image) => image.is_reference));
-    const hasFrames = images.some((image) => image.frames.length > 1);
+    this.marked = images.findIndex((image) => image.is_reference);
+    const reference = Math.max(0, this.marked), hasFrames = images.some((image) => image.frames.length > 1);
     Object.assign(this, { reference, shown: new Set(scene.chosen ?? images.map((_, i) => i).slice(0, 6)), frame: 0, pixel: null, row: null, isHeld: false });
     this.current = images.findIndex((_, i) => i !== reference && this.shown.has(i));
     if (this.current < 0) this.current = 0;
@@ -91,17 +89,19 @@ export class Stage {
     this.size = { width: Math.max(...this.sizes.map((size) => size.width)), height: Math.max(...this.sizes.map((size) => size.height)) };
     this.row = this.size.height >> 1;
     this.view.isFitted = true;
+    this.panes = [];
     this.rebuild();
+    // So that the first alternation does not wait for a decoder.
+    images.forEach((_, i) => i < 16 && loadPicture(this.frameOf(i)));
   }
 
-  /// The reference has key 0, the other images 1 to 9.
-  keyOf(i) {
-    if (this.hasReference() && i === this.reference) return '0';
-    const place = this.hasReference() ? this.order().indexOf(i) + 1 : i + 1;
-    return place <= 9 ? String(place) : '';
+  /// The image of a key: 0 is the scene's reference, 1 to 9 are the others.
+  imageOf(key) {
+    if (key === '0') return this.marked;
+    const place = key - 1;
+    return this.marked >= 0 && place >= this.marked ? place + 1 : place;
   }
-  hasReference() { return this.scene.images.some((image) => image.is_reference); }
-  order() { return this.scene.images.map((_, i) => i).filter((i) => i !== this.reference); }
+  keyOf(i) { return [...'0123456789'].find((key) => this.imageOf(key) === i) ?? ''; }
   frameOf(i) {
     const { frames } = this.scene.images[i];
     return frames[Math.min(this.frame, frames.length - 1)];
@@ -121,12 +121,11 @@ export class Stage {
   }
 
   set(changes) {
-    const rebuilds = ['layout', 'shown', 'current', 'isHeld', 'reference'].some((name) => name in changes && changes[name] !== this[name]);
+    const { layout } = this;
+    if (changes.what === 'slice' && this.pixel) this.row = this.pixel.y;
     Object.assign(this, changes);
-    if (this.what === 'slice' && this.pixel && !this.wasSlice) this.row = this.pixel.y;
-    this.wasSlice = this.what === 'slice';
-    if (rebuilds) this.rebuild();
-    else this.refresh();
+    if (this.layout === layout && String(this.shownImages()) === String(this.panes.map((pane) => pane.i))) this.refresh();
+    else this.rebuild();
   }
   setGain(gain) { this.gains[this.what] = gain; this.refresh(); }
 
@@ -144,6 +143,10 @@ export class Stage {
     if (isSmallest) this.fit();
     else this.zoomTo(zoom, at);
     return !isSmallest;
+  }
+  moveBy(dx, dy) {
+    this.view.move(dx, dy, this.size, this.pane);
+    this.refresh();
   }
   showRegion() {
     const { x, y, size } = this.scene.region;
@@ -163,15 +166,7 @@ export class Stage {
   }
 
   rebuild() {
-    const shown = this.shownImages();
-    this.panes = shown.map((i) => {
-      const image = this.scene.images[i];
-      const canvas = element('canvas', { role: 'img' }), imageSize = this.sizes[i], note = element('p', { class: 'note' });
-      const words = image.text ? element('p', { class: 'words' }, image.text) : null;
-      const name = element('span', { class: 'name' }), facts = element('span', { class: 'facts' }, image.facts ?? '');
-      return { i, canvas, note, name, imageSize, size: { width: 0, height: 0 },
-        node: element('figure', {}, element('figcaption', {}, element('kbd', {}, this.keyOf(i)), name, facts), element('div', { class: 'pane' }, canvas, note), words) };
-    });
+    this.panes = this.shownImages().map((i) => new Pane(this, i));
     this.room.replaceChildren(...this.panes.map((pane) => pane.node));
     if (this.layout === 'slider') this.panes[0].canvas.after(this.handle);
     this.arrange();
@@ -199,11 +194,7 @@ export class Stage {
     const fitting = View.fitting(this.size, { width: best.paneWidth, height: best.paneHeight });
     if (fitting >= 1) best.paneHeight = Math.max(120, fitting * height);
     this.room.style.gridTemplateColumns = `repeat(${best.columns}, ${best.paneWidth}px)`;
-    for (const { canvas, size } of this.panes) {
-      size.width = best.paneWidth, size.height = best.paneHeight;
-      canvas.style.width = `${size.width}px`, canvas.style.height = `${size.height}px`;
-      canvas.width = Math.round(size.width * devicePixelRatio), canvas.height = Math.round(size.height * devicePixelRatio);
-    }
+    for (const pane of this.panes) pane.resize(best.paneWidth, best.paneHeight);
     if (this.view.isFitted) this.view.fit(this.size, this.pane);
     else this.view.clamp(this.size, this.pane);
     this.refresh();
@@ -232,106 +223,11 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isScheduled = false;
       if (!this.panes.length) return;
-      for (const pane of this.panes) this.draw(pane);
+      for (const pane of this.panes) pane.draw();
       this.showTools();
       this.inspector.show(this);
       this.onChange();
     });
-  }
-
-  draw(pane) {
-    const context = pane.canvas.getContext('2d'), ratio = devicePixelRatio;
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, pane.canvas.width, pane.canvas.height);
-    const own = this.isHeld ? this.reference : pane.i;
-    const missing = this.drawLayer(context, pane, own, ratio);
-    if (this.layout === 'slider' && !this.isHeld) {
-      const edge = Math.round(this.split * pane.size.width);
-      context.save();
-      context.beginPath();
-      context.rect(0, 0, edge * ratio, pane.canvas.height);
-      context.clip();
-      context.clearRect(0, 0, pane.canvas.width, pane.canvas.height);
-      this.drawLayer(context, pane, this.reference, ratio);
-      context.restore();
-      this.handle.style.left = `${edge}px`;
-      this.handle.setAttribute('aria-valuenow', Math.round(100 * this.split));
-    }
-    this.drawMarks(context, pane, ratio);
-    const { images } = this.scene, whole = images[own].name;
-    const text = this.layout === 'slider' && !this.isHeld ? `${images[this.reference].name} | ${whole}` : whole;
-    pane.name.textContent = text;
-    pane.note.textContent = missing ?? '';
-    pane.canvas.setAttribute('aria-label', `${text}: ${this.describe(own)}`);
-    pane.canvas.style.touchAction = this.view.isFitted ? 'pan-y' : 'none';
-  }
-
-  /// Draws an image; returns why nothing is drawn, or undefined.
-  drawLayer(context, pane, i, ratio) {
-    const layer = this.layerOf(i), canvas = layerNow(layer, this.colors, () => this.refresh());
-    if (!canvas) {
-      if (layer.picture < 0) return 'This image is not in the page.';
-      if (layer.what === 'errors' && layer.errors < 0) return `There is no ${this.errorName} map of this image.`;
-      const pictures = [layer.picture, layer.other].map(pictureNow);
-      return layer.what === 'difference' && pictures.every(Boolean) ? 'The image and the reference have different sizes.' : undefined;
-    }
-    const { left, top, scale, from, to } = visiblePart(this.view, canvas, pane.size, ratio);
-    if (to.x <= from.x || to.y <= from.y) return undefined;
-    if (!canvas.isOpaque) this.drawSquares(context, left + from.x * scale, top + from.y * scale, (to.x - from.x) * scale, (to.y - from.y) * scale, ratio);
-    context.imageSmoothingEnabled = scale < 1;
-    context.imageSmoothingQuality = 'high';
-    context.drawImage(canvas, from.x, from.y, to.x - from.x, to.y - from.y, left + from.x * scale, top + from.y * scale,
-      (to.x - from.x) * scale, (to.y - from.y) * scale);
-    return undefined;
-  }
-
-  /// Squares behind an image that is not opaque.
-  drawSquares(context, left, top, width, height, ratio) {
-    const side = Math.round(8 * ratio);
-    for (let y = 0; y < height; y += side)
-      for (let x = 0; x < width; x += side) {
-        context.fillStyle = (x + y) / side % 2 ? '#999' : '#bbb';
-        context.fillRect(left + x, top + y, Math.min(side, width - x), Math.min(side, height - y));
-      }
-  }
-
-  /// The inspected pixel, the region of greatest error while the whole image is visible, and values at great zooms.
-  drawMarks(context, pane, ratio) {
-    const { left, top, scale, from, to } = visiblePart(this.view, pane.imageSize, pane.size, ratio);
-    const frame = (x, y, width, height, color, line) => {
-      context.strokeStyle = color, context.lineWidth = line;
-      context.strokeRect(left + x * scale - line / 2, top + y * scale - line / 2, width * scale + line, height * scale + line);
-    };
-    if (this.view.zoom >= 48 && this.what === 'picture') this.drawValues(context, pane, { left, top, scale, from, to }, ratio);
-    const { region } = this.scene;
-    if (region && this.view.isFitted) {
-      frame(region.x, region.y, region.size, region.size, '#000a', 3 * ratio);
-      frame(region.x, region.y, region.size, region.size, '#ffc400', ratio);
-    }
-    if (!this.pixel || this.pixel.width !== pane.imageSize.width || this.pixel.height !== pane.imageSize.height) return;
-    const { x, y } = this.pixel;
-    if (this.what === 'slice') {
-      const frames = this.scene.images[pane.i].frames.length;
-      if (frames > 1) frame(from.x, (this.frame + 0.5) * pane.imageSize.height / frames, to.x - from.x, 0, '#ffc400', ratio);
-      return;
-    }
-    if (this.view.zoom < 4) return;
-    frame(x, y, 1, 1, '#000', 2 * ratio);
-    frame(x, y, 1, 1, '#fff', ratio);
-  }
-
-  drawValues(context, pane, { left, top, scale, from, to }, ratio) {
-    const picture = pictureNow(this.layerOf(this.isHeld ? this.reference : pane.i).picture);
-    if (!picture || this.layout === 'slider') return;
-    const size = Math.round(11 * ratio);
-    context.font = `${size}px system-ui, sans-serif`;
-    context.textAlign = 'center', context.textBaseline = 'middle';
-    for (let y = from.y; y < Math.min(to.y, picture.height); ++y)
-      for (let x = from.x; x < Math.min(to.x, picture.width); ++x) {
-        const { values, light } = this.inspector.shortValues(picture, x, y);
-        context.fillStyle = screenCode(light, this.stops) > 140 ? '#000c' : '#fffc';
-        values.forEach((value, line) => context.fillText(value, left + (x + 0.5) * scale, top + (y + 0.5) * scale + (line - 1) * size * 1.25));
-      }
   }
 
   /// What a pane displays of an image, in words.
@@ -369,60 +265,11 @@ export class Stage {
     this.announcing = setTimeout(() => { if (this.status.textContent !== text) this.status.textContent = text; }, 400);
   }
 
-  // ---- pointer and keys
+  // ---- keys
 
-  placeIn(pane, event) {
-    const box = pane.canvas.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
-  }
-  paneOf(event) { return this.panes.find((pane) => pane.canvas === event.target || (event.target === this.handle && pane)); }
-
-  press(event) {
-    const pane = this.paneOf(event);
-    if (!pane || event.button !== 0) return;
-    this.room.setPointerCapture(event.pointerId);
-    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, pane, isHandle: event.target === this.handle });
-    if (event.target !== this.handle) this.room.focus({ preventScroll: true });
-  }
-
-  drag(event) {
-    const known = this.pointers.get(event.pointerId);
-    if (!known) {
-      const pane = this.paneOf(event);
-      if (!pane) return;
-      const pixel = this.view.pixelAt(this.placeIn(pane, event), pane.imageSize, pane.size);
-      if (pixel && (pixel.x !== this.pixel?.x || pixel.y !== this.pixel?.y)) this.set({ pixel: { ...pixel, ...pane.imageSize } });
-      return;
-    }
-    const dx = event.clientX - known.x, dy = event.clientY - known.y;
-    known.x = event.clientX, known.y = event.clientY;
-    if (known.isHandle) return this.set({ split: Math.min(1, Math.max(0, this.placeIn(known.pane, event).x / this.pane.width)) });
-    const [first, second] = [...this.pointers.values()];
-    if (!second) {
-      this.view.move(dx, dy, this.size, this.pane);
-      return this.refresh();
-    }
-    const other = known === first ? second : first, distance = Math.hypot(known.x - other.x, known.y - other.y);
-    const before = Math.hypot(known.x - dx - other.x, known.y - dy - other.y);
-    if (before > 0) this.zoomTo(Math.min(64, Math.max(1 / 8, this.view.zoom * distance / before)), this.placeIn(known.pane, event));
-  }
-
-  release(event) { this.pointers.delete(event.pointerId); }
-
-  wheel(event) {
-    const pane = this.paneOf(event);
-    if (!pane || event.deltaY === 0 || event.shiftKey) return;
-    // Smaller than the whole image is not useful: the page scrolls instead.
-    if (this.view.isFitted && event.deltaY > 0) return;
-    event.preventDefault();
-    this.zoomBy(event.deltaY < 0 ? 1 : -1, this.placeIn(pane, event));
-  }
-
-  doubleClick(event) {
-    const pane = this.paneOf(event);
-    if (!pane || event.target === this.handle) return;
-    if (this.view.isFitted) this.zoomTo(Math.max(8, this.view.next(1)), this.placeIn(pane, event));
-    else this.fit();
+  placeHandle(edge) {
+    this.handle.style.left = `${edge}px`;
+    this.handle.setAttribute('aria-valuenow', Math.round(100 * this.split));
   }
 
   keyOfHandle(event) {
@@ -443,7 +290,7 @@ export class Stage {
     const { x, y } = this.view.origin({ width, height }, this.pane), zoom = this.view.zoom;
     const beyond = (at, room) => (at < 0 ? -at : at + zoom > room ? room - at - zoom : 0);
     const mx = beyond(x + pixel.x * zoom, this.pane.width), my = beyond(y + pixel.y * zoom, this.pane.height);
-    if (mx || my) this.view.move(mx, my, this.size, this.pane);
+    if (mx || my) this.moveBy(mx, my);
   }
 
   /// Handles a key of the page; returns false if the viewer does not use it.
@@ -461,12 +308,11 @@ export class Stage {
       if (!this.room.contains(document.activeElement)) return false;
       const [dx, dy] = arrows[key];
       if (shiftKey) this.movePixel(dx, dy);
-      else this.view.move(-dx * this.pane.width / 8, -dy * this.pane.height / 8, this.size, this.pane), this.refresh();
+      else this.moveBy(-dx * this.pane.width / 8, -dy * this.pane.height / 8);
       return true;
     }
     if (/^[0-9]$/.test(key)) {
-      const i = key === '0' ? (this.hasReference() ? this.reference : -1)
-        : this.hasReference() ? this.order()[key - 1] ?? -1 : key - 1;
+      const i = this.imageOf(key);
       if (!this.scene.images[i]) return false;
       this.set({ current: i, layout: this.layout === 'slider' ? 'slider' : 'single' });
       return true;

@@ -4,6 +4,7 @@
 #include "zoneplate/base/utf8.h"
 
 namespace zoneplate {
+
 std::string escape_markup(std::string_view text) {
   std::string out;
   while (!text.empty()) {
