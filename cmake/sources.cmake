@@ -49,6 +49,7 @@ function(make_table sources folder list header type namespace table prefix)
 endfunction()
 make_table(library_sources scene/builtin makers scene/builtin/make.h BuiltinMaker zoneplate builtin_makers builtin_)
 make_table(library_sources antialias methods antialias/methods.h Method zoneplate::antialias methods "")
+make_table(library_sources upscale upscalers upscale/upscaler.h Upscaler zoneplate::upscale upscalers "")
 
 # Builds the kernels once for each instruction set of the processor's architecture (base/isa.h), into ${kernel_objects}.
 set(flags_sse4 -msse4.2)

@@ -84,6 +84,7 @@ class Renderer {
  private:
   void begin_frame(const RenderSettings& settings);
   Request request_for(const RenderSettings& settings);
+  RenderOptions frame_options(const RenderSettings& settings, const Request& request) const;
   /// The frame of the method's last round, and the data planes of the first round.
   struct Rounds {
     Frame frame;
@@ -93,7 +94,10 @@ class Renderer {
   Rounds render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
                        RenderCounts& counts);
   void finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out);
-  void end_frame(const Camera& camera, const Request& request, bool are_planes_requested, Frame& data);
+  void draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const;
+  Frame render_data(const Camera& camera, const Request& request, const RenderSettings& settings, RenderCounts& counts);
+  void end_frame(const Camera& camera, bool keeps_moment, const Request& request, bool are_planes_requested,
+                 Frame& data);
 
   PreparedScene scene_;
   std::unique_ptr<Resolver> method_;

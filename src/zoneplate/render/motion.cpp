@@ -173,7 +173,7 @@ float2 step_between(const Seen& from, const Seen& to, const Mixture& point, std:
 void add_surface_points(const Moment& now, const Planes& planes, const RenderOptions& options, Frame& frame) {
   const int width = frame.instance.width(), height = frame.instance.height();
   const Viewport viewport{options.width, options.height};
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const float aspect = aspect_of(options);
   const Seen seen(now, aspect), last(options.last ? *options.last : now, aspect),
       next(options.next ? *options.next : now, aspect);
   const PointFinder finder(seen, viewport);
