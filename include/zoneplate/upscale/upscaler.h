@@ -66,6 +66,13 @@ std::span<const Upscaler> upscalers();
 /// Errors    ErrorKind::Usage naming an unknown upscaler or parameter, or a temporal upscaler.
 std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text);
 
+/// Upscales a scene-linear image by a filter of display-referred ones: of the square roots of straight colours that
+/// c / (1 + max(c)) maps to [0, 1), and back.
+///
+/// Edges     negative values and NaN count as 0; values above 32768 are clamped.
+/// Source    AMD, ffx_fsr1.h: FsrSrtmF, FsrSrtmInvF.
+LinearImage upscale_linear(const SpatialUpscaler& upscaler, const LinearImage& image, const UpscaleGrid& grid);
+
 /// The size of the frame that an upscaler renders for an image: each side divided by the scale, rounded down, at
 /// least 1.
 ImageExtent frame_size(const ImageExtent& image, double scale);

@@ -83,6 +83,25 @@ std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text) {
   return row.make_spatial(settings);
 }
 
+LinearImage upscale_linear(const SpatialUpscaler& upscaler, const LinearImage& image, const UpscaleGrid& grid) {
+  static constexpr float least_rest = 1.0f / 32768;
+  DisplayImage mapped(image.width(), image.height());
+  std::ranges::transform(image.values(), mapped.values().begin(), [](const Linear& c) {
+    if (!(c.a > 0)) return Display{0, 0, 0, 0};
+    const auto straight = [&](float v) { return v > 0 ? std::min(v / c.a, 1 / least_rest) : 0.0f; };
+    const float r = straight(c.r), g = straight(c.g), b = straight(c.b), scale = 1 / (1 + std::max({r, g, b}));
+    return Display{std::sqrt(r * scale), std::sqrt(g * scale), std::sqrt(b * scale), std::min(c.a, 1.0f)};
+  });
+  const DisplayImage upscaled = upscaler.upscale(mapped, grid);
+  LinearImage out(upscaled.width(), upscaled.height());
+  std::ranges::transform(upscaled.values(), out.values().begin(), [](const Display& c) {
+    const float r = c.r * c.r, g = c.g * c.g, b = c.b * c.b;
+    const float scale = c.a / std::max(least_rest, 1 - std::max({r, g, b}));
+    return Linear{r * scale, g * scale, b * scale, c.a};
+  });
+  return out;
+}
+
 ImageExtent frame_size(const ImageExtent& image, double scale) {
   const auto side = [&](int n) { return std::max(1, static_cast<int>(n / scale)); };
   return {side(image.width), side(image.height), std::nullopt};

@@ -37,7 +37,7 @@ template <bool is_exact, class F>
     const F high = options.limits_by_ring ? most : max(most, p.centre[c]);
     // 0 / 0 where all neighbours are black, or all are white: then there is nothing to subtract.
     const F to_black = where(most > F(0.0f), low / (F(4.0f) * most));
-    const F to_white = where(least < F(1.0f), (F(1.0f) - high) / (F(4.0f) * least - F(4.0f)));
+    const F to_white = where((least < F(1.0f)) | (least > F(1.0f)), (F(1.0f) - high) / (F(4.0f) * least - F(4.0f)));
     lobe = max(lobe, max(-to_black, to_white));
   }
   constexpr float limit = 0.25f - 1.0f / 16;
@@ -46,7 +46,8 @@ template <bool is_exact, class F>
   const F scale = medium_reciprocal<is_exact>(F(4.0f) * lobe + F(1.0f));
   for (int c = 0; c < 4; ++c) {
     const F sum = lobe * p.above[c] + lobe * p.left[c] + lobe * p.below[c] + lobe * p.right[c] + p.centre[c];
-    out[c] = min(max(sum * scale, F(0.0f)), F(1.0f));
+    out[c] = max(sum * scale, F(0.0f));
+    if (!options.is_unbounded) out[c] = min(out[c], F(1.0f));
   }
   // Alpha stays between its neighbours, so that an opaque image stays opaque.
   const F least = min(min(p.above[3], p.left[3]), min(p.right[3], p.below[3]));
