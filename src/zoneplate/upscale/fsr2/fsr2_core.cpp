@@ -26,7 +26,6 @@ void for_rows(int height, const Body& body) {
   });
 }
 
-float length(float2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 float length(float x, float y) { return length(float2{x, y}); }
 float saturated(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }
 float luma709(const Linear& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
